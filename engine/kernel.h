@@ -1,0 +1,111 @@
+// Decides how the engine calls a block: a table of pure functions over a View of plain numbers.
+// Does not know how a block is written; block.h makes the table from a block's static functions.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/declaration.h"
+#include "engine/dual.h"
+#include "engine/series.h"
+
+namespace hysteron {
+
+/// Past of one signal, committed at accepted points only (dead time). Cubic Hermite where rates are known.
+struct History {
+  std::vector<double> t, u, rate;  ///< rate NaN = unknown, then linear between points
+  std::size_t first = 0;           ///< points before this one are no longer needed
+  double before = 0;               ///< value before the first point (the signal was at rest there)
+};
+
+/// What a block function sees: its own numbers and nothing else. All in SI.
+/// T is double for values, Dual for a value together with its rate in time.
+template <class T>
+struct View {
+  const T* p = nullptr;         ///< parameters, one behind the other (text parameters as index of the choice)
+  const int* p_at = nullptr;    ///< parameter i occupies p[p_at[i]] .. p[p_at[i + 1] - 1]
+  const double* c = nullptr;    ///< constants that prepare() derived from the parameters
+  int n_c = 0;
+  const T* x = nullptr;         ///< states
+  int n_x = 0;
+  const T* m = nullptr;         ///< memory: committed in advance(), advanced in output()
+  int n_m = 0;
+  const T* u = nullptr;         ///< inputs
+  const T* du = nullptr;        ///< rates of the inputs (only for derivative() that wants them)
+  int n_u = 0;
+  int n_y = 0;                  ///< number of outputs
+  T t{};                        ///< time [s]
+  double branch = 0;            ///< time that decides which smooth piece of a source applies [s]
+  const Series* series = nullptr;
+  const History* history = nullptr;
+  T* out = nullptr;             ///< what the function writes: outputs, derivatives, memory, states at rest, constants
+
+  const T& parameter(int i) const { return p[p_at[i]]; }
+  std::span<const T> list(int i) const {
+    return {p + p_at[i], static_cast<std::size_t>(p_at[i + 1] - p_at[i])};
+  }
+  int choice(int i) const { return static_cast<int>(value_of(p[p_at[i]])); }
+  std::span<const T> inputs() const { return {u, static_cast<std::size_t>(n_u)}; }
+  std::span<const T> states() const { return {x, static_cast<std::size_t>(n_x)}; }
+  std::span<const T> memory() const { return {m, static_cast<std::size_t>(n_m)}; }
+};
+
+/// What fixes the counts of a block: lengths of lists, choices of texts, number of wires; never a parameter's value.
+struct Shape {
+  const Declaration* declaration = nullptr;
+  std::vector<int> list_lengths;  ///< per declared parameter (1 for a number)
+  std::vector<int> text_choices;  ///< per declared parameter (0 for no text)
+  int inputs = 0;
+  int length(const std::string& parameter) const;
+  const std::string& text(const std::string& parameter) const;
+};
+
+struct Sizes {
+  int states = 0, memory = 0, constants = 0, outputs = 1;
+  bool feedthrough = true;      ///< outputs depend on inputs at the same instant
+  Smoothness smoothness = Smoothness::smooth;  ///< of a source's own signal
+  bool history = false;         ///< remembers the past of its input (dead time)
+  std::string error{};          ///< not empty: these shapes do not go together; says what and what instead
+};
+
+/// A block type: its declaration and its functions. A null pointer means that the block has no such function.
+struct Kernel {
+  using Call = void (*)(const View<double>&);
+  using DualCall = void (*)(const View<Dual>&);
+
+  Declaration declaration;
+  Sizes (*sizes)(const Shape&) = nullptr;
+  Call output = nullptr;            ///< out: outputs
+  DualCall output_rate = nullptr;   ///< the same with rates
+  Call derivative = nullptr;        ///< out: dx/dt
+  bool derivative_wants_rate = false;
+  Call advance = nullptr;           ///< out: what the memory becomes if the inputs are accepted; pure
+  DualCall advance_rate = nullptr;
+  Call prepare = nullptr;           ///< out: constants from parameters
+  Call rest = nullptr;              ///< out: states in equilibrium for constant inputs
+  Call initial_states = nullptr;    ///< out: states at the start where nothing else is said (parameters only)
+  Call initial_memory = nullptr;    ///< out: memory before the first input (parameters only)
+  double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
+  double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
+  double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
+  bool uses_time = false;
+  std::string (*check)(const View<double>&) = nullptr;   ///< "" or what is wrong with these parameter values, and the cure
+};
+
+/// The block types that diagrams can name.
+class Registry {
+ public:
+  /// Throws std::logic_error if the type is there already.
+  void add(Kernel kernel);
+  const Kernel* find(const std::string& type) const;  ///< nullptr if there is none
+  std::vector<std::string> types() const;             ///< in the order of registration
+
+ private:
+  std::map<std::string, Kernel> kernels_;
+  std::vector<std::string> order_;
+};
+
+}  // namespace hysteron

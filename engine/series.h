@@ -1,0 +1,29 @@
+// Decides how a sampled signal moves between its samples. Does not know where the samples come from.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+enum class Between { linear, hold };
+
+/// A recorded signal: strictly increasing times [s], values [SI]. Before the first and behind the last sample it is constant.
+struct Series {
+  std::vector<double> t;
+  std::vector<double> v;
+  Between between = Between::linear;
+
+  /// Index k of the piece [t_k, t_k+1) that holds `time`: -1 before the first sample, size-1 behind the last.
+  long piece(double time) const;
+  /// Value at `time` on the piece that holds `branch`; with branch = time the right-continuous value.
+  double value(double time, double branch) const;
+  double slope(double branch) const;  ///< [SI/s]
+  /// First sample time behind `time`, or infinity.
+  double next_corner(double time) const;
+};
+
+using SeriesPointer = std::shared_ptr<const Series>;
+
+}  // namespace hysteron

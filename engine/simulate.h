@@ -1,0 +1,59 @@
+// Decides how a program is integrated in time: CVODE one step at a time, events, dense output, acceptance of memory.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/program.h"
+
+namespace hysteron {
+
+enum class Method {
+  automatic,  ///< exact where the diagram allows it, else bdf
+  exact,      ///< row by row (advance.h)
+  bdf,
+  adams
+};
+
+struct SimulateOptions {
+  double begin = 0;                  ///< [s]
+  double until = 1;                  ///< [s]
+  double every = 0;                  ///< output step [s]; 0 = 1000 points; ignored if `instants` is given
+  std::vector<double> instants{};    ///< exactly these output times [s], increasing
+  std::vector<int> signals{};        ///< what to record; empty = program.record_signals
+  Method method = Method::automatic;
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
+  double max_step = 0;               ///< [s]; 0 = worked out from the sources
+  bool reversal_events = true;       ///< off only to measure what they bring
+  bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
+};
+
+struct Statistics {
+  std::string method;
+  long steps = 0, rejected = 0, evaluations = 0, jacobians = 0, reversals = 0, restarts = 0;
+  double seconds = 0;
+};
+
+struct Traces {
+  std::vector<double> t;                     ///< [s]
+  std::vector<int> signals;
+  std::vector<std::vector<double>> values;   ///< [signal][instant], SI
+  Statistics statistics;
+};
+
+/// Simulates a copy of `run` (its inputs bound). Throws Error(Fault::numerics) naming block, time and states where it fails.
+Traces simulate(const Program& program, Run run, const SimulateOptions& options);
+
+/// Options from the diagram's "simulate" section; what it does not say stays as in `defaults`.
+SimulateOptions simulate_options(const Program& program, SimulateOptions defaults = {});
+
+/// Sets the states to the equilibrium for constant inputs as they are at time t: dx/dt = 0 with the memory as committed.
+/// States that have no equilibrium of their own (an integrator with zero input) stay as they are.
+/// Throws Error(Fault::numerics) "no_rest" if there is none.
+void settle_at_rest(const Program& program, Run& run, double t);
+
+/// Nominal size of each state [SI], from declarations and the sizes of the sources, for absolute tolerances.
+std::vector<double> nominal_states(const Program& program, const Run& run);
+
+}  // namespace hysteron

@@ -1,0 +1,34 @@
+// Decides how a diagram stands in a JSON file (DESIGN 4.1) and how it is written back so that a diff shows only what changed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagram.h"
+#include "engine/error.h"
+#include "engine/kernel.h"
+
+namespace hysteron {
+
+/// Reads a diagram with everything that it names (nested diagrams, parameter sets, recorded inputs).
+/// Throws Error with file, line and JSON path for syntax, unknown keys, wrong types, a newer format, paths outside the project.
+Diagram read_diagram(const std::string& file, const std::vector<std::string>& allowed = {});
+
+/// The text of a diagram file: keys in the order of DESIGN 4.1, one block per line where it fits.
+std::string diagram_text(const Diagram& diagram);
+
+/// Writes a diagram whole or not at all. `$schema` and relative paths are adapted to the place of `file`.
+void write_diagram(const std::string& file, const Diagram& diagram);
+
+/// Runs `action`; an Error that it throws gets file and line of the diagram (its JSON pointers looked up in the text).
+void locate_problems(Error& error, const std::string& file);
+
+/// JSON Schemas, written from the declarations.
+std::string diagram_schema(const Registry& registry);
+std::string dataset_schema();
+std::string result_schema();
+
+/// Lines that differ between two texts, as in `diff -u` without headers.
+std::string text_diff(const std::string& before, const std::string& after);
+
+}  // namespace hysteron
