@@ -1,0 +1,49 @@
+// Decides how an effect enters a diagram as a choice (DESIGN 5) and how it is taken out again without a trace.
+// Does not decide where it should (places.h) nor with which values (fit/).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "discover/effect.h"
+#include "discover/places.h"
+#include "engine/diagram.h"
+#include "engine/kernel.h"
+
+namespace hysteron {
+
+/// A diagram with an effect in it.
+struct Added {
+  Diagram diagram;
+  std::string name;  ///< path of the choice: "drive_creep", "stage/actuator_creep"
+  std::string effect, at;
+  std::string law;                ///< which form of the effect
+  std::vector<std::string> free;  ///< program paths of the law's free parameters: "drive_creep.amounts[0]" ...
+  /// Nested diagrams that changed: file name as now written in the diagram, and content. The caller writes them beside
+  /// it.
+  std::vector<std::pair<std::string, Diagram>> nested;
+  std::vector<std::string> remarks;  ///< what was assumed, for the user
+};
+
+/// Puts `law` of `effect` at `place`:
+///   "drive_creep": {"choose": "on", "in": "drive", "from": {"off": {"type": "pass"}, "on": {...}}}
+/// right behind its source in the file; the readers of the wire (outputs included, `record` not) read it; a further
+/// effect on that wire comes after it. A vary effect turns its block into a choice between the block as it was and as
+/// it is now. Throws Error "unknown_place", "closes_loop", "effect_there" (this effect stands at this place already).
+Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
+                 const Place& place);
+
+/// For `hysteron add`: the simplest law at `at` (a signal or an input port; "" = the first place where the effect may
+/// enter), with start values for `circumstances`; without data these are placeholders and a remark says so.
+Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
+                 const Circumstances* circumstances = nullptr);
+
+/// Takes out the choice `name` ("drive_creep"), or the only choice with this effect id ("creep"). Undoes add_effect
+/// exactly. Throws Error "unknown_effect" naming the effects that are there, or "ambiguous_effect".
+Diagram remove_effect(const Diagram& diagram, const std::string& name);
+
+/// The effects that stand in a diagram: path of the choice and effect id, nested diagrams included.
+std::vector<std::pair<std::string, std::string>> effects_in(const Diagram& diagram);
+
+}  // namespace hysteron

@@ -1,0 +1,163 @@
+// Decides what the user is told: which effect is missing, on what evidence, what is left, and what cannot be told
+// (DISCOVERY, DESIGN 7). Does not read files nor draw: it takes values and returns a value in which every decision can
+// be traced.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discover/add.h"
+#include "discover/effect.h"
+#include "discover/experiment.h"
+#include "engine/diagram.h"
+#include "engine/kernel.h"
+#include "io/dataset.h"
+
+namespace hysteron {
+
+enum class Verdict {
+  adequate,             ///< no candidate improves other recordings by more than chance, and no structure remains
+  missing_effect,       ///< named, with evidence
+  not_distinguishable,  ///< something is missing; several effects explain it equally well, and an experiment would tell
+  unexplained           ///< structure remains that no known effect takes away
+};
+enum class Remainder { noise, structured };
+std::string to_text(Verdict verdict);      ///< as in result.json: "missing_effect"
+std::string to_text(Remainder remainder);  ///< "noise", "structured"
+
+/// A fitted number, for people and for result.json. SI; `unit` is how it is shown.
+struct Estimate {
+  std::string path;  ///< in the program: "u_amplifier_lag.times[0]"
+  Unit unit;
+  double value = 0, start = 0;
+  double lower = 0, upper = 0;  ///< 95 % interval
+  bool determined = true;       ///< false: the data do not determine it, no value is reported
+  bool at_bound = false;
+  std::string
+      remark;  ///< "outside 0.5..20 kHz, the usual range of amplifiers", "extrapolated beyond the longest hold" ...
+};
+
+/// How far one model is from one recording (all rows judged, all outputs bound).
+struct RecordingError {
+  std::string recording;
+  Role role = Role::train;
+  std::string output;
+  std::size_t rows = 0;
+  double rms = 0;    ///< [SI of the output]
+  double nrmse = 0;  ///< rms over the standard deviation of what was measured
+  double chi2 = 0;   ///< sum of squared whitened residuals, in units of the noise
+};
+
+/// One model against all recordings of train and validate (test only at the end).
+struct ModelError {
+  std::vector<RecordingError> recordings;
+  double chi2_train = 0, chi2_validate = 0;
+  std::size_t n_train = 0, n_validate = 0;
+  double rms_train = 0, rms_validate = 0;  ///< [SI] over all rows and outputs of the role together
+  double nrmse_train = 0, nrmse_validate = 0;
+  std::optional<double> rms_test, nrmse_test;
+};
+
+/// One effect tried at one place with one law, refitted together with what the user left free and with the effects
+/// found before.
+struct Candidate {
+  std::string effect, title, law, place;  ///< place as for --at
+  std::vector<std::string> same_places;   ///< further places that no experiment can tell from this one
+  std::vector<std::string>
+      same_effects;    ///< further effects that are the same there ("sensor_lag" for "amplifier_lag")
+  int step = 1;        ///< 1 = tried on the base, 2 = on top of the first finding ...
+  int parameters = 0;  ///< free parameters that it spends (those not at a bound)
+  double fall_train = 0, fall_validate = 0;  ///< of chi2 against the model before, in units of the noise
+  double score = 0;                          ///< chi2_train + chi2_validate + p ln N, lower is better
+  double share_removed = 0;                  ///< of the validation excess over the noise
+  ModelError error;
+  std::vector<Estimate> estimates;
+  bool claimed = false, failed = false;
+  std::string reason;  ///< why it was claimed, or why not, in a sentence
+  long model_runs = 0;
+};
+
+/// An effect that this data cannot show, or that has no place.
+struct Refused {
+  std::string effect, place;
+  std::string reason;  ///< "longest hold 2 s, creep needs 10 s"
+};
+
+/// What was claimed in one step.
+struct FoundStep {
+  Candidate winner;
+  std::vector<Candidate> ties;           ///< others that explain the same as well
+  bool experiment_would_tell = false;    ///< of the tie
+  std::optional<Experiment> experiment;  ///< the one that would separate them best
+  Added change;                          ///< the diagram after the step, with fitted values
+  ModelError before, after;
+  std::string sentence;
+};
+
+/// A structure in the residual that no known effect describes.
+struct Structure {
+  std::string kind;       ///< "line_in_time", "line_in_level", "kink_at_level", "jumps"
+  std::string variable;   ///< "t", an input or an output: what it lives on
+  std::string recording;  ///< where it is seen best
+  double period = 0;      ///< in units of the variable [SI]; 0 = none
+  double threshold = 0;   ///< [SI]
+  bool has_threshold = false;
+  Unit unit;
+  std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
+  double fall_validate = 0;  ///< of chi2 on validation recordings
+  double share_removed = 0;  ///< of the excess over the noise
+  std::string sentence;
+};
+
+/// Noise of one output, as used for judging.
+struct OutputNoise {
+  std::string output;
+  Unit unit;
+  double white = 0;       ///< [SI] rms
+  double one_over_f = 0;  ///< share
+  double scale = 1;       ///< s2: what the recordings say against the note, squared
+  std::string origin;     ///< "data sheet", "estimated from the high band of the residual", ...
+};
+
+/// Everything that was found.
+struct Discovery {
+  Verdict verdict = Verdict::adequate;
+  Remainder remainder = Remainder::noise;
+  std::string headline;                   ///< the answer in one sentence
+  std::vector<std::string> sentences;     ///< what matters, most important first
+  std::vector<std::string> warnings;      ///< e.g. a single recording: weak evidence
+  std::vector<std::string> data_remarks;  ///< what the data checks found
+  ModelError as_given;                    ///< the user's diagram as written
+  ModelError base;                        ///< after the fit of the user's own free parameters
+  std::vector<Estimate> base_estimates;
+  std::vector<FoundStep> steps;
+  std::vector<Candidate> candidates;  ///< everything tried, in order
+  std::vector<Refused> refused;
+  std::optional<Structure> structure;  ///< strongest structure left, if any stands out
+  std::vector<OutputNoise> noise;
+  bool noise_guessed = false;            ///< no data sheet: taken from the residual
+  std::optional<Experiment> experiment;  ///< what to record next
+  Diagram base_diagram, final_diagram;
+  ModelError final_error;
+  long model_runs = 0;
+};
+
+struct DiscoverOptions {
+  int max_steps = 3;                    ///< 1 = diagnose: name the missing effect, do not go on
+  std::vector<std::string> only;        ///< effect ids to consider; empty = all
+  std::vector<std::string> free_paths;  ///< parameters free beside those that the diagram declares free
+  std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
+  std::function<bool()> stop;  ///< asked between candidates; true = end with what was found so far
+};
+
+/// The whole loop. Throws Error where diagram and data do not fit together; a candidate that fails costs only itself.
+Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   const DiscoverOptions& options = {});
+
+/// WHICH effect is missing: the first step of discover alone.
+Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   DiscoverOptions options = {});
+
+}  // namespace hysteron

@@ -1,0 +1,122 @@
+// Decides what an effect is: a physical hypothesis as data - law, places, parameters, what it needs, what looks like
+// it. Does not decide whether it is missing (discover.h) nor how it enters a diagram (add.h).
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/diagram.h"
+#include "engine/units.h"
+
+namespace hysteron {
+
+/// How an effect enters (DESIGN 5).
+enum class Way {
+  insert,  ///< a block with one signal in and the same signal out, put on a wire
+  vary,    ///< a block of the diagram gets a parameter that it did not have
+  data     ///< a value of the recording
+};
+std::string to_text(Way way);
+
+/// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
+/// the train recordings, and how finely and how long it was recorded. Numbers in SI.
+struct Circumstances {
+  bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
+  Unit unit;               ///< of the wire, as it is written
+  double lowest = 0, highest = 1;
+  double largest_jump = 0;                 ///< largest change between two rows
+  double shortest_step = 1e-3;             ///< [s] between rows, smallest over the train recordings
+  double longest_step = 1e-3;              ///< [s]
+  double longest_recording = 100;          ///< [s] of any recording, validation included
+  double longest_hold = 0;                 ///< [s] at one level after a move of at least 5 % of the range
+  double step_at_longest_hold = 1e-3;      ///< [s] between rows in that hold
+  int reversals = 0;                       ///< turning points that come back by at least 2 % of the range
+  int recordings = 0;                      ///< train recordings
+  double quickest = 0;                     ///< [1/s] largest change per second over the range
+  bool starts_away_from_zero = false;      ///< the wire is not at zero at the start of some recording
+  bool gain_is_free = false;               ///< a free gain in series behind the place makes a gain here undetermined
+  bool offset_is_free = false;             ///< a free offset behind the place (or a free zero of each recording)
+  std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
+  double range() const { return highest - lowest; }
+};
+
+/// One free number of a law. `path` is relative to the block: "delay", "weights[2]". All numbers in SI.
+struct LawParameter {
+  std::string path;
+  double start = 0;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool log_scale = false;
+  std::vector<double> scan{};                                         ///< values at which a fit begins
+  double plausible_lower = -std::numeric_limits<double>::infinity();  ///< outside: possible, but said to be unusual
+  double plausible_upper = std::numeric_limits<double>::infinity();
+};
+
+/// One form of an effect, ready to be inserted: a block type with its parameters, and which of them are free.
+struct Law {
+  std::string name;  ///< "one pole", "two poles": shown to people, unique within the effect
+  Node block;        ///< type and parameters as they are written into the file (start values)
+  std::vector<LawParameter> free;
+};
+
+/// One parameter as people read about it.
+struct EffectParameter {
+  std::string name, unit, meaning;
+  std::string range;  ///< plausibility limits with their source
+};
+
+/// An effect that can be taken for this one, and what separates them (EFFECTS 5 and 6).
+struct LookAlike {
+  std::string effect;
+  std::string experiment;  ///< a word of EFFECTS 5
+  std::string deciding;    ///< the feature that decides
+};
+
+/// An effect of the library. Built from plain data and two functions of the circumstances.
+struct Effect {
+  std::string id, title, cause, equation, source;
+  std::string residual;  ///< what it leaves in the residual, for people
+  std::string needs;     ///< the data it needs, for people
+  Way way = Way::insert;
+  std::string block_type;           ///< the block that it inserts (insert); the registry knows it
+  std::string parameter;            ///< the parameter that it sets (vary, data)
+  std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
+  bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
+  bool is_linear =
+      false;  ///< the law is linear and time-invariant: its place in a chain of linear blocks cannot be told
+  bool is_memory = false;  ///< the law remembers turning points
+  std::vector<EffectParameter> parameters;
+  std::vector<LookAlike> look_alikes;
+  std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
+  /// Laws, simplest first; those behind the first are tried where the first is among the best.
+  std::function<std::vector<Law>(const Circumstances&)> laws;
+  /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
+  std::function<std::string(const Circumstances&)> unseen;
+};
+
+/// The effects that hysteron knows, in the order in which they are tried.
+class Effects {
+ public:
+  explicit Effects(std::vector<Effect> list);
+  const std::vector<Effect>& list() const { return list_; }
+  const Effect* find(const std::string& id) const;
+  /// Throws Error "unknown_effect" with the nearest name.
+  const Effect& get(const std::string& id) const;
+  std::vector<std::string> ids() const;
+
+ private:
+  std::vector<Effect> list_;
+};
+
+/// The library. One line per effect, one file per effect: discover/effects/.
+Effects all_effects();
+
+/// A list of numbers with one unit, as a block parameter.
+NumberList with_unit(const std::vector<double>& si_values, const Unit& unit);
+Number with_unit(double si_value, const Unit& unit);
+/// "weights[3]"
+std::string element(const std::string& list, int index);
+
+}  // namespace hysteron

@@ -1,0 +1,37 @@
+// Decides where in a diagram an effect may enter: a wire, or one input port, with the kind of place it is.
+// Does not change the diagram (add.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discover/effect.h"
+#include "engine/diagram.h"
+#include "engine/kernel.h"
+
+namespace hysteron {
+
+/// A place: `at` is what a user would write behind --at.
+struct Place {
+  std::string kind;  ///< "command", "core", "force", "motion", "measured"; "" = named by the user
+  std::string at;    ///< a signal ("drive", "stage.x": behind it, for all readers) or an input port ("stage.in"), or
+                     ///< (vary) a block
+  std::string wire;  ///< the signal that passes there
+  bool behind_core = false;  ///< of a core place: behind the core, not before it
+  /// Places with one mark cannot be told apart by a linear law: only linear blocks lie between them. "" = unique.
+  std::string linear_group;
+};
+
+/// Every place of the diagram: from its "places", else worked out from inputs, outputs and the declarations of its
+/// blocks.
+std::vector<Place> find_places(const Diagram& diagram, const Registry& registry);
+
+/// The places where `effect` may enter. A place where it already stands is left out.
+/// For a `vary` effect: the blocks (chosen candidates included) whose type has the parameter that it sets.
+std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry);
+
+/// The place that a user named with --at, as a signal or an input port, also inside diagrams ("stage/actuator.u").
+/// Throws Error "unknown_place" with the nearest name.
+Place place_at(const Diagram& diagram, const Registry& registry, const std::string& at);
+
+}  // namespace hysteron
