@@ -68,6 +68,9 @@ struct Document {
 std::string result_text(const Document& document);
 Document read_result(const std::string& folder);   ///< from result.json and traces/
 
+/// A name for traces/ made from a recording's name: "lab 2/02.csv (2)" -> "lab_2_02.csv__2_.csv".
+std::string trace_file_name(const std::string& name);
+
 /// Writes the folder: result.json, traces/*.csv, further files, and report.html (made by the caller from the document).
 /// Built beside it under a temporary name and then renamed; an existing folder is replaced only if it holds a result.json
 /// of ours or is empty. Throws Error "cannot_write", "folder_in_use".
