@@ -1,0 +1,78 @@
+// Decides how far apart a model and measurements are, in the figures people use, and where the squared error lies.
+// Does not fit, does not name effects. Everything on exactly the measured instants.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/model.h"
+#include "fit/score.h"
+
+namespace hysteron {
+
+struct Metrics {
+  std::size_t rows = 0;
+  double rms = 0;        ///< of the residual [SI]
+  double peak = 0;       ///< largest |residual| [SI]
+  double deviation = 0;  ///< std(measured) over the rows judged [SI]
+  double nrmse = 0;      ///< rms / deviation; infinite if the measured signal does not move
+  double fit = 0;        ///< 100 (1 - nrmse) [%]
+};
+
+/// `recording` = -1: all recordings of that role; `all_roles`: all recordings together.
+struct MetricsOf {
+  int recording = -1;
+  bool all_roles = false;
+  Role role = Role::train;
+  int output = 0;
+  Metrics metrics;
+};
+
+/// One part of a split: its share of the squared error and of the rows, both 0..1.
+struct SplitPart {
+  std::string label;  ///< "falling", "0.2 .. 1.4 V", "first cycle" ...
+  double error = 0;   ///< share of the squared error; the shares of a split add up to 1
+  double rows = 0;    ///< share of the rows
+  double rms = 0;     ///< of the residual in this part [SI]
+};
+
+struct Split {
+  std::string variable;  ///< "time", "level", "branch", "rate", "cycle", "recording"
+  std::string title;     ///< "by branch of u"
+  std::vector<SplitPart> parts;
+  double information = 0;  ///< sum of error * ln(error / rows): 0 where the error is spread evenly
+  std::string sentence;    ///< "78 % of the squared error lies on the falling branch, which holds 45 % of the rows"
+};
+
+struct OutputSplits {
+  int output = 0;
+  std::vector<Split> splits;  ///< most informative first
+};
+
+struct Comparison {
+  std::vector<MetricsOf> metrics;
+  std::vector<OutputSplits> splits;          ///< per output, over the recordings compared
+  std::vector<std::string> sentences;        ///< what matters, most important first
+  std::vector<std::vector<double>> zeros;    ///< [recording][output] [SI]: estimated zero, where per recording
+  std::vector<std::vector<Rows>> residual;   ///< [recording][output] [SI]
+  std::vector<std::vector<Rows>> predicted;  ///< [recording][output] [SI], zero included
+  const Metrics* find(int recording, int output) const;
+  const Metrics* find(Role role, int output) const;
+};
+
+/// Compares a prediction with the measurement on these recordings (empty = all that were predicted).
+Comparison compare(const DataModel& model, const Judge& judge, Prediction prediction, std::vector<int> recordings = {});
+
+Metrics metrics_of(const Rows& measured, const Rows& residual);
+
+/// Splits of one residual with its input, for one recording or pooled; also used on results before and after an effect.
+struct SplitInput {
+  const Rows* t = nullptr;         ///< [s]
+  const Rows* u = nullptr;         ///< main input [SI]; null = splits by input are left out
+  const Rows* residual = nullptr;  ///< [SI]
+  std::string name;                ///< of the recording
+};
+std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
+                             const Unit& input_unit, const Unit& output_unit);
+
+}  // namespace hysteron

@@ -1,0 +1,108 @@
+// Decides what the model says at exactly the measured instants: a compiled program bound to a data set.
+// Does not judge (score.h) and does not search parameters (fit.h).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/program.h"
+#include "io/dataset.h"
+
+namespace hysteron {
+
+/// One number of a program and the value that a simulation shall use [SI].
+struct ParameterValue {
+  int parameter = -1;  ///< index into Program::parameters
+  double value = 0;    ///< [SI]
+};
+
+/// Rows of one output on one recording, or of one response; only judged rows [first, last).
+using Rows = std::vector<double>;
+
+/// What the model says. A simulation that fails is a value: the candidate is lost, never the fit.
+struct Prediction {
+  bool ok = true;
+  std::string error{};                 ///< of the first recording that failed, with its name
+  std::vector<std::vector<Rows>> y{};  ///< [recording][output] [SI]; empty for recordings that were not asked for
+  /// [recording][initial state][output]: response to one unit of each initial state that is free per recording.
+  std::vector<std::vector<std::vector<Rows>>> initial{};
+};
+
+struct DataModelOptions {
+  int threads = 1;                   ///< recordings side by side; the numbers do not depend on it
+  int max_substeps = 64;             ///< per row, where rows have to be split at all
+  double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
+  bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
+  double relative_tolerance = 1e-6;  ///< of BDF
+};
+
+/// A program bound to a data set. Holds everything that stays the same from trial to trial: series, instants, plans.
+/// One DataModel per thread; predict() is not const because it reuses its workspaces.
+class DataModel {
+ public:
+  /// Throws Error where the data set does not fit the program (check_binding).
+  DataModel(ProgramPointer program, std::shared_ptr<const DataSet> data, DataModelOptions options = {});
+  ~DataModel();
+  DataModel(DataModel&&) noexcept;
+  DataModel& operator=(DataModel&&) noexcept;
+
+  const Program& program() const;
+  ProgramPointer program_pointer() const;
+  const DataSet& data() const;
+  int n_recordings() const;
+  const Recording& recording(int r) const;
+  /// Recordings of these roles, in the order of the data set.
+  std::vector<int> recordings(std::span<const Role> roles) const;
+  std::vector<int> recordings(Role role) const;
+
+  /// Outputs of the program that the data set has measured; the index is used everywhere as [output].
+  const std::vector<std::string>& outputs() const;
+  int output_signal(int output) const;
+  bool zero_per_recording(int output) const;
+  /// Measured values on the judged rows [SI]; empty where this recording lacks the column.
+  const Rows& measured(int recording, int output) const;
+  /// Times of the judged rows [s] as in the file.
+  const Rows& times(int recording) const;
+  /// An input of the program at the judged rows [SI].
+  Rows input(int recording, int input) const;
+  /// The input that moves most, relative to its mean size: the one that splits speak of. -1 if there is none.
+  int main_input() const;
+  /// Largest minus smallest measured value over all recordings [SI].
+  double span(int output) const;
+
+  /// "" if the exact advance is used, else why BDF is used.
+  const std::string& why_not_exact() const;
+
+  /// Simulates the recordings with these values (all others as compiled). Never throws for a failing simulation.
+  Prediction predict(std::span<const ParameterValue> values, std::span<const int> recordings);
+
+  /// Chooses the substeps of each recording at these values: doubled until no row changes by more than
+  /// max(noise[output] / 1000, substep_tolerance * span). Called by predict() at its first call with noise 0.
+  /// Returns a text for each recording where max_substeps did not suffice.
+  std::vector<std::string> choose_substeps(std::span<const ParameterValue> values, std::span<const double> noise = {});
+  int substeps(int recording) const;
+
+  /// Largest difference between the exact advance and BDF on these recordings, per output, over its span. Once per fit.
+  std::vector<double> cross_check(std::span<const ParameterValue> values, std::span<const int> recordings);
+
+  /// Names of the states that start free in recordings with `"initial": "per_recording"`.
+  const std::vector<std::string>& free_initial_states() const;
+  /// What the user must be told (a state whose start cannot be estimated linearly ...).
+  const std::vector<std::string>& remarks() const;
+
+  long runs() const;      ///< simulations of one recording so far
+  long failures() const;  ///< of those, failed
+
+  struct Content;
+
+ private:
+  std::unique_ptr<Content> content_;
+};
+
+/// Index of a parameter; throws Error "unknown_parameter" with the nearest name.
+int parameter_index(const Program& program, const std::string& path);
+
+}  // namespace hysteron
