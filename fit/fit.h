@@ -34,7 +34,7 @@ struct FitOptions {
 };
 
 /// What a fit says of one parameter. All numbers SI; `unit` is the one the file used.
-struct Estimate {
+struct ParameterEstimate {
   int parameter = -1;
   std::string path;
   Unit unit{};
@@ -61,7 +61,7 @@ struct Undetermined {
 struct FitResult {
   bool ok = false;
   std::string error{};  ///< why there is no result, "" if ok
-  std::vector<Estimate> estimates{};
+  std::vector<ParameterEstimate> estimates{};
   std::vector<Undetermined> undetermined{};
   std::vector<double> correlation{};     ///< row by row over `correlated`
   std::vector<int> correlated{};         ///< indices into estimates that have an interval

@@ -18,7 +18,7 @@ enum class NoiseSource {
 };
 std::string to_text(NoiseSource source);
 
-struct OutputNoise {
+struct NoiseOfOutput {
   double white = 0;         ///< rms [SI], resolution included
   double one_over_f = 0.3;  ///< rms of the 1/f part over the white rms; 0.3 where nobody says (DISCOVERY 1)
   double resolution = 0;    ///< [SI]; 0 = unknown
@@ -27,7 +27,7 @@ struct OutputNoise {
 };
 
 struct NoiseModel {
-  std::vector<OutputNoise> outputs;  ///< as DataModel::outputs()
+  std::vector<NoiseOfOutput> outputs;  ///< as DataModel::outputs()
   std::vector<double> white() const;
 };
 
