@@ -30,7 +30,7 @@ struct Added {
 ///   "drive_creep": {"choose": "on", "in": "drive", "from": {"off": {"type": "pass"}, "on": {...}}}
 /// right behind its source in the file; the readers of the wire (outputs included, `record` not) read it; a further
 /// effect on that wire comes after it. A vary effect turns its block into a choice between the block as it was and as
-/// it is now. Throws Error "unknown_place", "closes_loop", "effect_there" (this effect stands at this place already).
+/// it is now. Throws Error "unknown_place", "effect_there" (this effect stands at this place already).
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
                  const Place& place);
 

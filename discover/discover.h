@@ -13,6 +13,7 @@
 #include "discover/experiment.h"
 #include "engine/diagram.h"
 #include "engine/kernel.h"
+#include "fit/fit.h"
 #include "io/dataset.h"
 
 namespace hysteron {
@@ -27,16 +28,10 @@ enum class Remainder { noise, structured };
 std::string to_text(Verdict verdict);      ///< as in result.json: "missing_effect"
 std::string to_text(Remainder remainder);  ///< "noise", "structured"
 
-/// A fitted number, for people and for result.json. SI; `unit` is how it is shown.
-struct Estimate {
-  std::string path;  ///< in the program: "u_amplifier_lag.times[0]"
-  Unit unit;
-  double value = 0, start = 0;
-  double lower = 0, upper = 0;  ///< 95 % interval
-  bool determined = true;       ///< false: the data do not determine it, no value is reported
-  bool at_bound = false;
-  std::string
-      remark;  ///< "outside 0.5..20 kHz, the usual range of amplifiers", "extrapolated beyond the longest hold" ...
+/// A fitted parameter (fit/fit.h) with what people must know of it.
+struct FoundParameter {
+  Estimate estimate;   ///< value, interval, unit; no value where the data do not determine it
+  std::string remark;  ///< "outside 8 us .. 0.5 ms, the usual range", "held at its bound" ... or ""
 };
 
 /// How far one model is from one recording (all rows judged, all outputs bound).
@@ -73,7 +68,7 @@ struct Candidate {
   double score = 0;                          ///< chi2_train + chi2_validate + p ln N, lower is better
   double share_removed = 0;                  ///< of the validation excess over the noise
   ModelError error;
-  std::vector<Estimate> estimates;
+  std::vector<FoundParameter> found;
   bool claimed = false, failed = false;
   std::string reason;  ///< why it was claimed, or why not, in a sentence
   long model_runs = 0;
@@ -112,7 +107,7 @@ struct Structure {
 };
 
 /// Noise of one output, as used for judging.
-struct OutputNoise {
+struct JudgedNoise {
   std::string output;
   Unit unit;
   double white = 0;       ///< [SI] rms
@@ -131,12 +126,12 @@ struct Discovery {
   std::vector<std::string> data_remarks;  ///< what the data checks found
   ModelError as_given;                    ///< the user's diagram as written
   ModelError base;                        ///< after the fit of the user's own free parameters
-  std::vector<Estimate> base_estimates;
+  std::vector<FoundParameter> base_parameters;
   std::vector<FoundStep> steps;
   std::vector<Candidate> candidates;  ///< everything tried, in order
   std::vector<Refused> refused;
   std::optional<Structure> structure;  ///< strongest structure left, if any stands out
-  std::vector<OutputNoise> noise;
+  std::vector<JudgedNoise> noise;
   bool noise_guessed = false;            ///< no data sheet: taken from the residual
   std::optional<Experiment> experiment;  ///< what to record next
   Diagram base_diagram, final_diagram;

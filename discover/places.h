@@ -20,6 +20,8 @@ struct Place {
   bool behind_core = false;  ///< of a core place: behind the core, not before it
   /// Places with one mark cannot be told apart by a linear law: only linear blocks lie between them. "" = unique.
   std::string linear_group;
+  std::string
+      scale_group;  ///< the same for a law with memory: only blocks without states, memory or bend lie between them
 };
 
 /// Every place of the diagram: from its "places", else worked out from inputs, outputs and the declarations of its

@@ -1,0 +1,84 @@
+// Decides how effects are looked up and how their numbers are written. Does not know any single effect.
+#include "discover/effect.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "discover/effects/library.h"
+#include "engine/error.h"
+
+namespace hysteron {
+
+std::string to_text(Way way) {
+  switch (way) {
+    case Way::insert:
+      return "insert";
+    case Way::vary:
+      return "vary";
+    case Way::data:
+      return "data";
+  }
+  return "";
+}
+
+Effects::Effects(std::vector<Effect> list) : list_(std::move(list)) {}
+
+const Effect* Effects::find(const std::string& id) const {
+  for (const auto& e : list_)
+    if (e.id == id) return &e;
+  return nullptr;
+}
+
+const Effect& Effects::get(const std::string& id) const {
+  if (const Effect* found = find(id)) return *found;
+  fail("unknown_effect", id, fmt::format("there is no effect \"{}\"", id), did_you_mean(id, ids()));
+}
+
+std::vector<std::string> Effects::ids() const {
+  std::vector<std::string> names;
+  for (const auto& e : list_) names.push_back(e.id);
+  return names;
+}
+
+Number with_unit(double si_value, const Unit& unit) {
+  // Differences: a threshold of 2 degC is a span, not a temperature.
+  const double value = effects::rounded(unit.difference_from_si(si_value));
+  if (unit.text.empty() && unit.dimension.none()) return {value, {}};
+  return {value, unit.text.empty() ? to_text(unit.dimension) : unit.text};
+}
+
+NumberList with_unit(const std::vector<double>& si_values, const Unit& unit) {
+  NumberList list;
+  for (const double v : si_values) list.push_back(with_unit(v, unit));
+  return list;
+}
+
+std::string element(const std::string& list, int index) { return fmt::format("{}[{}]", list, index); }
+
+namespace effects {
+
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double scale = std::pow(10.0, 2 - std::floor(std::log10(std::abs(value))));
+  // Through text, so that the number in the file is the shortest that means this value.
+  return std::stod(fmt::format("{:.6g}", std::round(value * scale) / scale));
+}
+
+std::vector<double> per_decade(double from, double to, double per_decade) {
+  const double decades = std::log10(to / from);
+  const int n = std::max(2, static_cast<int>(std::lround(decades * per_decade)) + 1);
+  std::vector<double> values;
+  for (int i = 0; i < n; ++i) values.push_back(rounded(from * std::pow(10.0, decades * i / (n - 1))));
+  return values;
+}
+
+std::string time_text(double seconds) {
+  if (seconds >= 3600) return fmt::format("{:.3g} h", seconds / 3600);
+  if (seconds >= 1 || seconds == 0) return fmt::format("{:.3g} s", seconds);
+  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} us", seconds * 1e6);
+}
+
+}  // namespace effects
+}  // namespace hysteron

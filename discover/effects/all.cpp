@@ -1,0 +1,19 @@
+// Decides which effects hysteron knows. To add one: its file in this folder, its line in library.h, its line here.
+#include "discover/effects/library.h"
+
+namespace hysteron {
+
+Effects all_effects() {
+  using namespace effects;
+  return Effects({
+      calibration(),
+      initial_remanence(),
+      hysteresis(),
+      creep(),
+      amplifier_lag(),
+      sensor_lag(),
+      dead_time(),
+  });
+}
+
+}  // namespace hysteron

@@ -1,0 +1,77 @@
+// The effect amplifier_lag: the amplifier follows its command late, with a time constant. Also the laws of any lag.
+#include <algorithm>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+namespace {
+
+LawParameter time_constant(const Circumstances& at, int index) {
+  LawParameter tau;
+  tau.path = element("times", index);
+  tau.log_scale = true;
+  // Below a hundredth of a row nothing moves any more; what needs a tenth of the recording to settle is no lag but
+  // drift.
+  tau.lower = at.shortest_step / 100;
+  tau.upper = std::max(at.longest_recording / 5, 10 * tau.lower);
+  tau.start = at.shortest_step;
+  if (index == 0) tau.scan = per_decade(2 * tau.lower, tau.upper / 2, 3);
+  return tau;
+}
+
+}  // namespace
+
+std::vector<Law> lag_laws(const Circumstances& at) {
+  Law one;
+  one.name = "one pole";
+  one.block.type = "lag";
+  one.block.parameters["times"] = Value(NumberList{with_unit(at.shortest_step, parse_unit("s"))});
+  one.free = {time_constant(at, 0)};
+
+  Law two = one;
+  two.name = "two poles";
+  two.block.parameters["times"] = Value(with_unit({at.shortest_step, at.shortest_step / 10}, parse_unit("s")));
+  two.free = {time_constant(at, 0), time_constant(at, 1)};
+  two.free[1].start = at.shortest_step / 10;
+  return {one, two};
+}
+
+Effect amplifier_lag() {
+  Effect e;
+  e.id = "amplifier_lag";
+  e.title = "Lag of the amplifier";
+  e.cause = "The amplifier's bandwidth, and its output resistance into the capacitance of the actuator.";
+  e.equation = "tau*dv/dt = u - v (one pole), two such in series (two poles)";
+  e.source = "EFFECTS 3, amplifier_lag";
+  e.residual =
+      "In proportion to the rate of the drive at all amplitudes; phase in proportion to frequency, no harmonics.";
+  e.needs = "Motion at a twentieth of the corner frequency or faster.";
+  e.way = Way::insert;
+  e.block_type = "lag";
+  e.places = {"command"};
+  e.is_linear = true;
+  e.parameters = {
+      {"times", "s", "time constants of the poles",
+       "8 us .. 0.5 ms for piezo amplifiers (0.3 .. 20 kHz; PD200 with 10 uF: 7.4 kHz small, 300 Hz large signal)"}};
+  e.look_alikes = {{"dead_time", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},
+                   {"sensor_lag", "monitor", "the drive measured behind the amplifier decides"},
+                   {"hysteresis", "high_frequencies", "phase of a lag grows with frequency, that of a loop does not"},
+                   {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
+  e.family = "lag";
+  e.laws = [](const Circumstances& at) {
+    auto laws = lag_laws(at);
+    // The prior speaks of amplifiers for piezo actuators: volts.
+    if (at.unit.dimension == parse_unit("V").dimension)
+      for (auto& law : laws) {
+        law.free.front().plausible_lower = 8e-6;
+        law.free.front().plausible_upper = 5e-4;
+      }
+    return laws;
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    return at.from_data && at.range() <= 0 ? "the drive does not move" : "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

@@ -1,0 +1,53 @@
+// The effect calibration: the sensor's gain or zero is not what the model says.
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect calibration() {
+  Effect e;
+  e.id = "calibration";
+  e.title = "Calibration of the sensor";
+  e.cause = "The sensor's sensitivity or zero differs from the value in the model, or a unit was mistaken.";
+  e.equation = "y = gain*x + offset";
+  e.source = "EFFECTS 3, calibration";
+  e.residual = "A straight line of the residual against the output, the same at all frequencies and amplitudes.";
+  e.needs = "Nothing. Always tried first.";
+  e.way = Way::insert;
+  e.block_type = "calibration";
+  e.places = {"measured"};
+  e.parameters = {{"gain", "", "measured over true change",
+                   "0.98 .. 1.02 usually; 1000, 0.1, 2 pi or sqrt(2) is a mistaken unit (EFFECTS 3)"},
+                  {"offset", "unit of the output", "reading at zero", "any"}};
+  e.look_alikes = {};
+  e.family = "calibration";
+  e.laws = [](const Circumstances& at) {
+    Law law;
+    law.name = at.gain_is_free ? "offset" : at.offset_is_free ? "gain" : "gain and offset";
+    law.block.type = "calibration";
+    law.block.parameters["gain"] = Value(1.0);
+    law.block.parameters["offset"] = Value(with_unit(0.0, at.unit));
+    if (!at.gain_is_free) {
+      LawParameter gain;
+      gain.path = "gain";
+      gain.start = 1;
+      gain.plausible_lower = 0.95;  // five times the usual 2 %, so that only a real surprise is flagged
+      gain.plausible_upper = 1.05;
+      law.free.push_back(gain);
+    }
+    if (!at.offset_is_free) {
+      LawParameter offset;
+      offset.path = "offset";
+      law.free.push_back(offset);
+    }
+    return std::vector<Law>{law};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (at.gain_is_free && at.offset_is_free) return "gain and offset are free in the diagram already";
+    if (at.from_data && !at.gain_is_free && !at.offset_is_free && at.range() <= 0)
+      return "the signal does not move, so gain and offset cannot be told apart";
+    return "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

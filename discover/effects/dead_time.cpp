@@ -1,0 +1,51 @@
+// The effect dead_time: everything happens later by the same time.
+#include <algorithm>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect dead_time() {
+  Effect e;
+  e.id = "dead_time";
+  e.title = "Dead time";
+  e.cause =
+      "Converters, sample-and-hold, a field bus, transport of heat or matter, or a column written one sample late.";
+  e.equation = "y(t) = u(t - delay)";
+  e.source = "EFFECTS 3, dead_time";
+  e.residual = "The rate of the output times the delay.";
+  e.needs = "Motion at a fiftieth of 1/delay or faster.";
+  e.way = Way::insert;
+  e.block_type = "dead_time";
+  e.places = {"command", "measured"};
+  e.is_linear = true;
+  e.parameters = {{"delay", "s", "",
+                   "half a sample to three samples for converters, 20 us .. 5 ms for piezo rigs (EFFECTS 3); as many "
+                   "samples at every sample rate is a fact of the file, not of the device"}};
+  e.look_alikes = {{"amplifier_lag", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},
+                   {"sensor_lag", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},
+                   {"hysteresis", "high_frequencies", "phase of a delay grows with frequency, that of a loop does not"},
+                   {"creep", "low_frequencies", "a delay has no gain that falls with frequency"}};
+  e.family = "dead_time";
+  e.laws = [](const Circumstances& at) {
+    Law law;
+    law.name = "one delay";
+    law.block.type = "dead_time";
+    law.block.parameters["delay"] = Value(with_unit(at.shortest_step, parse_unit("s")));
+    LawParameter delay;
+    delay.path = "delay";
+    delay.start = at.shortest_step;
+    delay.lower = 0;
+    delay.upper = at.longest_recording / 5;
+    delay.log_scale = false;
+    delay.scan = per_decade(at.shortest_step / 50, delay.upper / 2, 3);
+    law.free.push_back(delay);
+    return std::vector<Law>{law};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

@@ -1,0 +1,95 @@
+// The effect hysteresis: the response remembers turning points, at any speed.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+namespace {
+
+/// Plays with thresholds from `from` to `to` of the range; the weight of threshold 0 is the wire's own gain, 1.
+/// Spacing grows with the threshold: small loops need fine thresholds, large ones do not.
+Law plays(const Circumstances& at, const char* name, int n, double from, double to, const char* sides, double growth) {
+  const double range = at.range() > 0 ? at.range() : 1.0;
+  std::vector<double> thresholds{0.0};
+  for (int i = 0; i < n; ++i)
+    thresholds.push_back(range * (from + (to - from) * std::pow(static_cast<double>(i) / (n - 1), growth)));
+  Law law;
+  law.name = name;
+  law.block.type = "prandtl_ishlinskii";
+  law.block.parameters["thresholds"] = Value(with_unit(thresholds, at.unit));
+  NumberList weights{Number{1.0, {}}};
+  if (!at.gain_is_free) {
+    LawParameter own;
+    own.path = element("weights", 0);
+    own.start = 1;
+    own.lower = 0;
+    law.free.push_back(own);
+  }
+  for (int i = 0; i < n; ++i) {
+    weights.push_back(Number{0.02, {}});
+    LawParameter w;
+    w.path = element("weights", i + 1);
+    w.start = 0.02;
+    w.lower = 0;  // domains switch with the field, never against it
+    law.free.push_back(w);
+  }
+  law.block.parameters["weights"] = Value(std::move(weights));
+  law.block.parameters["sides"] = Value(sides);
+  return law;
+}
+
+}  // namespace
+
+Effect hysteresis() {
+  Effect e;
+  e.id = "hysteresis";
+  e.title = "Hysteresis";
+  e.cause =
+      "Polarisation domains switch with the history of the field; the response remembers its turning points, at any "
+      "speed.";
+  e.equation =
+      "y = w0*u + sum w_i*z_i;  one-sided play z = max(u - r, min(u, z)), two-sided z = max(u - r, min(u + r, z)),  "
+      "w_i >= 0";
+  e.source = "Prandtl-Ishlinskii; EFFECTS 3, hysteresis; thesis Eqs. 2.15-2.19";
+  e.residual =
+      "A lens of the residual against the drive, closed at turning points, that shrinks with the amplitude; odd "
+      "harmonics only.";
+  e.needs =
+      "At least two reversals of the drive. One amplitude gives the width of the loop only; minor loops need several.";
+  e.way = Way::insert;
+  e.block_type = "prandtl_ishlinskii";
+  e.places = {"core"};
+  e.is_memory = true;
+  e.parameters = {
+      {"thresholds", "unit of the wire", "of the plays; fixed over 4 .. 65 % of the range (richer: 2 .. 90 %)", ""},
+      {"weights", "", "of the plays, relative to the wire's own gain",
+       "each 0.01 .. 0.2; the loop is 2 % of the stroke at small and 10 .. 15 % at full drive (piceramic.com "
+       "tutorial)"}};
+  e.look_alikes = {
+      {"amplifier_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
+      {"sensor_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
+      {"dead_time", "high_frequencies", "phase of a loop does not grow with frequency, that of a delay does"},
+      {"creep", "sine_amplitudes", "phase of a loop grows with the amplitude, that of creep does not"},
+      {"initial_remanence", "precycle", "everywhere against first cycle only"}};
+  e.family = "hysteresis";
+  e.laws = [](const Circumstances& at) {
+    return std::vector<Law>{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
+                            plays(at, "10 one-sided plays", 10, 0.02, 0.90, "one", 1.5),
+                            plays(at, "10 two-sided plays", 10, 0.01, 0.45, "two", 1.5)};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (!at.memory_blocks.empty())
+      return fmt::format(
+          "the diagram has memory already ({}): another shape of it would be an asymmetry, not a missing hysteresis",
+          fmt::join(at.memory_blocks, ", "));
+    if (at.from_data && at.reversals < 2)
+      return fmt::format("the drive turns {} times, hysteresis needs at least 2 reversals within its range",
+                         at.reversals);
+    return "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

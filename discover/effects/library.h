@@ -1,0 +1,26 @@
+// Decides which effects there are: one file and one line each. Internal to discover.
+#pragma once
+
+#include "discover/effect.h"
+
+namespace hysteron::effects {
+
+Effect calibration();
+Effect initial_remanence();
+Effect hysteresis();
+Effect creep();
+Effect amplifier_lag();
+Effect sensor_lag();
+Effect dead_time();
+
+/// The laws that amplifier and sensor lag share: one pole, two poles.
+std::vector<Law> lag_laws(const Circumstances& at);
+/// Values from `from` to `to`, `per_decade` of them in each decade, rounded to three digits so that a file stays
+/// readable.
+std::vector<double> per_decade(double from, double to, double per_decade);
+/// `value` rounded to three significant digits.
+double rounded(double value);
+/// "0.2 ms", "16 s": a time for people.
+std::string time_text(double seconds);
+
+}  // namespace hysteron::effects

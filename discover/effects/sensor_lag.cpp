@@ -1,0 +1,42 @@
+// The effect sensor_lag: the sensor follows what it measures late, with a time constant.
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect sensor_lag() {
+  Effect e;
+  e.id = "sensor_lag";
+  e.title = "Lag of the sensor";
+  e.cause = "The sensor's bandwidth, or the time that heat needs to reach it.";
+  e.equation = "tau*dy/dt = x - y (one pole), two such in series (two poles)";
+  e.source = "EFFECTS 3, sensor_lag";
+  e.residual = "In proportion to the rate of the output, at all amplitudes.";
+  e.needs = "Motion at a twentieth of the corner frequency or faster.";
+  e.way = Way::insert;
+  e.block_type = "lag";
+  e.places = {"measured"};
+  e.is_linear = true;
+  e.parameters = {
+      {"times", "s", "time constants of the poles",
+       "2 us .. 16 ms for position sensors (10 Hz .. 100 kHz, Fleming 2013); seconds to minutes for temperature"}};
+  e.look_alikes = {{"dead_time", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},
+                   {"amplifier_lag", "monitor", "the drive measured behind the amplifier decides"},
+                   {"hysteresis", "high_frequencies", "phase of a lag grows with frequency, that of a loop does not"},
+                   {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
+  e.family = "lag";
+  e.laws = [](const Circumstances& at) {
+    auto laws = lag_laws(at);
+    if (at.unit.dimension == parse_unit("m").dimension)
+      for (auto& law : laws) {
+        law.free.front().plausible_lower = 1.6e-6;
+        law.free.front().plausible_upper = 1.6e-2;
+      }
+    return laws;
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    return at.from_data && at.range() <= 0 ? "the output does not move" : "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

@@ -1,0 +1,196 @@
+// Decides how the wires of one level of a diagram are followed. See wiring.h.
+#include "discover/wiring.h"
+
+#include <algorithm>
+#include <set>
+
+namespace hysteron {
+namespace {
+
+/// True if `test` holds for every block of the diagram, nested ones included.
+template <class Test>
+bool all_blocks(const Diagram& diagram, const Registry& registry, Test test) {
+  const Wiring wiring(diagram, registry);
+  for (const auto& [name, node] : diagram.blocks)
+    if (!test(wiring, name)) return false;
+  return true;
+}
+
+}  // namespace
+
+Wiring::Wiring(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
+
+const Node* Wiring::body(const std::string& block) const {
+  const Node* node = diagram_.blocks.find(block);
+  if (node == nullptr || node->from.empty()) return node;
+  return node->from.find(node->choose);
+}
+
+std::vector<std::string> Wiring::outputs_of(const std::string& block) const {
+  const Node* node = body(block);
+  if (node == nullptr) return {};
+  std::vector<std::string> ports;
+  if (node->nested)
+    ports = node->nested->outputs.names();
+  else if (const Kernel* k = registry_.find(node->type))
+    ports = k->declaration.output_names();
+  if (ports.size() == 1) return {block};
+  for (auto& port : ports) port = block + "." + port;
+  return ports;
+}
+
+std::string Wiring::signal(const std::string& text) const {
+  if (text.find('/') != std::string::npos) return text;
+  const auto dot = text.find('.');
+  const std::string head = text.substr(0, dot);
+  if (is_input(head)) return dot == std::string::npos ? head : "";
+  const auto made = outputs_of(head);
+  if (made.size() == 1) {
+    if (dot == std::string::npos) return head;
+    const Node* node = body(head);
+    const auto ports =
+        node->nested ? node->nested->outputs.names() : registry_.find(node->type)->declaration.output_names();
+    return ports.front() == text.substr(dot + 1) ? head : "";
+  }
+  return std::find(made.begin(), made.end(), text) != made.end() ? text : "";
+}
+
+std::string Wiring::source(const std::string& signal) const {
+  const std::string head = signal.substr(0, signal.find_first_of("./"));
+  return is_input(head) ? "" : head;
+}
+
+std::vector<Reader> Wiring::readers(const std::string& signal) const {
+  std::vector<Reader> list;
+  for (const auto& [name, node] : diagram_.blocks)
+    for (std::size_t i = 0; i < node.in.size(); ++i)
+      if (this->signal(node.in[i].from) == signal) list.push_back({name, static_cast<int>(i), ""});
+  for (const auto& [name, from] : diagram_.outputs)
+    if (this->signal(from) == signal) list.push_back({"", 0, name});
+  return list;
+}
+
+std::vector<std::string> Wiring::signals() const {
+  auto list = diagram_.inputs.names();
+  for (const auto& [name, node] : diagram_.blocks)
+    for (auto& made : outputs_of(name)) list.push_back(std::move(made));
+  return list;
+}
+
+std::vector<std::string> Wiring::ports(const std::string& block) const {
+  const Node* node = diagram_.blocks.find(block);
+  const Node* inner = body(block);
+  std::vector<std::string> declared;
+  std::vector<bool> variadic;
+  if (inner->nested) {
+    declared = inner->nested->inputs.names();
+    variadic.assign(declared.size(), false);
+  } else if (const Kernel* k = registry_.find(inner->type)) {
+    for (const auto& port : k->declaration.inputs) {
+      declared.push_back(port.name);
+      variadic.push_back(port.variadic);
+    }
+  }
+  std::vector<std::string> list;
+  std::size_t next = 0;
+  for (const auto& wire : node->in) {
+    if (!wire.port.empty()) {
+      list.push_back(wire.port);
+      continue;
+    }
+    list.push_back(next < declared.size() ? declared[next] : "");
+    if (next < declared.size() && !variadic[next]) ++next;
+  }
+  return list;
+}
+
+bool Wiring::has_memory(const std::string& block) const {
+  const Node* node = body(block);
+  if (node == nullptr) return false;
+  if (node->nested)
+    return !all_blocks(*node->nested, registry_,
+                       [](const Wiring& w, const std::string& b) { return !w.has_memory(b); });
+  const Kernel* k = registry_.find(node->type);
+  return k != nullptr && (k->advance != nullptr || k->declaration.is_rate_independent);
+}
+
+bool Wiring::is_linear(const std::string& block) const {
+  const Node* node = body(block);
+  if (node == nullptr) return false;
+  if (node->nested)
+    return all_blocks(*node->nested, registry_, [](const Wiring& w, const std::string& b) { return w.is_linear(b); });
+  const Kernel* k = registry_.find(node->type);
+  // A delay is linear and time-invariant too, though its past is no state; a constant is a linear block without inputs.
+  return k != nullptr && (k->declaration.is_linear || k->reach_back != nullptr ||
+                          (k->declaration.inputs.empty() && !k->uses_time && !k->declaration.is_series));
+}
+
+bool Wiring::has_states(const std::string& block) const {
+  const Node* node = body(block);
+  if (node == nullptr) return false;
+  if (node->nested)
+    return !all_blocks(*node->nested, registry_,
+                       [](const Wiring& w, const std::string& b) { return !w.has_states(b); });
+  const Kernel* k = registry_.find(node->type);
+  return k != nullptr && (k->derivative != nullptr || k->reach_back != nullptr);
+}
+
+bool Wiring::is_constant(const std::string& signal) const {
+  const std::string block = source(signal);
+  const Node* node = block.empty() ? nullptr : body(block);
+  if (node == nullptr || node->nested) return false;
+  const Kernel* k = registry_.find(node->type);
+  return k != nullptr && k->declaration.inputs.empty() && !k->uses_time && !k->declaration.is_series;
+}
+
+bool Wiring::reaches_output(const std::string& from) const {
+  std::set<std::string> seen;
+  std::vector<std::string> open{from};
+  while (!open.empty()) {
+    const std::string s = open.back();
+    open.pop_back();
+    if (!seen.insert(s).second) continue;
+    for (const auto& reader : readers(s)) {
+      if (reader.block.empty()) return true;
+      for (auto& next : outputs_of(reader.block)) open.push_back(std::move(next));
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> Wiring::chain(const std::string& signal) const {
+  std::vector<std::string> list;
+  std::string s = signal;
+  while (list.size() < 64) {
+    const auto r = readers(s);
+    if (r.size() != 1 || r.front().block.empty()) break;
+    const Node* node = diagram_.blocks.find(r.front().block);
+    // A choice that replaced a block (vary) is a block of the user's, not one of ours on the wire.
+    const Node* off = node->from.find("off");
+    if (node->effect.empty() || off == nullptr || off->type != "pass") break;
+    s = r.front().block;
+    list.push_back(s);
+  }
+  return list;
+}
+
+std::string Wiring::root(const std::string& signal, bool through_states, int depth) const {
+  const std::string block = source(signal);
+  if (block.empty() || depth > 64 || !is_linear(block) || outputs_of(block).size() != 1) return signal;
+  if (!through_states && has_states(block)) return signal;
+  const Node* node = diagram_.blocks.find(block);
+  std::string moving;
+  for (const auto& wire : node->in) {
+    const std::string from = this->signal(wire.from);
+    if (is_constant(from)) continue;
+    if (!moving.empty()) return signal;
+    moving = from;
+  }
+  if (moving.empty() || readers(moving).size() != 1) return signal;
+  return root(moving, through_states, depth + 1);
+}
+
+std::string Wiring::linear_root(const std::string& signal) const { return root(signal, true, 0); }
+std::string Wiring::scale_root(const std::string& signal) const { return root(signal, false, 0); }
+
+}  // namespace hysteron

@@ -1,0 +1,60 @@
+// Decides how the wires of a diagram are followed before it is compiled: who reads a signal, what lies between two of
+// them. Internal to discover; works on one level of a diagram, nested diagrams count as one block.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/diagram.h"
+#include "engine/kernel.h"
+
+namespace hysteron {
+
+/// One place where a signal is read: wire `index` of a block, or an output of the diagram.
+struct Reader {
+  std::string block;  ///< "" where it is an output
+  int index = 0;      ///< into Node::in
+  std::string output;
+};
+
+class Wiring {
+ public:
+  Wiring(const Diagram& diagram, const Registry& registry);
+
+  const Diagram& diagram() const { return diagram_; }
+  /// The block in use: the chosen candidate of a choice, else the node itself.
+  const Node* body(const std::string& block) const;
+  bool is_input(const std::string& name) const { return diagram_.inputs.find(name) != nullptr; }
+  /// One spelling for every signal: "block" where the block has one output, else "block.port". "" if there is none
+  /// such.
+  std::string signal(const std::string& text) const;
+  /// The block that makes a signal; "" for an input of the diagram.
+  std::string source(const std::string& signal) const;
+  std::vector<Reader> readers(const std::string& signal) const;
+  /// Every signal of this level: inputs first, then blocks in the order of the file.
+  std::vector<std::string> signals() const;
+  std::vector<std::string> outputs_of(const std::string& block) const;  ///< signals that a block makes
+  /// Input ports by name, one per wire of `in` (a variadic port repeats).
+  std::vector<std::string> ports(const std::string& block) const;
+
+  bool has_memory(const std::string& block) const;
+  bool is_linear(const std::string& block) const;     ///< declared so, nested diagrams block by block
+  bool has_states(const std::string& block) const;    ///< states or a remembered past
+  bool is_constant(const std::string& signal) const;  ///< made by a block without inputs whose signal never moves
+  bool reaches_output(const std::string& signal) const;
+
+  /// Effects that stand on this wire one after the other, each the only reader of the one before: names of the choices.
+  std::vector<std::string> chain(const std::string& signal) const;
+  /// The signal at the beginning of linear blocks with one moving input each (see Place::linear_group).
+  std::string linear_root(const std::string& signal) const;
+  /// The same through linear blocks without states.
+  std::string scale_root(const std::string& signal) const;
+
+ private:
+  std::string root(const std::string& signal, bool through_states, int depth) const;
+  const Diagram& diagram_;
+  const Registry& registry_;
+};
+
+}  // namespace hysteron
