@@ -1,6 +1,7 @@
-// Decides how a diagram of static blocks, memory and linear time-invariant parts is advanced row by row, exactly (DESIGN 6.6).
-// Linear parts use cached matrix exponentials with first-order hold; behind a nonlinear block rows are split into
-// substeps until the result no longer changes. Does not handle nonlinear states nor memory inside a feedback loop.
+// Decides how a diagram of static blocks, memory and linear time-invariant parts is advanced row by row, exactly
+// (DESIGN 6.6). Linear parts use cached matrix exponentials with first-order hold; behind a nonlinear block rows are
+// split into substeps until the result no longer changes. Does not handle nonlinear states nor memory inside a feedback
+// loop.
 #pragma once
 
 #include <memory>
@@ -16,8 +17,8 @@ namespace hysteron {
 std::string why_not_exact(const Program& program);
 
 struct AdvanceOptions {
-  int substeps = 1;       ///< per row; 1 is exact where no nonlinear block feeds a linear part with states
-  bool at_rest = true;    ///< linear states start in equilibrium for the first inputs
+  int substeps = 1;     ///< per row; 1 is exact where no nonlinear block feeds a linear part with states
+  bool at_rest = true;  ///< linear states start in equilibrium for the first inputs
 };
 
 /// The plan of an exact advance of one program. Immutable once built but for its cache of matrix exponentials:
@@ -30,8 +31,9 @@ class Advance {
   Advance(Advance&&) noexcept;
   Advance& operator=(Advance&&) noexcept;
 
-  /// Advances a copy of `run` through `instants` (increasing; the first is the start) and writes values[signal][instant] [SI].
-  /// Between instants the bound inputs move as their series say; their own samples need not be instants.
+  /// Advances a copy of `run` through `instants` (increasing; the first is the start) and writes
+  /// values[signal][instant] [SI]. Between instants the bound inputs move as their series say; their own samples need
+  /// not be instants.
   void operator()(const Run& run, std::span<const double> instants, const AdvanceOptions& options,
                   std::vector<std::vector<double>>& values);
 

@@ -1,12 +1,12 @@
-// Decides how a block is written: static functions over plain structs (fixed size), or over a View (size from the shapes).
-// The signature is the declaration: which functions a block has, and which arguments they take, tells the engine what
-// feeds through, what has states, what wants the rate of its inputs, and what remembers.
+// Decides how a block is written: static functions over plain structs (fixed size), or over a View (size from the
+// shapes). The signature is the declaration: which functions a block has, and which arguments they take, tells the
+// engine what feeds through, what has states, what wants the rate of its inputs, and what remembers.
 //
 // Fixed form: struct templates Params<T>, In<T>, Out<T>, State<T>, Memory<T>, each holding only members of type T, and
 //   output(p, s)          no feedthrough             output(p, in) / output(p, s, in)   every input feeds through
-//   output(p, Time<T>)    a source                    output(p, m, in) + advance         m is always the advanced memory
-//   derivative(p, s, in)  dx/dt                       derivative(p, s, in, rate)         wants du/dt of its inputs
-//   advance(p, m, in)     what m becomes if `in` is accepted; pure
+//   output(p, Time<T>)    a source                    output(p, m, in) + advance         m is always the advanced
+//   memory derivative(p, s, in)  dx/dt                       derivative(p, s, in, rate)         wants du/dt of its
+//   inputs advance(p, m, in)     what m becomes if `in` is accepted; pure
 // Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance (templates);
 //   prepare, rest, initial_states, initial_memory, next_corner, pace, reach_back, check (on View<double>).
 #pragma once
@@ -33,13 +33,17 @@ namespace block_detail {
 
 template <class B, class T>
 auto params_of() {
-  if constexpr (requires { typename B::template Params<T>; }) return typename B::template Params<T>{};
-  else return Nothing{};
+  if constexpr (requires { typename B::template Params<T>; })
+    return typename B::template Params<T>{};
+  else
+    return Nothing{};
 }
 template <class B, class T>
 auto in_of() {
-  if constexpr (requires { typename B::template In<T>; }) return typename B::template In<T>{};
-  else return Nothing{};
+  if constexpr (requires { typename B::template In<T>; })
+    return typename B::template In<T>{};
+  else
+    return Nothing{};
 }
 template <class B, class T>
 auto out_of() {
@@ -47,18 +51,23 @@ auto out_of() {
 }
 template <class B, class T>
 auto state_of() {
-  if constexpr (requires { typename B::template State<T>; }) return typename B::template State<T>{};
-  else return Nothing{};
+  if constexpr (requires { typename B::template State<T>; })
+    return typename B::template State<T>{};
+  else
+    return Nothing{};
 }
 template <class B, class T>
 auto memory_of() {
-  if constexpr (requires { typename B::template Memory<T>; }) return typename B::template Memory<T>{};
-  else return Nothing{};
+  if constexpr (requires { typename B::template Memory<T>; })
+    return typename B::template Memory<T>{};
+  else
+    return Nothing{};
 }
 
 template <class T, class S>
 constexpr int count() {
-  if constexpr (std::is_empty_v<S>) return 0;
+  if constexpr (std::is_empty_v<S>)
+    return 0;
   else {
     static_assert(std::is_standard_layout_v<S> && std::is_trivially_copyable_v<S> && sizeof(S) % sizeof(T) == 0,
                   "Params, In, Out, State and Memory hold only members of their scalar type T");
@@ -117,11 +126,16 @@ void fixed_output(const View<T>& v) {
   using Y = Types<B, T>;
   const auto p = load<T>(typename Y::P{}, v.p);
   typename Y::O o{};
-  if constexpr (F::output_time) o = B::output(p, Time<T>{v.t, v.branch});
-  else if constexpr (F::output_state) o = B::output(p, load<T>(typename Y::S{}, v.x));
-  else if constexpr (F::output_in) o = B::output(p, load<T>(typename Y::I{}, v.u));
-  else if constexpr (F::output_state_in) o = B::output(p, load<T>(typename Y::S{}, v.x), load<T>(typename Y::I{}, v.u));
-  else o = B::output(p, load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u));
+  if constexpr (F::output_time)
+    o = B::output(p, Time<T>{v.t, v.branch});
+  else if constexpr (F::output_state)
+    o = B::output(p, load<T>(typename Y::S{}, v.x));
+  else if constexpr (F::output_in)
+    o = B::output(p, load<T>(typename Y::I{}, v.u));
+  else if constexpr (F::output_state_in)
+    o = B::output(p, load<T>(typename Y::S{}, v.x), load<T>(typename Y::I{}, v.u));
+  else
+    o = B::output(p, load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u));
   store<T>(o, v.out);
 }
 
@@ -132,14 +146,17 @@ void fixed_derivative(const View<double>& v) {
   const auto p = load<double>(typename Y::P{}, v.p);
   const auto s = load<double>(typename Y::S{}, v.x);
   const auto in = load<double>(typename Y::I{}, v.u);
-  if constexpr (F::derivative_rate) store<double>(B::derivative(p, s, in, load<double>(typename Y::I{}, v.du)), v.out);
-  else store<double>(B::derivative(p, s, in), v.out);
+  if constexpr (F::derivative_rate)
+    store<double>(B::derivative(p, s, in, load<double>(typename Y::I{}, v.du)), v.out);
+  else
+    store<double>(B::derivative(p, s, in), v.out);
 }
 
 template <class B, class T>
 void fixed_advance(const View<T>& v) {
   using Y = Types<B, T>;
-  store<T>(B::advance(load<T>(typename Y::P{}, v.p), load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u)), v.out);
+  store<T>(B::advance(load<T>(typename Y::P{}, v.p), load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u)),
+           v.out);
 }
 
 template <class B>

@@ -11,7 +11,8 @@
 
 namespace hysteron {
 
-/// A unit expression: a unit ("V", "um/s", "" = dimensionless), a unit variable ("$a"), or products and quotients of both
+/// A unit expression: a unit ("V", "um/s", "" = dimensionless), a unit variable ("$a"), or products and quotients of
+/// both
 /// ("$b/$a", "$a*s"). Variables are found per block from wires and from the units written at its parameters.
 using UnitExpression = std::string;
 
@@ -29,15 +30,16 @@ struct ParameterDeclaration {
   UnitExpression unit;
   std::string meaning;
   ParameterKind kind = ParameterKind::number;
-  std::optional<std::string> default_text{};  ///< as it would stand in a file ("0 V", "1"); absent = required. For lists: one element, e.g. "1"
+  std::optional<std::string> default_text{};  ///< as it would stand in a file ("0 V", "1"); absent = required. For
+                                              ///< lists: one element, e.g. "1"
   std::vector<std::string> choices{};         ///< allowed texts (kind text)
   double minimum = -std::numeric_limits<double>::infinity();  ///< smallest admissible SI value
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusive_minimum = false;
-  bool is_linear = false;      ///< the block's outputs are affine in it (jointly with the other linear ones of the block)
-  bool is_offset = false;      ///< linear, and its coefficient does not depend on the block's input
-  bool is_difference = false;  ///< a temperature here is a difference (0.01 degC = 0.01 K)
-  bool is_increasing = false;  ///< a list that must be strictly increasing
+  bool is_linear = false;  ///< the block's outputs are affine in it (jointly with the other linear ones of the block)
+  bool is_offset = false;  ///< linear, and its coefficient does not depend on the block's input
+  bool is_difference = false;    ///< a temperature here is a difference (0.01 degC = 0.01 K)
+  bool is_increasing = false;    ///< a list that must be strictly increasing
   std::string same_length_as{};  ///< a list that must be as long as that other list
 
   ParameterDeclaration& optional(std::string text) { return default_text = std::move(text), *this; }
@@ -54,8 +56,8 @@ struct StateDeclaration {
   std::string name;
   UnitExpression unit;
   std::string meaning;
-  double initial_value = 0;    ///< [SI]
-  double nominal_size = 0;     ///< [SI] typical magnitude for the absolute tolerance; 0 = worked out from the inputs
+  double initial_value = 0;  ///< [SI]
+  double nominal_size = 0;   ///< [SI] typical magnitude for the absolute tolerance; 0 = worked out from the inputs
   StateDeclaration& initial(double value) { return initial_value = value, *this; }
   StateDeclaration& nominal(double value) { return nominal_size = value, *this; }
 };
@@ -67,18 +69,18 @@ enum class Smoothness { smooth, jumps, no_rate };
 class Declaration {
  public:
   std::string type, summary;
-  std::string equation;                ///< the law, as text
-  std::string source;                  ///< literature or standard, with equation numbers
-  std::vector<std::string> remarks;    ///< what a user would otherwise get wrong
+  std::string equation;              ///< the law, as text
+  std::string source;                ///< literature or standard, with equation numbers
+  std::vector<std::string> remarks;  ///< what a user would otherwise get wrong
   std::vector<PortDeclaration> inputs, outputs;
   std::vector<ParameterDeclaration> parameters;
   std::vector<StateDeclaration> states;
   std::vector<std::string> memory_names;  ///< fixed-size blocks: one per member of Memory
-  std::string group;                   ///< "sources", "math", "continuous", "hysteresis", ...
-  std::string place;                   ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
-  bool is_linear = false;              ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
-  bool is_rate_independent = false;    ///< derivative is homogeneous of degree one in the rate (jump paths, later)
-  bool is_series = false;              ///< driven by a recorded series (parameter "samples")
+  std::string group;                      ///< "sources", "math", "continuous", "hysteresis", ...
+  std::string place;       ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
+  bool is_linear = false;  ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
+  bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate (jump paths, later)
+  bool is_series = false;            ///< driven by a recorded series (parameter "samples")
 
   Declaration& name(std::string type_name, std::string what) {
     type = std::move(type_name);

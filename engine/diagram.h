@@ -1,5 +1,5 @@
-// Decides what a diagram is: named blocks and where each takes its inputs from, as a plain value without files or physics.
-// C++ code can build one by hand; io reads and writes it as JSON; compile() turns it into a Program.
+// Decides what a diagram is: named blocks and where each takes its inputs from, as a plain value without files or
+// physics. C++ code can build one by hand; io reads and writes it as JSON; compile() turns it into a Program.
 #pragma once
 
 #include <map>
@@ -38,8 +38,8 @@ struct Value {
   Value(double number) : content(Number{number, {}}) {}  // NOLINT: implicit on purpose, so that C++ diagrams read well
   Value(Number number) : content(std::move(number)) {}   // NOLINT
   Value(NumberList list) : content(std::move(list)) {}   // NOLINT
-  Value(Reference reference) : content(std::move(reference)) {}      // NOLINT
-  Value(SeriesPointer series) : content(std::move(series)) {}        // NOLINT
+  Value(Reference reference) : content(std::move(reference)) {}  // NOLINT
+  Value(SeriesPointer series) : content(std::move(series)) {}    // NOLINT
   /// "5 Hz" is a number with a unit, "$kp" a reference, anything else text.
   Value(const std::string& text);                        // NOLINT
   Value(const char* text) : Value(std::string(text)) {}  // NOLINT
@@ -104,13 +104,13 @@ struct Node {
   std::vector<Wire> in{};
   std::string origin{};  ///< JSON pointer of the block ("" = from C++)
 
-  std::string choose{};       ///< name of the candidate in use
-  Ordered<Node> from{};       ///< the candidates of a choice; their inputs are the choice's own
-  std::string effect{};       ///< id of the effect that put this choice here ("" = the user's own)
+  std::string choose{};  ///< name of the candidate in use
+  Ordered<Node> from{};  ///< the candidates of a choice; their inputs are the choice's own
+  std::string effect{};  ///< id of the effect that put this choice here ("" = the user's own)
 
-  std::string file{};                         ///< nested diagram: the file as written
-  std::shared_ptr<const Diagram> nested{};    ///< nested diagram: its content
-  std::string parameter_file{};               ///< "parameters": the set as written; its values stand in `parameters_from_file`
+  std::string file{};                       ///< nested diagram: the file as written
+  std::shared_ptr<const Diagram> nested{};  ///< nested diagram: its content
+  std::string parameter_file{};  ///< "parameters": the set as written; its values stand in `parameters_from_file`
   Ordered<Value> parameters_from_file{};
 };
 
@@ -131,7 +131,8 @@ struct DiagramInput {
 struct SimulateSettings {
   std::optional<Number> until{}, every{};
   std::optional<std::string> method{};  ///< "auto", "exact", "bdf", "adams"
-  std::optional<double> relative_tolerance{}, absolute_tolerance{};  ///< absolute: in units of each state's nominal size
+  std::optional<double> relative_tolerance{},
+      absolute_tolerance{};  ///< absolute: in units of each state's nominal size
   std::optional<Number> max_step{};
 };
 

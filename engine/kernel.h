@@ -25,28 +25,26 @@ struct History {
 /// T is double for values, Dual for a value together with its rate in time.
 template <class T>
 struct View {
-  const T* p = nullptr;         ///< parameters, one behind the other (text parameters as index of the choice)
-  const int* p_at = nullptr;    ///< parameter i occupies p[p_at[i]] .. p[p_at[i + 1] - 1]
-  const double* c = nullptr;    ///< constants that prepare() derived from the parameters
+  const T* p = nullptr;       ///< parameters, one behind the other (text parameters as index of the choice)
+  const int* p_at = nullptr;  ///< parameter i occupies p[p_at[i]] .. p[p_at[i + 1] - 1]
+  const double* c = nullptr;  ///< constants that prepare() derived from the parameters
   int n_c = 0;
-  const T* x = nullptr;         ///< states
+  const T* x = nullptr;  ///< states
   int n_x = 0;
-  const T* m = nullptr;         ///< memory: committed in advance(), advanced in output()
+  const T* m = nullptr;  ///< memory: committed in advance(), advanced in output()
   int n_m = 0;
-  const T* u = nullptr;         ///< inputs
-  const T* du = nullptr;        ///< rates of the inputs (only for derivative() that wants them)
+  const T* u = nullptr;   ///< inputs
+  const T* du = nullptr;  ///< rates of the inputs (only for derivative() that wants them)
   int n_u = 0;
-  int n_y = 0;                  ///< number of outputs
-  T t{};                        ///< time [s]
-  double branch = 0;            ///< time that decides which smooth piece of a source applies [s]
+  int n_y = 0;        ///< number of outputs
+  T t{};              ///< time [s]
+  double branch = 0;  ///< time that decides which smooth piece of a source applies [s]
   const Series* series = nullptr;
   const History* history = nullptr;
-  T* out = nullptr;             ///< what the function writes: outputs, derivatives, memory, states at rest, constants
+  T* out = nullptr;  ///< what the function writes: outputs, derivatives, memory, states at rest, constants
 
   const T& parameter(int i) const { return p[p_at[i]]; }
-  std::span<const T> list(int i) const {
-    return {p + p_at[i], static_cast<std::size_t>(p_at[i + 1] - p_at[i])};
-  }
+  std::span<const T> list(int i) const { return {p + p_at[i], static_cast<std::size_t>(p_at[i + 1] - p_at[i])}; }
   int choice(int i) const { return static_cast<int>(value_of(p[p_at[i]])); }
   std::span<const T> inputs() const { return {u, static_cast<std::size_t>(n_u)}; }
   std::span<const T> states() const { return {x, static_cast<std::size_t>(n_x)}; }
@@ -65,10 +63,10 @@ struct Shape {
 
 struct Sizes {
   int states = 0, memory = 0, constants = 0, outputs = 1;
-  bool feedthrough = true;      ///< outputs depend on inputs at the same instant
+  bool feedthrough = true;                     ///< outputs depend on inputs at the same instant
   Smoothness smoothness = Smoothness::smooth;  ///< of a source's own signal
-  bool history = false;         ///< remembers the past of its input (dead time)
-  std::string error{};          ///< not empty: these shapes do not go together; says what and what instead
+  bool history = false;                        ///< remembers the past of its input (dead time)
+  std::string error{};  ///< not empty: these shapes do not go together; says what and what instead
 };
 
 /// A block type: its declaration and its functions. A null pointer means that the block has no such function.
@@ -78,21 +76,22 @@ struct Kernel {
 
   Declaration declaration;
   Sizes (*sizes)(const Shape&) = nullptr;
-  Call output = nullptr;            ///< out: outputs
-  DualCall output_rate = nullptr;   ///< the same with rates
-  Call derivative = nullptr;        ///< out: dx/dt
+  Call output = nullptr;           ///< out: outputs
+  DualCall output_rate = nullptr;  ///< the same with rates
+  Call derivative = nullptr;       ///< out: dx/dt
   bool derivative_wants_rate = false;
-  Call advance = nullptr;           ///< out: what the memory becomes if the inputs are accepted; pure
+  Call advance = nullptr;  ///< out: what the memory becomes if the inputs are accepted; pure
   DualCall advance_rate = nullptr;
-  Call prepare = nullptr;           ///< out: constants from parameters
-  Call rest = nullptr;              ///< out: states in equilibrium for constant inputs
-  Call initial_states = nullptr;    ///< out: states at the start where nothing else is said (parameters only)
-  Call initial_memory = nullptr;    ///< out: memory before the first input (parameters only)
+  Call prepare = nullptr;         ///< out: constants from parameters
+  Call rest = nullptr;            ///< out: states in equilibrium for constant inputs
+  Call initial_states = nullptr;  ///< out: states at the start where nothing else is said (parameters only)
+  Call initial_memory = nullptr;  ///< out: memory before the first input (parameters only)
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
   double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
   bool uses_time = false;
-  std::string (*check)(const View<double>&) = nullptr;   ///< "" or what is wrong with these parameter values, and the cure
+  std::string (*check)(const View<double>&) =
+      nullptr;  ///< "" or what is wrong with these parameter values, and the cure
 };
 
 /// The block types that diagrams can name.

@@ -1,7 +1,8 @@
-// Decides what a compiled diagram is (Program: immutable, shared) and what one simulation of it is (Run: one copyable value).
-// Does not integrate: see simulate.h (CVODE) and advance.h (row by row, exactly).
+// Decides what a compiled diagram is (Program: immutable, shared) and what one simulation of it is (Run: one copyable
+// value). Does not integrate: see simulate.h (CVODE) and advance.h (row by row, exactly).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,41 +17,41 @@ namespace hysteron {
 
 /// One block of the flattened diagram with the places of its numbers in the arenas of a Run.
 struct BlockInstance {
-  std::string path;              ///< "stage/play"
-  std::string origin;            ///< JSON pointer in its file
+  std::string path;    ///< "stage/play"
+  std::string origin;  ///< JSON pointer in its file
   const Kernel* kernel = nullptr;
   Sizes sizes{};
   Shape shape{};
   int p_begin = 0;
-  std::vector<int> p_at{};       ///< offsets from p_begin, one more than declared parameters
+  std::vector<int> p_at{};  ///< offsets from p_begin, one more than declared parameters
   int c_begin = 0, x_begin = 0, m_begin = 0, u_begin = 0, y_begin = 0;
   int n_u = 0;
-  std::vector<int> source{};     ///< per input: index of the signal that it reads
-  int series_index = -1;         ///< into Run::series (recorded inputs and inputs of the diagram)
-  int history_index = -1;        ///< into Run::histories
+  std::vector<int> source{};  ///< per input: index of the signal that it reads
+  int series_index = -1;      ///< into Run::series (recorded inputs and inputs of the diagram)
+  int history_index = -1;     ///< into Run::histories
 };
 
 /// A signal: one output port of one block.
 struct SignalInfo {
-  std::string path;       ///< "stage.displacement", or "stage" where the block has one output
+  std::string path;  ///< "stage.displacement", or "stage" where the block has one output
   int block = -1;
   Dimension dimension{};
   Smoothness smoothness = Smoothness::smooth;
-  Unit unit{};            ///< in which it is shown and written
+  Unit unit{};  ///< in which it is shown and written
 };
 
 /// One scalar number of a Program: its places in Run::p, and what is known of it.
 struct ParameterInfo {
-  std::string path;           ///< "kp" (of the diagram), "controller.kp", "core.weights[2]"
-  std::vector<int> slots{};   ///< every place in Run::p that holds it (a diagram parameter may stand in several)
-  int block = -1;             ///< block of the first slot
-  Unit unit{};                ///< as written, or as declared
-  bool difference = false;    ///< converted without the unit's offset
-  double value = 0;           ///< [SI]
+  std::string path;             ///< "kp" (of the diagram), "controller.kp", "core.weights[2]"
+  std::vector<int> slots{};     ///< every place in Run::p that holds it (a diagram parameter may stand in several)
+  int block = -1;               ///< block of the first slot
+  Unit unit{};                  ///< as written, or as declared
+  bool difference = false;      ///< converted without the unit's offset
+  double value = 0;             ///< [SI]
   double lower = 0, upper = 0;  ///< [SI] bounds: from the diagram, else from the declaration (may be infinite)
   bool linear = false, offset = false;  ///< declared so at every slot
   bool free = false;
-  std::string origin{};       ///< where the value was written
+  std::string origin{};  ///< where the value was written
 };
 
 enum class Order { value, rate, derivative };
@@ -63,41 +64,44 @@ struct Step {
 struct Program {
   std::vector<BlockInstance> blocks;
   std::vector<SignalInfo> signals;
-  std::vector<Step> all_values;       ///< every value
-  std::vector<Step> derivative_steps; ///< values, rates and derivatives that dx/dt needs
-  std::vector<Step> rate_steps;       ///< what the rates of memory inputs need, behind derivative_steps
-  std::vector<Step> record_rate_steps;
-  std::vector<bool> has_rate;         ///< per signal: can its rate be computed
+  std::vector<Step> all_values;        ///< every value
+  std::vector<Step> derivative_steps;  ///< values, rates and derivatives that dx/dt needs
+  std::vector<Step> rate_steps;        ///< what the rates of memory inputs need, behind derivative_steps
+  std::vector<bool> has_rate;          ///< per signal: can its rate be computed
   int n_x = 0, n_p = 0, n_c = 0, n_m = 0, n_u = 0, n_y = 0;
-  std::vector<double> p;              ///< values of the parameters as compiled [SI]
+  std::vector<double> p;  ///< values of the parameters as compiled [SI]
   std::vector<ParameterInfo> parameters;
+  std::map<std::string, int> parameter_names;  ///< every name of a parameter ("kp" and "controller.kp") -> index
   std::vector<std::string> state_names;
-  std::vector<double> state_initial;  ///< declared start [SI]
-  std::vector<std::string> input_names;   ///< inputs of the diagram, in order = first entries of Run::series
+  std::vector<double> state_initial;     ///< declared start [SI]
+  std::vector<std::string> input_names;  ///< inputs of the diagram, in order = first entries of Run::series
   std::vector<Unit> input_units;
-  std::vector<int> input_signals;         ///< their signals
+  std::vector<int> input_signals;  ///< their signals
+  std::vector<std::string>
+      input_jump_reaches;  ///< per input: rate-driven block that a jump (held samples) would reach, or ""
   std::vector<std::string> output_names;
   std::vector<int> output_signals;
-  std::vector<int> record_signals;        ///< what `record` names
-  std::vector<SeriesPointer> series;      ///< per Run::series: the compiled one (null for inputs of the diagram)
+  std::vector<int> record_signals;    ///< what `record` names
+  std::vector<SeriesPointer> series;  ///< per Run::series: the compiled one (null for inputs of the diagram)
   int n_histories = 0;
-  std::vector<int> memory_blocks;         ///< blocks that have memory, in program order
+  std::vector<int> memory_blocks;  ///< blocks that have memory, in program order
   Ordered<std::vector<std::string>> places;
   SimulateSettings simulate;
   std::string title;
 
-  int signal(const std::string& path) const;            ///< throws Error "unknown_signal" with the nearest name
-  int find_signal(const std::string& path) const;       ///< -1 if there is none
+  int signal(const std::string& path) const;       ///< throws Error "unknown_signal" with the nearest name
+  int find_signal(const std::string& path) const;  ///< -1 if there is none
   const ParameterInfo* find_parameter(const std::string& path) const;
-  int block_index(const std::string& path) const;       ///< -1 if there is none
-  /// Blocks whose outputs depend (through any path, states included) on block `from`, itself not counted unless in a loop.
+  int block_index(const std::string& path) const;  ///< -1 if there is none
+  /// Blocks whose outputs depend (through any path, states included) on block `from`, itself not counted unless in a
+  /// loop.
   std::vector<bool> downstream_of(int from) const;
 };
 
 using ProgramPointer = std::shared_ptr<const Program>;
 
-/// Compiles a diagram: resolves parameters and choices, inlines nested diagrams, checks wires and units, orders the steps.
-/// Throws Error with all problems of the first stage that fails.
+/// Compiles a diagram: resolves parameters and choices, inlines nested diagrams, checks wires and units, orders the
+/// steps. Throws Error with all problems of the first stage that fails.
 ProgramPointer compile(const Diagram& diagram, const Registry& registry);
 
 /// All numbers of one simulation. Copy it to start another.
@@ -105,18 +109,20 @@ struct Run {
   double t = 0;
   double branch = 0;
   std::vector<double> x, p, c, m;
-  std::vector<signed char> direction;    ///< per memory block: committed direction of its input (-1, 0, 1)
+  std::vector<signed char> direction;  ///< per memory block: committed direction of its input (-1, 0, 1)
   std::vector<SeriesPointer> series;
   std::vector<History> histories;
 };
 
-/// A run at its start: parameters as compiled, states as declared, memory virgin. Inputs of the diagram are still unbound.
+/// A run at its start: parameters as compiled, states as declared, memory virgin. Inputs of the diagram are still
+/// unbound.
 Run start(const Program& program);
 
 /// Sets a parameter [SI] and what depends on it. Throws Error "unknown_parameter".
 void set_parameter(const Program& program, Run& run, const std::string& path, double si_value);
 void set_parameter(const Program& program, Run& run, const ParameterInfo& parameter, double si_value);
-/// Recomputes the constants that blocks derive from their parameters (all blocks, or one). Throws Error if a block refuses its values.
+/// Recomputes the constants that blocks derive from their parameters (all blocks, or one). Throws Error if a block
+/// refuses its values.
 void prepare(const Program& program, Run& run);
 void prepare(const Program& program, Run& run, int block);
 /// States and memory as at the start (after parameters were changed).
@@ -126,10 +132,9 @@ void bind_input(const Program& program, Run& run, const std::string& input, Seri
 /// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing.
 struct Work {
   explicit Work(const Program& program);
-  std::vector<double> y, u, m, dx, du_buffer, u_block;
-  std::vector<double> rate;                 ///< per signal
+  std::vector<double> y, u, m, dx, du_buffer;
+  std::vector<double> rate;  ///< per signal
   std::vector<Dual> dual_u, dual_x, dual_m, dual_p, dual_out, dual_m_committed;
-  const double* dual_p_source = nullptr;
 };
 
 /// Values of all signals at (t, x) with trial memory: work.y. Pure towards `run`.

@@ -9,7 +9,8 @@ namespace hysteron {
 
 enum class Between { linear, hold };
 
-/// A recorded signal: strictly increasing times [s], values [SI]. Before the first and behind the last sample it is constant.
+/// A recorded signal: strictly increasing times [s], values [SI]. Before the first and behind the last sample it is
+/// constant.
 struct Series {
   std::vector<double> t;
   std::vector<double> v;

@@ -16,11 +16,11 @@ enum class Method {
 };
 
 struct SimulateOptions {
-  double begin = 0;                  ///< [s]
-  double until = 1;                  ///< [s]
-  double every = 0;                  ///< output step [s]; 0 = 1000 points; ignored if `instants` is given
-  std::vector<double> instants{};    ///< exactly these output times [s], increasing
-  std::vector<int> signals{};        ///< what to record; empty = program.record_signals
+  double begin = 0;                ///< [s]
+  double until = 1;                ///< [s]
+  double every = 0;                ///< output step [s]; 0 = 1000 points; ignored if `instants` is given
+  std::vector<double> instants{};  ///< exactly these output times [s], increasing
+  std::vector<int> signals{};      ///< what to record; empty = program.record_signals
   Method method = Method::automatic;
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
@@ -36,21 +36,22 @@ struct Statistics {
 };
 
 struct Traces {
-  std::vector<double> t;                     ///< [s]
+  std::vector<double> t;  ///< [s]
   std::vector<int> signals;
-  std::vector<std::vector<double>> values;   ///< [signal][instant], SI
+  std::vector<std::vector<double>> values;  ///< [signal][instant], SI
   Statistics statistics;
 };
 
-/// Simulates a copy of `run` (its inputs bound). Throws Error(Fault::numerics) naming block, time and states where it fails.
+/// Simulates a copy of `run` (its inputs bound). Throws Error(Fault::numerics) naming block, time and states where it
+/// fails.
 Traces simulate(const Program& program, Run run, const SimulateOptions& options);
 
 /// Options from the diagram's "simulate" section; what it does not say stays as in `defaults`.
 SimulateOptions simulate_options(const Program& program, SimulateOptions defaults = {});
 
-/// Sets the states to the equilibrium for constant inputs as they are at time t: dx/dt = 0 with the memory as committed.
-/// States that have no equilibrium of their own (an integrator with zero input) stay as they are.
-/// Throws Error(Fault::numerics) "no_rest" if there is none.
+/// Sets the states to the equilibrium for constant inputs as they are at time t: dx/dt = 0 with the memory as
+/// committed. States that have no equilibrium of their own (an integrator with zero input) stay as they are. Throws
+/// Error(Fault::numerics) "no_rest" if there is none.
 void settle_at_rest(const Program& program, Run& run, double t);
 
 /// Nominal size of each state [SI], from declarations and the sizes of the sources, for absolute tolerances.

@@ -1,0 +1,174 @@
+// Decides how a checked graph is laid out as a program: places of numbers in the arenas of a run, names, parameters.
+//
+// The stages, each a function that reports all its problems before the next begins:
+//   build_graph   choices, nested diagrams, names, types, values, wires
+//   check_units   dimensions along the wires
+//   order_steps   loops, rates, schedule
+//   lay_out       offsets (here)
+#include <fmt/format.h>
+
+#include "engine/graph.h"
+
+namespace hysteron {
+namespace {
+
+void lay_out_block(const GraphBlock& g, Program& program) {
+  BlockInstance b;
+  b.path = g.path;
+  b.origin = g.origin;
+  b.kernel = g.kernel;
+  b.sizes = g.sizes;
+  b.shape = g.shape;
+  b.p_begin = program.n_p;
+  b.p_at.push_back(0);
+  for (const auto& parameter : g.parameters) {
+    for (const auto& number : parameter.numbers) program.p.push_back(number.si);
+    b.p_at.push_back(b.p_at.back() + static_cast<int>(parameter.numbers.size()));
+  }
+  program.n_p += b.p_at.back();
+  b.c_begin = program.n_c;
+  program.n_c += g.sizes.constants;
+  b.x_begin = program.n_x;
+  program.n_x += g.sizes.states;
+  b.m_begin = program.n_m;
+  program.n_m += g.sizes.memory;
+  b.u_begin = program.n_u;
+  b.n_u = static_cast<int>(g.source.size());
+  program.n_u += b.n_u;
+  b.y_begin = g.first_signal;
+  b.source = g.source;
+  if (g.kernel->declaration.is_series) {
+    b.series_index = static_cast<int>(program.series.size());
+    program.series.push_back(g.series);
+  }
+  if (g.sizes.history) b.history_index = program.n_histories++;
+  if (g.sizes.memory > 0) program.memory_blocks.push_back(static_cast<int>(program.blocks.size()));
+  const auto& states = g.kernel->declaration.states;
+  for (int i = 0; i < g.sizes.states; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    program.state_names.push_back(static_cast<int>(states.size()) == g.sizes.states
+                                      ? fmt::format("{}.{}", g.path, states[k].name)
+                                      : fmt::format("{}.state[{}]", g.path, i));
+    program.state_initial.push_back(k < states.size() ? states[k].initial_value : 0.0);
+  }
+  program.blocks.push_back(std::move(b));
+}
+
+/// Dimension of a parameter whose unit was not written: as declared, or plain.
+Unit unit_of(const ResolvedNumber& number, const ParameterDeclaration& p) {
+  if (number.has_unit || p.unit.find('$') == std::string::npos) return number.unit;
+  return Unit{};
+}
+
+class ParameterTable {
+ public:
+  ParameterTable(const Graph& graph, Program& program) : graph_(graph), program_(program) {}
+
+  void run() {
+    for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
+      const auto& declaration = graph_.blocks[b].kernel->declaration;
+      for (std::size_t i = 0; i < declaration.parameters.size(); ++i)
+        if (declaration.parameters[i].kind != ParameterKind::text) add(static_cast<int>(b), static_cast<int>(i));
+    }
+    apply_bounds();
+  }
+
+ private:
+  void add(int b, int i) {
+    const GraphBlock& block = graph_.blocks[static_cast<std::size_t>(b)];
+    const BlockInstance& instance = program_.blocks[static_cast<std::size_t>(b)];
+    const auto& p = block.kernel->declaration.parameters[static_cast<std::size_t>(i)];
+    const auto& resolved = block.parameters[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < resolved.numbers.size(); ++k) {
+      const auto& number = resolved.numbers[k];
+      const std::string index = resolved.list ? fmt::format("[{}]", k) : "";
+      const std::string own = block.path + "." + p.name + index;
+      const std::string path = number.parameter.empty() ? own : number.parameter + index;
+      const int slot = instance.p_begin + instance.p_at[static_cast<std::size_t>(i)] + static_cast<int>(k);
+      const auto found = program_.parameter_names.find(path);
+      if (found != program_.parameter_names.end()) {
+        ParameterInfo& info = program_.parameters[static_cast<std::size_t>(found->second)];
+        info.slots.push_back(slot);
+        info.linear = info.offset = false;  // in several places: products of itself are possible
+        info.lower = std::max(info.lower, p.minimum);
+        info.upper = std::min(info.upper, p.maximum);
+        program_.parameter_names[own] = found->second;
+        continue;
+      }
+      ParameterInfo info;
+      info.path = path;
+      info.slots = {slot};
+      info.block = b;
+      info.unit = unit_of(number, p);
+      info.difference = p.is_difference;
+      info.value = number.si;
+      info.lower = p.minimum;
+      info.upper = p.maximum;
+      info.linear = p.is_linear;
+      info.offset = p.is_offset;
+      info.origin = number.origin;
+      program_.parameter_names[path] = program_.parameter_names[own] = static_cast<int>(program_.parameters.size());
+      program_.parameters.push_back(std::move(info));
+    }
+  }
+
+  static double in_si(const ParameterInfo& info, const Number& number) {
+    const Unit unit = number.unit ? parse_unit(*number.unit, info.path) : info.unit;
+    if (number.unit && dimension_factor(unit.dimension, info.unit.dimension) == 0)
+      fail("wrong_unit", "/parameters/" + info.path + "/bounds",
+           fmt::format("the bound of \"{}\" is in \"{}\", the value in \"{}\"", info.path, unit.text, info.unit.text),
+           "write both in units of the same kind");
+    return info.difference ? unit.difference_to_si(number.value) : unit.to_si(number.value);
+  }
+
+  void apply_bounds() {
+    for (const auto& parameter : graph_.parameters)
+      for (auto& info : program_.parameters) {
+        if (info.path != parameter.path && info.path.rfind(parameter.path + "[", 0) != 0) continue;
+        info.free = parameter.given->free.value_or(false);
+        if (parameter.given->lower) info.lower = std::max(info.lower, in_si(info, *parameter.given->lower));
+        if (parameter.given->upper) info.upper = std::min(info.upper, in_si(info, *parameter.given->upper));
+        if (!(info.lower <= info.value && info.value <= info.upper))
+          fail("bad_value", "/parameters/" + info.path,
+               fmt::format("\"{}\" is {} (SI), outside its bounds {} ... {}", info.path, info.value, info.lower,
+                           info.upper),
+               "move the value or the bounds");
+      }
+  }
+
+  const Graph& graph_;
+  Program& program_;
+};
+
+}  // namespace
+
+ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
+  Graph graph = build_graph(diagram, registry);
+  check_units(graph);
+  auto program = std::make_shared<Program>();
+  program->signals = graph.signals;
+  program->n_y = static_cast<int>(graph.signals.size());
+  for (const auto& block : graph.blocks) lay_out_block(block, *program);
+  order_steps(graph, *program);
+  ParameterTable(graph, *program).run();
+  for (std::size_t i = 0; i < graph.inputs.size(); ++i) {
+    program->input_names.push_back(graph.inputs[i].first);
+    program->input_signals.push_back(graph.inputs[i].second);
+    program->input_units.push_back(graph.input_units[i]);
+  }
+  for (const auto& [name, signal] : graph.outputs) {
+    program->output_names.push_back(name);
+    program->output_signals.push_back(signal);
+  }
+  program->record_signals = graph.record;
+  if (program->record_signals.empty()) program->record_signals = program->output_signals;
+  if (program->record_signals.empty())
+    for (int s = 0; s < program->n_y; ++s) program->record_signals.push_back(s);
+  program->places = graph.places;
+  program->simulate = diagram.simulate;
+  program->title = diagram.title;
+  start(*program);  // blocks refuse values that do not go together
+  return program;
+}
+
+}  // namespace hysteron

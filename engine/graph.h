@@ -1,0 +1,79 @@
+// Decides the stages between a diagram and a program: resolve values, build the graph, check units, order the steps.
+// Internal to the engine; compile() calls the stages one after the other, each reports all its problems.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/program.h"
+
+namespace hysteron {
+
+/// A number on its way into Run::p, with what its unit says.
+struct ResolvedNumber {
+  double si = 0;
+  std::optional<Dimension> dimension{};  ///< as written; absent = no unit (fits a declared unit; zero fits any)
+  Unit unit{};                           ///< as written
+  bool has_unit = false;
+  std::string parameter{};  ///< name of the diagram parameter that it came from ("" = written at the block)
+  std::string origin{};
+};
+
+struct ResolvedParameter {
+  std::vector<ResolvedNumber> numbers;  ///< one, or the elements of a list, or the characters of a text
+  bool list = false;
+};
+
+/// A diagram inside a diagram, while names are looked up.
+struct Scope {
+  const Diagram* diagram = nullptr;
+  std::string prefix;  ///< "stage/", "" at the top
+  const Scope* parent = nullptr;
+  const Node* node = nullptr;  ///< the block of the parent that holds this diagram
+};
+
+struct GraphParameter {  ///< a parameter of some diagram scope
+  std::string path;      ///< "kp", "stage/kp"
+  const DiagramParameter* given = nullptr;
+  bool used = false;
+};
+
+/// The flat diagram: leaf blocks with values and wires.
+struct GraphBlock {
+  std::string path, origin;
+  const Kernel* kernel = nullptr;
+  Shape shape;
+  Sizes sizes;
+  std::vector<ResolvedParameter> parameters;  ///< per declared parameter
+  SeriesPointer series;
+  std::vector<int> source;  ///< per input port (variadic ports: per wire): signal
+  std::vector<int> port;    ///< per input: index of the declared port
+  int first_signal = 0;
+};
+
+struct Graph {
+  std::vector<GraphBlock> blocks;
+  std::vector<SignalInfo> signals;
+  std::vector<std::pair<std::string, int>> inputs, outputs;  ///< name, signal
+  std::vector<int> record;
+  std::vector<Unit> input_units;
+  std::vector<GraphParameter> parameters;
+  Ordered<std::vector<std::string>> places;
+};
+
+/// resolve.cpp: the values of one block's parameters. Problems go to `problems` at `origin`.
+std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node& node, const Declaration& declaration,
+                                                  const std::string& origin, std::vector<GraphParameter>& parameters,
+                                                  Problems& problems);
+
+/// graph.cpp: choices, nested diagrams, wires.
+Graph build_graph(const Diagram& diagram, const Registry& registry);
+
+/// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.
+void check_units(Graph& graph);
+
+/// order.cpp: smoothness, needed rates, loops, steps.
+void order_steps(const Graph& graph, Program& program);
+
+}  // namespace hysteron
