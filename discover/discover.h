@@ -30,8 +30,8 @@ std::string to_text(Remainder remainder);  ///< "noise", "structured"
 
 /// A fitted parameter (fit/fit.h) with what people must know of it.
 struct FoundParameter {
-  Estimate estimate;   ///< value, interval, unit; no value where the data do not determine it
-  std::string remark;  ///< "outside 8 us .. 0.5 ms, the usual range", "held at its bound" ... or ""
+  ParameterEstimate estimate;  ///< value, interval, unit; no value where the data do not determine it
+  std::string remark;          ///< "outside 8 us .. 0.5 ms, the usual range", "held at its bound" ... or ""
 };
 
 /// How far one model is from one recording (all rows judged, all outputs bound).

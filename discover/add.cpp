@@ -1,0 +1,292 @@
+// Decides how an effect enters a diagram as a choice and how it is taken out again without a trace.
+#include "discover/add.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "discover/wiring.h"
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+/// Where a new block is wired in: it reads `from`, and these wires of the diagram read it.
+struct Spot {
+  std::string wire;  ///< gives the choice its name
+  std::string from;  ///< as the readers wrote it
+  std::vector<Reader> readers;
+};
+
+Spot spot_behind(const Wiring& w, const std::string& signal) {
+  const auto chain = w.chain(signal);
+  const std::string end = chain.empty() ? signal : chain.back();
+  Spot spot{signal, end, w.readers(end)};
+  if (spot.readers.empty())
+    fail("unknown_place", signal, fmt::format("nobody reads \"{}\"", signal),
+         "name a signal that is read by a block or is an output");
+  // The spelling of the first reader, so that taking the effect out gives back what stood there.
+  const Reader& first = spot.readers.front();
+  spot.from = first.block.empty()
+                  ? *w.diagram().outputs.find(first.output)
+                  : w.diagram().blocks.find(first.block)->in[static_cast<std::size_t>(first.index)].from;
+  return spot;
+}
+
+Spot spot_before(const Wiring& w, const std::string& at) {
+  const auto dot = at.find('.');
+  const std::string block = at.substr(0, dot);
+  const std::string port = at.substr(dot + 1);
+  const auto& in = w.diagram().blocks.find(block)->in;
+  const auto ports = w.ports(block);
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if (ports[i] == port || (port == "in" && in.size() == 1) || port == fmt::format("in[{}]", i))
+      return {w.signal(in[i].from), in[i].from, {{block, static_cast<int>(i), ""}}};
+  fail("unknown_place", at, fmt::format("\"{}\" has no input \"{}\"", block, port), did_you_mean(port, ports));
+}
+
+std::string unused_name(const Diagram& diagram, std::string name) {
+  std::replace(name.begin(), name.end(), '.', '_');
+  std::replace(name.begin(), name.end(), '/', '_');
+  const auto taken = [&](const std::string& n) {
+    return diagram.blocks.find(n) != nullptr || diagram.inputs.find(n) != nullptr;
+  };
+  if (!taken(name)) return name;
+  for (int i = 2;; ++i)
+    if (const std::string next = fmt::format("{}_{}", name, i); !taken(next)) return next;
+}
+
+/// Inserts behind the block that makes `wire`; at the head of the file where that is an input of the diagram.
+void place_node(Ordered<Node>& blocks, const std::string& source, const std::string& name, Node node) {
+  if (!source.empty()) {
+    blocks.insert_after(source, name, std::move(node));
+    return;
+  }
+  Ordered<Node> reordered;
+  reordered[name] = std::move(node);
+  for (auto& [n, b] : blocks) reordered[n] = std::move(b);
+  blocks = std::move(reordered);
+}
+
+std::string insert(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
+                   const std::string& at) {
+  const Wiring w(diagram, registry);
+  const std::string signal = w.signal(at);
+  const Spot spot = signal.empty() ? spot_before(w, at) : spot_behind(w, signal);
+  for (const auto& name : w.chain(spot.wire))
+    if (diagram.blocks.find(name)->effect == effect.id && !signal.empty())
+      fail("effect_there", at, fmt::format("{} stands on \"{}\" already, as \"{}\"", effect.id, spot.wire, name),
+           fmt::format("change \"{}\", or remove it first", name));
+  Node choice;
+  choice.choose = "on";
+  choice.effect = effect.id;
+  choice.in = {{"", spot.from}};
+  choice.from["off"].type = "pass";
+  choice.from["on"] = law.block;
+  const std::string name = unused_name(diagram, spot.wire + "_" + effect.id);
+  const std::string source = w.source(w.signal(spot.from));
+  for (const auto& reader : spot.readers) {
+    if (reader.block.empty())
+      *diagram.outputs.find(reader.output) = name;
+    else
+      diagram.blocks.find(reader.block)->in[static_cast<std::size_t>(reader.index)].from = name;
+  }
+  place_node(diagram.blocks, source, name, std::move(choice));
+  return name;
+}
+
+/// A block becomes a choice between itself as it was and itself with more parameters. Its name and its readers stay.
+std::string vary(Diagram& diagram, const Effect& effect, const Law& law, const std::string& block) {
+  Node* node = diagram.blocks.find(block);
+  if (node == nullptr)
+    fail("unknown_place", block, fmt::format("there is no block \"{}\"", block),
+         did_you_mean(block, diagram.blocks.names()));
+  const auto with_law = [&](Node as_is) {
+    for (const auto& [name, value] : law.block.parameters) as_is.parameters[name] = value;
+    return as_is;
+  };
+  if (!node->from.empty()) {
+    // A choice already (an effect found before, or the user's own): one more candidate, named after this effect.
+    if (node->from.find(effect.id) != nullptr)
+      fail("effect_there", block, fmt::format("\"{}\" has {} already", block, effect.id),
+           "change its value, or remove it first");
+    const Node chosen = *node->from.find(node->choose);
+    node->from[effect.id] = with_law(chosen);
+    node->choose = effect.id;
+    return block;
+  }
+  Node choice;
+  choice.in = std::move(node->in);
+  choice.origin = node->origin;
+  node->in.clear();
+  choice.from["off"] = *node;
+  choice.from["on"] = with_law(std::move(*node));
+  choice.choose = "on";
+  choice.effect = effect.id;
+  *node = std::move(choice);
+  return block;
+}
+
+/// "p753.json" -> "p753_creep.json": a nested diagram that got an effect is another file.
+std::string changed_file(const std::string& file, const std::string& effect) {
+  const std::filesystem::path p(file);
+  return (p.parent_path() / (p.stem().string() + "_" + effect + p.extension().string())).generic_string();
+}
+
+std::string add_at(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
+                   const std::string& at, Added& added) {
+  const auto slash = at.find('/');
+  if (slash == std::string::npos)
+    return effect.way == Way::vary ? vary(diagram, effect, law, at) : insert(diagram, registry, effect, law, at);
+  const std::string head = at.substr(0, slash);
+  Node* node = diagram.blocks.find(head);
+  if (node != nullptr && !node->from.empty()) node = node->from.find(node->choose);
+  if (node == nullptr || !node->nested)
+    fail("unknown_place", at, fmt::format("there is no nested diagram \"{}\"", head),
+         did_you_mean(head, diagram.blocks.names()));
+  Diagram inner = *node->nested;
+  const std::string name = head + "/" + add_at(inner, registry, effect, law, at.substr(slash + 1), added);
+  node->file = changed_file(node->file, effect.id);
+  inner.file = inner.file.empty() ? "" : changed_file(inner.file, effect.id);
+  added.nested.emplace_back(node->file, inner);
+  node->nested = std::make_shared<const Diagram>(std::move(inner));
+  return name;
+}
+
+void collect_effects(const Diagram& diagram, const std::string& prefix,
+                     std::vector<std::pair<std::string, std::string>>& list) {
+  for (const auto& [name, node] : diagram.blocks) {
+    if (!node.effect.empty()) list.emplace_back(prefix + name, node.effect);
+    // A vary effect inside a choice: the candidate is named after it.
+    if (!node.from.empty() && node.choose != "on" && node.choose != "off" && node.from.find("on") != nullptr &&
+        !node.effect.empty())
+      list.emplace_back(prefix + name, node.choose);
+    const Node* body = node.from.empty() ? &node : node.from.find(node.choose);
+    if (body != nullptr && body->nested) collect_effects(*body->nested, prefix + name + "/", list);
+  }
+}
+
+void take_out(Diagram& diagram, const std::string& name, const std::string& effect) {
+  Node& choice = *diagram.blocks.find(name);
+  if (choice.effect != effect) {  // a candidate of a choice that is somebody else's
+    choice.from.erase(effect);
+    choice.choose = "on";
+    return;
+  }
+  const Node off = *choice.from.find("off");
+  if (off.type != "pass" || off.nested) {
+    Node original = off;
+    original.in = choice.in;
+    original.origin = choice.origin;
+    choice = std::move(original);
+    return;
+  }
+  const std::string from = choice.in.front().from;
+  for (auto& [other, node] : diagram.blocks)
+    for (auto& wire : node.in)
+      if (wire.from == name) wire.from = from;
+  for (auto& [output, signal] : diagram.outputs)
+    if (signal == name) signal = from;
+  std::erase(diagram.record, name);
+  diagram.blocks.erase(name);
+}
+
+void remove_at(Diagram& diagram, const std::string& path, const std::string& effect) {
+  const auto slash = path.find('/');
+  if (slash == std::string::npos) {
+    take_out(diagram, path, effect);
+    return;
+  }
+  Node* node = diagram.blocks.find(path.substr(0, slash));
+  if (!node->from.empty()) node = node->from.find(node->choose);
+  Diagram inner = *node->nested;
+  remove_at(inner, path.substr(slash + 1), effect);
+  // Back to the file that it was before, where the name tells.
+  const auto plain = [&](std::string file) {
+    const auto at = file.rfind("_" + effect + ".");
+    if (at != std::string::npos) file.erase(at, effect.size() + 1);
+    return file;
+  };
+  node->file = plain(node->file);
+  inner.file = plain(inner.file);
+  node->nested = std::make_shared<const Diagram>(std::move(inner));
+}
+
+}  // namespace
+
+Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
+                 const Place& place) {
+  Added added;
+  added.diagram = diagram;
+  added.effect = effect.id;
+  added.at = place.at;
+  added.law = law.name;
+  added.name = add_at(added.diagram, registry, effect, law, place.at, added);
+  for (const auto& p : law.free) added.free.push_back(added.name + "." + p.path);
+  return added;
+}
+
+Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
+                 const Circumstances* circumstances) {
+  Place place;
+  if (at.empty()) {
+    const auto places = places_of(effect, diagram, registry);
+    if (places.empty())
+      fail("unknown_place", effect.id,
+           fmt::format("{} has no place in this diagram where it does not stand already", effect.id),
+           effect.way == Way::vary
+               ? fmt::format("it needs a block with memory that has a parameter \"{}\"", effect.parameter)
+               : "name one with --at SIGNAL or --at BLOCK.in");
+    place = places.front();
+  } else if (effect.way == Way::vary) {
+    place.at = at;
+  } else {
+    place = place_at(diagram, registry, at);
+  }
+  Circumstances none;
+  if (circumstances == nullptr) {
+    if (const auto* input = diagram.inputs.find(place.wire)) none.unit = parse_unit(input->unit);
+  }
+  const auto laws = effect.laws(circumstances != nullptr ? *circumstances : none);
+  Added added = add_effect(diagram, registry, effect, laws.front(), place);
+  if (circumstances == nullptr)
+    added.remarks.push_back(fmt::format(
+        "the numbers of {} are placeholders (signal 0 .. 1, rows every 1 ms, 100 s long): fit them, or add with data",
+        added.name));
+  if (at.empty())
+    added.remarks.push_back(fmt::format("put at {} ({}); name another place with --at", place.at, place.kind));
+  return added;
+}
+
+std::vector<std::pair<std::string, std::string>> effects_in(const Diagram& diagram) {
+  std::vector<std::pair<std::string, std::string>> list;
+  collect_effects(diagram, "", list);
+  return list;
+}
+
+Diagram remove_effect(const Diagram& diagram, const std::string& name) {
+  const auto standing = effects_in(diagram);
+  std::vector<std::pair<std::string, std::string>> meant;
+  for (const auto& e : standing)
+    if (e.first == name || e.second == name) meant.push_back(e);
+  std::vector<std::string> known;
+  for (const auto& [path, id] : standing) known.insert(known.end(), {path, id});
+  if (meant.empty())
+    fail("unknown_effect", name,
+         standing.empty() ? "the diagram has no effect" : fmt::format("the diagram has no effect \"{}\"", name),
+         standing.empty() ? "nothing is to be removed" : did_you_mean(name, known));
+  // A choice with two effects in it: the one that came last goes first.
+  if (meant.size() > 1 && meant.front().first == meant.back().first) meant = {meant.back()};
+  if (meant.size() > 1) {
+    std::vector<std::string> paths;
+    for (const auto& m : meant) paths.push_back(m.first);
+    fail("ambiguous_effect", name, fmt::format("\"{}\" stands {} times", name, meant.size()),
+         fmt::format("name one of: {}", fmt::join(paths, ", ")));
+  }
+  Diagram result = diagram;
+  remove_at(result, meant.front().first, meant.front().second);
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,278 @@
+// Decides where in a diagram an effect may enter. Order of kinds along the signal: command, core, measured (EFFECTS 1).
+#include "discover/places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/wiring.h"
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+int rank(const std::string& kind) {
+  if (kind == "command") return 0;
+  if (kind == "measured") return 2;
+  return 1;  // core, force, motion
+}
+
+/// The kind of place at which a block enters: as it declares, or core where it remembers.
+std::string kind_of(const Wiring& w, const Registry& registry, const std::string& block) {
+  const Node* node = w.body(block);
+  const Kernel* k = node != nullptr && !node->nested ? registry.find(node->type) : nullptr;
+  if (k != nullptr && !k->declaration.place.empty()) return k->declaration.place;
+  return w.has_memory(block) ? "core" : "";
+}
+
+/// A place on `wire` for an effect of `kind`: behind the effects that stand there already, but before those that come
+/// later along the signal (a lag of the amplifier enters before a hysteresis that was found first).
+Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire) {
+  Place p;
+  p.kind = kind;
+  p.at = p.wire = wire;
+  for (const auto& effect : w.chain(wire)) {
+    const std::string theirs = kind_of(w, registry, effect);
+    if (!theirs.empty() && rank(theirs) > rank(kind)) {
+      p.at = effect + ".in";
+      return p;
+    }
+    p.wire = effect;  // add_effect puts it behind the chain: that is the signal that the effect sees
+  }
+  return p;
+}
+
+/// The signal before constant offsets: a gain-like effect must not act on the zero of a sensor (DESIGN 5).
+std::string before_offset(const Wiring& w, const std::string& signal) {
+  const std::string block = w.source(signal);
+  if (block.empty()) return signal;
+  const Node* node = w.body(block);
+  if (node == nullptr || (node->type != "calibration" && node->type != "sum")) return signal;
+  std::string moving;
+  for (const auto& wire : w.diagram().blocks.find(block)->in) {
+    const std::string from = w.signal(wire.from);
+    if (node->type == "sum" && w.is_constant(from)) continue;
+    if (!moving.empty()) return signal;
+    moving = from;
+  }
+  if (moving.empty() || w.readers(moving).size() != 1) return signal;
+  return before_offset(w, moving);
+}
+
+/// A signal that is the end of a chain of effects, told as the wire on which they stand: "u" rather than
+/// "u_hysteresis".
+std::string start_of_chain(const Wiring& w, const std::string& signal) {
+  for (const auto& s : w.signals()) {
+    const auto chain = w.chain(s);
+    if (!chain.empty() && chain.back() == signal) return s;
+  }
+  return signal;
+}
+
+class Finder {
+ public:
+  Finder(const Diagram& diagram, const Registry& registry) : w_(diagram, registry), registry_(registry) {}
+
+  std::vector<Place> find() {
+    for (const std::string kind : {"command", "core", "force", "motion", "measured"}) {
+      if (const auto* named = w_.diagram().places.find(kind))
+        from_diagram(kind, *named);
+      else if (kind == "command")
+        commands();
+      else if (kind == "core")
+        cores();
+      else if (kind == "measured")
+        measured();
+    }
+    return std::move(places_);
+  }
+
+ private:
+  void add(Place place) {
+    place.linear_group = w_.linear_root(w_.signal(place.wire));
+    place.scale_group = w_.scale_root(w_.signal(place.wire));
+    for (const auto& p : places_)
+      if (p.kind == place.kind && p.at == place.at && p.behind_core == place.behind_core) return;
+    places_.push_back(std::move(place));
+  }
+
+  void from_diagram(const std::string& kind, const std::vector<std::string>& wires) {
+    for (const auto& wire : wires) {
+      Place p = place_at(w_.diagram(), registry_, wire);
+      if (!w_.signal(wire).empty()) p = on_wire(w_, registry_, kind, w_.signal(wire));
+      p.kind = kind;
+      p.behind_core = true;  // the user named it: whoever enters at the core may enter here
+      add(std::move(p));
+    }
+  }
+
+  std::vector<std::string> drives() const {
+    std::vector<std::string> list;
+    for (const auto& name : w_.diagram().inputs.names())
+      if (w_.reaches_output(name)) list.push_back(name);
+    if (!list.empty()) return list;
+    for (const auto& s : w_.signals()) {
+      const Node* node = w_.body(w_.source(s));
+      if (node != nullptr && w_.diagram().blocks.find(w_.source(s))->in.empty() && !w_.is_constant(s) &&
+          w_.reaches_output(s))
+        list.push_back(s);
+    }
+    return list;
+  }
+
+  void commands() {
+    for (const auto& s : drives()) add(on_wire(w_, registry_, "command", s));
+  }
+
+  void measured() {
+    for (const auto& [name, from] : w_.diagram().outputs) {
+      const std::string s = w_.signal(from);
+      if (!s.empty()) add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
+    }
+  }
+
+  /// Before and behind each block with memory; where there is none, before and behind the whole chain.
+  void cores() {
+    bool any = false;
+    for (const auto& [name, node] : w_.diagram().blocks) {
+      if (!w_.has_memory(name) || node.in.empty() || w_.outputs_of(name).empty() ||
+          !w_.reaches_output(w_.outputs_of(name).front()))
+        continue;
+      any = true;
+      Place before = on_wire(w_, registry_, "core", start_of_chain(w_, w_.signal(node.in.front().from)));
+      add(std::move(before));
+      for (const auto& s : w_.outputs_of(name)) {
+        Place behind = on_wire(w_, registry_, "core", start_of_chain(w_, s));
+        behind.behind_core = true;
+        add(std::move(behind));
+      }
+    }
+    if (any) return;
+    for (const auto& s : drives()) add(on_wire(w_, registry_, "core", s));
+    for (const auto& [name, from] : w_.diagram().outputs) {
+      const std::string s = w_.signal(from);
+      if (s.empty()) continue;
+      Place behind = on_wire(w_, registry_, "core", start_of_chain(w_, before_offset(w_, s)));
+      behind.behind_core = true;
+      add(std::move(behind));
+    }
+  }
+
+  Wiring w_;
+  const Registry& registry_;
+  std::vector<Place> places_;
+};
+
+/// Blocks of any level whose type has parameter `name`; a place of the whole list carries the path of the block.
+void collect_vary(const Diagram& diagram, const Registry& registry, const std::string& name, const std::string& prefix,
+                  std::vector<Place>& list) {
+  const Wiring w(diagram, registry);
+  for (const auto& [block, node] : diagram.blocks) {
+    const Node* body = w.body(block);
+    if (body == nullptr) continue;
+    if (body->nested) {
+      collect_vary(*body->nested, registry, name, prefix + block + "/", list);
+      continue;
+    }
+    const Kernel* k = registry.find(body->type);
+    if (k == nullptr || k->declaration.parameter_index(name) < 0 || k->advance == nullptr) continue;
+    if (prefix.empty() && !w.reaches_output(w.outputs_of(block).front())) continue;
+    Place p;
+    p.kind = "core";
+    p.at = prefix + block;
+    p.wire = node.in.empty() ? "" : prefix + w.signal(node.in.front().from);
+    list.push_back(std::move(p));
+  }
+}
+
+/// The effect ids that already stand on a wire, and on the wire that leads to an input port.
+std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
+  std::vector<std::string> ids;
+  const auto collect = [&](const std::string& wire) {
+    for (const auto& name : w.chain(wire)) ids.push_back(w.diagram().blocks.find(name)->effect);
+  };
+  collect(start_of_chain(w, w.signal(place.wire)));
+  return ids;
+}
+
+}  // namespace
+
+std::vector<Place> find_places(const Diagram& diagram, const Registry& registry) {
+  return Finder(diagram, registry).find();
+}
+
+std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry) {
+  std::vector<Place> list;
+  if (effect.way == Way::vary) {
+    collect_vary(diagram, registry, effect.parameter, "", list);
+    return list;
+  }
+  const Wiring w(diagram, registry);
+  for (auto& place : find_places(diagram, registry)) {
+    if (std::find(effect.places.begin(), effect.places.end(), place.kind) == effect.places.end()) continue;
+    if (place.kind == "core" && effect.behind_core && !place.behind_core) continue;
+    const auto there = standing_at(w, place);
+    if (std::find(there.begin(), there.end(), effect.id) != there.end()) continue;
+    // "core" before and behind may be one wire: one place.
+    const bool known = std::any_of(list.begin(), list.end(), [&](const Place& p) { return p.at == place.at; });
+    if (!known) list.push_back(std::move(place));
+  }
+  // The zero of a sensor stands behind everything: a calibration enters at the output itself.
+  if (effect.block_type == "calibration" && diagram.places.find("measured") == nullptr) {
+    list.clear();
+    for (const auto& [name, from] : diagram.outputs) {
+      Place p = on_wire(w, registry, "measured", start_of_chain(w, w.signal(from)));
+      p.linear_group = w.linear_root(w.signal(p.wire));
+      p.scale_group = w.scale_root(w.signal(p.wire));
+      const auto there = standing_at(w, p);
+      if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));
+    }
+  }
+  return list;
+}
+
+Place place_at(const Diagram& diagram, const Registry& registry, const std::string& at) {
+  const auto slash = at.find('/');
+  const Wiring w(diagram, registry);
+  if (slash != std::string::npos) {
+    const std::string head = at.substr(0, slash);
+    const Node* node = w.body(head);
+    if (node == nullptr || !node->nested)
+      fail("unknown_place", at, fmt::format("there is no nested diagram \"{}\"", head),
+           did_you_mean(head, diagram.blocks.names()));
+    Place p = place_at(*node->nested, registry, at.substr(slash + 1));
+    p.at = at;
+    p.wire = head + "/" + p.wire;
+    p.linear_group = head + "/" + p.linear_group;
+    p.scale_group = head + "/" + p.scale_group;
+    return p;
+  }
+  Place p;
+  p.at = at;
+  const std::string signal = w.signal(at);
+  if (!signal.empty()) {
+    const auto chain = w.chain(signal);
+    p.wire = chain.empty() ? signal : chain.back();
+  } else if (const auto dot = at.find('.');
+             dot != std::string::npos && diagram.blocks.find(at.substr(0, dot)) != nullptr) {
+    const std::string block = at.substr(0, dot);
+    const std::string port = at.substr(dot + 1);
+    const auto ports = w.ports(block);
+    const auto& in = diagram.blocks.find(block)->in;
+    for (std::size_t i = 0; i < in.size() && p.wire.empty(); ++i)
+      if (ports[i] == port || (port == "in" && in.size() == 1) || port == fmt::format("in[{}]", i))
+        p.wire = w.signal(in[i].from);
+  }
+  if (p.wire.empty()) {
+    auto known = w.signals();
+    for (const auto& [name, node] : diagram.blocks)
+      if (node.in.size() == 1) known.push_back(name + ".in");
+    fail("unknown_place", at, fmt::format("\"{}\" is neither a signal nor an input port of the diagram", at),
+         did_you_mean(at, known));
+  }
+  p.linear_group = w.linear_root(p.wire);
+  p.scale_group = w.scale_root(p.wire);
+  return p;
+}
+
+}  // namespace hysteron
