@@ -1,0 +1,155 @@
+// The verb blocks: documentation of the block types, from the declarations that the checker uses.
+// Does not know any block.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/load.h"
+#include "app/numbers.h"
+#include "app/terminal.h"
+#include "app/verb.h"
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: which blocks are there, and what does one of them do - law, ports, parameters, units.\n\n"
+    "Examples:\n"
+    "  hysteron blocks                      all types, by group\n"
+    "  hysteron blocks prandtl_ishlinskii   one type in full, with an example\n\n"
+    "Prints to the terminal, writes no files.\n"
+    "Exit codes: 0 done, 2 there is no such block.";
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::vector<std::string> shown_types() {
+  std::vector<std::string> types;
+  for (const auto& type : registry().types())
+    if (registry().find(type)->declaration.group != "internal") types.push_back(type);
+  return types;
+}
+
+void print_all() {
+  std::vector<std::string> groups;
+  for (const auto& type : shown_types()) {
+    const auto& group = registry().find(type)->declaration.group;
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+  }
+  for (const auto& group : groups) {
+    Rows rows;
+    for (const auto& type : shown_types()) {
+      const auto& declaration = registry().find(type)->declaration;
+      if (declaration.group == group) rows.push_back({type, declaration.summary});
+    }
+    fmt::print("{}\n{}\n", group, table_text({}, rows));
+  }
+  fmt::print("\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts a diagram\n"
+             "into a diagram.\n");
+}
+
+std::string unit_column(const UnitExpression& unit) { return unit.empty() ? "1" : unit; }
+
+/// What a checker would say of a parameter, in brackets behind its meaning.
+std::string conditions(const ParameterDeclaration& p) {
+  std::vector<std::string> list;
+  if (p.exclusive_minimum && p.minimum == 0) list.emplace_back("positive");
+  else if (p.minimum == 0) list.emplace_back("not negative");
+  else if (std::isfinite(p.minimum)) list.push_back("at least " + number_text(p.minimum) + " (SI)");
+  if (std::isfinite(p.maximum)) list.push_back("at most " + number_text(p.maximum) + " (SI)");
+  if (p.is_increasing) list.emplace_back("increasing");
+  if (!p.same_length_as.empty()) list.push_back("as many as " + p.same_length_as);
+  if (p.is_linear) list.emplace_back("found by linear least squares");
+  if (!p.choices.empty()) list.push_back(fmt::format("one of {}", fmt::join(p.choices, ", ")));
+  return list.empty() ? p.meaning : fmt::format("{} ({})", p.meaning, fmt::join(list, "; "));
+}
+
+std::string kind_column(const ParameterDeclaration& p) {
+  const std::string kind = p.kind == ParameterKind::list ? "list" : p.kind == ParameterKind::text ? "text" : "number";
+  if (!p.default_text) return kind + ", required";
+  return kind + ", default " + (p.default_text->empty() ? "\"\"" : *p.default_text);
+}
+
+std::string example_value(const ParameterDeclaration& p) {
+  const bool plain = p.unit.empty() || p.unit.find('$') != std::string::npos;
+  const std::string one = plain ? "1" : fmt::format("\"1 {}\"", p.unit);
+  if (p.kind == ParameterKind::list)
+    return plain ? "[1]" : fmt::format("[{}]", one);
+  return p.kind == ParameterKind::text ? fmt::format("\"{}\"", p.choices.empty() ? "..." : p.choices.front()) : one;
+}
+
+/// One line of a diagram with every required parameter.
+std::string example(const Declaration& d) {
+  std::string text = fmt::format("\"my_{}\": {{\"type\": \"{}\"", d.type, d.type);
+  for (const auto& p : d.parameters)
+    if (!p.default_text) text += fmt::format(", \"{}\": {}", p.name, example_value(p));
+  if (d.inputs.size() == 1) {
+    text += d.inputs[0].variadic ? ", \"in\": [\"one_signal\", \"another\"]" : ", \"in\": \"some_signal\"";
+  } else if (!d.inputs.empty()) {
+    std::vector<std::string> ports;
+    for (const auto& port : d.inputs) ports.push_back(fmt::format("\"{}\": \"some_signal\"", port.name));
+    text += fmt::format(", \"in\": {{{}}}", fmt::join(ports, ", "));
+  }
+  return text + "}";
+}
+
+void print_ports(const std::string& title, const std::vector<PortDeclaration>& ports) {
+  if (ports.empty()) return;
+  Rows rows;
+  for (const auto& p : ports)
+    rows.push_back({p.name, unit_column(p.unit), p.meaning + (p.variadic ? " (any number of wires)" : "")});
+  fmt::print("\n{}\n{}", title, table_text({}, rows));
+}
+
+void print_one(const Declaration& d) {
+  fmt::print("{}", wrapped(fmt::format("{}: {} [{}]", d.type, d.summary, d.group)));
+  if (!d.equation.empty()) fmt::print("\nlaw\n{}", wrapped(d.equation, 2));
+  print_ports("inputs", d.inputs);
+  print_ports("outputs", d.outputs);
+  if (!d.parameters.empty()) {
+    Rows rows;
+    for (const auto& p : d.parameters)
+      rows.push_back({p.name, p.kind == ParameterKind::text ? "" : unit_column(p.unit), kind_column(p), conditions(p)});
+    fmt::print("\nparameters\n{}", table_text({}, rows));
+  }
+  if (!d.states.empty()) {
+    Rows rows;
+    for (const auto& s : d.states) rows.push_back({s.name, unit_column(s.unit), s.meaning});
+    fmt::print("\nstates\n{}", table_text({}, rows));
+  }
+  if (!d.remarks.empty()) {
+    fmt::print("\nremarks\n");
+    for (const auto& remark : d.remarks) fmt::print("{}", wrapped(remark, 2));
+  }
+  if (!d.source.empty()) fmt::print("\nsource\n{}", wrapped(d.source, 2));
+  fmt::print("\nexample\n  {}\n", example(d));
+  const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
+  if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) || std::any_of(d.outputs.begin(), d.outputs.end(), variable))
+    fmt::print("\n$a, $b stand for units that come from the wires and from the units written at the parameters.\n");
+}
+
+int blocks(const Arguments& arguments) {
+  if (!arguments.has("type")) {
+    print_all();
+    return exit_code::done;
+  }
+  const std::string type = arguments.text("type");
+  const Kernel* kernel = registry().find(type);
+  if (kernel == nullptr)
+    fail("unknown_block", type, "there is no block type \"" + type + "\"", did_you_mean(type, shown_types()));
+  print_one(kernel->declaration);
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb blocks_verb() {
+  return {"blocks",
+          "which blocks are there, and what does one do",
+          help,
+          {{"type", "TYPE", "the block type to show in full", false, false}},
+          blocks};
+}
+
+}  // namespace hysteron

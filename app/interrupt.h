@@ -1,0 +1,34 @@
+// Decides what Ctrl-C does: end at once while nothing would be lost, or be noticed at the next safe point.
+// Does not decide what a verb keeps.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace hysteron {
+
+/// Thrown at a safe point after Ctrl-C; what() says what was kept.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// From now on Ctrl-C (SIGINT, SIGTERM) prints "interrupted; nothing was written" and ends with 130.
+void watch_interrupts();
+
+/// While one of these lives, the first Ctrl-C only sets interrupted(); a second one ends at once all the same,
+/// unless `never_at_once` (while a folder is being put in place).
+class DeferInterrupts {
+ public:
+  explicit DeferInterrupts(bool never_at_once = false);
+  ~DeferInterrupts();
+  DeferInterrupts(const DeferInterrupts&) = delete;
+  DeferInterrupts& operator=(const DeferInterrupts&) = delete;
+
+ private:
+  int before_;
+};
+
+bool interrupted();
+
+}  // namespace hysteron

@@ -1,0 +1,38 @@
+// Decides how a verb gets its diagram, its program and its data from the files that the user named.
+// Does not read files itself (io/), nor check them.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/verb.h"
+#include "engine/program.h"
+#include "io/dataset.h"
+
+namespace hysteron {
+
+/// The block types of this program.
+const Registry& registry();
+
+/// The diagram of the arguments, with --set and --choose applied.
+Diagram load_diagram(const Arguments& arguments);
+
+/// Runs `action`; an Error that it throws gets the file and line of the diagram.
+void with_lines_of(const Diagram& diagram, const std::function<void()>& action);
+
+/// Compiles; problems get the file and line of the diagram.
+ProgramPointer compile_file(const Diagram& diagram);
+
+/// The data set of the arguments, bound to the program.
+DataSet load_data(const Arguments& arguments, const Program& program);
+
+/// A run at its start with the inputs of one recording bound.
+Run start_recording(const Program& program, const DataSet& data, const Recording& recording);
+
+/// "stage" of "diagrams/stage.json".
+std::string stem_of(const std::string& file);
+
+/// "-o", or "stage.compare" for stage.json and compare.
+std::string result_folder(const Arguments& arguments, const std::string& verb);
+
+}  // namespace hysteron

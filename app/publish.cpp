@@ -1,0 +1,57 @@
+// Decides how a verb ends: its folder of results is written, and what matters is printed, the report's place last.
+// Does not decide what was found.
+#include "app/publish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/interrupt.h"
+#include "app/terminal.h"
+#include "report/report.h"
+
+namespace hysteron {
+namespace {
+
+void print_answer(const Arguments& arguments, const Document& document) {
+  if (!document.headline.empty()) fmt::print("{}", wrapped(document.headline));
+  if (arguments.quiet()) return;
+  for (const auto& sentence : document.sentences) fmt::print("{}", wrapped(sentence, 2));
+  for (const auto& warning : document.warnings) fmt::print("{}", wrapped("note: " + warning, 2));
+}
+
+}  // namespace
+
+void publish(const Arguments& arguments, const std::string& folder, const Document& document) {
+  const std::string page = report_html(document);
+  {
+    const DeferInterrupts until_in_place(true);
+    write_result(folder, document, page);
+  }
+  print_answer(arguments, document);
+  fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
+             folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);
+}
+
+std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken) {
+  std::string stem = name;
+  if (const auto dot = stem.rfind(".csv"); dot != std::string::npos) stem.erase(dot, 4);
+  std::string clean;
+  for (const char c : stem) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+    if (plain) clean += c;
+    else if (!clean.empty() && clean.back() != '-') clean += '-';
+  }
+  while (!clean.empty() && (clean.back() == '-' || clean.back() == '.')) clean.pop_back();
+  clean.erase(0, clean.find_first_not_of(".-"));
+  if (clean.empty()) clean = "recording";
+  const auto is_taken = [&](const std::string& file) {
+    return std::any_of(taken.begin(), taken.end(), [&](const CsvTable& t) { return t.file == file; });
+  };
+  std::string file = clean + ".csv";
+  for (int i = 2; is_taken(file); ++i) file = fmt::format("{}-{}.csv", clean, i);
+  return file;
+}
+
+}  // namespace hysteron

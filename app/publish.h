@@ -1,0 +1,19 @@
+// Decides how a verb ends: its folder of results is written, and what matters is printed, the report's place last.
+// Does not decide what was found.
+#pragma once
+
+#include <string>
+
+#include "app/verb.h"
+#include "io/result.h"
+
+namespace hysteron {
+
+/// Writes `folder` whole or not at all, then prints headline, sentences, warnings and, on the last line, the verdict and where
+/// report.html lies.
+void publish(const Arguments& arguments, const std::string& folder, const Document& document);
+
+/// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
+std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);
+
+}  // namespace hysteron

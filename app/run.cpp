@@ -1,0 +1,220 @@
+// The verb run: simulates a diagram and records its signals, over its own time or over the inputs of recordings.
+// Does not compare with measurements.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/load.h"
+#include "app/numbers.h"
+#include "app/publish.h"
+#include "app/verb.h"
+#include "engine/error.h"
+#include "engine/simulate.h"
+#include "io/result.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: what does this diagram do. Simulates it and records the signals that \"record\" names\n"
+    "(without \"record\": its outputs; without these: every signal).\n\n"
+    "Examples:\n"
+    "  hysteron run stage.json --until \"1 s\" --every \"0.1 ms\"\n"
+    "  hysteron run stage.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n"
+    "  hysteron run stage.json --data lab.csv     the diagram's inputs move as in the recording\n\n"
+    "Writes into the folder: result.json, traces/*.csv, report.html.\n"
+    "Exit codes: 0 done, 2 the diagram or the data are wrong, 3 the simulation failed.";
+
+constexpr double most_numbers = 1e8;  // recorded at once: 800 MB
+
+std::vector<int> signals_to_record(const Program& program) {
+  if (!program.record_signals.empty()) return program.record_signals;
+  if (!program.output_signals.empty()) return program.output_signals;
+  std::vector<int> all(program.signals.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  return all;
+}
+
+/// The name under which a signal is recorded: an output by its own name, anything else by its path.
+std::string signal_name(const Program& program, int signal) {
+  if (program.record_signals.empty())
+    for (std::size_t i = 0; i < program.output_signals.size(); ++i)
+      if (program.output_signals[i] == signal) return program.output_names[i];
+  return program.signals[static_cast<std::size_t>(signal)].path;
+}
+
+CsvTable table_of(const Program& program, const Traces& traces, const std::string& file) {
+  CsvTable table;
+  table.file = file;
+  table.columns.push_back({"t", parse_unit("s"), traces.t});
+  for (std::size_t i = 0; i < traces.signals.size(); ++i) {
+    const Unit& unit = program.signals[static_cast<std::size_t>(traces.signals[i])].unit;
+    CsvColumn column{signal_name(program, traces.signals[i]), unit, traces.values[i]};
+    for (auto& value : column.values) value = unit.from_si(value);
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+/// One figure per unit, so that curves of one figure share an axis.
+void add_figures(Section& section, const CsvTable& table) {
+  std::vector<std::string> units;
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const auto& column = table.columns[i];
+    const std::string unit = unit_text(column.unit);
+    auto at = std::find(units.begin(), units.end(), unit);
+    if (at == units.end()) {
+      units.push_back(unit);
+      at = units.end() - 1;
+      Figure figure;
+      figure.x_label = "t [s]";
+      figure.y_label = unit.empty() ? "[1]" : "[" + unit + "]";
+      section.figures.push_back(std::move(figure));
+    }
+    Curve curve;
+    curve.name = column.name;
+    curve.style = "line";
+    curve.trace = table.file;
+    curve.x_column = "t";
+    curve.y_column = column.name;
+    section.figures[static_cast<std::size_t>(at - units.begin())].curves.push_back(std::move(curve));
+  }
+  for (auto& figure : section.figures) {
+    std::vector<std::string> names;
+    for (const auto& curve : figure.curves) names.push_back(curve.name);
+    figure.title = fmt::format("{}", fmt::join(names, ", "));
+  }
+}
+
+/// Smallest, largest and last value of each signal: for the reader, and as facts for programs.
+void add_ranges(Section& section, nlohmann::json& facts, const CsvTable& table) {
+  Table ranges;
+  ranges.columns = {"signal", "smallest", "largest", "last"};
+  auto& entries = facts["traces"][table.file];
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const auto& column = table.columns[i];
+    if (column.values.empty()) continue;
+    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+    const auto text = [&](double value) {
+      const std::string unit = unit_text(column.unit);
+      return number_text(value, 6) + (unit.empty() ? "" : " " + unit);
+    };
+    ranges.rows.push_back({column.name, text(*low), text(*high), text(column.values.back())});
+    entries[column.name] = {{"unit", unit_text(column.unit)},
+                            {"smallest", *low},
+                            {"largest", *high},
+                            {"last", column.values.back()}};
+  }
+  section.tables.push_back(std::move(ranges));
+}
+
+void add_traces(Document& document, nlohmann::json& facts, const Program& program, const Traces& traces,
+                const std::string& name) {
+  document.traces.push_back(table_of(program, traces, trace_file(name, document.traces)));
+  const auto& table = document.traces.back();
+  Section section;
+  section.title = name == "signals" ? "Signals over time" : name;
+  add_figures(section, table);
+  add_ranges(section, facts, table);
+  const auto& s = traces.statistics;
+  section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(), s.method,
+                                     count_text(s.steps, "step"), s.rejected, s.evaluations,
+                                     count_text(s.reversals, "reversal")));
+  facts["statistics"][table.file] = {{"method", s.method},       {"steps", s.steps},
+                                     {"rejected", s.rejected},   {"evaluations", s.evaluations},
+                                     {"jacobians", s.jacobians}, {"reversals", s.reversals},
+                                     {"restarts", s.restarts}};
+  document.sections.push_back(std::move(section));
+}
+
+SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diagram, const Program& program) {
+  if (!arguments.has("--until") && !diagram.simulate.until)
+    fail("no_end_time", "/simulate/until", "nothing says until when to simulate",
+         "write \"simulate\": {\"until\": \"1 s\"} into the diagram, or give --until \"1 s\"");
+  SimulateOptions settings = simulate_options(program);
+  settings.until = arguments.seconds("--until", settings.until);
+  settings.every = arguments.seconds("--every", settings.every);
+  if (settings.until <= settings.begin || settings.every < 0)
+    fail("bad_value", "--until", "the simulation would end before it begins", "give times above 0 s");
+  if (settings.every > 0 && (settings.until / settings.every) * static_cast<double>(settings.signals.size() + 1) > most_numbers)
+    fail("too_many_rows", "--every",
+         fmt::format("{:.3g} rows of {} would be recorded", settings.until / settings.every,
+                     count_text(static_cast<long>(settings.signals.size()), "signal")),
+         "take a larger --every, a smaller --until, or name fewer signals in \"record\"");
+  return settings;
+}
+
+void run_own_time(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
+                  nlohmann::json& facts) {
+  if (!program.input_names.empty())
+    fail("unbound_input", "/inputs/" + program.input_names.front(),
+         fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
+         "give --data FILE with that column, or put a source block (sine, step ...) in its place");
+  SimulateOptions settings = own_time_options(arguments, diagram, program);
+  settings.signals = signals_to_record(program);
+  with_lines_of(diagram, [&] {
+    const Traces traces = simulate(program, start(program), settings);
+    document.headline = fmt::format("{}: simulated {} s, {} recorded", document.title, number_text(settings.until, 6),
+                                    count_text(static_cast<long>(settings.signals.size()), "signal"));
+    add_traces(document, facts, program, traces, "signals");
+  });
+}
+
+void run_recordings(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
+                    nlohmann::json& facts) {
+  const DataSet data = load_data(arguments, program);
+  document.warnings = data.remarks;
+  std::string seen;
+  for (const auto& recording : data.recordings) {
+    if (data.single && recording.file == seen) continue;  // its two parts are one simulation
+    seen = recording.file;
+    with_lines_of(diagram, [&] {
+      SimulateOptions settings = simulate_options(program);
+      settings.instants = recording.t;
+      settings.begin = recording.t.front();
+      settings.until = recording.t.back();
+      settings.signals = signals_to_record(program);
+      settings.at_rest = recording.at_rest || recording.initial_per_recording;
+      const Traces traces = simulate(program, start_recording(program, data, recording), settings);
+      add_traces(document, facts, program, traces, recording.name);
+    });
+  }
+  document.headline = fmt::format("{}: simulated along {}", document.title,
+                                  count_text(static_cast<long>(document.sections.size()), "recording"));
+}
+
+int run(const Arguments& arguments) {
+  const Diagram diagram = load_diagram(arguments);
+  const ProgramPointer program = compile_file(diagram);
+  Document document;
+  document.verb = "run";
+  document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
+  auto facts = std::make_shared<nlohmann::json>();
+  (*facts)["diagram"] = arguments.text("diagram");
+  if (arguments.has("--data")) run_recordings(arguments, diagram, *program, document, *facts);
+  else run_own_time(arguments, diagram, *program, document, *facts);
+  document.facts = facts;
+  publish(arguments, result_folder(arguments, "run"), document);
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb run_verb() {
+  return {"run",
+          "simulate a diagram, record its signals",
+          help,
+          {options::diagram(),
+           options::data(false),
+           {"--until", "TIME", "until when, e.g. \"1 s\"; default: as the diagram says", false, false},
+           {"--every", "TIME", "record every so often, e.g. \"0.1 ms\"", false, false},
+           options::output_folder(),
+           options::set(),
+           options::choose(),
+           options::allow()},
+          run};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,52 @@
+// The verb schema: writes the JSON Schemas of the files that hysteron reads and writes, from the declarations.
+// Does not decide what they say (io/schema.cpp).
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "app/load.h"
+#include "app/verb.h"
+#include "engine/error.h"
+#include "io/atomic_file.h"
+#include "io/diagram_file.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Writes the JSON Schemas by which an editor completes and checks diagrams, data sets and results.\n"
+    "They are made from the same declarations that \"hysteron check\" uses.\n\n"
+    "Examples:\n"
+    "  hysteron schema -o schema/\n\n"
+    "Writes diagram.schema.json, dataset.schema.json and result.schema.json; a file names its schema\n"
+    "with \"$schema\": \"../schema/diagram.schema.json\".\n"
+    "Exit codes: 0 done, 2 the folder cannot be written.";
+
+int schema(const Arguments& arguments) {
+  const std::filesystem::path folder = arguments.text("-o", "schema");
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code)
+    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o FOLDER");
+  const auto write = [&](const std::string& name, const std::string& text) {
+    write_file((folder / name).string(), text);
+    fmt::print("{}\n", (folder / name).string());
+  };
+  write("diagram.schema.json", diagram_schema(registry()));
+  write("dataset.schema.json", dataset_schema());
+  write("result.schema.json", result_schema());
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb schema_verb() {
+  return {"schema",
+          "write the JSON Schemas of diagrams, data sets and results",
+          help,
+          {{"-o", "FOLDER", "where they go; default: schema", false, false}},
+          schema};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,257 @@
+// Decides what a starter diagram and data set look like for the columns of one recording, and says what it assumed.
+// Does not read or write files.
+#include "app/starter.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/numbers.h"
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double train_share = 0.6;  // of the time, as for a single recording (DESIGN 4.2)
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// A column's name as a diagram may write it: [a-z][a-z0-9_]*.
+std::string diagram_name(const std::string& column) {
+  std::string name;
+  for (const char c : lower_case(column)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (plain) name += c;
+    else if (!name.empty() && name.back() != '_') name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  if (name.empty() || !(name.front() >= 'a' && name.front() <= 'z')) name = "column_" + name;
+  return name;
+}
+
+bool is_one_of(const std::string& name, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return name == word; });
+}
+
+/// "u", "u1", "u_x" for the letter u.
+bool letter_with_index(const std::string& name, char letter) {
+  return !name.empty() && name[0] == letter &&
+         (name.size() == 1 || std::isdigit(static_cast<unsigned char>(name[1])) != 0 || name[1] == '_');
+}
+
+enum class Guess { none, input, output, maybe_output };
+
+Guess guess_of(const CsvColumn& column) {
+  const std::string name = lower_case(column.name);
+  if (letter_with_index(name, 'u') || is_one_of(name, {"input", "drive", "command", "voltage", "heater"}))
+    return Guess::input;
+  if (letter_with_index(name, 'y') || is_one_of(name, {"output", "displacement", "position", "measured", "sensor"}))
+    return Guess::output;
+  // A temperature or a position beside a y is a side channel; without one it is what was measured.
+  if (letter_with_index(name, 'x') || letter_with_index(name, 't') || is_one_of(name, {"temperature"}))
+    return Guess::maybe_output;
+  return Guess::none;
+}
+
+std::string names_of(const CsvTable& table) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns) names.push_back(column.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_columns(const CsvTable& table, const std::vector<std::string>& wanted, const std::string& option) {
+  std::vector<std::string> known;
+  for (const auto& column : table.columns) known.push_back(column.name);
+  for (const auto& name : wanted)
+    if (table.find(name) == nullptr)
+      fail("missing_column", table.file, fmt::format("{} names a column \"{}\" that is not there", option, name),
+           did_you_mean(name, known));
+}
+
+/// In which unit a difference of this column is written: a temperature step in K.
+std::string difference_unit(const CsvColumn& column) {
+  return column.unit.offset != 0 ? "K" : unit_text(column.unit);
+}
+double in_difference_unit(const CsvColumn& column, double number) {
+  return column.unit.offset != 0 ? column.unit.scale * number : number;
+}
+
+std::string quotient(const std::string& above, const std::string& below) {
+  if (below.empty()) return above;
+  const bool composed = below.find_first_of("/* ") != std::string::npos;
+  return fmt::format("{}/{}", above.empty() ? "1" : above, composed ? "(" + below + ")" : below);
+}
+
+/// A text as it stands in a JSON file, quotes included.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+
+/// A signal that stays and jumps was held between samples; one that moves was sampled.
+bool looks_held(const CsvColumn& column) {
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < column.values.size(); ++i) changes += column.values[i] != column.values[i - 1] ? 1U : 0U;
+  return changes > 0 && changes * 20 < column.values.size();
+}
+
+/// y = sum of slopes times inputs + offset, least squares over the first 60 % of the time. Numbers as written in the file.
+std::vector<double> straight_line(const CsvTable& table, const StarterRoles& roles, const CsvColumn& y) {
+  const auto& t = table.find(roles.time)->values;
+  const double until = t.front() + train_share * (t.back() - t.front());
+  const auto rows = static_cast<Eigen::Index>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
+  const auto n = static_cast<Eigen::Index>(roles.inputs.size());
+  Eigen::MatrixXd a(rows, n + 1);
+  Eigen::VectorXd b(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k)
+      a(i, k) = table.find(roles.inputs[static_cast<std::size_t>(k)])->values[static_cast<std::size_t>(i)];
+    a(i, n) = 1;
+    b(i) = y.values[static_cast<std::size_t>(i)];
+  }
+  // Minimum norm: an input that does not move in these rows gets a gain of its own only as far as the rows say.
+  const Eigen::VectorXd x = a.completeOrthogonalDecomposition().solve(b);
+  return {x.data(), x.data() + x.size()};
+}
+
+DiagramParameter free_parameter(double value, const std::string& unit) {
+  DiagramParameter parameter;
+  parameter.value = Value(unit.empty() ? Number{rounded(value), {}} : Number{rounded(value), unit});
+  parameter.free = true;
+  return parameter;
+}
+
+/// One output: a gain for each input, their sum, an offset.
+void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& roles, const std::string& output) {
+  const CsvColumn& y = *table.find(output);
+  const bool alone = roles.outputs.size() == 1;
+  const bool single = alone && roles.inputs.size() == 1;
+  const std::string name = diagram_name(output);
+  const std::string of_output = alone ? "" : "_" + name;
+  const auto line = straight_line(table, roles, y);
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < roles.inputs.size(); ++k) {
+    const std::string input = diagram_name(roles.inputs[k]);
+    const std::string gain = single ? "gain" : "gain" + of_output + "_" + input;
+    const std::string unit = quotient(difference_unit(y), difference_unit(*table.find(roles.inputs[k])));
+    diagram.parameters[gain] = free_parameter(in_difference_unit(y, line[k]), unit);
+    const std::string block = single ? "actuator" : "actuator" + of_output + "_" + input;
+    Node& node = diagram.blocks[block];
+    node.type = "gain";
+    node.parameters["gain"] = Value(Reference{gain});
+    node.in = {{"", input}};
+    parts.push_back(block);
+  }
+  std::string moved = parts.front();
+  if (parts.size() > 1) {
+    moved = "sum" + of_output;
+    Node& sum = diagram.blocks[moved];
+    sum.type = "sum";
+    for (const auto& part : parts) sum.in.push_back({"", part});
+  }
+  const std::string offset = "offset" + of_output;
+  diagram.parameters[offset] = free_parameter(line.back(), unit_text(y.unit));
+  Node& sensor = diagram.blocks["sensor" + of_output];
+  sensor.type = "calibration";
+  sensor.parameters["gain"] = Value(1.0);
+  sensor.parameters["offset"] = Value(Reference{offset});
+  sensor.in = {{"", moved}};
+  diagram.outputs[name] = "sensor" + of_output;
+}
+
+std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const std::string& csv_name,
+                         std::vector<std::string>& assumed) {
+  std::vector<std::string> columns;
+  for (const auto& input : roles.inputs) {
+    const bool held = looks_held(*table.find(input));
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", quoted(input), diagram_name(input),
+                                  held ? "hold" : "linear"));
+    assumed.push_back(held ? fmt::format("{} seldom changes: held between samples", input)
+                           : fmt::format("{} moves along a straight line between samples", input));
+  }
+  for (const auto& output : roles.outputs)
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\"}}", quoted(output), diagram_name(output)));
+  const auto& t = table.find(roles.time)->values;
+  const double cut = t.front() + train_share * (t.back() - t.front());
+  const auto first = std::upper_bound(t.begin(), t.end(), cut);
+  const double edge = first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
+  const std::string unit = unit_text(table.find(roles.time)->unit);
+  const std::string at = fmt::format("{:.9g} {}", edge, unit.empty() ? "s" : unit);
+  assumed.push_back(fmt::format("the first 60 % of the time ({}) train, the rest validates", at));
+  return fmt::format(
+      "{{\n  \"format\": 1,\n  \"title\": {0},\n  \"columns\": {{{1}}},\n  \"recordings\": [\n"
+      "    {{\"file\": {0}, \"role\": \"train\", \"until\": \"{2}\"}},\n"
+      "    {{\"file\": {0}, \"role\": \"validate\", \"skip\": \"{2}\"}}\n  ]\n}}\n",
+      quoted(csv_name), fmt::join(columns, ",\n              "), at);
+}
+
+}  // namespace
+
+StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<std::string>& assumed) {
+  check_columns(table, given.inputs, "--input");
+  check_columns(table, given.outputs, "--output");
+  const Dimension second = parse_unit("s").dimension;
+  for (const auto& column : table.columns)
+    if (given.time.empty() && column.unit.dimension == second && is_one_of(lower_case(column.name), {"t", "time"}))
+      given.time = column.name;
+  if (given.time.empty())
+    fail("missing_column", table.file, "no column is the time",
+         "name one \"t [s]\" in the header line; the columns are " + names_of(table));
+
+  std::vector<std::string> inputs, outputs, maybe;
+  for (const auto& column : table.columns) {
+    if (column.name == given.time) continue;
+    const Guess guess = guess_of(column);
+    if (guess == Guess::input) inputs.push_back(column.name);
+    if (guess == Guess::output) outputs.push_back(column.name);
+    if (guess == Guess::maybe_output) maybe.push_back(column.name);
+  }
+  if (outputs.empty()) outputs = maybe;
+  if (given.inputs.empty() && !inputs.empty())
+    assumed.push_back(fmt::format("inputs, by their names: {}", fmt::join(inputs, ", ")));
+  if (given.outputs.empty() && !outputs.empty())
+    assumed.push_back(fmt::format("measured outputs, by their names: {}", fmt::join(outputs, ", ")));
+  if (given.inputs.empty()) given.inputs = inputs;
+  if (given.outputs.empty()) given.outputs = outputs;
+  if (given.inputs.empty() || given.outputs.empty())
+    fail("unclear_columns", table.file,
+         fmt::format("nothing tells which column is the {}", given.inputs.empty() ? "input" : "measured output"),
+         fmt::format("say so with --input NAME and --output NAME; the columns are {}", names_of(table)));
+  for (const auto& name : given.inputs)
+    if (std::find(given.outputs.begin(), given.outputs.end(), name) != given.outputs.end())
+      fail("bad_command_line", "--output", fmt::format("column \"{}\" cannot be input and output", name),
+           "give each column one role");
+  return given;
+}
+
+Starter make_starter(const CsvTable& table, const StarterRoles& given, const std::string& csv_name) {
+  Starter starter;
+  const StarterRoles roles = guess_roles(table, given, starter.assumed);
+  if (table.rows() < 3)
+    fail("too_few_rows", table.file, fmt::format("{} cannot show a straight line", count_text(static_cast<long>(table.rows()), "row")),
+         "record at least three rows");
+  Diagram& diagram = starter.diagram;
+  diagram.title = "Starter: gain and offset";
+  diagram.source = "a straight line through " + csv_name;
+  for (const auto& input : roles.inputs) diagram.inputs[diagram_name(input)].unit = unit_text(table.find(input)->unit);
+  for (const auto& output : roles.outputs) add_output(diagram, table, roles, output);
+  for (const auto& [name, signal] : diagram.outputs) diagram.record.push_back(signal);
+  starter.dataset_text = dataset_text(table, roles, csv_name, starter.assumed);
+  std::vector<std::string> side;
+  for (const auto& column : table.columns)
+    if (column.name != roles.time && std::find(roles.inputs.begin(), roles.inputs.end(), column.name) == roles.inputs.end() &&
+        std::find(roles.outputs.begin(), roles.outputs.end(), column.name) == roles.outputs.end())
+      side.push_back(column.name);
+  if (!side.empty()) starter.assumed.push_back(fmt::format("left as side channels: {}", fmt::join(side, ", ")));
+  return starter;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,82 @@
+// Decides what a verb of the command line is: its name, what its help teaches, its options and what it does.
+// Does not parse (command_line.cpp) and does not compute (the rooms below).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+/// Exit codes of the program (DESIGN 8).
+namespace exit_code {
+inline constexpr int done = 0;         ///< whatever was found
+inline constexpr int no = 1;           ///< a yes-or-no question was asked, and the answer is no
+inline constexpr int bad_input = 2;    ///< the input is wrong
+inline constexpr int numerics = 3;     ///< the computation failed
+inline constexpr int interrupted = 130;
+}  // namespace exit_code
+
+/// One option ("--data") or one positional word ("diagram") of a verb.
+struct OptionSpec {
+  std::string name;         ///< with its dashes where it is an option
+  std::string placeholder;  ///< what stands for its value in the help; empty = a flag
+  std::string meaning;
+  bool required = false;
+  bool repeated = false;    ///< may be given several times
+};
+
+/// What the user wrote behind a verb.
+class Arguments {
+ public:
+  bool has(const std::string& name) const { return given_.contains(name); }
+  /// The value of an option, or `otherwise`.
+  std::string text(const std::string& name, const std::string& otherwise = "") const;
+  std::vector<std::string> list(const std::string& name) const;
+  /// The value of an option as a plain number. Throws Error "bad_command_line".
+  double number(const std::string& name, double otherwise) const;
+  /// The value of an option as a time in s ("2 s", "5 ms", "3"). Throws Error "bad_command_line".
+  double seconds(const std::string& name, double otherwise) const;
+  bool quiet() const { return has("--quiet"); }
+  void set(const std::string& name, std::vector<std::string> values) { given_[name] = std::move(values); }
+
+ private:
+  std::map<std::string, std::vector<std::string>> given_;
+};
+
+struct Verb {
+  std::string name;
+  std::string summary;  ///< one line, in the list of verbs
+  std::string help;     ///< what it answers, examples, what it writes
+  std::vector<OptionSpec> options;
+  int (*act)(const Arguments&) = nullptr;  ///< returns the exit code
+};
+
+/// Options that several verbs take, said once.
+namespace options {
+OptionSpec diagram();
+OptionSpec data(bool required);
+OptionSpec output_folder();
+OptionSpec output_file();
+OptionSpec set();
+OptionSpec choose();
+OptionSpec allow();
+}  // namespace options
+
+Verb new_verb();
+Verb run_verb();
+Verb check_verb();
+Verb blocks_verb();
+Verb effects_verb();
+Verb compare_verb();
+Verb diagnose_verb();
+Verb add_verb();
+Verb remove_verb();
+Verb fit_verb();
+Verb discover_verb();
+Verb schema_verb();
+
+/// All verbs, in the order in which a user meets them.
+std::vector<Verb> all_verbs();
+
+}  // namespace hysteron
