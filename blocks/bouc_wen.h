@@ -1,0 +1,44 @@
+// Decides the block "bouc_wen". Does not decide its law: models/bouc_wen.h.
+#pragma once
+
+#include <string>
+
+#include "engine/block.h"
+#include "models/bouc_wen.h"
+
+namespace hysteron::blocks {
+
+struct BoucWen {
+  template <class T>
+  struct Params {
+    T alpha, beta, gamma, d_p, exponent, scale, initial;
+  };
+  template <class T>
+  struct In {
+    T u;
+  };
+  template <class T>
+  struct State {
+    T z;
+  };
+  template <class T>
+  struct Out {
+    T y;
+  };
+  static void describe(BlockSpec<BoucWen>& spec);
+  template <class T>
+  static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    return {p.d_p * in.u - s.z};
+  }
+  template <class T>
+  static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>&, const In<T>& rate) {
+    const bouc_wen::Params<T> law{p.alpha, p.beta, p.gamma, p.d_p, value_of(p.exponent), value_of(p.scale)};
+    return {bouc_wen::z_rate(law, s.z, rate.u)};
+  }
+  static State<double> initial(const Params<double>& p) { return {p.initial}; }
+  static std::string check(const Params<double>& p);
+};
+
+Kernel bouc_wen_block();
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,33 @@
+// Decides the block "prandtl_ishlinskii": a weighted sum of play operators. Does not decide its law: models/.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/block.h"
+#include "models/prandtl_ishlinskii.h"
+
+namespace hysteron::blocks {
+
+struct PrandtlIshlinskii {
+  enum Parameter { thresholds, weights, sides, before };
+
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape& shape);
+  template <class T>
+  static play::Sides sides_of(const View<T>& v) {
+    return v.choice(sides) == 0 ? play::Sides::one : play::Sides::two;
+  }
+  template <class T>
+  static void advance(const View<T>& v) {
+    prandtl_ishlinskii::advance(sides_of(v), v.list(thresholds), v.memory(), v.u[0], v.out);
+  }
+  template <class T>
+  static void output(const View<T>& v) {
+    v.out[0] = prandtl_ishlinskii::output(v.list(weights), v.memory());
+  }
+  static void initial_memory(const View<double>& v);
+};
+
+Kernel prandtl_ishlinskii_block();
+
+}  // namespace hysteron::blocks

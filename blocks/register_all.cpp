@@ -1,0 +1,62 @@
+#include "blocks/register_all.h"
+
+#include "blocks/bouc_wen.h"
+#include "blocks/chirp.h"
+#include "blocks/constant.h"
+#include "blocks/creep.h"
+#include "blocks/dead_time.h"
+#include "blocks/gain.h"
+#include "blocks/integrator.h"
+#include "blocks/lag.h"
+#include "blocks/multisine.h"
+#include "blocks/pi_controller.h"
+#include "blocks/play.h"
+#include "blocks/prandtl_ishlinskii.h"
+#include "blocks/product.h"
+#include "blocks/recorded.h"
+#include "blocks/saturation.h"
+#include "blocks/sensor_noise.h"
+#include "blocks/sine.h"
+#include "blocks/staircase.h"
+#include "blocks/step.h"
+#include "blocks/sum.h"
+#include "blocks/transfer_function.h"
+#include "blocks/triangle.h"
+
+namespace hysteron {
+
+Registry all_blocks() {
+  Registry r;
+  r.add(blocks::constant_block());
+  r.add(blocks::sine_block());
+  r.add(blocks::triangle_block());
+  r.add(blocks::step_block());
+  r.add(blocks::staircase_block());
+  r.add(blocks::chirp_block());
+  r.add(blocks::multisine_block());
+  r.add(blocks::recorded_block());
+  r.add(blocks::input_block());
+
+  r.add(blocks::gain_block());
+  r.add(blocks::sum_block());
+  r.add(blocks::product_block());
+  r.add(blocks::pass_block());
+  r.add(blocks::saturation_block());
+  r.add(blocks::calibration_block());
+
+  r.add(blocks::integrator_block());
+  r.add(blocks::transfer_function_block());
+  r.add(blocks::pi_controller_block());
+  r.add(blocks::lag_block());
+  r.add(blocks::creep_block());
+  r.add(blocks::dead_time_block());
+
+  r.add(blocks::play_block());
+  r.add(blocks::prandtl_ishlinskii_block());
+  r.add(blocks::bouc_wen_block());
+
+  r.add(blocks::sensor_noise_block());
+  return r;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,42 @@
+// Decides the Bouc-Wen law: the rate of the hysteretic part for a given rate of the input.
+// Does not integrate it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron::bouc_wen {
+
+/// Units for an input in V and an output in m; any other pair works alike.
+template <class T>
+struct Params {
+  T alpha{1};          ///< [m/V]  slope of z at z = 0
+  T beta{0};           ///< [1/V]  loop shape, dissipative part
+  T gamma{0};          ///< [1/V]  loop shape, conservative part
+  T d_p{1};            ///< [m/V]  slope of the linear part
+  double exponent{1};  ///< [-]    n >= 1: sharpness of the bend
+  double scale{1};     ///< [m]    size of z for which beta and gamma are given; without effect for n = 1
+};
+
+/// Rate of the hysteretic part z; the displacement is y = d_p u - z.
+///
+///   dz/dt = alpha v - (beta |v| z + gamma v |z|) |z/scale|^(n-1)
+///
+/// z [m] hysteretic part, v [V/s] rate of the input. With scale = 1 the printed law; the scale keeps the unit of beta
+/// for every n. Rate independent: scaling v scales dz/dt alike. n = 1: |z| <= alpha/(beta + gamma) if beta > |gamma|.
+/// Source: thesis Eqs. 2.36, 2.37; Ismail, Ikhouane, Rodellar, Arch. Comput. Methods Eng. 16 (2009) 161-188.
+template <class T>
+T z_rate(const Params<T>& p, const T& z, const T& v) {
+  using std::abs;
+  using std::pow;
+  const T bend = p.beta * abs(v) * z + p.gamma * v * abs(z);
+  if (p.exponent == 1) return p.alpha * v - bend;
+  return p.alpha * v - bend * pow(abs(z) / T{p.scale}, p.exponent - 1);
+}
+
+/// Largest |z| for a rising input: alpha = (beta + gamma) z |z/scale|^(n-1) solved for z.
+inline double limit(const Params<double>& p) {
+  return p.scale * std::pow(p.alpha / ((p.beta + p.gamma) * p.scale), 1 / p.exponent);
+}
+
+}  // namespace hysteron::bouc_wen
