@@ -1,0 +1,187 @@
+#include "engine/linear_part.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace hysteron {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The matrices of one block, read off its functions at unit vectors; the last column is its constant part.
+struct BlockMatrices {
+  Eigen::MatrixXd derivative, output;  ///< rows over [x, u, 1]
+};
+
+BlockMatrices read_block(const Program& program, const Run& run, int block) {
+  const BlockInstance& b = program.blocks[at(block)];
+  const int nx = b.sizes.states;
+  const int columns = nx + b.n_u + 1;
+  std::vector<double> x(at(nx)), u(at(b.n_u)), dx(at(nx)), y(at(b.sizes.outputs));
+  BlockMatrices m{Eigen::MatrixXd::Zero(nx, columns), Eigen::MatrixXd::Zero(b.sizes.outputs, columns)};
+  const auto call = [&](int column) {
+    View<double> v = view_of(program, run, block);
+    v.x = x.data();
+    v.u = u.data();
+    v.out = y.data();
+    b.kernel->output(v);
+    m.output.col(column) = Eigen::Map<const Eigen::VectorXd>(y.data(), b.sizes.outputs);
+    if (nx == 0) return;
+    v.out = dx.data();
+    b.kernel->derivative(v);
+    m.derivative.col(column) = Eigen::Map<const Eigen::VectorXd>(dx.data(), nx);
+  };
+  call(columns - 1);
+  for (int i = 0; i < columns - 1; ++i) {
+    double& unit = i < nx ? x[at(i)] : u[at(i - nx)];
+    unit = 1;
+    call(i);
+    unit = 0;
+    m.output.col(i) -= m.output.col(columns - 1);
+    if (nx > 0) m.derivative.col(i) -= m.derivative.col(columns - 1);
+  }
+  return m;
+}
+
+}  // namespace
+
+LinearPart::LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs)
+    : blocks_(std::move(blocks)), outputs_(std::move(outputs)) {
+  std::vector<bool> inside(program.blocks.size(), false);
+  for (const int b : blocks_) inside[at(b)] = true;
+  for (const int b : blocks_) {
+    first_state_.push_back(n_);
+    n_ += program.blocks[at(b)].sizes.states;
+    for (const int s : program.blocks[at(b)].source)
+      if (!inside[at(program.signals[at(s)].block)] && std::find(inputs_.begin(), inputs_.end(), s) == inputs_.end())
+        inputs_.push_back(s);
+  }
+  x_ = Eigen::VectorXd::Zero(n_);
+  next_ = x_;
+  w_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(inputs_.size()) + 1);
+  w_[w_.size() - 1] = 1;
+  w_before_ = w_;
+  y_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(outputs_.size()));
+}
+
+void LinearPart::bind(const Program& program, const Run& run) {
+  const auto m = w_.size();
+  // Every signal of the group as a row over [x, w, 1].
+  const Eigen::Index columns = n_ + m;
+  std::vector<Eigen::RowVectorXd> rows(program.signals.size());
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    rows[at(inputs_[i])] = Eigen::RowVectorXd::Zero(columns);
+    rows[at(inputs_[i])][n_ + static_cast<Eigen::Index>(i)] = 1;
+  }
+  std::vector<BlockMatrices> matrices;
+  // First all outputs that need no input (they close the loops), then the rest in value order.
+  for (std::size_t k = 0; k < blocks_.size(); ++k) matrices.push_back(read_block(program, run, blocks_[k]));
+  const auto local = [&](const Eigen::MatrixXd& matrix, Eigen::Index row, std::size_t k, bool with_inputs) {
+    const BlockInstance& b = program.blocks[at(blocks_[k])];
+    Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(columns);
+    for (int i = 0; i < b.sizes.states; ++i) r[first_state_[k] + i] += matrix(row, i);
+    if (with_inputs)
+      for (int i = 0; i < b.n_u; ++i)
+        if (matrix(row, b.sizes.states + i) != 0) r += matrix(row, b.sizes.states + i) * rows[at(b.source[at(i)])];
+    r[columns - 1] += matrix(row, b.sizes.states + b.n_u);
+    return r;
+  };
+  for (const bool feedthrough : {false, true})
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      const BlockInstance& b = program.blocks[at(blocks_[k])];
+      if (b.sizes.feedthrough != feedthrough) continue;
+      for (int o = 0; o < b.sizes.outputs; ++o) rows[at(b.y_begin + o)] = local(matrices[k].output, o, k, feedthrough);
+    }
+  Eigen::MatrixXd dynamics(n_, columns);
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)
+      dynamics.row(first_state_[k] + i) = local(matrices[k].derivative, i, k, true);
+  const Eigen::MatrixXd a = dynamics.leftCols(n_);
+  const Eigen::MatrixXd b = dynamics.rightCols(m);
+  if (a_.rows() != a.rows() || a_ != a || b_.cols() != b.cols() || b_ != b) {
+    a_ = a;
+    b_ = b;
+    cache_.clear();
+    last_ = 0;
+  }
+  c_.resize(static_cast<Eigen::Index>(outputs_.size()), n_);
+  d_.resize(static_cast<Eigen::Index>(outputs_.size()), m);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    c_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].head(n_);
+    d_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].tail(m);
+  }
+}
+
+void LinearPart::take_inputs(const std::vector<double>& y) {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) w_[static_cast<Eigen::Index>(i)] = y[at(inputs_[i])];
+}
+
+void LinearPart::write_outputs(std::vector<double>& y) const {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double sum = 0;
+    for (Eigen::Index k = 0; k < w_.size(); ++k) sum += d_(row, k) * w_[k];
+    for (Eigen::Index k = 0; k < n_; ++k) sum += c_(row, k) * x_[k];
+    y[at(outputs_[i])] = sum;
+  }
+}
+
+void LinearPart::start(const Program& program, const Run& run, const std::vector<double>& y, bool at_rest) {
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)
+      x_[first_state_[k] + i] = run.x[at(program.blocks[at(blocks_[k])].x_begin + i)];
+  take_inputs(y);
+  if (at_rest && n_ > 0) {
+    // Least-norm correction: a free integrator keeps its value, everything else goes to A x + B w = 0.
+    const Eigen::VectorXd rate = a_ * x_ + b_ * w_;
+    x_ -= a_.completeOrthogonalDecomposition().solve(rate);
+  }
+  w_before_ = w_;
+}
+
+const LinearPart::Step& LinearPart::step_matrices(double h) {
+  constexpr double same = 1e-9;  // relative; times read from text differ in their last digits only
+  if (last_ < cache_.size() && std::abs(cache_[last_].h - h) <= same * h) return cache_[last_];
+  for (std::size_t i = 0; i < cache_.size(); ++i)
+    if (std::abs(cache_[i].h - h) <= same * h) {
+      last_ = i;
+      return cache_[i];
+    }
+  // exp of [[A, B, 0], [0, 0, I/h], [0, 0, 0]] h: the response to states, to constant inputs and to a unit ramp over h.
+  const auto m = b_.cols();
+  Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n_ + 2 * m, n_ + 2 * m);
+  big.topLeftCorner(n_, n_) = a_ * h;
+  big.block(0, n_, n_, m) = b_ * h;
+  big.block(n_, n_ + m, m, m).setIdentity();
+  const Eigen::MatrixXd e = big.exp();
+  if (cache_.size() >= 1024) cache_.clear();  // irregular times: do not grow without bound
+  cache_.push_back({h, e.topLeftCorner(n_, n_), e.block(0, n_, n_, m), e.block(0, n_ + m, n_, m)});
+  last_ = cache_.size() - 1;
+  return cache_[last_];
+}
+
+void LinearPart::step(double h, std::vector<double>& y) {
+  take_inputs(y);
+  if (n_ > 0) {
+    const Step& s = step_matrices(h);
+    next_.noalias() = s.state * x_;
+    for (Eigen::Index k = 0; k < w_.size(); ++k) {
+      const double before = w_before_[k];
+      const double change = w_[k] - before;
+      for (Eigen::Index i = 0; i < n_; ++i) next_[i] += s.input(i, k) * before + s.ramp(i, k) * change;
+    }
+    x_.swap(next_);
+  }
+  w_before_ = w_;
+  write_outputs(y);
+}
+
+void LinearPart::refresh(std::vector<double>& y) {
+  take_inputs(y);
+  w_before_ = w_;
+  write_outputs(y);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,48 @@
+// Decides how a group of linear blocks is one state-space system x' = A x + B w + a, y = C x + D w + c, and how it is
+// advanced exactly over a step in which its inputs w move linearly (first-order hold, by cached matrix exponentials).
+// Internal to the exact advance.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/program.h"
+
+namespace hysteron {
+
+class LinearPart {
+ public:
+  /// `blocks` in value order; `outputs`: signals of these blocks that somebody outside reads.
+  LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs);
+
+  const std::vector<int>& input_signals() const { return inputs_; }
+  bool has_states() const { return n_ > 0; }
+
+  /// Builds the matrices for the parameters of a run; keeps the exponentials where A and B have not changed.
+  void bind(const Program& program, const Run& run);
+  /// States as in the run, or in equilibrium for the present inputs (what has no equilibrium of its own stays).
+  void start(const Program& program, const Run& run, const std::vector<double>& y, bool at_rest);
+  /// Advances the states by h [s] while the inputs go linearly to their values in y; then writes the outputs to y.
+  void step(double h, std::vector<double>& y);
+  /// Inputs jumped: same states, new outputs.
+  void refresh(std::vector<double>& y);
+
+ private:
+  struct Step {
+    double h = 0;
+    Eigen::MatrixXd state, input, ramp;
+  };
+  const Step& step_matrices(double h);
+  void take_inputs(const std::vector<double>& y);
+  void write_outputs(std::vector<double>& y) const;
+
+  std::vector<int> blocks_, inputs_, outputs_;
+  std::vector<int> first_state_;   ///< per block
+  int n_ = 0;                      ///< states
+  Eigen::MatrixXd a_, b_, c_, d_;  ///< B and D carry the constant part as a last column (its input is 1)
+  Eigen::VectorXd x_, next_, w_, w_before_, y_;
+  std::vector<Step> cache_;
+  std::size_t last_ = 0;
+};
+
+}  // namespace hysteron
