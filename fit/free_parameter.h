@@ -21,7 +21,7 @@ struct FreeParameter {
 /// The free parameters of a diagram, and those named in `extra` ("kp", "core.weights" = all its elements,
 /// "core.weights[2]"). Positive parameters whose lower bound is > 0, or that span more than two decades between
 /// positive bounds, get a log scale, as do declared-positive ones that are not linear. Throws Error
-/// "unknown_parameter", "not_a_number".
+/// "unknown_parameter".
 std::vector<FreeParameter> free_parameters(const Program& program, const std::vector<std::string>& extra = {});
 
 /// One free parameter by path with start and bounds from the program.

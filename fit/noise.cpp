@@ -1,0 +1,152 @@
+#include "fit/noise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/branches.h"
+#include "fit/whiten.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double median_of_chi_square = 0.455;  // one degree of freedom
+
+double median(std::vector<double> v) {
+  if (v.empty()) return 0;
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+const NoiseNote* note_of(const DataModel& model, int output) {
+  const auto found = model.data().notes.find(model.outputs()[static_cast<std::size_t>(output)]);
+  return found == model.data().notes.end() ? nullptr : &found->second.noise;
+}
+
+/// No instrument is better than this, and no weight may become infinite.
+double floor_of(const DataModel& model, int output, double resolution) {
+  return std::max({resolution / std::sqrt(12.0), 1e-9 * model.span(output), 1e-300});
+}
+
+double found_resolution(const DataModel& model, int output) {
+  double finest = 0;
+  for (int r = 0; r < model.n_recordings(); ++r) {
+    const double q = resolution_of(model.measured(r, output));
+    if (q > 0 && (finest == 0 || q < finest)) finest = q;
+  }
+  return finest;
+}
+
+NoiseOfOutput before_fit(const DataModel& model, int output) {
+  NoiseOfOutput noise;
+  const NoiseNote* note = note_of(model, output);
+  if (note != nullptr && note->one_over_f) noise.one_over_f = *note->one_over_f;
+  if (note != nullptr && note->resolution) noise.resolution = *note->resolution;
+  if (note != nullptr && note->white) {
+    noise.white = std::max(std::hypot(*note->white, noise.resolution / std::sqrt(12.0)), floor_of(model, output, 0));
+    noise.source = NoiseSource::data_sheet;
+    return noise;
+  }
+  if (noise.resolution == 0) noise.resolution = found_resolution(model, output);
+  std::vector<double> rough;
+  for (int r = 0; r < model.n_recordings(); ++r)
+    if (const Rows& rows = model.measured(r, output); rows.size() > 8) rough.push_back(roughness(rows));
+  noise.white = std::max(median(rough), floor_of(model, output, noise.resolution));
+  noise.source = NoiseSource::guessed;
+  noise.remark = "the data set does not say how noisy this output is: guessed from how rough the measured rows are";
+  return noise;
+}
+
+/// median(w^2) / 0.455 of whitened rows in part of the band.
+double level(const std::vector<double>& w, std::size_t begin, std::size_t end) {
+  std::vector<double> squares;
+  for (std::size_t k = begin; k < std::min(end, w.size()); ++k) squares.push_back(w[k] * w[k]);
+  return median(std::move(squares)) / median_of_chi_square;
+}
+
+}  // namespace
+
+std::string to_text(NoiseSource source) {
+  switch (source) {
+    case NoiseSource::data_sheet:
+      return "data sheet";
+    case NoiseSource::corrected:
+      return "data sheet, corrected by the residual";
+    case NoiseSource::estimated:
+      return "estimated from the high band of the residual";
+    case NoiseSource::guessed:
+      break;
+  }
+  return "guessed from the measured rows";
+}
+
+std::vector<double> NoiseModel::white() const {
+  std::vector<double> list;
+  for (const auto& o : outputs) list.push_back(o.white);
+  return list;
+}
+
+NoiseModel noise_before_fit(const DataModel& model) {
+  NoiseModel noise;
+  for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o) noise.outputs.push_back(before_fit(model, o));
+  return noise;
+}
+
+NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before, const Prediction& best,
+                               const std::vector<int>& recordings) {
+  NoiseModel noise = before;
+  for (std::size_t o = 0; o < noise.outputs.size(); ++o) {
+    NoiseOfOutput& n = noise.outputs[o];
+    std::vector<double> high, middle;
+    for (const int r : recordings) {
+      const Rows& measured = model.measured(r, static_cast<int>(o));
+      const auto& predicted = best.y[static_cast<std::size_t>(r)];
+      if (measured.size() < 16 || predicted.empty()) continue;
+      Rows residual(measured.size());
+      for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = measured[i] - predicted[o][i];
+      const Whitener whitener(residual.size(), n.white, n.one_over_f, true);
+      std::vector<double> w(whitener.size());
+      whitener.apply(residual, w.data());
+      high.push_back(level(w, whitener.upper_half(), w.size()));
+      middle.push_back(level(w, whitener.upper_half() / 2, whitener.upper_half()));
+    }
+    if (high.empty()) continue;
+    double s2 = median(high);
+    if (n.source == NoiseSource::data_sheet || n.source == NoiseSource::corrected) {
+      s2 = std::clamp(s2, 0.7, 1.35);  // data sheets are good to about 10 %; more is structure of the residual
+      n.source = NoiseSource::corrected;
+    } else {
+      n.source = NoiseSource::estimated;
+      n.remark = "the data set does not say how noisy this output is: estimated from the high band of the residual";
+      // White noise has the same level in both bands (a median of some hundred squares scatters by some per cent).
+      if (median(middle) > 4 * s2)
+        n.remark += "; the recordings are smoother than their sampling, so the true noise may be larger";
+    }
+    n.white = std::max(n.white * std::sqrt(s2), floor_of(model, static_cast<int>(o), n.resolution));
+  }
+  return noise;
+}
+
+double resolution_of(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 8) return 0;
+  const double span = sorted.back() - sorted.front();
+  if (!(span > 0)) return 0;
+  const double same = 1e-9 * span;  // equal but for the rounding of a unit conversion
+  double q = span;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (const double d = sorted[i] - sorted[i - 1]; d > same) q = std::min(q, d);
+  const double steps = std::round(span / q);
+  if (steps < 2 || steps > 1e7) return 0;
+  q = span / steps;
+  for (const double v : sorted) {
+    const double k = (v - sorted.front()) / q;
+    if (std::abs(k - std::round(k)) > 0.05) return 0;
+  }
+  return q;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,70 @@
+#include "fit/whiten.h"
+
+#include <fftw3.h>
+
+#include <cmath>
+#include <map>
+#include <mutex>
+
+namespace hysteron {
+namespace {
+
+/// Plans of one length. FFTW_ESTIMATE: the same plan, hence the same rounding, on every call; FFTW_UNALIGNED: any
+/// array.
+struct Plans {
+  fftw_plan forward = nullptr, backward = nullptr;
+};
+
+const Plans& plans_for(std::size_t n) {
+  static std::mutex mutex;  // only planning is not thread safe in FFTW, executing is
+  static std::map<std::size_t, Plans> cache;
+  const std::lock_guard lock(mutex);
+  auto& plans = cache[n];
+  if (plans.forward == nullptr) {
+    std::vector<double> scratch(n);
+    const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+    plans.forward = fftw_plan_r2r_1d(static_cast<int>(n), scratch.data(), scratch.data(), FFTW_REDFT10, flags);
+    plans.backward = fftw_plan_r2r_1d(static_cast<int>(n), scratch.data(), scratch.data(), FFTW_REDFT01, flags);
+  }
+  return plans;
+}
+
+}  // namespace
+
+void cosine_transform(std::span<double> rows) {
+  if (rows.empty()) return;
+  fftw_execute_r2r(plans_for(rows.size()).forward, rows.data(), rows.data());
+  const auto n = static_cast<double>(rows.size());
+  const double scale = std::sqrt(1 / (2 * n));  // FFTW's REDFT10 is 2 sum x cos(...)
+  for (double& x : rows) x *= scale;
+  rows[0] *= std::sqrt(0.5);
+}
+
+void inverse_cosine_transform(std::span<double> coefficients) {
+  if (coefficients.empty()) return;
+  const auto n = static_cast<double>(coefficients.size());
+  const double scale = std::sqrt(1 / (2 * n));  // FFTW's REDFT01 is X0 + 2 sum X cos(...)
+  coefficients[0] *= std::sqrt(2.0);
+  for (double& x : coefficients) x *= scale;
+  fftw_execute_r2r(plans_for(coefficients.size()).backward, coefficients.data(), coefficients.data());
+}
+
+Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero)
+    : weight_(rows), drop_zero_(drop_zero && rows > 0) {
+  const double a = share * share * static_cast<double>(rows) / 7.9;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double colour = k == 0 ? 4 * a : a / (static_cast<double>(k) + 0.5);
+    weight_[k] = 1 / (white * std::sqrt(1 + colour));
+  }
+}
+
+void Whitener::apply(std::span<const double> rows, double* out) const {
+  if (weight_.empty()) return;
+  std::vector<double> coefficients(rows.begin(), rows.end());
+  cosine_transform(coefficients);
+  for (std::size_t k = drop_zero_ ? 1 : 0; k < weight_.size(); ++k) *out++ = coefficients[k] * weight_[k];
+}
+
+std::size_t Whitener::upper_half() const { return weight_.size() / 2 - (drop_zero_ && weight_.size() > 1 ? 1 : 0); }
+
+}  // namespace hysteron
