@@ -17,6 +17,9 @@ Diagram read_diagram(const std::string& file, const std::vector<std::string>& al
 /// The text of a diagram file: keys in the order of DESIGN 4.1, one block per line where it fits.
 std::string diagram_text(const Diagram& diagram);
 
+/// The diagram as it stands at another place: `$schema` and relative paths seen from the folder of `file`.
+Diagram moved_diagram(const Diagram& diagram, const std::string& file);
+
 /// Writes a diagram whole or not at all. `$schema` and relative paths are adapted to the place of `file`.
 void write_diagram(const std::string& file, const Diagram& diagram);
 

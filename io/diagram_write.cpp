@@ -260,14 +260,19 @@ std::string nearest_schema(const std::string& file) {
 
 std::string diagram_text(const Diagram& diagram) { return DiagramWriter(diagram).text(); }
 
-void write_diagram(const std::string& file, const Diagram& diagram) {
+Diagram moved_diagram(const Diagram& diagram, const std::string& file) {
   Diagram moved = diagram;
   if (moved.schema.empty())
     moved.schema = nearest_schema(file);
   else if (!is_address(moved.schema))
     moved.schema = moved_path(moved.schema, diagram.file, file);
   for (auto& [name, node] : moved.blocks) move_paths(node, diagram.file, file);
-  write_file(file, diagram_text(moved));
+  moved.file = file;
+  return moved;
+}
+
+void write_diagram(const std::string& file, const Diagram& diagram) {
+  write_file(file, diagram_text(moved_diagram(diagram, file)));
 }
 
 }  // namespace hysteron
