@@ -20,6 +20,15 @@ enum class Way {
 };
 std::string to_text(Way way);
 
+/// With which blocks a law can change places without any difference: places with only such blocks between them are one
+/// finding.
+enum class Commutes {
+  nothing,
+  gains,          ///< a law with memory: blocks without states, memory or bend
+  linear,         ///< a linear, time-invariant law: linear blocks
+  time_invariant  ///< a delay: every block that does not look at the clock
+};
+
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
 /// the train recordings, and how finely and how long it was recorded. Numbers in SI.
 struct Circumstances {
@@ -86,6 +95,7 @@ struct Effect {
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
   bool is_linear =
       false;  ///< the law is linear and time-invariant: its place in a chain of linear blocks cannot be told
+  Commutes commutes = Commutes::nothing;
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;

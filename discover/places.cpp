@@ -69,6 +69,11 @@ std::string start_of_chain(const Wiring& w, const std::string& signal) {
   return signal;
 }
 
+void set_groups(const Wiring& w, Place& place) {
+  for (const auto law : {Commutes::nothing, Commutes::gains, Commutes::linear, Commutes::time_invariant})
+    place.group[static_cast<int>(law)] = w.root(w.signal(place.wire), law);
+}
+
 class Finder {
  public:
   Finder(const Diagram& diagram, const Registry& registry) : w_(diagram, registry), registry_(registry) {}
@@ -89,8 +94,7 @@ class Finder {
 
  private:
   void add(Place place) {
-    place.linear_group = w_.linear_root(w_.signal(place.wire));
-    place.scale_group = w_.scale_root(w_.signal(place.wire));
+    set_groups(w_, place);
     for (const auto& p : places_)
       if (p.kind == place.kind && p.at == place.at && p.behind_core == place.behind_core) return;
     places_.push_back(std::move(place));
@@ -222,8 +226,7 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     list.clear();
     for (const auto& [name, from] : diagram.outputs) {
       Place p = on_wire(w, registry, "measured", start_of_chain(w, w.signal(from)));
-      p.linear_group = w.linear_root(w.signal(p.wire));
-      p.scale_group = w.scale_root(w.signal(p.wire));
+      set_groups(w, p);
       const auto there = standing_at(w, p);
       if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));
     }
@@ -243,8 +246,7 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
     Place p = place_at(*node->nested, registry, at.substr(slash + 1));
     p.at = at;
     p.wire = head + "/" + p.wire;
-    p.linear_group = head + "/" + p.linear_group;
-    p.scale_group = head + "/" + p.scale_group;
+    for (auto& group : p.group) group = head + "/" + group;
     return p;
   }
   Place p;
@@ -270,8 +272,7 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
     fail("unknown_place", at, fmt::format("\"{}\" is neither a signal nor an input port of the diagram", at),
          did_you_mean(at, known));
   }
-  p.linear_group = w.linear_root(p.wire);
-  p.scale_group = w.scale_root(p.wire);
+  set_groups(w, p);
   return p;
 }
 

@@ -18,10 +18,8 @@ struct Place {
                      ///< (vary) a block
   std::string wire;  ///< the signal that passes there
   bool behind_core = false;  ///< of a core place: behind the core, not before it
-  /// Places with one mark cannot be told apart by a linear law: only linear blocks lie between them. "" = unique.
-  std::string linear_group;
-  std::string
-      scale_group;  ///< the same for a law with memory: only blocks without states, memory or bend lie between them
+  std::string group[4]{};    ///< by Commutes: places with one mark cannot be told apart by such a law
+  const std::string& group_for(const Effect& effect) const { return group[static_cast<int>(effect.commutes)]; }
 };
 
 /// Every place of the diagram: from its "places", else worked out from inputs, outputs and the declarations of its

@@ -174,10 +174,28 @@ std::vector<std::string> Wiring::chain(const std::string& signal) const {
   return list;
 }
 
-std::string Wiring::root(const std::string& signal, bool through_states, int depth) const {
+bool Wiring::passes(const std::string& block, Commutes law) const {
+  switch (law) {
+    case Commutes::nothing:
+      return false;
+    case Commutes::gains:
+      return is_linear(block) && !has_states(block);
+    case Commutes::linear:
+      return is_linear(block);
+    case Commutes::time_invariant: {
+      const Node* node = body(block);
+      if (node->nested) return is_linear(block);
+      const Kernel* k = registry_.find(node->type);
+      return k != nullptr && !k->declaration.inputs.empty() && (!k->uses_time || k->reach_back != nullptr);
+    }
+  }
+  return false;
+}
+
+std::string Wiring::root(const std::string& signal, Commutes law, int depth) const {
   const std::string block = source(signal);
-  if (block.empty() || depth > 64 || !is_linear(block) || outputs_of(block).size() != 1) return signal;
-  if (!through_states && has_states(block)) return signal;
+  if (block.empty() || depth > 64 || body(block) == nullptr || !passes(block, law) || outputs_of(block).size() != 1)
+    return signal;
   const Node* node = diagram_.blocks.find(block);
   std::string moving;
   for (const auto& wire : node->in) {
@@ -187,10 +205,7 @@ std::string Wiring::root(const std::string& signal, bool through_states, int dep
     moving = from;
   }
   if (moving.empty() || readers(moving).size() != 1) return signal;
-  return root(moving, through_states, depth + 1);
+  return root(moving, law, depth + 1);
 }
-
-std::string Wiring::linear_root(const std::string& signal) const { return root(signal, true, 0); }
-std::string Wiring::scale_root(const std::string& signal) const { return root(signal, false, 0); }
 
 }  // namespace hysteron

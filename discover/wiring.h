@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "discover/effect.h"
 #include "engine/diagram.h"
 #include "engine/kernel.h"
 
@@ -46,13 +47,12 @@ class Wiring {
 
   /// Effects that stand on this wire one after the other, each the only reader of the one before: names of the choices.
   std::vector<std::string> chain(const std::string& signal) const;
-  /// The signal at the beginning of linear blocks with one moving input each (see Place::linear_group).
-  std::string linear_root(const std::string& signal) const;
-  /// The same through linear blocks without states.
-  std::string scale_root(const std::string& signal) const;
+  /// The signal at the beginning of a chain of blocks, with one moving input each, that commute with such a law.
+  std::string root(const std::string& signal, Commutes law) const { return root(signal, law, 0); }
 
  private:
-  std::string root(const std::string& signal, bool through_states, int depth) const;
+  std::string root(const std::string& signal, Commutes law, int depth) const;
+  bool passes(const std::string& block, Commutes law) const;
   const Diagram& diagram_;
   const Registry& registry_;
 };

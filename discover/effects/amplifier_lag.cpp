@@ -47,9 +47,9 @@ Effect amplifier_lag() {
       "In proportion to the rate of the drive at all amplitudes; phase in proportion to frequency, no harmonics.";
   e.needs = "Motion at a twentieth of the corner frequency or faster.";
   e.way = Way::insert;
+  e.commutes = Commutes::linear;
   e.block_type = "lag";
   e.places = {"command"};
-  e.is_linear = true;
   e.parameters = {
       {"times", "s", "time constants of the poles",
        "8 us .. 0.5 ms for piezo amplifiers (0.3 .. 20 kHz; PD200 with 10 uF: 7.4 kHz small, 300 Hz large signal)"}};

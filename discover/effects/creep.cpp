@@ -19,10 +19,10 @@ Effect creep() {
       "move.";
   e.needs = "A hold at least 100 times as long as its sample step, after a move.";
   e.way = Way::insert;
+  e.commutes = Commutes::linear;
   e.block_type = "creep";
   e.places = {"core"};
   e.behind_core = true;
-  e.is_linear = true;
   e.parameters = {
       {"amounts", "", "final amount of each relaxation per unit of change; two relaxations make one decade",
        "0.01 .. 0.02 per decade (PI Ceramic catalogue, physikinstrumente.com tutorial); at most 0.1 for soft ceramics"},

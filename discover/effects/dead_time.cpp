@@ -16,9 +16,9 @@ Effect dead_time() {
   e.residual = "The rate of the output times the delay.";
   e.needs = "Motion at a fiftieth of 1/delay or faster.";
   e.way = Way::insert;
+  e.commutes = Commutes::time_invariant;
   e.block_type = "dead_time";
   e.places = {"command", "measured"};
-  e.is_linear = true;
   e.parameters = {{"delay", "s", "",
                    "half a sample to three samples for converters, 20 us .. 5 ms for piezo rigs (EFFECTS 3); as many "
                    "samples at every sample rate is a fact of the file, not of the device"}};

@@ -59,6 +59,7 @@ Effect hysteresis() {
   e.needs =
       "At least two reversals of the drive. One amplitude gives the width of the loop only; minor loops need several.";
   e.way = Way::insert;
+  e.commutes = Commutes::gains;
   e.block_type = "prandtl_ishlinskii";
   e.places = {"core"};
   e.is_memory = true;

@@ -13,9 +13,9 @@ Effect sensor_lag() {
   e.residual = "In proportion to the rate of the output, at all amplitudes.";
   e.needs = "Motion at a twentieth of the corner frequency or faster.";
   e.way = Way::insert;
+  e.commutes = Commutes::linear;
   e.block_type = "lag";
   e.places = {"measured"};
-  e.is_linear = true;
   e.parameters = {
       {"times", "s", "time constants of the poles",
        "2 us .. 16 ms for position sensors (10 Hz .. 100 kHz, Fleming 2013); seconds to minutes for temperature"}};

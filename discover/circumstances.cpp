@@ -1,0 +1,237 @@
+// Decides what the recordings show at a place: range, reversals, holds, pace of the signal on the wire.
+#include "discover/circumstances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/advance.h"
+#include "engine/program.h"
+#include "engine/simulate.h"
+#include "fit/branches.h"
+#include "fit/free_parameter.h"
+
+namespace hysteron {
+namespace {
+
+/// Signals of a program on the rows of one recording, as the present model makes them.
+std::vector<std::vector<double>> traces(const ProgramPointer& program, const DataSet& data, const Recording& recording,
+                                        const std::vector<int>& signals) {
+  Run run = start(*program);
+  for (const auto& name : program->input_names) bind_input(*program, run, name, input_series(data, recording, name));
+  if (why_not_exact(*program).empty()) {
+    std::vector<std::vector<double>> values;
+    AdvanceOptions options;
+    options.at_rest = recording.at_rest;
+    Advance(program, signals)(run, recording.t, options, values);
+    return values;
+  }
+  SimulateOptions options;
+  options.begin = recording.t.front();
+  options.until = recording.t.back();
+  options.instants = recording.t;
+  options.signals = signals;
+  options.at_rest = recording.at_rest;
+  return simulate(*program, run, options).values;
+}
+
+double median_step(const std::vector<double>& t) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  if (steps.empty()) return 0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  return steps[steps.size() / 2];
+}
+
+/// Longest stay of the drive at one level (within 0.5 % of its range) after a move of at least 5 %.
+double longest_hold(const std::vector<double>& t, const std::vector<double>& u, double range) {
+  double longest = 0;
+  double low = u.front();
+  double high = u.front();
+  for (std::size_t i = 0; i < u.size();) {
+    std::size_t end = i;
+    while (end + 1 < u.size() && std::abs(u[end + 1] - u[i]) <= 0.005 * range) ++end;
+    const bool moved = std::max(high - u[i], u[i] - low) >= 0.05 * range;
+    if (moved) longest = std::max(longest, t[end] - t[i]);
+    for (std::size_t k = i; k <= end; ++k) {
+      low = std::min(low, u[k]);
+      high = std::max(high, u[k]);
+    }
+    i = end + 1;
+  }
+  return longest;
+}
+
+/// The only signal that a block reads beside constants; -1 if there are several or none.
+int moving_input(const Program& program, const BlockInstance& block) {
+  int moving = -1;
+  for (const int s : block.source) {
+    const auto& from = program.blocks[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+    if (from.n_u == 0 && !from.kernel->uses_time && !from.kernel->declaration.is_series) continue;
+    if (moving >= 0) return -1;
+    moving = s;
+  }
+  return moving;
+}
+
+bool is_linear(const BlockInstance& block) {
+  return block.kernel->declaration.is_linear || block.kernel->reach_back != nullptr;
+}
+
+/// Free gains and offsets in the chain of linear blocks before and behind a signal.
+class FreeInSeries {
+ public:
+  FreeInSeries(const Program& program, const std::vector<std::string>& free_paths) : program_(program) {
+    for (const auto& f : free_parameters(program, free_paths))
+      free_.push_back(&program.parameters[static_cast<std::size_t>(f.parameter)]);
+  }
+
+  void look(int signal, bool& gain, bool& offset) const {
+    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = behind(s, gain, offset);
+    bool ignored = false;  // an offset before the place is another matter
+    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = before(s, gain, ignored);
+  }
+
+ private:
+  void note(int block, bool& gain, bool& offset) const {
+    for (const auto* p : free_) {
+      if (!p->linear || p->block != block) continue;
+      const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
+      if (p->offset || constant)
+        offset = true;
+      else
+        gain = true;
+    }
+  }
+  void note_with_constants(int block, bool& gain, bool& offset) const {
+    note(block, gain, offset);
+    for (const int s : program_.blocks[static_cast<std::size_t>(block)].source) {
+      const int from = program_.signals[static_cast<std::size_t>(s)].block;
+      const auto& b = program_.blocks[static_cast<std::size_t>(from)];
+      if (b.n_u == 0 && !b.kernel->uses_time && !b.kernel->declaration.is_series) note(from, gain, offset);
+    }
+  }
+  int behind(int signal, bool& gain, bool& offset) const {
+    int reader = -1;
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b)
+      for (const int s : program_.blocks[b].source)
+        if (s == signal) {
+          if (reader >= 0 && reader != static_cast<int>(b)) return -1;
+          reader = static_cast<int>(b);
+        }
+    if (reader < 0) return -1;
+    const auto& block = program_.blocks[static_cast<std::size_t>(reader)];
+    if (!is_linear(block) || moving_input(program_, block) != signal) return -1;
+    note_with_constants(reader, gain, offset);
+    return block.y_begin;
+  }
+  int before(int signal, bool& gain, bool& offset) const {
+    const int b = program_.signals[static_cast<std::size_t>(signal)].block;
+    const auto& block = program_.blocks[static_cast<std::size_t>(b)];
+    if (block.n_u == 0 || !is_linear(block)) return -1;
+    note(b, gain, offset);
+    return moving_input(program_, block);
+  }
+
+  const Program& program_;
+  std::vector<const ParameterInfo*> free_;
+};
+
+void look_at_row_times(const DataSet& data, Circumstances& c) {
+  c.shortest_step = std::numeric_limits<double>::infinity();
+  c.longest_step = c.longest_recording = 0;
+  for (const auto& r : data.recordings) {
+    if (r.role == Role::test || r.last < 2) continue;
+    const double duration = r.t[r.last - 1] - r.t.front();
+    c.longest_recording = std::max(c.longest_recording, duration);
+    if (r.role != Role::train) continue;
+    const double step = median_step(r.t);
+    c.shortest_step = std::min(c.shortest_step, step);
+    c.longest_step = std::max(c.longest_step, step);
+    ++c.recordings;
+  }
+}
+
+}  // namespace
+
+std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                                            const std::vector<Place>& places,
+                                            const std::vector<std::string>& free_paths) {
+  const auto program = compile(diagram, registry);
+  Circumstances common;
+  common.from_data = true;
+  look_at_row_times(data, common);
+  for (const int b : program->memory_blocks)
+    common.memory_blocks.push_back(program->blocks[static_cast<std::size_t>(b)].path);
+  bool free_zero = false;
+  for (const auto& name : program->output_names)
+    if (const auto note = data.notes.find(name); note != data.notes.end() && note->second.zero_per_recording)
+      free_zero = true;
+
+  std::vector<int> signals;
+  for (const auto& p : places) signals.push_back(program->signal(p.wire));
+  const std::size_t n = signals.size();
+  signals.insert(signals.end(), program->input_signals.begin(), program->input_signals.end());
+  std::vector<std::vector<std::vector<double>>> rows;  // [train recording][signal][row]
+  std::vector<const Recording*> trains;
+  for (const auto& r : data.recordings) {
+    if (r.role != Role::train || r.last < 2) continue;
+    trains.push_back(&r);
+    rows.push_back(traces(program, data, r, signals));
+    for (auto& s : rows.back()) s.resize(r.last);
+  }
+
+  const FreeInSeries in_series(*program, free_paths);
+  std::vector<Circumstances> result(n, common);
+  const auto span = [&](std::size_t s, double& low, double& high) {
+    low = std::numeric_limits<double>::infinity();
+    high = -low;
+    for (const auto& r : rows) {
+      const auto [a, b] = std::minmax_element(r[s].begin(), r[s].end());
+      low = std::min(low, *a);
+      high = std::max(high, *b);
+    }
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    auto& c = result[i];
+    c.unit = program->signals[static_cast<std::size_t>(signals[i])].unit;
+    c.offset_is_free = free_zero;
+    in_series.look(signals[i], c.gain_is_free, c.offset_is_free);
+    span(i, c.lowest, c.highest);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto& v = rows[r][i];
+      const auto& t = trains[r]->t;
+      if (c.range() > 0) c.reversals += static_cast<int>(turning_points(v, 0.02 * c.range()).size());
+      c.starts_away_from_zero = c.starts_away_from_zero || std::abs(v.front()) > 0.02 * c.range();
+      for (std::size_t k = 1; k < v.size(); ++k) {
+        c.largest_jump = std::max(c.largest_jump, std::abs(v[k] - v[k - 1]));
+        if (c.range() > 0 && t[k] > t[k - 1])
+          c.quickest = std::max(c.quickest, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / c.range());
+      }
+    }
+    // Holds are those of the drive: the signal behind a slow plant never stands still.
+    for (std::size_t s = n; s < signals.size(); ++s) {
+      double low = 0;
+      double high = 0;
+      span(s, low, high);
+      for (std::size_t r = 0; r < rows.size() && high > low; ++r) {
+        const std::vector<double> t(trains[r]->t.begin(),
+                                    trains[r]->t.begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
+        const double hold = longest_hold(t, rows[r][s], high - low);
+        const double step = median_step(t);
+        // What counts is the hold in samples: that is how many decades of creep it shows.
+        if (hold / step > c.longest_hold / c.step_at_longest_hold || c.longest_hold == 0) {
+          c.longest_hold = hold;
+          c.step_at_longest_hold = step;
+        }
+      }
+    }
+  }
+  return result;
+}
+
+Circumstances circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                               const Place& place, const std::vector<std::string>& free_paths) {
+  return circumstances_at(diagram, registry, data, std::vector<Place>{place}, free_paths).front();
+}
+
+}  // namespace hysteron
