@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/corners.h"
+#include "engine/nominal.h"
+#include "engine/simulate.h"
+
+namespace hysteron {
+namespace {
+
+// The unknowns are the states and, for each dead time, the value that its input had for ever. Columns are scaled by
+// nominal sizes and rows by what such sizes make of them, so that "small" means the same for a nanometre and for a
+// kilovolt.
+constexpr int iterations_allowed = 50;
+constexpr int halvings_allowed = 20;
+constexpr double difference_step =
+    1e-6;  // of the nominal size; central: exact for linear parts but for 1e-10 of rounding
+constexpr double rank_threshold = 1e-8;  // above that rounding, below any coupling that matters
+constexpr double reached = 1e-10, good_enough = 1e-7;
+
+class RestProblem {
+ public:
+  RestProblem(const Program& program, const Run& run, double t)
+      : program_(program),
+        trial_(run),
+        work_(program),
+        t_(t),
+        zero_(static_cast<std::size_t>(std::max(1, program.n_u))) {
+    for (auto& history : trial_.histories) history = History{{}, {}, {}, 0, history.before};
+    trial_.t = t;
+    trial_.branch = Corners(program, run, t).branch();
+    const auto sizes = nominal_sizes(program, trial_);
+    rate_of_size_one_ = sizes.time_scale > 0 ? 1 / sizes.time_scale : 1.0;
+    size_.resize(program.n_x + static_cast<long>(trial_.histories.size()));
+    for (int i = 0; i < program.n_x; ++i) size_[i] = sizes.states[static_cast<std::size_t>(i)];
+    for (const auto& block : program.blocks) {
+      if (block.history_index < 0) continue;
+      const double size = sizes.signals[static_cast<std::size_t>(block.source.front())];
+      size_[program.n_x + block.history_index] = size > 0 ? size : 1.0;
+    }
+  }
+
+  Eigen::VectorXd start() const {
+    Eigen::VectorXd z(size_.size());
+    for (int i = 0; i < program_.n_x; ++i) z[i] = trial_.x[static_cast<std::size_t>(i)];
+    for (std::size_t h = 0; h < trial_.histories.size(); ++h)
+      z[program_.n_x + static_cast<long>(h)] = trial_.histories[h].before;
+    return z;
+  }
+
+  /// dx/dt with every rate zero, as they all are at rest; for dead times, what their input lacks to its past.
+  Eigen::VectorXd residual(const Eigen::VectorXd& z) {
+    put(z);
+    evaluate_values(program_, trial_, work_, t_, z.data());
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(z.size());
+    for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) {
+      const auto& block = program_.blocks[static_cast<std::size_t>(b)];
+      inputs_.clear();
+      for (const int s : block.source) inputs_.push_back(work_.y[static_cast<std::size_t>(s)]);
+      if (block.history_index >= 0) {
+        const long row = program_.n_x + block.history_index;
+        r[row] = (inputs_.front() - z[row]) * rate_of_size_one_;
+      }
+      if (block.kernel->derivative == nullptr) continue;
+      auto view = view_of(program_, trial_, b);
+      view.t = t_;
+      view.branch = trial_.branch;
+      view.x = z.data() + block.x_begin;
+      view.u = inputs_.data();
+      view.du = zero_.data();
+      view.out = r.data() + block.x_begin;
+      block.kernel->derivative(view);
+    }
+    return r;
+  }
+
+  /// Columns in units of the nominal sizes.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& z) {
+    Eigen::MatrixXd j(z.size(), z.size());
+    for (long k = 0; k < z.size(); ++k) {
+      const double h = difference_step * std::max(size_[k], std::abs(z[k]));
+      Eigen::VectorXd moved = z;
+      moved[k] = z[k] + h;
+      const Eigen::VectorXd up = residual(moved);
+      moved[k] = z[k] - h;
+      j.col(k) = (up - residual(moved)) * (size_[k] / (2 * h));
+    }
+    return j;
+  }
+
+  /// The rate that counts as one, per row.
+  Eigen::VectorXd row_size(const Eigen::MatrixXd& jacobian) const {
+    return jacobian.cwiseAbs().rowwise().sum() + size_ * rate_of_size_one_;
+  }
+  const Eigen::VectorXd& size() const { return size_; }
+
+  void finish(const Eigen::VectorXd& z, Run& run) {
+    put(z);
+    trial_.x.assign(z.data(), z.data() + program_.n_x);
+    accept(program_, trial_, work_, t_, z.data());
+    run = std::move(trial_);
+  }
+
+ private:
+  void put(const Eigen::VectorXd& z) {
+    for (std::size_t h = 0; h < trial_.histories.size(); ++h)
+      trial_.histories[h].before = z[program_.n_x + static_cast<long>(h)];
+  }
+
+  const Program& program_;
+  Run trial_;
+  Work work_;
+  double t_;
+  double rate_of_size_one_ = 1;
+  std::vector<double> zero_, inputs_;
+  Eigen::VectorXd size_;
+};
+
+[[noreturn]] void no_rest(const Program& program, double t, const Eigen::VectorXd& rate,
+                          const Eigen::VectorXd& relative) {
+  std::vector<std::string> parts;
+  std::string first;
+  for (int i = 0; i < program.n_x; ++i) {
+    if (std::abs(relative[i]) <= good_enough) continue;
+    const auto& name = program.state_names[static_cast<std::size_t>(i)];
+    if (first.empty()) first = name;
+    if (parts.size() < 10) parts.push_back(fmt::format("{} (d/dt = {:.4g} SI/s)", name, rate[i]));
+  }
+  fail_numerics("no_rest", first.empty() ? "simulate" : first,
+                fmt::format("there is no equilibrium for the inputs at t = {:.9g} s: these states keep moving: {}", t,
+                            fmt::join(parts, ", ")),
+                "give initial states instead of \"rest\", or let the inputs start where an integrator's input is zero");
+}
+
+}  // namespace
+
+void settle_at_rest(const Program& program, Run& run, double t) {
+  RestProblem problem(program, run, t);
+  Eigen::VectorXd z = problem.start();
+  Eigen::VectorXd rate = problem.residual(z);
+  Eigen::VectorXd relative = Eigen::VectorXd::Zero(z.size());
+  for (int iteration = 0; iteration < iterations_allowed && z.size() > 0; ++iteration) {
+    const Eigen::MatrixXd jacobian = problem.jacobian(z);
+    const Eigen::VectorXd row = problem.row_size(jacobian);
+    relative = rate.cwiseQuotient(row);
+    if (!relative.allFinite() || relative.lpNorm<Eigen::Infinity>() <= reached) break;
+    // Minimum norm: an integrator that nothing pulls stays where it is.
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(rank_threshold);
+    solver.compute(row.cwiseInverse().asDiagonal() * jacobian);
+    const Eigen::VectorXd step = problem.size().cwiseProduct(solver.solve(-relative));
+    bool better = false;
+    double share = 1;
+    for (int halving = 0; halving <= halvings_allowed && !better; ++halving, share /= 2) {
+      const Eigen::VectorXd trial = z + share * step;
+      const Eigen::VectorXd trial_rate = problem.residual(trial);
+      const Eigen::VectorXd trial_relative = trial_rate.cwiseQuotient(row);
+      better = trial_relative.allFinite() && trial_relative.norm() < relative.norm();
+      if (!better) continue;
+      z = trial;
+      rate = trial_rate;
+      relative = trial_relative;
+    }
+    if (!better) break;
+  }
+  if (!relative.allFinite() || (z.size() > 0 && relative.lpNorm<Eigen::Infinity>() > good_enough))
+    no_rest(program, t, rate, relative);
+  problem.finish(z, run);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,297 @@
+// The loop of ENGINE 5, as far as there are no sampled blocks and modes. At every accepted point, in this order:
+//   1. outputs are taken on [t_old, t_new) from the step's own interpolation, with the memory as it was during the
+//   step;
+//   2. the memory is accepted, still with the formulas of the piece that ends here;
+//   3. at a corner the formulas of the next piece apply: the memory follows a jump, directions turn where rates did;
+//   4. the integrator starts again only if dx/dt jumped by more than the tolerance sees, or a reversal fired.
+// An instant at a corner is therefore taken after it: outputs are continuous from the right.
+#include "engine/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/corners.h"
+#include "engine/cvode.h"
+#include "engine/nominal.h"
+#include "engine/reversals.h"
+#include "engine/simulate_parts.h"
+
+namespace hysteron {
+namespace {
+
+// A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
+// its error control deals with smaller ones.
+constexpr double noticed_jump = 0.1;
+constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
+
+class Simulation {
+ public:
+  Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
+             std::vector<int> signals);
+  Traces operator()();
+
+ private:
+  std::unique_ptr<Cvode> make_solver();
+  bool derivative(double t, const double* x, double* dx);
+  void indicate(double t, const double* x, double* g);
+  void record(double t, const double* x);
+  void record_inside(double from, double to);
+  void take_step(double stop);
+  void pass_corner();
+  void turn_back();
+  void follow_directions();
+  [[noreturn]] void explain(const Error& error);
+
+  const Program& program_;
+  Run run_;
+  const SimulateOptions& options_;
+  Work work_;
+  Corners corners_;
+  NominalSizes sizes_;
+  Reversals reversals_;
+  std::unique_ptr<Cvode> solver_;
+  Traces traces_;
+  std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
+  std::size_t next_instant_ = 0;
+  double t_ = 0, until_ = 0;
+  bool not_finite_ = false;  // the last derivative was not; then these are where
+  double bad_t_ = 0;
+  std::vector<double> bad_x_;
+};
+
+Simulation::Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
+                       std::vector<int> signals)
+    : program_(program),
+      run_(std::move(run)),
+      options_(options),
+      work_(program),
+      corners_(program, run_, options.begin),
+      sizes_(nominal_sizes(program, run_)),
+      reversals_(program, sizes_, options.relative_tolerance),
+      t_(options.begin),
+      until_(std::max(options.begin, instants.back())) {
+  run_.t = t_;
+  run_.branch = corners_.branch();
+  x_ = run_.x;
+  if (x_.empty()) x_.push_back(0.0);
+  before_ = after_ = interpolated_ = bad_x_ = x_;
+  traces_.t = std::move(instants);
+  traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
+  traces_.signals = std::move(signals);
+  solver_ = make_solver();
+}
+
+std::unique_ptr<Cvode> Simulation::make_solver() {
+  OdeSystem system;
+  system.states = static_cast<int>(x_.size());
+  system.roots = options_.reversal_events ? reversals_.count() : 0;
+  system.derivative = [this](double t, const double* x, double* dx) { return derivative(t, x, dx); };
+  system.indicators = [this](double t, const double* x, double* g) { indicate(t, x, g); };
+  system.state_name = [this](int i) {
+    return program_.n_x == 0 ? std::string("(no state)") : program_.state_names[static_cast<std::size_t>(i)];
+  };
+  CvodeOptions options;
+  options.formula = options_.method == Method::adams ? Formula::adams : Formula::bdf;
+  options.relative_tolerance = options_.relative_tolerance;
+  const double span = until_ - t_;
+  const double longest = options_.max_step > 0 ? options_.max_step : longest_step(program_, run_, span);
+  options.max_step = std::isfinite(longest) ? longest : 0.0;
+  std::vector<double> absolute(x_.size(), 1.0);
+  for (std::size_t i = 0; i < sizes_.states.size(); ++i)
+    absolute[i] = options_.absolute_tolerance * options_.relative_tolerance * sizes_.states[i];
+  return std::make_unique<Cvode>(std::move(system), options, absolute);
+}
+
+bool Simulation::derivative(double t, const double* x, double* dx) {
+  if (program_.n_x == 0) {
+    dx[0] = 0;
+    return true;
+  }
+  evaluate_derivatives(program_, run_, work_, t, x);
+  double sum = 0;  // of zeros: not zero if one of them is not finite
+  for (std::size_t i = 0; i < work_.dx.size(); ++i) {
+    dx[i] = work_.dx[i];
+    sum += dx[i] * 0;
+  }
+  not_finite_ = !(sum == 0);
+  if (not_finite_) {
+    bad_t_ = t;
+    std::copy(x, x + program_.n_x, bad_x_.begin());
+  }
+  return !not_finite_;
+}
+
+void Simulation::indicate(double t, const double* x, double* g) {
+  evaluate_derivatives(program_, run_, work_, t, x);
+  evaluate_memory_rates(program_, run_, work_, t, x);
+  reversals_.indicate(run_, work_, g);
+}
+
+void Simulation::record(double t, const double* x) {
+  evaluate_values(program_, run_, work_, t, x);
+  for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
+    const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
+    if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x);
+    traces_.values[s][next_instant_] = value;
+  }
+  ++next_instant_;
+}
+
+void Simulation::record_inside(double from, double to) {
+  const auto& instants = traces_.t;
+  for (; next_instant_ < instants.size() && instants[next_instant_] < to - same_instant(to);) {
+    solver_->interpolate(std::max(instants[next_instant_], from), interpolated_);
+    record(instants[next_instant_], interpolated_.data());
+  }
+}
+
+/// Inputs that begin to move get a direction.
+void Simulation::follow_directions() {
+  evaluate_derivatives(program_, run_, work_, t_, x_.data());
+  evaluate_memory_rates(program_, run_, work_, t_, x_.data());
+  traces_.statistics.reversals += reversals_.follow(run_, work_);
+}
+
+void Simulation::pass_corner() {
+  const bool states = program_.n_x > 0;
+  if (states) derivative(t_, x_.data(), before_.data());
+  corners_.pass(t_);
+  run_.branch = corners_.branch();
+  accept(program_, run_, work_, t_, x_.data());
+  if (reversals_.count() > 0) follow_directions();
+  if (!states || solver_->counters().steps == 0) return;
+  derivative(t_, x_.data(), after_.data());
+  const double step = solver_->next_step();
+  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
+  if (!(solver_->weighted_norm(after_) <= noticed_jump)) solver_->start(t_, x_);
+}
+
+void Simulation::turn_back() {
+  std::vector<int> fired;
+  for (int i = 0; i < reversals_.count(); ++i)
+    if (solver_->fired(i)) fired.push_back(i);
+  accept(program_, run_, work_, t_, x_.data());
+  for (const int i : fired) reversals_.turn(run_, i);
+  traces_.statistics.reversals += static_cast<long>(fired.size());
+  solver_->start(t_, x_);
+}
+
+void Simulation::take_step(double stop) {
+  const auto outcome = solver_->step(stop);
+  const double from = t_;
+  record_inside(from, solver_->t());
+  t_ = solver_->t();
+  std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
+  if (outcome == Cvode::Outcome::root) return turn_back();
+  accept(program_, run_, work_, t_, x_.data());
+  if (reversals_.open(run_)) follow_directions();
+}
+
+Traces Simulation::operator()() {
+  const auto& instants = traces_.t;
+  try {
+    accept(program_, run_, work_, t_, x_.data());
+    if (reversals_.count() > 0) follow_directions();
+    solver_->start(t_, x_);
+    for (;;) {
+      while (corners_.next() <= t_ + same_instant(t_)) pass_corner();
+      while (next_instant_ < instants.size() && instants[next_instant_] <= t_ + same_instant(t_)) record(t_, x_.data());
+      if (next_instant_ == instants.size()) break;
+      take_step(std::min(corners_.next(), until_));
+    }
+  } catch (const Error& error) {
+    explain(error);
+  }
+  const auto counters = solver_->counters();
+  auto& s = traces_.statistics;
+  s.method = options_.method == Method::adams ? "adams" : "bdf";
+  s.steps = counters.steps;
+  s.rejected = counters.rejected;
+  s.evaluations = counters.evaluations;
+  s.jacobians = counters.jacobians;
+  s.restarts = counters.restarts;
+  return std::move(traces_);
+}
+
+/// A solver that failed says what it tried; the reader wants to know which block made it fail.
+void Simulation::explain(const Error& error) {
+  const auto& code = error.problems.front().code;
+  if (code != "solver_failed" && code != "step_too_small") throw error;
+  if (not_finite_) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+  std::size_t worst = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < sizes_.states.size(); ++i) {
+    const double size = std::abs(x_[i]) / sizes_.states[i];
+    if (size > largest) largest = size, worst = i;
+  }
+  if (!(largest > runaway)) throw error;
+  const auto& name = program_.state_names[worst];
+  const auto block = std::find_if(program_.blocks.begin(), program_.blocks.end(), [&](const BlockInstance& b) {
+    return static_cast<int>(worst) >= b.x_begin && static_cast<int>(worst) < b.x_begin + b.sizes.states;
+  });
+  fail_numerics(
+      "diverged", block->path,
+      fmt::format("the simulation runs away at t = {:.9g} s: {} = {:.6g} [SI], {:.1g} times its usual size\n  {}", t_,
+                  name, x_[worst], largest, error.problems.front().what),
+      fmt::format("check gain and sign of the loop through \"{}\"", block->path));
+}
+
+}  // namespace
+
+void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x) {
+  evaluate_derivatives(program, run, work, t, x);
+  evaluate_values(program, run, work, t, x);
+  const auto bad = [](const std::vector<double>& v, int begin, int count) {
+    for (int i = begin; i < begin + count; ++i)
+      if (!std::isfinite(v[static_cast<std::size_t>(i)])) return i;
+    return -1;
+  };
+  const auto tell = [&](const BlockInstance& block, const std::string& of, double value) {
+    std::vector<std::string> near;
+    for (const int s : block.source)
+      near.push_back(fmt::format("{} = {:.6g}", program.signals[static_cast<std::size_t>(s)].path,
+                                 work.y[static_cast<std::size_t>(s)]));
+    for (int i = block.x_begin; i < block.x_begin + block.sizes.states; ++i)
+      near.push_back(fmt::format("state {} = {:.6g}", program.state_names[static_cast<std::size_t>(i)], x[i]));
+    fail_numerics(
+        "diverged", block.path,
+        fmt::format("{} is {} at t = {:.9g} s (of block type {}); there [SI]: {}", of, value, t,
+                    block.kernel->declaration.type, fmt::join(near, ", ")),
+        fmt::format("the simulation runs away or leaves the range of \"{}\": check its parameters, and gain and sign "
+                    "of the loop around it",
+                    block.path));
+  };
+  for (const auto& step : program.all_values) {
+    const auto& block = program.blocks[static_cast<std::size_t>(step.block)];
+    if (const int s = bad(work.y, block.y_begin, block.sizes.outputs); s >= 0)
+      tell(block, program.signals[static_cast<std::size_t>(s)].path, work.y[static_cast<std::size_t>(s)]);
+  }
+  for (const auto& block : program.blocks)
+    if (const int i = bad(work.dx, block.x_begin, block.sizes.states); i >= 0)
+      tell(block, "the derivative of " + program.state_names[static_cast<std::size_t>(i)],
+           work.dx[static_cast<std::size_t>(i)]);
+  fail_numerics("diverged", "simulate", fmt::format("a value is not finite near t = {:.9g} s", t),
+                "check the parameters, and gain and sign of the loops");
+}
+
+Traces simulate(const Program& program, Run run, const SimulateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto instants = output_instants(options);
+  check_inputs(program, run);
+  const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
+  run.t = options.begin;
+  Traces traces;
+  if (advances_exactly(program, options)) {
+    traces = simulate_exactly(program, run, options, std::move(instants), signals);
+  } else {
+    if (options.at_rest) settle_at_rest(program, run, options.begin);
+    traces = Simulation(program, std::move(run), options, std::move(instants), signals)();
+  }
+  traces.statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return traces;
+}
+
+}  // namespace hysteron

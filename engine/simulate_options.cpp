@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/advance.h"
+#include "engine/simulate.h"
+#include "engine/simulate_parts.h"
+
+namespace hysteron {
+namespace {
+
+constexpr int default_points = 1000;
+constexpr std::size_t most_instants = 50'000'000;
+constexpr int most_substeps = 4096;
+
+double seconds(const Number& number, const char* key, Problems& problems) {
+  const std::string path = std::string("/simulate/") + key;
+  if (!number.unit) return number.value;
+  const Unit unit = parse_unit(*number.unit, path);
+  if (!(unit.dimension == parse_unit("s").dimension))
+    problems.add("wrong_unit", path, fmt::format("{} {} is not a time", number.value, *number.unit),
+                 "give a time, such as \"0.1 ms\"");
+  return unit.to_si(number.value);
+}
+
+/// A source that is no series: what stands against an advance from row to row.
+std::string source_between_rows(const Program& program) {
+  for (const auto& block : program.blocks)
+    if (block.n_u == 0 && block.series_index < 0 && block.kernel->uses_time) return block.path;
+  return "";
+}
+
+/// Largest difference over the largest value, over all signals.
+double change(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+  double worst = 0;
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    double size = 0, difference = 0;
+    for (std::size_t k = 0; k < a[s].size(); ++k) {
+      size = std::max(size, std::abs(b[s][k]));
+      difference = std::max(difference, std::abs(a[s][k] - b[s][k]));
+    }
+    if (size > 0) worst = std::max(worst, difference / size);
+  }
+  return worst;
+}
+
+}  // namespace
+
+SimulateOptions simulate_options(const Program& program, SimulateOptions options) {
+  const auto& given = program.simulate;
+  Problems problems;
+  if (given.until) options.until = seconds(*given.until, "until", problems);
+  if (given.every) options.every = seconds(*given.every, "every", problems);
+  if (given.max_step) options.max_step = seconds(*given.max_step, "solver/max_step", problems);
+  if (given.relative_tolerance) options.relative_tolerance = *given.relative_tolerance;
+  if (given.absolute_tolerance) options.absolute_tolerance = *given.absolute_tolerance;
+  if (given.method) {
+    const std::vector<std::pair<std::string, Method>> methods{
+        {"auto", Method::automatic}, {"exact", Method::exact}, {"bdf", Method::bdf}, {"adams", Method::adams}};
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.first == *given.method; });
+    if (found == methods.end())
+      problems.add("bad_value", "/simulate/solver/method", fmt::format("there is no method \"{}\"", *given.method),
+                   did_you_mean(*given.method, {"auto", "exact", "bdf", "adams"}));
+    else
+      options.method = found->second;
+  }
+  problems.throw_if_any();
+  return options;
+}
+
+std::vector<double> output_instants(const SimulateOptions& o) {
+  Problems problems;
+  const auto bad = [&](const char* key, const std::string& what, const char* cure) {
+    problems.add("bad_value", std::string("/simulate/") + key, what, cure);
+  };
+  if (!(o.relative_tolerance > 0 && o.relative_tolerance < 1))
+    bad("solver/relative_tolerance", fmt::format("a relative tolerance of {} is not possible", o.relative_tolerance),
+        "choose it between 1e-12 and 1e-3");
+  if (!(o.absolute_tolerance > 0) || !std::isfinite(o.absolute_tolerance))
+    bad("solver/absolute_tolerance", fmt::format("an absolute tolerance of {} is not possible", o.absolute_tolerance),
+        "choose a positive number (a multiple of relative_tolerance times each state's nominal size)");
+  if (!(o.max_step >= 0))
+    bad("solver/max_step", fmt::format("a step of {} s is not possible", o.max_step), "choose a positive time");
+  if (!o.instants.empty()) {
+    for (std::size_t i = 0; i < o.instants.size(); ++i) {
+      if (std::isfinite(o.instants[i]) && (i == 0 ? o.instants[0] >= o.begin : o.instants[i] > o.instants[i - 1]))
+        continue;
+      bad("instants",
+          fmt::format("output time {} ({} s) is not behind the one before or the start ({} s)", i, o.instants[i],
+                      o.begin),
+          "give increasing times, none before the start");
+      break;
+    }
+    problems.throw_if_any();
+    return o.instants;
+  }
+  if (!(o.until > o.begin) || !std::isfinite(o.until))
+    bad("until", fmt::format("the end ({} s) is not behind the start ({} s)", o.until, o.begin), "give a later end");
+  if (!(o.every >= 0))
+    bad("every", fmt::format("an output step of {} s is not possible", o.every), "choose a positive time");
+  problems.throw_if_any();
+  const double span = o.until - o.begin;
+  const double every = o.every > 0 ? o.every : span / default_points;
+  // One part in 1e9 forgives 0.3 / 0.1 being less than 3.
+  const double steps = std::floor(span / every * (1 + 1e-9));
+  if (steps >= static_cast<double>(most_instants))
+    fail("bad_value", "/simulate/every", fmt::format("{:.3g} output times are more than can be kept", steps),
+         "choose a longer output step");
+  std::vector<double> instants(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t k = 0; k < instants.size(); ++k)
+    instants[k] = std::min(o.begin + static_cast<double>(k) * every, o.until);
+  return instants;
+}
+
+void check_inputs(const Program& program, const Run& run) {
+  Problems problems;
+  for (std::size_t i = 0; i < program.input_names.size(); ++i)
+    if (!run.series[i] || run.series[i]->t.empty())
+      problems.add("unbound_input", "/inputs/" + program.input_names[i],
+                   fmt::format("nothing drives the input \"{}\" of the diagram", program.input_names[i]),
+                   "bind a recording to it (--data), or replace the input by a source block");
+  problems.throw_if_any();
+}
+
+bool advances_exactly(const Program& program, const SimulateOptions& options) {
+  if (options.method != Method::automatic && options.method != Method::exact) return false;
+  const auto reason = why_not_exact(program);
+  const auto source = source_between_rows(program);
+  if (reason.empty() && source.empty()) return true;
+  if (options.method == Method::automatic) return false;
+  fail("not_exact", source.empty() ? "/simulate/solver/method" : source,
+       reason.empty()
+           ? fmt::format(
+                 "the source \"{}\" moves between the rows of a recording, so that no advance from row to row is exact",
+                 source)
+           : "the diagram cannot be advanced exactly: " + reason,
+       "choose the method \"auto\" or \"bdf\"");
+}
+
+Traces simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
+                        std::vector<double> instants, const std::vector<int>& signals) {
+  const bool early = instants.front() > options.begin;
+  if (early) instants.insert(instants.begin(), options.begin);
+  // The advance keeps a pointer only while it is built and called; the program outlives both.
+  Advance advance(ProgramPointer(ProgramPointer(), &program), signals);
+  Traces traces;
+  traces.signals = signals;
+  AdvanceOptions how;
+  how.at_rest = options.at_rest;
+  advance(run, instants, how, traces.values);
+  traces.statistics.steps = static_cast<long>(instants.size());
+  if (!advance.exact_without_substeps()) {
+    // Rows are halved until the result stays; the last change bounds what is left (the error falls with the second
+    // power).
+    for (bool same = false; !same && how.substeps < most_substeps;) {
+      how.substeps *= 2;
+      auto finer = traces.values;
+      advance(run, instants, how, finer);
+      same = change(traces.values, finer) <= options.relative_tolerance;
+      traces.values = std::move(finer);
+    }
+    traces.statistics.steps *= how.substeps;
+  }
+  if (early) {
+    instants.erase(instants.begin());
+    for (auto& v : traces.values) v.erase(v.begin());
+  }
+  for (std::size_t s = 0; s < signals.size(); ++s) {
+    const auto& v = traces.values[s];
+    const auto bad = std::find_if(v.begin(), v.end(), [](double value) { return !std::isfinite(value); });
+    if (bad == v.end()) continue;
+    fail_numerics(
+        "diverged", program.signals[static_cast<std::size_t>(signals[s])].path,
+        fmt::format("the signal is {} at t = {:.9g} s", *bad, instants[static_cast<std::size_t>(bad - v.begin())]),
+        "check the parameters of the blocks before it");
+  }
+  traces.t = std::move(instants);
+  traces.statistics.method = "exact";
+  return traces;
+}
+
+}  // namespace hysteron

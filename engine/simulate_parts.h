@@ -1,0 +1,27 @@
+// Decides how options become instants and checks, and when a simulation is handed to the exact advance.
+// Internal to simulate.cpp and simulate_options.cpp.
+#pragma once
+
+#include <vector>
+
+#include "engine/simulate.h"
+
+namespace hysteron {
+
+/// The output times: as given, or begin, begin + every ... until. Throws Error "bad_value" for options that make no
+/// sense.
+std::vector<double> output_instants(const SimulateOptions& options);
+
+/// Throws Error "unbound_input" if an input of the diagram has no series.
+void check_inputs(const Program& program, const Run& run);
+
+/// True if the method allows it, the diagram allows it and every source is a series. Throws Error "not_exact" where it
+/// was asked for and cannot be.
+bool advances_exactly(const Program& program, const SimulateOptions& options);
+Traces simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
+                        std::vector<double> instants, const std::vector<int>& signals);
+
+/// Throws Error "diverged" that names the first block in program order whose value at (t, x) is not finite.
+[[noreturn]] void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x);
+
+}  // namespace hysteron
