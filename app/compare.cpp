@@ -1,0 +1,195 @@
+// The verb compare: how far is the model from the measurement, and where does it fail.
+// Does not fit and does not name effects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/curves.h"
+#include "app/load.h"
+#include "app/numbers.h"
+#include "app/publish.h"
+#include "app/terminal.h"
+#include "app/verb.h"
+#include "engine/error.h"
+#include "fit/delay.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: how far is the model from the measurement, and WHERE does it fail - when, at which level,\n"
+    "on which branch, at which rate. Evaluated at exactly the measured instants; nothing is fitted.\n\n"
+    "Examples:\n"
+    "  hysteron compare stage.json --data lab.csv\n"
+    "  hysteron compare stage.json --data dataset.json --set gain=\"11.9 um/V\"\n"
+    "  hysteron compare stage.json --data dataset.json --tolerance 5% --tolerance \"0.2 um\"\n\n"
+    "--tolerance makes it a question with a yes or no, judged on the validate recordings together (on all,\n"
+    "where there are none): a share bounds the NRMSE (rms of the residual over the standard deviation of the\n"
+    "measurement), a quantity bounds the RMS.\n"
+    "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
+    "Writes into the folder: result.json, traces/*.csv (one per recording), report.html.\n"
+    "Exit codes: 0 done (and within the tolerances), 1 outside a tolerance, 2 wrong input, 3 the simulation failed.";
+
+struct Tolerance {
+  std::string written;
+  bool is_share = true;  ///< of NRMSE; else RMS [SI]
+  double limit = 0;
+  Unit unit{};
+};
+
+std::vector<Tolerance> read_tolerances(const Arguments& arguments) {
+  std::vector<Tolerance> list;
+  for (const auto& written : arguments.list("--tolerance")) {
+    Tolerance tolerance{written, true, 0, {}};
+    std::string unit;
+    if (!split_quantity(written, tolerance.limit, unit) || !(tolerance.limit >= 0))
+      fail("bad_command_line", "--tolerance", "\"" + written + "\" is no tolerance",
+           "write a share of NRMSE such as 5%, or an RMS such as \"0.2 um\"");
+    tolerance.unit = parse_unit(unit, "--tolerance");
+    tolerance.is_share = tolerance.unit.dimension.none();
+    tolerance.limit = tolerance.unit.difference_to_si(tolerance.limit);
+    list.push_back(tolerance);
+  }
+  return list;
+}
+
+/// The figures that a tolerance is held against: of the validate recordings, else of all.
+const Metrics* judged_metrics(const Comparison& comparison, int output) {
+  if (const Metrics* validate = comparison.find(Role::validate, output)) return validate;
+  for (const auto& m : comparison.metrics)
+    if (m.recording < 0 && m.all_roles && m.output == output) return &m.metrics;
+  return comparison.find(Role::train, output);
+}
+
+/// Sentences on the tolerances; `within` becomes false where one is exceeded.
+std::vector<std::string> judge_tolerances(const std::vector<Tolerance>& tolerances, const DataModel& model,
+                                          const Comparison& comparison, bool& within) {
+  std::vector<std::string> sentences;
+  for (const auto& tolerance : tolerances) {
+    bool used = false;
+    for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
+      const Metrics* m = judged_metrics(comparison, y);
+      const Unit unit = output_unit(model, y);
+      if (m == nullptr || (!tolerance.is_share && !(tolerance.unit.dimension == unit.dimension))) continue;
+      used = true;
+      const double found = tolerance.is_share ? m->nrmse : m->rms;
+      const bool good = found <= tolerance.limit;
+      within = within && good;
+      sentences.push_back(fmt::format("{}: {} of {} is {} the tolerance of {}.", model.outputs()[static_cast<std::size_t>(y)],
+                                      tolerance.is_share ? "NRMSE" : "RMS",
+                                      tolerance.is_share ? percent_text(found) : difference_text(found, unit),
+                                      good ? "within" : "OUTSIDE", tolerance.written));
+    }
+    if (!used)
+      fail("wrong_unit", "--tolerance", fmt::format("\"{}\" has the unit of no measured output", tolerance.written),
+           fmt::format("write it in {}, or as a share of NRMSE such as 5%", unit_text(output_unit(model, 0))));
+  }
+  return sentences;
+}
+
+std::string headline(const DataModel& model, const Comparison& comparison) {
+  std::vector<std::string> parts;
+  for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
+    const Metrics* m = judged_metrics(comparison, y);
+    if (m == nullptr) continue;
+    parts.push_back(fmt::format("{}: RMS {}, NRMSE {}, fit {}", model.outputs()[static_cast<std::size_t>(y)],
+                                difference_text(m->rms, output_unit(model, y)), percent_text(m->nrmse),
+                                percent_text(m->fit / 100)));
+  }
+  const bool validate = comparison.find(Role::validate, 0) != nullptr;
+  return fmt::format("{} ({})", fmt::join(parts, "; "), validate ? "validate recordings" : "all recordings");
+}
+
+Document document_of(const Diagram& diagram, const DataModel& model, const Comparison& comparison) {
+  Document document;
+  document.verb = "compare";
+  document.title = diagram.title;
+  document.headline = headline(model, comparison);
+  document.warnings = model.data().remarks;
+  for (const auto& remark : model.remarks()) document.warnings.push_back(remark);
+  const auto recordings = judged_recordings(model);
+  const Beside view{&model, &comparison, nullptr};
+
+  Section figures;
+  figures.title = "How far";
+  figures.tables.push_back(metrics_table(model, comparison));
+  document.sections.push_back(std::move(figures));
+
+  Section where;
+  where.title = "Where the squared error lies";
+  where.text.emplace_back("The shares of each split add up to 100 %.");
+  add_split_figures(where, model, comparison);
+  document.sections.push_back(std::move(where));
+
+  Section residuals;
+  residuals.title = "Residual against level, branch and rate";
+  add_residual_figures(residuals, view, recordings);
+  document.sections.push_back(std::move(residuals));
+
+  for (const int r : recordings) {
+    Section section;
+    section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
+    document.traces.push_back(recording_table(view, r, trace_file(model.recording(r).name, document.traces)));
+    add_time_figures(section, view, document.traces.back());
+    document.sections.push_back(std::move(section));
+  }
+  return document;
+}
+
+int compare_verb_acts(const Arguments& arguments) {
+  const auto tolerances = read_tolerances(arguments);
+  const Diagram diagram = load_diagram(arguments);
+  const ProgramPointer program = compile_file(diagram);
+  const auto data = std::make_shared<const DataSet>(load_data(arguments, *program));
+  DataModelOptions model_options;
+  model_options.threads = 2;
+  DataModel model(program, data, model_options);
+  const auto recordings = judged_recordings(model);
+  const Judge judge(model, noise_before_fit(model));
+  const Prediction prediction = model.predict({}, recordings);
+  if (!prediction.ok)
+    fail_numerics("simulation_failed", arguments.text("diagram"), prediction.error,
+                  "run it alone with \"hysteron run\" to see where it diverges");
+  const Comparison comparison = compare(model, judge, prediction, recordings);
+
+  Document document = document_of(diagram, model, comparison);
+  bool within = true;
+  document.sentences = judge_tolerances(tolerances, model, comparison, within);
+  for (const auto& sentence : comparison.sentences) document.sentences.push_back(sentence);
+  auto facts = std::make_shared<nlohmann::json>();
+  (*facts)["diagram"] = arguments.text("diagram");
+  (*facts)["data"] = arguments.text("--data");
+  (*facts)["metrics"] = metrics_facts(model, comparison);
+  (*facts)["splits"] = split_facts(model, comparison);
+  if (!tolerances.empty()) (*facts)["within_tolerance"] = within;
+  for (const auto& delay : find_delays(model, judge, prediction))
+    if (!delay.sentence.empty()) {
+      document.warnings.push_back(delay.sentence);
+      (*facts)["delays"].push_back({{"output", model.outputs()[static_cast<std::size_t>(delay.output)]},
+                                    {"samples", delay.samples},
+                                    {"seconds", delay.seconds},
+                                    {"sentence", delay.sentence}});
+    }
+  document.facts = facts;
+  publish(arguments, result_folder(arguments, "compare"), document);
+  return within ? exit_code::done : exit_code::no;
+}
+
+}  // namespace
+
+Verb compare_verb() {
+  return {"compare",
+          "how far is the model from the measurement, and where does it fail",
+          help,
+          {options::diagram(),
+           options::data(true),
+           {"--tolerance", "LIMIT", "exit with 1 if NRMSE (5%) or RMS (\"0.2 um\") is larger", false, true},
+           options::output_folder(),
+           options::set(),
+           options::choose(),
+           options::allow()},
+          compare_verb_acts};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,47 @@
+// Decides how measured and simulated rows become traces, tables and figures of a report.
+// Does not simulate and does not judge (fit/compare.h).
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "fit/compare.h"
+#include "fit/model.h"
+#include "io/result.h"
+
+namespace hysteron {
+
+/// A model's rows beside those of a second one: "before" an effect or a fit and after it.
+struct Beside {
+  const DataModel* model = nullptr;     ///< for times, inputs and measurements
+  const Comparison* now = nullptr;      ///< what is shown as simulated
+  const Comparison* before = nullptr;   ///< null = there is none
+};
+
+/// In which unit an output is shown: that of the recordings.
+Unit output_unit(const DataModel& model, int output);
+Unit input_unit(const DataModel& model, int input);
+
+/// One recording: t, inputs, the rate of the main input, and per output measured, simulated, residual (and these before).
+CsvTable recording_table(const Beside& view, int recording, const std::string& file);
+
+/// Measured and simulated, and the residual, over time; the figures share their time axis.
+void add_time_figures(Section& section, const Beside& view, const CsvTable& table);
+
+/// The residual against level and rate of the main input, rising, falling and holding branch apart, over all recordings.
+void add_residual_figures(Section& section, const Beside& view, const std::vector<int>& recordings);
+
+/// A bar for each part of each split; lengths are shares of the squared error.
+void add_split_figures(Section& section, const DataModel& model, const Comparison& comparison);
+
+/// RMS, peak, NRMSE and fit of each recording and output, and of each role together.
+Table metrics_table(const DataModel& model, const Comparison& comparison);
+/// The same as facts for programs.
+nlohmann::json metrics_facts(const DataModel& model, const Comparison& comparison);
+nlohmann::json split_facts(const DataModel& model, const Comparison& comparison);
+
+/// Recordings of train and validate, in the order of the data set; test recordings are left alone (DESIGN 4.2).
+std::vector<int> judged_recordings(const DataModel& model);
+
+}  // namespace hysteron
