@@ -15,6 +15,7 @@
 
 #include "engine/error.h"
 #include "io/atomic_file.h"
+#include "io/diagram_file.h"
 #include "io/result.h"
 
 namespace hysteron {
@@ -82,6 +83,7 @@ void write_files(const fs::path& folder, const Document& document, const std::st
   for (const auto& trace : document.traces) write_csv(place(fs::path("traces") / trace.file), trace);
   for (const auto& [name, content] : document.files) write_file(place(name), content);
   if (!report_html.empty()) write_file(place("report.html"), report_html);
+  write_file(place("result.schema.json"), result_schema());  // "$schema" of result.json, wherever the folder is moved
   write_file(place("result.json"), result_text(document));
 }
 

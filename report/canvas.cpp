@@ -107,7 +107,7 @@ std::string with_exponent(const std::string& label, int exponent) {
 }  // namespace
 
 std::string Canvas::x_axis(const std::string& label) const {
-  const auto ticks = x.ticks(static_cast<int>((width - left - right) / 80));
+  const auto ticks = x.ticks(std::max(3, static_cast<int>((width - left - right) / 70)));
   const double foot = height - bottom;
   std::string out;
   for (const auto& tick : ticks.list) {

@@ -67,8 +67,8 @@ std::string figure_data(const PreparedFigure& f, const std::string& link) {
   for (std::size_t i = 0; i < f.curves.size(); ++i) {
     const auto& c = f.curves[i];
     if (i > 0) out += ',';
-    out += fmt::format("{{\"name\":{},\"style\":{},\"colour\":\"{}\",\"monotone\":{},\"x\":", quoted(c.name),
-                       quoted(c.style), c.colour, c.monotone);
+    out += fmt::format("{{\"name\":{},\"style\":{},\"colour\":\"{}\",\"monotone\":{},\"few\":{},\"x\":", quoted(c.name),
+                       quoted(c.style), c.colour, c.monotone, c.few);
     append_numbers(c.x, digits_for(c.x, 8), out);
     out += ",\"y\":";
     append_numbers(c.y, digits_for(c.y, 6), out);

@@ -43,8 +43,8 @@ std::string curves_svg(const PreparedFigure& f) {
   const Canvas canvas = canvas_of(f);
   std::string out = canvas.open(f.title) + canvas.y_axis(f.y_label) + canvas.x_axis(f.x_label);
   for (const auto& curve : f.curves)
-    out += fmt::format("<path class=\"curve {} c-{}\" d=\"{}\"/>", escape(curve.style), curve.colour,
-                       path_of(curve, canvas));
+    out += fmt::format("<path class=\"curve {}{} c-{}\" d=\"{}\"/>", escape(curve.style), curve.few ? " few" : "",
+                       curve.colour, path_of(curve, canvas));
   if (f.x.empty() || f.y.empty())
     out += svg_text((canvas.left + canvas.width - canvas.right) / 2, canvas.height / 2, "middle", "no values to show");
   return out + "</svg>";
@@ -63,10 +63,10 @@ std::string rect(double x, double y, double width, double height, const std::str
                      px(x), px(y), px(width), px(std::max(0.0, height)), escape(hover));
 }
 
-Canvas waterfall_canvas(const PreparedFigure& f, bool floor) {
+Canvas waterfall_canvas(const PreparedFigure& f, bool floor, std::size_t label_lines) {
   Canvas c;
-  c.height = 330;
-  c.bottom = 66;
+  c.bottom = 12 + 15 * static_cast<double>(label_lines);
+  c.height = 264 + c.bottom;
   c.top = 26;
   if (floor) c.right = 132;
   double low = 0, high = 0;
@@ -119,9 +119,13 @@ std::string waterfall_svg(const PreparedFigure& f) {
     else
       steps.push_back(bar);
   }
-  const Canvas c = waterfall_canvas(f, floor != nullptr);
-  const double foot = c.height - c.bottom, room = c.width - c.left - c.right;
+  Canvas c = waterfall_canvas(f, floor != nullptr, 1);
+  const double room = c.width - c.left - c.right;
   const double slot = std::min(190.0, room / static_cast<double>(std::max<std::size_t>(1, steps.size())));
+  std::size_t label_lines = 1;
+  for (const auto& step : steps) label_lines = std::max(label_lines, wrap(step.label, slot - 8, 3).size());
+  c = waterfall_canvas(f, floor != nullptr, label_lines);
+  const double foot = c.height - c.bottom;
   const double begin = c.left + (room - slot * static_cast<double>(steps.size())) / 2;
   std::string out = c.open(f.title) + c.y_axis(f.y_label);
   for (std::size_t i = 0; i < steps.size(); ++i)

@@ -14,6 +14,7 @@ namespace hysteron {
 namespace {
 
 constexpr int palette_size = 8;
+constexpr std::size_t few_points = 150;  ///< drawn as larger dots
 
 /// Where the numbers of a curve stand.
 struct Source {
@@ -88,6 +89,19 @@ void widen(Range& range, bool log) {
   range = log ? Range{range.low / 2, range.high * 2} : Range{range.low - around, range.high + around};
 }
 
+/// Some air, so that points at the ends are not cut.
+void add_air(Range& range, bool log) {
+  if (range.empty()) return;
+  const double air = 0.03;
+  if (log) {
+    const double factor = std::pow(range.high / range.low, air);
+    range = {range.low / factor, range.high * factor};
+  } else {
+    const double margin = air * (range.high - range.low);
+    range = {range.low - margin, range.high + margin};
+  }
+}
+
 bool is_time(const std::string& label) {
   static const std::set<std::string> units{"s", "ms", "us", "ns", "min", "h", "d", "hour", "day"};
   return units.contains(unit_of_label(label)) || label.rfind("time", 0) == 0;
@@ -143,6 +157,7 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
     c.points = x.size();
     c.monotone = never_decreases(x);
     monotone = monotone && c.monotone;
+    c.few = c.points <= few_points;
     for (const auto k : decimate(x, y, shares[i])) {
       c.x.push_back(x[k]);
       c.y.push_back(y[k]);
@@ -155,7 +170,11 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   }
   widen(p.x, p.log_x);
   widen(p.y, p.log_y);
-  p.wide = p.kind == "waterfall" || (p.kind == "curves" && monotone && is_time(p.x_label));
+  const bool over_time = p.kind == "curves" && monotone && is_time(p.x_label);
+  const bool points_only =
+      std::all_of(p.curves.begin(), p.curves.end(), [](const PreparedCurve& c) { return c.style == "points"; });
+  if (!monotone || points_only) add_air(p.x, p.log_x);
+  p.wide = p.kind == "waterfall" || over_time;
   return p;
 }
 

@@ -18,6 +18,7 @@ struct PreparedCurve {
   std::vector<double> x, y;  ///< thinned out to the figure's budget
   std::size_t points = 0;    ///< before that
   bool monotone = false;     ///< x never decreases
+  bool few = false;          ///< so few points that each is drawn large
 };
 
 /// Smallest and largest value; empty = nothing to show.

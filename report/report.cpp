@@ -142,6 +142,10 @@ std::string table_html(const Table& t) {
     numeric[k] = numeric[k] && any && k > 0;
   }
   const auto css = [&](std::size_t k) { return k < numeric.size() && numeric[k] ? " class=\"number\"" : ""; };
+  // A sentence in a narrow window must not become a tower of words.
+  const auto cell_css = [&](std::size_t k, const std::string& cell) {
+    return k < numeric.size() && !numeric[k] && cell.size() > 24 ? " class=\"prose\"" : css(k);
+  };
   std::string out = "<div class=\"table\">\n";
   if (!t.title.empty()) out += "<h3>" + escape_prose(t.title) + "</h3>\n";
   out += "<table>\n<thead><tr>";
@@ -150,7 +154,8 @@ std::string table_html(const Table& t) {
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : t.rows) {
     out += "<tr>";
-    for (std::size_t k = 0; k < row.size(); ++k) out += fmt::format("<td{}>{}</td>", css(k), escape_prose(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k)
+      out += fmt::format("<td{}>{}</td>", cell_css(k, row[k]), escape_prose(row[k]));
     out += "</tr>\n";
   }
   return out + "</tbody>\n</table>\n</div>\n";
@@ -233,22 +238,27 @@ void widen_lonely(std::vector<PreparedFigure>& figures) {
   }
 }
 
+std::string figures_html(const std::vector<PreparedFigure>& figures, std::size_t section) {
+  if (figures.empty()) return "";
+  std::string out = "<div class=\"figures\">\n";
+  for (const auto& f : figures)
+    out += figure_html(f, f.x_label.empty() ? "" : fmt::format("s{} {}{}", section, f.x_label, f.log_x ? " log" : ""));
+  return out + "</div>\n";
+}
+
+/// Text, tables, figures, text as it is; only a waterfall goes before the tables: it is the answer, they are the
+/// evidence.
 std::string section_html(const Document& d, const Section& s, std::size_t number,
                          const std::vector<std::size_t>& budgets) {
+  std::vector<PreparedFigure> waterfalls, others;
+  for (std::size_t i = 0; i < s.figures.size(); ++i)
+    (s.figures[i].kind == "waterfall" ? waterfalls : others).push_back(prepare(d, s.figures[i], budgets[i]));
+  widen_lonely(others);
   std::string out = fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", number, escape_prose(s.title));
   for (const auto& paragraph : s.text) out += "<p>" + escape_prose(paragraph) + "</p>\n";
+  out += figures_html(waterfalls, number);
   for (const auto& table : s.tables) out += table_html(table);
-  if (!s.figures.empty()) {
-    std::vector<PreparedFigure> figures;
-    for (std::size_t i = 0; i < s.figures.size(); ++i) figures.push_back(prepare(d, s.figures[i], budgets[i]));
-    widen_lonely(figures);
-    out += "<div class=\"figures\">\n";
-    for (const auto& f : figures) {
-      const std::string scale = f.log_x ? " log" : "";
-      out += figure_html(f, f.x_label.empty() ? "" : fmt::format("s{} {}{}", number, f.x_label, scale));
-    }
-    out += "</div>\n";
-  }
+  out += figures_html(others, number);
   if (!s.preformatted.empty()) out += preformatted_html(s.preformatted_title, s.preformatted);
   return out + "</section>\n";
 }

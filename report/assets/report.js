@@ -117,7 +117,7 @@
       this.clip = make('rect', {}, make('clipPath', {id}, make('defs', {}, this.svg)));
       this.axes = make('g', {}, this.svg);
       const clipped = make('g', {'clip-path': `url(#${id})`}, this.svg);
-      for (const c of this.curves) c.path = make('path', {class: `curve ${c.style} c-${c.colour}`}, clipped);
+      for (const c of this.curves) c.path = make('path', {class: `curve ${c.style}${c.few ? ' few' : ''} c-${c.colour}`}, clipped);
       this.pane = make('rect', {class: 'pane'}, this.svg);
       this.cursor = make('line', {class: 'cursor', visibility: 'hidden', 'pointer-events': 'none'}, clipped);
       this.dots = make('g', {'pointer-events': 'none'}, clipped);
@@ -168,6 +168,7 @@
     // -- drawing
 
     draw() {
+      this.drawnFor = this.picture.clientWidth;
       const width = Math.max(240, this.picture.clientWidth || (this.data.wide ? 1000 : 490)), height = 300;
       const [y0, y1] = this.seenY(), [x0, x1] = this.viewX;
       const ticksY = this.data.log_y ? logTicks(y0, y1, 6) : linearTicks(y0, y1, 6);
@@ -193,7 +194,7 @@
 
     drawAxes(ticksY) {
       const {left, right, top, bottom, width, height} = this.box, [x0, x1] = this.viewX;
-      const ticksX = (this.data.log_x ? logTicks : linearTicks)(x0, x1, Math.max(2, Math.floor((right - left) / 80)));
+      const ticksX = (this.data.log_x ? logTicks : linearTicks)(x0, x1, Math.max(3, Math.floor((right - left) / 70)));
       const g = this.axes;
       g.replaceChildren();
       const text = (x, y, anchor, content, css) => {
@@ -318,7 +319,9 @@
         item.addEventListener('click', toggle);
         item.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); toggle(); } });
       });
-      new ResizeObserver(() => { if (this.picture.clientWidth !== this.box?.width) this.draw(); }).observe(p);
+      new ResizeObserver(() => requestAnimationFrame(() => {
+        if (p.clientWidth !== this.drawnFor) this.draw();
+      })).observe(p);
     }
 
     dragBegins(e) {
