@@ -73,6 +73,6 @@ struct SplitInput {
   std::string name;                ///< of the recording
 };
 std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
-                             const Unit& input_unit, const Unit& output_unit);
+                             const Unit& input_unit);
 
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/diagram.h"
@@ -94,8 +95,11 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
 
 /// The diagram with the used values written where each parameter stands (diagram parameters, block parameters, list
 /// elements, nested diagrams), in the unit that the file used, rounded to `digits` significant digits.
+/// A value inside a nested diagram's own file changes that file: with `nested`, such a file gets a new name
+/// ("stage_fitted.json") and is listed there (name as written in the diagram, content) for the caller to write beside
+/// it.
 Diagram with_parameters(const Diagram& diagram, const Program& program, const std::vector<ParameterValue>& values,
-                        int digits = 8);
+                        int digits = 8, std::vector<std::pair<std::string, Diagram>>* nested = nullptr);
 
 /// A parameter set as JSON text that a diagram can name: path -> value with unit, standard deviation, interval, and its
 /// source.

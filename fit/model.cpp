@@ -73,7 +73,8 @@ struct DataModel::Content {
   void simulate_into(Bound& b, Run run, bool at_rest, int substeps, bool cvode) const;
   std::vector<Rows> rows_of(const Bound& b) const;
   std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
-  void predict_one(int r, std::span<const ParameterValue> values, Prediction& prediction, std::string& error);
+  void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,
+                   std::string& error);
   void predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction);
   template <class Job>
   void side_by_side(std::span<const int> recordings, const Job& job) const;
@@ -251,12 +252,13 @@ void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> 
 }
 
 /// No exception leaves: a failing simulation is a text.
-void DataModel::Content::predict_one(int r, std::span<const ParameterValue> values, Prediction& prediction,
-                                     std::string& error) {
+void DataModel::Content::predict_one(int r, std::span<const ParameterValue> values, bool with_initial,
+                                     Prediction& prediction, std::string& error) {
   const auto k = static_cast<std::size_t>(r);
   try {
     prediction.y[k] = one(r, values, bound[k].substeps, options.force_cvode);
-    if (data->recordings[k].initial_per_recording && !free_states.empty()) predict_initial(r, values, prediction);
+    if (with_initial && data->recordings[k].initial_per_recording && !free_states.empty())
+      predict_initial(r, values, prediction);
   } catch (const std::exception& e) {
     ++failures;
     error = fmt::format("{}: {}", data->recordings[k].name, e.what());
@@ -365,14 +367,17 @@ int DataModel::main_input() const {
 double DataModel::span(int output) const { return content_->spans[static_cast<std::size_t>(output)]; }
 const std::string& DataModel::why_not_exact() const { return content_->not_exact; }
 
-Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<const int> recordings) {
+Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<const int> recordings,
+                              bool with_initial) {
   Content& c = *content_;
   if (!c.substeps_chosen) choose_substeps(values);
   Prediction prediction;
   prediction.y.resize(c.bound.size());
   prediction.initial.resize(c.bound.size());
   std::vector<std::string> errors(c.bound.size());
-  c.side_by_side(recordings, [&](int r) { c.predict_one(r, values, prediction, errors[static_cast<std::size_t>(r)]); });
+  c.side_by_side(recordings, [&](int r) {
+    c.predict_one(r, values, with_initial, prediction, errors[static_cast<std::size_t>(r)]);
+  });
   for (const auto& error : errors)
     if (!error.empty() && prediction.ok) {
       prediction.ok = false;
@@ -382,7 +387,7 @@ Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<
 }
 
 std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
-                                                    std::span<const double> noise) {
+                                                    std::span<const double> noise, bool only_finer) {
   Content& c = *content_;
   std::vector<std::string> remarks;
   if (!c.not_exact.empty() || !c.needs_substeps) {
@@ -408,7 +413,7 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
         if (worst <= 1) break;
         coarse = std::move(fine);
       }
-      b.substeps = n;
+      b.substeps = only_finer ? std::max(n, b.substeps) : n;
       if (n >= c.options.max_substeps)
         remarks.push_back(
             fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for", recording(r).name, n));

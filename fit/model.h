@@ -36,7 +36,7 @@ struct DataModelOptions {
   int max_substeps = 64;             ///< per row, where rows have to be split at all
   double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
-  double relative_tolerance = 1e-6;  ///< of BDF
+  double relative_tolerance = 1e-7;  ///< of BDF
 };
 
 /// A program bound to a data set. Holds everything that stays the same from trial to trial: series, instants, plans.
@@ -77,12 +77,15 @@ class DataModel {
   const std::string& why_not_exact() const;
 
   /// Simulates the recordings with these values (all others as compiled). Never throws for a failing simulation.
-  Prediction predict(std::span<const ParameterValue> values, std::span<const int> recordings);
+  /// `with_initial` = false leaves out the responses to initial states that are free per recording.
+  Prediction predict(std::span<const ParameterValue> values, std::span<const int> recordings, bool with_initial = true);
 
   /// Chooses the substeps of each recording at these values: doubled until no row changes by more than
   /// max(noise[output] / 1000, substep_tolerance * span). Called by predict() at its first call with noise 0.
+  /// `only_finer`: a recording keeps its substeps where these values need fewer.
   /// Returns a text for each recording where max_substeps did not suffice.
-  std::vector<std::string> choose_substeps(std::span<const ParameterValue> values, std::span<const double> noise = {});
+  std::vector<std::string> choose_substeps(std::span<const ParameterValue> values, std::span<const double> noise = {},
+                                           bool only_finer = false);
   int substeps(int recording) const;
 
   /// Largest difference between the exact advance and BDF on these recordings, per output, over its span. Once per fit.

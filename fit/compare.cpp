@@ -1,0 +1,131 @@
+#include "fit/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hysteron {
+namespace {
+
+/// Sums of several recordings; a zero per recording takes each recording's own mean out of the measured deviation.
+struct Pool {
+  std::size_t rows = 0;
+  double squared = 0, peak = 0;
+  double sum = 0, sum_squares = 0, shift = 0, within = 0;
+
+  void add(const Rows& measured, const Rows& residual) {
+    if (rows == 0 && !measured.empty()) shift = measured.front();  // keeps the sums of squares well conditioned
+    double mean = 0;
+    for (const double y : measured) mean += y;
+    mean /= std::max<double>(1, static_cast<double>(measured.size()));
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      squared += residual[i] * residual[i];
+      peak = std::max(peak, std::abs(residual[i]));
+      sum += measured[i] - shift;
+      sum_squares += (measured[i] - shift) * (measured[i] - shift);
+      within += (measured[i] - mean) * (measured[i] - mean);
+    }
+    rows += residual.size();
+  }
+
+  Metrics metrics(bool own_means) const {
+    Metrics m;
+    m.rows = rows;
+    if (rows == 0) return m;
+    const auto n = static_cast<double>(rows);
+    m.rms = std::sqrt(squared / n);
+    m.peak = peak;
+    m.deviation = std::sqrt(std::max(0.0, own_means ? within / n : sum_squares / n - (sum / n) * (sum / n)));
+    m.nrmse = m.deviation > 0 ? m.rms / m.deviation : (m.rms > 0 ? std::numeric_limits<double>::infinity() : 0);
+    m.fit = 100 * (1 - m.nrmse);
+    return m;
+  }
+};
+
+std::string headline(const DataModel& model, const Comparison& c, int output) {
+  const auto& unit = model.program().signals[static_cast<std::size_t>(model.output_signal(output))].unit;
+  const auto& name = model.outputs()[static_cast<std::size_t>(output)];
+  std::vector<std::string> parts;
+  for (const Role role : {Role::train, Role::validate, Role::test})
+    if (const Metrics* m = c.find(role, output); m != nullptr && m->rows > 0)
+      parts.push_back(fmt::format("{:.3g} {} rms = {:.3g} % NRMSE (fit {:.1f} %) on {}",
+                                  unit.difference_from_si(m->rms), unit.text, 100 * m->nrmse, m->fit, to_text(role)));
+  return fmt::format("{}: {}", name, fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+Metrics metrics_of(const Rows& measured, const Rows& residual) {
+  Pool pool;
+  pool.add(measured, residual);
+  return pool.metrics(true);
+}
+
+const Metrics* Comparison::find(int recording, int output) const {
+  for (const auto& m : metrics)
+    if (m.recording == recording && m.output == output && recording >= 0) return &m.metrics;
+  return nullptr;
+}
+
+const Metrics* Comparison::find(Role role, int output) const {
+  for (const auto& m : metrics)
+    if (m.recording < 0 && !m.all_roles && m.role == role && m.output == output) return &m.metrics;
+  return nullptr;
+}
+
+Comparison compare(const DataModel& model, const Judge& judge, Prediction prediction, std::vector<int> recordings) {
+  if (recordings.empty())
+    for (int r = 0; r < model.n_recordings(); ++r)
+      if (!prediction.y[static_cast<std::size_t>(r)].empty()) recordings.push_back(r);
+  Comparison c;
+  c.zeros = add_zeros(model, judge, prediction);
+  c.residual.resize(prediction.y.size());
+  const int n_outputs = static_cast<int>(model.outputs().size());
+  for (const int r : recordings)
+    for (int o = 0; o < n_outputs; ++o)
+      c.residual[static_cast<std::size_t>(r)].push_back(residual_rows(model, prediction, r, o));
+
+  const int input = model.main_input();
+  for (int o = 0; o < n_outputs; ++o) {
+    const bool own = model.zero_per_recording(o);
+    Pool all;
+    for (const Role role : {Role::train, Role::validate, Role::test}) {
+      Pool pool;
+      for (const int r : recordings) {
+        const Rows& residual = c.residual[static_cast<std::size_t>(r)][static_cast<std::size_t>(o)];
+        if (model.recording(r).role != role || residual.empty()) continue;
+        c.metrics.push_back({r, false, role, o, metrics_of(model.measured(r, o), residual)});
+        pool.add(model.measured(r, o), residual);
+        all.add(model.measured(r, o), residual);
+      }
+      if (pool.rows > 0) c.metrics.push_back({-1, false, role, o, pool.metrics(own)});
+    }
+    c.metrics.push_back({-1, true, Role::train, o, all.metrics(own)});
+
+    std::vector<Rows> inputs(recordings.size());
+    std::vector<SplitInput> parts;
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+      const int r = recordings[k];
+      const Rows& residual = c.residual[static_cast<std::size_t>(r)][static_cast<std::size_t>(o)];
+      if (residual.empty()) continue;
+      if (input >= 0) inputs[k] = model.input(r, input);
+      parts.push_back({&model.times(r), input >= 0 ? &inputs[k] : nullptr, &residual, model.recording(r).name});
+    }
+    OutputSplits splits;
+    splits.output = o;
+    splits.splits = input >= 0 ? splits_of(parts, model.program().input_names[static_cast<std::size_t>(input)],
+                                           model.program().input_units[static_cast<std::size_t>(input)])
+                               : splits_of(parts, "", Unit{});
+    c.sentences.push_back(headline(model, c, o));
+    // Below 0.02 the error is spread as the rows are: nothing to say.
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, splits.splits.size()); ++i)
+      if (splits.splits[i].information > 0.02) c.sentences.push_back(splits.splits[i].sentence);
+    c.splits.push_back(std::move(splits));
+  }
+  c.predicted = std::move(prediction.y);
+  return c;
+}
+
+}  // namespace hysteron

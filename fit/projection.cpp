@@ -1,0 +1,292 @@
+#include "fit/projection.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hysteron {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+using Columns = Eigen::Map<const Matrix>;
+
+/// Orthonormal basis of the columns of `a`, columns that depend on others left out.
+std::vector<double> basis_of(const Matrix& a) {
+  if (a.cols() == 0 || a.rows() == 0) return {};
+  Matrix scaled = a;
+  for (Eigen::Index j = 0; j < a.cols(); ++j)
+    if (const double length = a.col(j).norm(); length > 0) scaled.col(j) /= length;
+  Eigen::ColPivHouseholderQR<Matrix> qr(scaled);
+  qr.setThreshold(1e-10);
+  const auto rank = qr.rank();
+  const Matrix q = qr.householderQ() * Matrix::Identity(a.rows(), rank);
+  return {q.data(), q.data() + q.size()};
+}
+
+/// v - Q Q' v for a basis of orthonormal columns.
+void clear_of(const std::vector<double>& basis, double* v, std::size_t rows) {
+  if (basis.empty() || rows == 0) return;
+  const auto n = static_cast<Eigen::Index>(rows);
+  const Columns q(basis.data(), n, static_cast<Eigen::Index>(basis.size() / rows));
+  Eigen::Map<Vector> x(v, n);
+  x -= q * (q.transpose() * x);
+}
+
+}  // namespace
+
+Projection::Projection(DataModel& model, const Judge& judge, const std::vector<FreeParameter>& free,
+                       const std::vector<bool>& affine, std::vector<int> recordings)
+    : model_(model), judge_(judge), free_(free), recordings_(std::move(recordings)) {
+  for (std::size_t i = 0; i < free.size(); ++i) (affine[i] ? linear_ : nonlinear_).push_back(static_cast<int>(i));
+  for (const int r : recordings_) {
+    rows_ += judge.size(r);
+    has_initial_ = has_initial_ || (model.recording(r).initial_per_recording && !model.free_initial_states().empty());
+  }
+  // The step between two simulations may be large, for the model is affine in it; large makes rounding small.
+  for (const int i : linear_) {
+    const auto& f = free[static_cast<std::size_t>(i)];
+    double step = std::abs(f.start);
+    if (step == 0 && std::isfinite(f.upper) && f.upper != 0) step = std::abs(f.upper);
+    if (step == 0) step = 1;
+    delta_.push_back(step);
+  }
+}
+
+std::vector<double> Projection::start() const {
+  std::vector<double> z;
+  for (int k = 0; k < n_nonlinear(); ++k)
+    z.push_back(to_z(k, free_[static_cast<std::size_t>(nonlinear_[static_cast<std::size_t>(k)])].start));
+  return z;
+}
+
+double Projection::to_z(int k, double value) const {
+  const auto& f = free_[static_cast<std::size_t>(nonlinear_[static_cast<std::size_t>(k)])];
+  const double inside = std::clamp(value, f.lower, f.upper);
+  return f.log_scale ? std::log(inside) : inside;
+}
+
+double Projection::to_value(int k, double z) const {
+  const auto& f = free_[static_cast<std::size_t>(nonlinear_[static_cast<std::size_t>(k)])];
+  return f.log_scale ? std::clamp(std::exp(z), f.lower, f.upper) : z;
+}
+
+std::vector<double> Projection::lower() const {
+  std::vector<double> list;
+  for (const int i : nonlinear_) {
+    const auto& f = free_[static_cast<std::size_t>(i)];
+    list.push_back(!f.log_scale ? f.lower : f.lower > 0 ? std::log(f.lower) : -std::numeric_limits<double>::infinity());
+  }
+  return list;
+}
+
+std::vector<double> Projection::upper() const {
+  std::vector<double> list;
+  for (const int i : nonlinear_) {
+    const auto& f = free_[static_cast<std::size_t>(i)];
+    list.push_back(f.log_scale && std::isfinite(f.upper) ? std::log(f.upper) : f.upper);
+  }
+  return list;
+}
+
+std::vector<ParameterValue> Projection::values(std::span<const double> z, std::span<const double> theta) const {
+  std::vector<ParameterValue> list(free_.size());
+  for (std::size_t k = 0; k < nonlinear_.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nonlinear_[k]);
+    list[i] = {free_[i].parameter, to_value(static_cast<int>(k), z[k])};
+  }
+  for (std::size_t j = 0; j < linear_.size(); ++j) {
+    const auto i = static_cast<std::size_t>(linear_[j]);
+    list[i] = {free_[i].parameter, theta[j]};
+  }
+  return list;
+}
+
+std::vector<double> Projection::reference() const {
+  std::vector<double> ref;
+  for (const int i : linear_) {
+    const auto& f = free_[static_cast<std::size_t>(i)];
+    ref.push_back(from_zero_ && f.lower <= 0 && f.upper >= 0 ? 0.0 : f.start);
+  }
+  return ref;
+}
+
+/// factor * W (a - b), all recordings one behind the other.
+void Projection::whiten_difference(const Prediction& a, const Prediction& b, double factor, double* out) const {
+  for (const int r : recordings_) {
+    const auto k = static_cast<std::size_t>(r);
+    auto rows = a.y[k];
+    for (std::size_t o = 0; o < rows.size(); ++o)
+      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] = factor * (rows[o][i] - b.y[k][o][i]);
+    judge_.whiten(r, rows, out);
+    out += judge_.size(r);
+  }
+}
+
+/// Takes the free initial states out of a whitened column.
+void Projection::clear(const ProjectedPoint& point, double* column) const {
+  for (std::size_t k = 0; k < point.initial_basis.size(); ++k) {
+    const std::size_t n = judge_.size(recordings_[k]);
+    clear_of(point.initial_basis[k], column, n);
+    column += n;
+  }
+}
+
+/// Simulates the reference and one response per linear parameter.
+bool Projection::responses(std::span<const double> z, ProjectedPoint& point, std::vector<double>& residual) {
+  const auto ref = reference();
+  const auto base = model_.predict(values(z, ref), recordings_, false);
+  if (!base.ok) {
+    point.error = base.error;
+    return false;
+  }
+  residual.resize(rows_);
+  double* out = residual.data();
+  for (const int r : recordings_) {
+    std::vector<Rows> rows;
+    for (int o = 0; o < static_cast<int>(model_.outputs().size()); ++o)
+      rows.push_back(residual_rows(model_, base, r, o));
+    judge_.whiten(r, rows, out);
+    out += judge_.size(r);
+  }
+  point.columns.resize(rows_ * linear_.size());
+  for (std::size_t j = 0; j < linear_.size(); ++j) {
+    auto theta = ref;
+    const auto& f = free_[static_cast<std::size_t>(linear_[j])];
+    double step = delta_[j];
+    if (theta[j] + step > f.upper && theta[j] - step >= f.lower) step = -step;
+    theta[j] += step;
+    const auto moved = model_.predict(values(z, theta), recordings_, false);
+    if (!moved.ok) {
+      point.error = moved.error;
+      return false;
+    }
+    whiten_difference(moved, base, 1 / step, point.columns.data() + j * rows_);
+  }
+  return true;
+}
+
+/// Free initial states are responses too, but scaled by the linear parameters: taken at `theta`.
+void Projection::clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta) {
+  const auto prediction = model_.predict(values(point.z, theta), recordings_, true);
+  point.initial_basis.assign(recordings_.size(), {});
+  if (!prediction.ok) return;
+  for (std::size_t k = 0; k < recordings_.size(); ++k) {
+    const int r = recordings_[k];
+    const auto& initial = prediction.initial[static_cast<std::size_t>(r)];
+    Matrix columns(static_cast<Eigen::Index>(judge_.size(r)), static_cast<Eigen::Index>(initial.size()));
+    for (std::size_t s = 0; s < initial.size(); ++s)
+      judge_.whiten(r, initial[s], columns.col(static_cast<Eigen::Index>(s)).data());
+    point.initial_basis[k] = basis_of(columns);
+  }
+  clear(point, residual.data());
+  for (std::size_t j = 0; j < linear_.size(); ++j) clear(point, point.columns.data() + j * rows_);
+}
+
+ProjectedPoint Projection::evaluate(std::span<const double> z) {
+  ProjectedPoint point;
+  point.z.assign(z.begin(), z.end());
+  std::vector<double> residual;
+  if (!responses(z, point, residual)) {
+    // Some blocks refuse zeros: then everything is measured from the start values, from now on.
+    if (!from_zero_ || linear_.empty()) return point;
+    from_zero_ = false;
+    if (!responses(z, point, residual)) {
+      from_zero_ = true;
+      return point;
+    }
+  }
+  const auto ref = reference();
+  const auto m = linear_.size();
+  std::vector<double> low(m), high(m), near(m);
+  std::vector<double> theta;
+  for (std::size_t j = 0; j < m; ++j) {
+    const auto& f = free_[static_cast<std::size_t>(linear_[j])];
+    low[j] = f.lower - ref[j];
+    high[j] = f.upper - ref[j];
+    near[j] = f.start - ref[j];
+    theta.push_back(f.start);
+  }
+  LinearSolution solution;
+  const auto plain_columns = has_initial_ ? point.columns : std::vector<double>{};
+  const auto plain_residual = has_initial_ ? residual : std::vector<double>{};
+  for (int pass = 0; pass < (has_initial_ ? 2 : 1); ++pass) {
+    if (has_initial_) {
+      point.columns = plain_columns;
+      residual = plain_residual;
+      clear_initial(point, residual, theta);
+    }
+    NormalForm normal(static_cast<int>(m));
+    normal.add(point.columns, residual);
+    solution = solve_bounded(normal, low, high, near);
+    for (std::size_t j = 0; j < m; ++j) theta[j] = ref[j] + solution.x[j];
+  }
+  for (std::size_t j = 0; j < m; ++j) {  // exactly at the bound, whatever ref + (bound - ref) rounds to
+    const auto& f = free_[static_cast<std::size_t>(linear_[j])];
+    if (solution.bound[j] == Bound::lower) theta[j] = f.lower;
+    if (solution.bound[j] == Bound::upper) theta[j] = f.upper;
+  }
+  point.theta = std::move(theta);
+  point.bound = solution.bound;
+  Eigen::Map<Vector> r(residual.data(), static_cast<Eigen::Index>(rows_));
+  const Columns c(point.columns.data(), static_cast<Eigen::Index>(rows_), static_cast<Eigen::Index>(m));
+  for (std::size_t j = 0; j < m; ++j) r -= c.col(static_cast<Eigen::Index>(j)) * solution.x[j];
+  point.chi2 = r.squaredNorm();
+  point.residual = std::move(residual);
+  point.ok = std::isfinite(point.chi2);
+  if (!point.ok) point.error = "the residual is not finite";
+  return point;
+}
+
+PointPointer Projection::at(std::span<const double> z) {
+  for (const auto& p : recent_)
+    if (std::equal(z.begin(), z.end(), p->z.begin(), p->z.end())) return p;
+  auto point = std::make_shared<ProjectedPoint>(evaluate(z));
+  if (recent_.size() >= 3) recent_.erase(recent_.begin());
+  recent_.push_back(point);
+  return point;
+}
+
+bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, std::vector<double>& columns) {
+  const auto low = lower(), high = upper();
+  columns.assign(rows_ * nonlinear_.size(), 0.0);
+  std::vector<double> basis;
+  if (projected) {
+    std::vector<int> inside;
+    for (std::size_t j = 0; j < linear_.size(); ++j)
+      if (point.bound[j] == Bound::inside) inside.push_back(static_cast<int>(j));
+    const Columns c(point.columns.data(), static_cast<Eigen::Index>(rows_), static_cast<Eigen::Index>(linear_.size()));
+    basis = basis_of(Matrix(c(Eigen::all, inside)));
+  }
+  // BDF's own error is noise of its tolerance between two neighbouring trials; the exact advance has rounding only.
+  const bool exact = model_.why_not_exact().empty();
+  const bool two_sided = central || !exact;
+  const double relative = exact ? (two_sided ? 1e-4 : 1e-6) : 3e-3;
+  const auto here = model_.predict(values(point.z, point.theta), recordings_, false);
+  if (!here.ok) return false;
+  for (std::size_t k = 0; k < nonlinear_.size(); ++k) {
+    const auto& f = free_[static_cast<std::size_t>(nonlinear_[k])];
+    double size = f.log_scale ? 1.0 : std::max(std::abs(point.z[k]), 0.01 * std::abs(f.start));
+    if (size == 0) size = std::isfinite(high[k] - low[k]) ? 0.01 * (high[k] - low[k]) : 1.0;
+    auto forward = point.z, backward = point.z;
+    forward[k] = std::min(point.z[k] + relative * size, high[k]);
+    if (two_sided || forward[k] == point.z[k]) backward[k] = std::max(point.z[k] - relative * size, low[k]);
+    auto up = forward[k] != point.z[k] ? model_.predict(values(forward, point.theta), recordings_, false) : here;
+    auto down = backward[k] != point.z[k] ? model_.predict(values(backward, point.theta), recordings_, false) : here;
+    if (!up.ok) up = here, forward[k] = point.z[k];  // one side is enough where the other cannot be simulated
+    if (!down.ok) down = here, backward[k] = point.z[k];
+    if (forward[k] == backward[k]) {
+      backward[k] = std::max(point.z[k] - relative * size, low[k]);
+      down = model_.predict(values(backward, point.theta), recordings_, false);
+      if (!down.ok || forward[k] == backward[k]) return false;
+    }
+    double* column = columns.data() + k * rows_;
+    whiten_difference(up, down, -1 / (forward[k] - backward[k]), column);
+    clear(point, column);
+    if (projected) clear_of(basis, column, rows_);
+  }
+  return true;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,84 @@
+// Decides what is left of the residual once the linear parameters are at their best (variable projection), and its
+// derivatives by the others. Internal to fit/.
+//
+//   y(z, theta) = y(z, ref) + sum_j (theta_j - ref_j) c_j(z)      exactly, for parameters proved jointly affine
+//   r(z) = min over theta within bounds of |W (measured - y(z, theta))|
+// c_j is the difference of two simulations. dr/dz is taken at fixed theta and cleared of the free columns (Kaufman, BIT
+// 15 (1975) 49): the gradient is exact, and a Jacobian costs one simulation per nonlinear parameter instead of one for
+// each of the linear ones as well.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/free_parameter.h"
+#include "fit/linear.h"
+#include "fit/model.h"
+#include "fit/score.h"
+
+namespace hysteron {
+
+/// What was found at one point of the nonlinear parameters.
+struct ProjectedPoint {
+  bool ok = false;
+  std::string error;
+  std::vector<double> z;         ///< nonlinear parameters, ln(value) where the scale is logarithmic
+  std::vector<double> theta;     ///< linear parameters [SI]
+  std::vector<Bound> bound;      ///< of the linear ones
+  std::vector<double> residual;  ///< whitened, all recordings one behind the other
+  double chi2 = 0;
+  std::vector<double> columns;                     ///< whitened responses to the linear parameters, column by column
+  std::vector<std::vector<double>> initial_basis;  ///< per recording: orthonormal columns of the free initial states
+};
+using PointPointer = std::shared_ptr<const ProjectedPoint>;
+
+class Projection {
+ public:
+  Projection(DataModel& model, const Judge& judge, const std::vector<FreeParameter>& free,
+             const std::vector<bool>& affine, std::vector<int> recordings);
+
+  int n_linear() const { return static_cast<int>(linear_.size()); }
+  int n_nonlinear() const { return static_cast<int>(nonlinear_.size()); }
+  std::size_t rows() const { return rows_; }
+  const std::vector<int>& linear() const { return linear_; }  ///< indices into the free parameters
+  const std::vector<int>& nonlinear() const { return nonlinear_; }
+
+  std::vector<double> start() const;  ///< z
+  std::vector<double> lower() const, upper() const;
+  double to_z(int k, double value) const;
+  double to_value(int k, double z) const;
+
+  /// The last few points are remembered.
+  PointPointer at(std::span<const double> z);
+  void forget() { recent_.clear(); }
+
+  /// dr/dz column by column (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
+  /// had.
+  bool jacobian(const ProjectedPoint& point, bool central, bool projected, std::vector<double>& columns);
+
+  /// All free parameters at a point, for DataModel::predict.
+  std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
+
+ private:
+  ProjectedPoint evaluate(std::span<const double> z);
+  bool responses(std::span<const double> z, ProjectedPoint& point, std::vector<double>& residual);
+  void clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta);
+  void whiten_difference(const Prediction& a, const Prediction& b, double factor, double* out) const;
+  void clear(const ProjectedPoint& point, double* column) const;
+  std::vector<double> reference() const;
+
+  DataModel& model_;
+  const Judge& judge_;
+  const std::vector<FreeParameter>& free_;
+  std::vector<int> recordings_;
+  std::vector<int> linear_, nonlinear_;
+  std::vector<double> delta_;  ///< per linear parameter: step between the two simulations
+  bool from_zero_ = true;      ///< reference: zero where the bounds allow it, else the start
+  bool has_initial_ = false;
+  std::size_t rows_ = 0;
+  std::vector<PointPointer> recent_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,156 @@
+// Where a fitted number goes: into the diagram value, and into a parameter file.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "fit/fit.h"
+
+namespace hysteron {
+namespace {
+
+double rounded(double x, int digits) { return std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr); }
+
+double shown(const ParameterInfo& info, double si) {
+  return info.difference ? info.unit.difference_from_si(si) : info.unit.from_si(si);
+}
+
+/// Splits "core.weights[2]" into "core.weights" and 2 (-1 without an index).
+std::pair<std::string, int> without_index(const std::string& path) {
+  if (path.empty() || path.back() != ']') return {path, -1};
+  const auto open = path.rfind('[');
+  return {path.substr(0, open), std::atoi(path.c_str() + open + 1)};
+}
+
+/// Puts a number into a value, keeping the unit that was written there.
+void put(Value& value, int index, double number, const std::string& unit_if_new) {
+  if (auto* list = std::get_if<NumberList>(&value.content); list != nullptr && index >= 0) {
+    if (static_cast<std::size_t>(index) < list->size()) (*list)[static_cast<std::size_t>(index)].value = number;
+    return;
+  }
+  if (auto* old = std::get_if<Number>(&value.content)) {
+    old->value = number;
+    return;
+  }
+  value = Value(unit_if_new.empty() ? Number{number, {}} : Number{number, unit_if_new});
+}
+
+class Writer {
+ public:
+  Writer(const ParameterInfo& info, double number, std::vector<std::pair<std::string, Diagram>>* nested)
+      : info_(info), number_(number), nested_(nested) {}
+
+  void write(Diagram& diagram, const std::string& path) const {
+    const auto slash = path.find('/');
+    if (slash != std::string::npos) return write_nested(diagram, path.substr(0, slash), path.substr(slash + 1));
+    const auto [name, index] = without_index(path);
+    const auto dot = name.rfind('.');
+    if (dot == std::string::npos) {
+      DiagramParameter* parameter = diagram.parameters.find(name);
+      if (parameter == nullptr) lost();
+      return put(parameter->value, index, number_, info_.unit.text);
+    }
+    Node* node = body(diagram, name.substr(0, dot));
+    write_at(*node, name.substr(dot + 1), index);
+  }
+
+ private:
+  [[noreturn]] void lost() const {
+    fail("unknown_parameter", info_.path, fmt::format("the diagram has no place for \"{}\"", info_.path),
+         "write the value by hand");
+  }
+
+  Node* body(Diagram& diagram, const std::string& block) const {
+    Node* node = diagram.blocks.find(block);
+    if (node != nullptr && !node->from.empty()) node = node->from.find(node->choose);
+    if (node == nullptr) lost();
+    return node;
+  }
+
+  void write_at(Node& node, const std::string& parameter, int index) const {
+    if (node.parameters.find(parameter) == nullptr)
+      if (const Value* from_file = node.parameters_from_file.find(parameter))
+        node.parameters[parameter] = *from_file;  // the set keeps its own value, this block gets another
+    put(node.parameters[parameter], index, number_, info_.unit.text);
+  }
+
+  void write_nested(Diagram& diagram, const std::string& block, const std::string& rest) const {
+    Node* node = body(diagram, block);
+    if (!node->nested) lost();
+    const auto [name, index] = without_index(rest);
+    if (name.find('.') == std::string::npos && name.find('/') == std::string::npos) {
+      // A parameter of the nested diagram is given where the diagram is used; its file stays as it is.
+      if (node->parameters.find(name) == nullptr)
+        if (const DiagramParameter* inner = node->nested->parameters.find(name)) node->parameters[name] = inner->value;
+      return put(node->parameters[name], index, number_, info_.unit.text);
+    }
+    auto copy = std::make_shared<Diagram>(*node->nested);
+    write(*copy, rest);
+    if (nested_ != nullptr) rename(*node, *copy);
+    node->nested = std::move(copy);
+  }
+
+  void rename(Node& node, Diagram& copy) const {
+    const auto new_name = [](const std::string& file) {
+      const std::filesystem::path p(file);
+      const std::string stem = p.stem().string();
+      if (stem.size() >= 7 && stem.ends_with("_fitted")) return file;
+      return (p.parent_path() / (stem + "_fitted" + p.extension().string())).generic_string();
+    };
+    node.file = new_name(node.file);
+    if (!copy.file.empty()) copy.file = new_name(copy.file);
+    for (auto& [file, content] : *nested_)
+      if (file == node.file) {
+        content = copy;
+        return;
+      }
+    nested_->emplace_back(node.file, copy);
+  }
+
+  const ParameterInfo& info_;
+  double number_;
+  std::vector<std::pair<std::string, Diagram>>* nested_;
+};
+
+}  // namespace
+
+Diagram with_parameters(const Diagram& diagram, const Program& program, const std::vector<ParameterValue>& values,
+                        int digits, std::vector<std::pair<std::string, Diagram>>* nested) {
+  Diagram result = diagram;
+  for (const auto& v : values) {
+    const auto& info = program.parameters[static_cast<std::size_t>(v.parameter)];
+    Writer(info, rounded(shown(info, v.value), digits), nested).write(result, info.path);
+  }
+  return result;
+}
+
+std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data) {
+  using nlohmann::ordered_json;
+  ordered_json set = ordered_json::object();
+  for (const auto& e : result.estimates) {
+    if (!e.value) continue;  // what the data do not determine has no value
+    const auto& info = program.parameters[static_cast<std::size_t>(e.parameter)];
+    ordered_json one = {{"value", rounded(shown(info, *e.value), 8)}, {"unit", e.unit.text}};
+    const auto difference = [&](double si) { return rounded(info.unit.difference_from_si(si), 4); };
+    if (e.sigma) one["std"] = difference(*e.sigma);
+    if (e.low95 && e.high95)
+      one["interval_95"] = {rounded(shown(info, *e.low95), 6), rounded(shown(info, *e.high95), 6)};
+    if (e.at_lower || e.at_upper) one["at_bound"] = e.at_lower ? "lower" : "upper";
+    set[e.path] = std::move(one);
+  }
+  ordered_json undetermined = ordered_json::array();
+  for (const auto& u : result.undetermined) undetermined.push_back(u.sentence);
+  const ordered_json file = {{"format", 1},
+                             {"parameters", std::move(set)},
+                             {"undetermined", std::move(undetermined)},
+                             {"source",
+                              {{"data", data.file.empty() ? data.title : data.file},
+                               {"method", result.method},
+                               {"chi2", rounded(result.chi2, 8)},
+                               {"rows", result.n}}}};
+  return file.dump(2) + "\n";
+}
+
+}  // namespace hysteron
