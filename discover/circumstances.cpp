@@ -4,34 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/advance.h"
+#include "discover/rows.h"
 #include "engine/program.h"
-#include "engine/simulate.h"
 #include "fit/branches.h"
 #include "fit/free_parameter.h"
 
 namespace hysteron {
 namespace {
 
-/// Signals of a program on the rows of one recording, as the present model makes them.
 std::vector<std::vector<double>> traces(const ProgramPointer& program, const DataSet& data, const Recording& recording,
                                         const std::vector<int>& signals) {
-  Run run = start(*program);
-  for (const auto& name : program->input_names) bind_input(*program, run, name, input_series(data, recording, name));
-  if (why_not_exact(*program).empty()) {
-    std::vector<std::vector<double>> values;
-    AdvanceOptions options;
-    options.at_rest = recording.at_rest;
-    Advance(program, signals)(run, recording.t, options, values);
-    return values;
-  }
-  SimulateOptions options;
-  options.begin = recording.t.front();
-  options.until = recording.t.back();
-  options.instants = recording.t;
-  options.signals = signals;
-  options.at_rest = recording.at_rest;
-  return simulate(*program, run, options).values;
+  std::vector<SeriesPointer> inputs;
+  for (const auto& name : program->input_names) inputs.push_back(input_series(data, recording, name));
+  return simulate_rows(program, inputs, recording.t, signals, recording.at_rest);
 }
 
 double median_step(const std::vector<double>& t) {

@@ -10,7 +10,9 @@
 
 #include "discover/add.h"
 #include "discover/effect.h"
+#include "discover/evidence.h"
 #include "discover/experiment.h"
+#include "discover/structure.h"
 #include "engine/diagram.h"
 #include "engine/kernel.h"
 #include "fit/fit.h"
@@ -32,27 +34,6 @@ std::string to_text(Remainder remainder);  ///< "noise", "structured"
 struct FoundParameter {
   ParameterEstimate estimate;  ///< value, interval, unit; no value where the data do not determine it
   std::string remark;          ///< "outside 8 us .. 0.5 ms, the usual range", "held at its bound" ... or ""
-};
-
-/// How far one model is from one recording (all rows judged, all outputs bound).
-struct RecordingError {
-  std::string recording;
-  Role role = Role::train;
-  std::string output;
-  std::size_t rows = 0;
-  double rms = 0;    ///< [SI of the output]
-  double nrmse = 0;  ///< rms over the standard deviation of what was measured
-  double chi2 = 0;   ///< sum of squared whitened residuals, in units of the noise
-};
-
-/// One model against all recordings of train and validate (test only at the end).
-struct ModelError {
-  std::vector<RecordingError> recordings;
-  double chi2_train = 0, chi2_validate = 0;
-  std::size_t n_train = 0, n_validate = 0;
-  double rms_train = 0, rms_validate = 0;  ///< [SI] over all rows and outputs of the role together
-  double nrmse_train = 0, nrmse_validate = 0;
-  std::optional<double> rms_test, nrmse_test;
 };
 
 /// One effect tried at one place with one law, refitted together with what the user left free and with the effects
@@ -88,21 +69,6 @@ struct FoundStep {
   std::optional<Experiment> experiment;  ///< the one that would separate them best
   Added change;                          ///< the diagram after the step, with fitted values
   ModelError before, after;
-  std::string sentence;
-};
-
-/// A structure in the residual that no known effect describes.
-struct Structure {
-  std::string kind;       ///< "line_in_time", "line_in_level", "kink_at_level", "jumps"
-  std::string variable;   ///< "t", an input or an output: what it lives on
-  std::string recording;  ///< where it is seen best
-  double period = 0;      ///< in units of the variable [SI]; 0 = none
-  double threshold = 0;   ///< [SI]
-  bool has_threshold = false;
-  Unit unit;
-  std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
-  double fall_validate = 0;  ///< of chi2 on validation recordings
-  double share_removed = 0;  ///< of the excess over the noise
   std::string sentence;
 };
 

@@ -93,17 +93,18 @@ struct Effect {
   std::string parameter;            ///< the parameter that it sets (vary, data)
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
-  bool is_linear =
-      false;  ///< the law is linear and time-invariant: its place in a chain of linear blocks cannot be told
   Commutes commutes = Commutes::nothing;
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
+  std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
   /// Laws, simplest first; those behind the first are tried where the first is among the best.
   std::function<std::vector<Law>(const Circumstances&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
   std::function<std::string(const Circumstances&)> unseen;
+  /// What the fitted law says, in one phrase ("1.5 % of the move per decade"); values [SI] as Law::free. May be empty.
+  std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> summary;
 };
 
 /// The effects that hysteron knows, in the order in which they are tried.

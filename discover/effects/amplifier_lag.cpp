@@ -1,5 +1,8 @@
 // The effect amplifier_lag: the amplifier follows its command late, with a time constant. Also the laws of any lag.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numbers>
 
 #include "discover/effects/library.h"
 
@@ -36,6 +39,17 @@ std::vector<Law> lag_laws(const Circumstances& at) {
   return {one, two};
 }
 
+std::string lag_summary(const Law&, const std::vector<double>& values, const Circumstances&) {
+  std::string text;
+  double total = 0;
+  for (const double tau : values) {
+    text += (text.empty() ? "" : " and ") + time_text(tau);
+    total += tau;
+  }
+  return fmt::format("time constant{} {}, corner near {:.3g} Hz", values.size() > 1 ? "s" : "", text,
+                     1 / (2 * std::numbers::pi * total));
+}
+
 Effect amplifier_lag() {
   Effect e;
   e.id = "amplifier_lag";
@@ -58,6 +72,7 @@ Effect amplifier_lag() {
                    {"hysteresis", "high_frequencies", "phase of a lag grows with frequency, that of a loop does not"},
                    {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
   e.family = "lag";
+  e.summary = lag_summary;
   e.laws = [](const Circumstances& at) {
     auto laws = lag_laws(at);
     // The prior speaks of amplifiers for piezo actuators: volts.

@@ -1,4 +1,8 @@
 // The effect calibration: the sensor's gain or zero is not what the model says.
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
@@ -20,6 +24,28 @@ Effect calibration() {
                   {"offset", "unit of the output", "reading at zero", "any"}};
   e.look_alikes = {};
   e.family = "calibration";
+  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+    std::string text;
+    for (std::size_t i = 0; i < law.free.size(); ++i) {
+      const bool gain = law.free[i].path == "gain";
+      text += (text.empty() ? "" : ", ") +
+              (gain ? fmt::format("gain {:.5g}", values[i])
+                    : fmt::format("offset {:.4g} {}", at.unit.difference_from_si(values[i]), at.unit.text));
+      // A factor of these sizes is no tired sensor but a mistaken unit (EFFECTS 3).
+      for (const auto& [factor, name] : {std::pair{1000.0, "1000"},
+                                         {1e6, "1e6"},
+                                         {0.1, "0.1"},
+                                         {1e-3, "0.001"},
+                                         {10.0, "10"},
+                                         {6.283185307, "2 pi"},
+                                         {1.414213562, "sqrt(2)"},
+                                         {0.7071067812, "1/sqrt(2)"},
+                                         {-1.0, "-1"}})
+        if (gain && std::abs(values[i] / factor - 1) < 0.02)
+          text += fmt::format(" (a factor of {} is often a mistaken unit)", name);
+    }
+    return text;
+  };
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = at.gain_is_free ? "offset" : at.offset_is_free ? "gain" : "gain and offset";

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discover/effects/library.h"
 
@@ -33,6 +34,25 @@ Effect creep() {
       {"sensor_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"dead_time", "low_frequencies", "a delay has no gain that falls with frequency"}};
   e.family = "creep";
+  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+    // Two relaxations make a decade; those slower than the longest hold are extrapolated and do not count.
+    const auto* times = std::get_if<NumberList>(&law.block.parameters.find("times")->content);
+    const double hold = std::max(at.longest_hold, 10 * at.shortest_step);
+    double sum = 0;
+    double first = 0;
+    double last = 0;
+    for (std::size_t k = 0; times != nullptr && k < std::min(times->size(), values.size()); ++k) {
+      if ((*times)[k].value > hold) continue;
+      sum += values[k];
+      if (first == 0) first = (*times)[k].value;
+      last = (*times)[k].value;
+    }
+    if (!(last > first)) return std::string();
+    const double decades = std::log10(last / first) + 0.5;
+    return fmt::format(
+        "{:.2g} % of the move per decade between {} and {}; what lies beyond the longest hold of {} is extrapolated",
+        100 * sum / decades, time_text(first), time_text(last), time_text(at.longest_hold));
+  };
   e.laws = [](const Circumstances& at) {
     const double fastest = std::max(at.shortest_step, 1e-3);
     const auto times = per_decade(fastest, std::max(2 * at.longest_recording, 10 * fastest), 2);

@@ -1,4 +1,6 @@
 // The effect dead_time: everything happens later by the same time.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "discover/effects/library.h"
@@ -27,6 +29,10 @@ Effect dead_time() {
                    {"hysteresis", "high_frequencies", "phase of a delay grows with frequency, that of a loop does not"},
                    {"creep", "low_frequencies", "a delay has no gain that falls with frequency"}};
   e.family = "dead_time";
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    return fmt::format("{}, {:.3g} rows of the fastest recording", time_text(values.front()),
+                       values.front() / at.shortest_step);
+  };
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "one delay";

@@ -1,6 +1,7 @@
 // The effect hysteresis: the response remembers turning points, at any speed.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discover/effects/library.h"
@@ -40,6 +41,24 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
   return law;
 }
 
+/// Width of the largest loop over the stroke: at half the range a rising branch lags by min(r, R - r) for each play.
+std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  const double range = at.range();
+  const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
+  const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
+  if (list == nullptr || sides == nullptr || !(range > 0)) return "";
+  const std::size_t own = values.size() == list->size() ? 0 : 1;  // the weight of threshold 0 may be fixed at one
+  double stroke = own == 1 ? range : 0;
+  double gap = 0;
+  for (std::size_t i = own; i < list->size(); ++i) {
+    const double r = at.unit.difference_to_si((*list)[i].value) * (*sides == "two" ? 2 : 1);
+    const double w = values[i - own];
+    stroke += w * std::max(range - r, 0.0);
+    gap += w * std::max(std::min(r, range - r), 0.0);
+  }
+  return stroke > 0 ? fmt::format("a loop of about {:.2g} % of the stroke at full drive", 100 * gap / stroke) : "";
+}
+
 }  // namespace
 
 Effect hysteresis() {
@@ -75,6 +94,8 @@ Effect hysteresis() {
       {"creep", "sine_amplitudes", "phase of a loop grows with the amplitude, that of creep does not"},
       {"initial_remanence", "precycle", "everywhere against first cycle only"}};
   e.family = "hysteresis";
+  e.contains = {"calibration"};
+  e.summary = loop_width;
   e.laws = [](const Circumstances& at) {
     return std::vector<Law>{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
                             plays(at, "10 one-sided plays", 10, 0.02, 0.90, "one", 1.5),

@@ -1,4 +1,6 @@
 // The effect initial_remanence: the actuator did not start from its virgin state.
+#include <fmt/format.h>
+
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
@@ -22,6 +24,9 @@ Effect initial_remanence() {
                    "within the drive's range of the device"}};
   e.look_alikes = {{"hysteresis", "precycle", "everywhere against first cycle only"}};
   e.family = "initial_remanence";
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    return fmt::format("as after a visit to {:.4g} {}", at.unit.difference_from_si(values.front()), at.unit.text);
+  };
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "one value";

@@ -24,6 +24,7 @@ Effect sensor_lag() {
                    {"hysteresis", "high_frequencies", "phase of a lag grows with frequency, that of a loop does not"},
                    {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
   e.family = "lag";
+  e.summary = lag_summary;
   e.laws = [](const Circumstances& at) {
     auto laws = lag_laws(at);
     if (at.unit.dimension == parse_unit("m").dimension)

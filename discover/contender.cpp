@@ -1,0 +1,156 @@
+// Decides how one model of a discovery is fitted. See contender.h.
+#include "discover/contender.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new) {
+  std::vector<FreeParameter> list;
+  for (const auto& p : standing.law.free) {
+    FreeParameter f = free_parameter(program, standing.name + "." + p.path);
+    f.lower = std::max(f.lower, p.lower);
+    f.upper = std::min(f.upper, p.upper);
+    if (is_new) f.start = p.start;
+    f.start = std::clamp(f.start, f.lower, f.upper);
+    f.log_scale = p.log_scale && f.lower > 0;
+    f.scan.clear();
+    if (is_new)
+      for (const double v : p.scan)
+        if (v >= f.lower && v <= f.upper) f.scan.push_back(v);
+    list.push_back(std::move(f));
+  }
+  return list;
+}
+
+/// Compiles and fits the diagram of `c`; `fresh` = index of the effect that starts from its law instead of its values.
+void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
+  const bool scans = fresh >= 0;
+  c.program = compile(c.diagram, *shop.registry);
+  DataModel model(c.program, shop.data);
+  auto free = free_parameters(*c.program, shop.free_paths);
+  const std::size_t users = free.size();
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    const bool is_fresh = static_cast<int>(i) == fresh;
+    if (effort == Effort::screen && scans && !is_fresh) continue;
+    for (auto& f : free_of_law(*c.program, c.standing[i], is_fresh)) {
+      std::erase_if(free, [&](const FreeParameter& have) { return have.parameter == f.parameter; });
+      free.push_back(std::move(f));
+    }
+  }
+  const auto& recordings = shop.evidence != nullptr ? shop.evidence->recordings() : std::vector<int>{};
+  if (free.empty()) {
+    const std::vector<Role> judged{Role::train, Role::validate};
+    c.prediction = model.predict({}, recordings.empty() ? model.recordings(judged) : recordings);
+    c.ok = c.prediction.ok;
+    c.error = c.prediction.error;
+    c.runs += model.runs();
+    return;
+  }
+  FitOptions options;
+  options.max_iterations = effort == Effort::screen ? 8 : effort == Effort::full ? 15 : 30;
+  options.intervals = effort == Effort::final;
+  if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
+  const NoiseModel noise = shop.evidence != nullptr ? shop.evidence->noise() : noise_before_fit(model);
+  c.fit = fit(model, noise, free, options);
+  c.ok = c.fit.ok;
+  c.error = c.fit.error;
+  c.runs += model.runs();
+  if (!c.ok) return;
+  const std::vector<Role> judged{Role::train, Role::validate};
+  c.prediction = model.predict(c.fit.values, model.recordings(judged));
+  c.ok = c.prediction.ok;
+  c.error = c.prediction.error;
+  c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
+  (void)users;
+}
+
+/// Parameters that the effects spend: what is held at a bound is not there (a play with weight 0), and what the data do
+/// not determine buys nothing.
+int spent(const Contender& c) {
+  int n = 0;
+  for (const auto& p : parameters_of(c))
+    if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper)) ++n;
+  return n;
+}
+
+Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh) {
+  try {
+    fit_contender(shop, c, effort, fresh);
+    if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
+    c.parameters = spent(c);
+  } catch (const Error& e) {
+    c.ok = false;
+    c.error = e.what();
+  }
+  return c;
+}
+
+}  // namespace
+
+double Contender::score(double n) const { return error_of.evidence() + parameters * std::log(std::max(n, 2.0)); }
+double Contender::tie_score() const { return error_of.evidence() + 2.0 * parameters; }
+
+Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort) {
+  Contender c;
+  c.diagram = diagram;
+  fit_contender(shop, c, effort, -1);  // the user's own question: what is wrong with it is told, not swallowed
+  if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
+  return c;
+}
+
+Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
+                      const Place& place, Effort effort) {
+  Contender c;
+  c.standing = before.standing;
+  try {
+    c.change = add_effect(before.diagram, *shop.registry, effect, law, place);
+  } catch (const Error& e) {
+    c.error = e.what();
+    return c;
+  }
+  c.diagram = c.change.diagram;
+  c.standing.push_back({&effect, law, place, c.change.name});
+  const int fresh = static_cast<int>(c.standing.size()) - 1;
+  return guarded(shop, std::move(c), effort, fresh);
+}
+
+Contender refit(const Workshop& shop, const Contender& contender, Effort effort) {
+  Contender c;
+  c.diagram = contender.diagram;
+  c.standing = contender.standing;
+  c.change = contender.change;
+  return guarded(shop, std::move(c), effort, -1);
+}
+
+Contender without(const Workshop& shop, const Contender& contender, std::size_t index) {
+  Contender c;
+  c.diagram = remove_effect(contender.diagram, contender.standing[index].name);
+  c.standing = contender.standing;
+  c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(index));
+  (void)shop;
+  c.ok = true;
+  return c;
+}
+
+std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing) {
+  std::vector<ParameterOfEffect> list;
+  for (std::size_t i = 0; i < contender.standing.size(); ++i) {
+    if (standing >= 0 && static_cast<int>(i) != standing) continue;
+    const Standing& s = contender.standing[i];
+    for (const auto& p : s.law.free) {
+      ParameterOfEffect one;
+      one.law = &p;
+      for (const auto& e : contender.fit.estimates)
+        if (e.path == s.name + "." + p.path) one.estimate = &e;
+      list.push_back(one);
+    }
+  }
+  return list;
+}
+
+}  // namespace hysteron

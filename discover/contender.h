@@ -1,0 +1,73 @@
+// Decides what one model of a discovery is: the user's diagram with the effects put in so far, fitted to the train
+// recordings. Does not choose between models. Internal to discover.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discover/add.h"
+#include "discover/effect.h"
+#include "discover/evidence.h"
+#include "fit/fit.h"
+
+namespace hysteron {
+
+/// An effect in a contender's diagram.
+struct Standing {
+  const Effect* effect = nullptr;
+  Law law;
+  Place place;
+  std::string name;  ///< path of its choice
+};
+
+struct Contender {
+  bool ok = false;
+  std::string error;  ///< why not ok
+  Diagram diagram;    ///< with fitted values
+  std::vector<Standing> standing;
+  Added change;  ///< of the last effect
+  ProgramPointer program;
+  FitResult fit;
+  Prediction prediction;  ///< train and validate recordings
+  ModelError error_of;    ///< filled in by whoever holds the evidence
+  int parameters = 0;     ///< that the effects spend: of their laws, determined and not held at a bound
+  long runs = 0;
+  double score(double n) const;  ///< evidence + p ln N
+  double tie_score() const;      ///< evidence + 2 p
+};
+
+/// What every fit of a discovery shares.
+struct Workshop {
+  const Registry* registry = nullptr;
+  std::shared_ptr<const DataSet> data;
+  std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
+  const Evidence* evidence = nullptr;
+  std::function<bool()> stop;
+};
+
+/// How much of a contender is fitted.
+enum class Effort {
+  screen,  ///< the last effect's law and the user's linear parameters; the effects before keep their values
+  full,    ///< everything
+  final    ///< everything, with intervals
+};
+
+/// The user's diagram itself.
+Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort);
+/// `before` with one more effect.
+Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
+                      const Place& place, Effort effort);
+/// The same model fitted again with more effort, from where it stands.
+Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
+/// Without the effect `index`; the others keep their values.
+Contender without(const Workshop& shop, const Contender& contender, std::size_t index);
+
+/// The parameters of a contender's effects (`standing` = index, or all of them with -1), with remarks for people.
+struct ParameterOfEffect {
+  const LawParameter* law = nullptr;
+  const ParameterEstimate* estimate = nullptr;
+};
+std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing = -1);
+
+}  // namespace hysteron

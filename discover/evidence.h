@@ -1,0 +1,82 @@
+// Decides what counts as evidence: how far a model is from each recording, in units of its noise, and how much a fall
+// means. Does not fit and does not choose.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/model.h"
+#include "fit/noise.h"
+#include "fit/score.h"
+
+namespace hysteron {
+
+/// How far one model is from one output of one recording (rows judged).
+struct RecordingError {
+  std::string recording;
+  Role role = Role::train;
+  std::string output;
+  std::size_t rows = 0;
+  double rms = 0;       ///< [SI of the output]
+  double nrmse = 0;     ///< rms over the standard deviation of what was measured
+  double chi2 = 0;      ///< sum of squared whitened residuals, in units of the noise
+  double evidence = 0;  ///< what falls are counted in: chi2 where the noise is known (see Evidence)
+  double excess() const { return chi2 - static_cast<double>(rows); }
+};
+
+/// One model against all recordings. `rms` over several outputs is only given where they share a unit (else 0).
+struct ModelError {
+  bool ok = true;
+  std::vector<RecordingError> recordings;    ///< train and validate
+  double chi2_train = 0, chi2_validate = 0;  ///< in units of the noise: about one per row if only noise is left
+  double evidence_train = 0, evidence_validate = 0;
+  double n_train = 0, n_validate = 0;
+  double rms_train = 0, rms_validate = 0;  ///< [SI] over all rows and outputs of the role together
+  double nrmse_train = 0, nrmse_validate = 0;
+  std::optional<double> rms_test, nrmse_test;  ///< only of the last model, read once at the end
+
+  double evidence() const { return evidence_train + evidence_validate; }
+  double n() const { return n_train + n_validate; }
+  double excess_validate() const { return chi2_validate - n_validate; }
+  double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
+};
+
+/// The measure of a discovery. Residuals are whitened by one fixed filter (fit/whiten.h). Then
+/// - where a data sheet says how large the noise is: evidence = chi2;
+/// - where nobody says: the spectrum of what is left is unknown, noise or not, and is profiled out in octave bands of
+/// the
+///   whitened residual, evidence = sum n_b (1 + ln(chi2_b / n_b)). It equals chi2 near the floor; far above it, where
+///   the residual is a slow misfit of some dozen coefficients, it does not take ten thousand rows for ten thousand
+///   witnesses.
+class Evidence {
+ public:
+  /// `base`: any model of the data set; gives what was measured.
+  explicit Evidence(const DataModel& base);
+  /// Corrects the noise by the residual of the best model so far (always from the data sheet or first guess).
+  void settle(const Prediction& best);
+
+  ModelError error(const Prediction& prediction) const;
+  /// Whitened residual of one recording, outputs one behind the other.
+  std::vector<double> residual(const Prediction& prediction, int recording) const {
+    return judge_->residual(base_, prediction, recording);
+  }
+
+  const Judge& judge() const { return *judge_; }
+  const NoiseModel& noise() const { return judge_->noise(); }
+  const DataModel& model() const { return base_; }
+  const std::vector<int>& recordings() const { return recordings_; }  ///< train and validate
+  bool noise_known() const { return known_; }
+  /// rms over rows and outputs of the test recordings, and their NRMSE; nullopt if there are none.
+  std::optional<std::pair<double, double>> test_error(const Prediction& prediction) const;
+
+ private:
+  double evidence_of(const std::vector<double>& w, std::size_t begin, std::size_t end) const;
+  const DataModel& base_;
+  NoiseModel before_;
+  std::optional<Judge> judge_;
+  std::vector<int> recordings_;
+  bool known_ = true;
+};
+
+}  // namespace hysteron

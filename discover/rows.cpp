@@ -1,0 +1,31 @@
+// Decides how signals of a program are simulated at given times. See rows.h.
+#include "discover/rows.h"
+
+#include "engine/advance.h"
+#include "engine/simulate.h"
+
+namespace hysteron {
+
+std::vector<std::vector<double>> simulate_rows(const ProgramPointer& program, const std::vector<SeriesPointer>& inputs,
+                                               const std::vector<double>& t, const std::vector<int>& signals,
+                                               bool at_rest) {
+  Run run = start(*program);
+  for (std::size_t i = 0; i < inputs.size(); ++i) bind_input(*program, run, program->input_names[i], inputs[i]);
+  if (why_not_exact(*program).empty()) {
+    std::vector<std::vector<double>> values;
+    AdvanceOptions options;
+    options.at_rest = at_rest;
+    options.substeps = 2;  // range, holds and differences of two models need no last digit
+    Advance(program, signals)(run, t, options, values);
+    return values;
+  }
+  SimulateOptions options;
+  options.begin = t.front();
+  options.until = t.back();
+  options.instants = t;
+  options.signals = signals;
+  options.at_rest = at_rest;
+  return simulate(*program, run, options).values;
+}
+
+}  // namespace hysteron

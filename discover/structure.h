@@ -1,0 +1,32 @@
+// Decides which generic structure stands out in a residual: a line in time, a line in level, a kink at a level, jumps.
+// Names no physical effect: a structure is what `unexplained` shows to people (DISCOVERY 1, step 7).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "discover/evidence.h"
+
+namespace hysteron {
+
+/// A structure in the residual that no known effect describes.
+struct Structure {
+  std::string kind;      ///< "line_in_time", "line_in_level", "kink_at_level", "jumps"
+  std::string variable;  ///< "t", an input or an output: what it lives on
+  std::string output;    ///< in whose residual
+  double period = 0;     ///< in units of the variable [SI]; 0 = none
+  double threshold = 0;  ///< [SI]
+  bool has_threshold = false;
+  Unit unit;                                                                              ///< of the variable
+  std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
+  double fall_validate = 0;  ///< of chi2 on validation recordings, beyond a free gain and offset
+  double share_removed = 0;  ///< of the excess over the noise there
+  std::string sentence;
+};
+
+/// The structure that removes most of the validation chi2 of this model; nothing if none removes any.
+std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction);
+
+}  // namespace hysteron
