@@ -51,7 +51,8 @@ struct Candidate {
   ModelError error;
   std::vector<FoundParameter> found;
   bool claimed = false, failed = false;
-  std::string reason;  ///< why it was claimed, or why not, in a sentence
+  std::string summary;  ///< what the fitted law says: "1.5 % of the move per decade ..."
+  std::string reason;   ///< why it was claimed, or why not, in a sentence
   long model_runs = 0;
 };
 
@@ -78,8 +79,8 @@ struct JudgedNoise {
   Unit unit;
   double white = 0;       ///< [SI] rms
   double one_over_f = 0;  ///< share
-  double scale = 1;       ///< s2: what the recordings say against the note, squared
   std::string origin;     ///< "data sheet", "estimated from the high band of the residual", ...
+  std::string remark;     ///< what the user must be told of it, or ""
 };
 
 /// Everything that was found.

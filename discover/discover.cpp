@@ -1,0 +1,536 @@
+// Decides the order of a discovery: base fit, every admissible candidate alone, richer laws, claim, further effects
+// with guards, exchange of look-alikes, ties and the experiment that would break them, generic structures as
+// competitors, verdict. Does not decide what counts as chance (judge_step.cpp) nor how anything is told (words.cpp).
+#include "discover/discover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "discover/circumstances.h"
+#include "discover/investigation.h"
+#include "engine/error.h"
+
+namespace hysteron {
+namespace {
+
+class Investigation {
+ public:
+  Investigation(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                const DiscoverOptions& options)
+      : registry_(registry),
+        effects_(effects),
+        options_(options),
+        data_(std::make_shared<const DataSet>(data)),
+        user_(diagram) {
+    shop_.registry = &registry_;
+    shop_.data = data_;
+    shop_.free_paths = options.free_paths;
+    shop_.stop = options.stop;
+  }
+
+  Discovery run() {
+    base();
+    double first_fall = 0;
+    for (int step = 1; step <= options_.max_steps && !stopped(); ++step) {
+      if (step > 1 && current_.error_of.over_floor() <= rules::floor_gate) break;
+      const ModelError before = current_.error_of;
+      if (!one_step(step, first_fall)) break;
+      if (step == 1) first_fall = before.chi2_validate - current_.error_of.chi2_validate;
+    }
+    finish();
+    return std::move(d_);
+  }
+
+ private:
+  bool stopped() const { return options_.stop && options_.stop(); }
+  void progress(const std::string& what, double done) const {
+    if (options_.progress) options_.progress(what, std::min(done, 1.0));
+  }
+  bool wanted(const Effect& e) const {
+    return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(), e.id) != options_.only.end();
+  }
+
+  // --- the user's own model
+  // -------------------------------------------------------------------------------------------
+
+  void base() {
+    progress("the model as it is", 0);
+    for (const auto& id : options_.only) effects_.get(id);
+    base_model_ = std::make_unique<DataModel>(compile(user_, registry_), data_);
+    if (base_model_->recordings(Role::train).empty() || base_model_->recordings(Role::validate).empty())
+      fail("no_validation", data_->file.empty() ? "recordings" : data_->file,
+           "discovery fits on train recordings and judges on validate recordings; one of the two is missing",
+           "give at least one recording the role \"train\" and one the role \"validate\", or name a single CSV: it is "
+           "cut in time");
+    evidence_ = std::make_unique<Evidence>(*base_model_);
+    shop_.evidence = evidence_.get();
+    const Prediction as_given = base_model_->predict({}, evidence_->recordings());
+    current_ = base_contender(shop_, user_, Effort::final);
+    if (!current_.ok)
+      fail_numerics("base_failed", user_.title,
+                    "the diagram cannot be simulated on these recordings: " + current_.error,
+                    "run `hysteron compare` or `hysteron run` on it and look at the first recording");
+    d_.model_runs += current_.runs;
+    settle(current_);
+    base_ = current_;
+    if (as_given.ok) d_.as_given = evidence_->error(as_given);
+    d_.base = current_.error_of;
+    d_.base_parameters = found_parameters(current_, {});
+    d_.base_diagram = current_.diagram;
+    d_.data_remarks = data_->remarks;
+    for (const auto& r : base_model_->remarks()) d_.data_remarks.push_back(r);
+  }
+
+  /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units.
+  void settle(Contender& best) {
+    evidence_->settle(best.prediction);
+    best.error_of = evidence_->error(best.prediction);
+  }
+
+  // --- one step
+  // -------------------------------------------------------------------------------------------------------
+
+  bool one_step(int step, double first_fall) {
+    auto tried = candidates(step);
+    const double share_of_bar = 1.0 / options_.max_steps;
+    const auto bar = [&](double part) { return (step - 1 + part) * share_of_bar; };
+    for (std::size_t i = 0; i < tried.size() && !stopped(); ++i) {
+      Tried& t = tried[i];
+      progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.at),
+               bar(0.6 * static_cast<double>(i) / static_cast<double>(tried.size())));
+      t.contender =
+          with_effect(shop_, current_, *t.effect, t.laws.front(), t.place, step == 1 ? Effort::full : Effort::screen);
+      d_.model_runs += t.contender.runs;
+    }
+    compare_all(tried, first_fall);
+    if (step > 1) refit_best(tried, first_fall, bar(0.7));
+    enrich(tried, first_fall, bar(0.8));
+    const int winner = best_admitted(tried);
+    std::vector<int> ties;
+    if (winner >= 0) ties = ties_of(tried, static_cast<std::size_t>(winner));
+    if (winner >= 0) claim(step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      Candidate c = candidate_of(tried[i], step);
+      c.claimed = static_cast<int>(i) == winner;
+      if (std::find(ties.begin(), ties.end(), static_cast<int>(i)) != ties.end())
+        c.reason = "explains the recordings as well as the one that was taken: " + c.reason;
+      else if (tried[i].admitted && !c.claimed)
+        c.reason = "less than the one that was taken: " + c.reason;
+      d_.candidates.push_back(std::move(c));
+    }
+    return winner >= 0;
+  }
+
+  /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
+  std::vector<Tried> candidates(int step) {
+    std::vector<Tried> list;
+    std::vector<Place> places;
+    for (const auto& e : effects_.list()) {
+      if (!wanted(e) || standing(e)) continue;
+      const auto where = places_of(e, current_.diagram, registry_);
+      if (where.empty() && step == 1)
+        d_.refused.push_back(
+            {e.id, "",
+             e.way == Way::vary
+                 ? fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter)
+                 : "the diagram has no place where it could enter"});
+      for (const auto& p : where) {
+        Tried t;
+        t.effect = &e;
+        t.place = p;
+        list.push_back(std::move(t));
+        places.push_back(p);
+      }
+    }
+    if (list.empty()) return list;
+    const auto seen = circumstances_at(current_.diagram, registry_, *data_, places, options_.free_paths);
+    std::vector<Tried> kept;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      Tried& t = list[i];
+      t.circumstances = seen[i];
+      if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
+        if (step == 1) d_.refused.push_back({t.effect->id, t.place.at, why});
+        continue;
+      }
+      t.laws = t.effect->laws(t.circumstances);
+      if (t.laws.empty() || t.laws.front().free.empty()) continue;
+      if (Tried* same = same_finding(kept, t)) {
+        if (same->effect != t.effect) same->same_effects.push_back(t.effect->id);
+        same->same_places.push_back(t.place.at);
+        // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows.
+        if (same->effect == t.effect && t.effect->commutes == Commutes::time_invariant) {
+          std::swap(same->same_places.back(), t.place.at);
+          std::swap(same->place, t.place);
+          std::swap(same->place.at, same->same_places.back());
+          same->circumstances = t.circumstances;
+          same->laws = t.laws;
+        }
+        continue;
+      }
+      kept.push_back(std::move(t));
+    }
+    return kept;
+  }
+
+  bool standing(const Effect& e) const {
+    return std::any_of(current_.standing.begin(), current_.standing.end(),
+                       [&](const Standing& s) { return s.effect->family == e.family; });
+  }
+
+  static Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
+    if (t.effect->commutes == Commutes::nothing) return nullptr;
+    for (auto& k : kept)
+      if (k.effect->family == t.effect->family && k.effect->commutes == t.effect->commutes &&
+          !k.place.group_for(*k.effect).empty() && k.place.group_for(*k.effect) == t.place.group_for(*t.effect))
+        return &k;
+    return nullptr;
+  }
+
+  /// Noise by the best of them, then everybody's error in its units, then the rules.
+  void compare_all(std::vector<Tried>& tried, double first_fall) {
+    Tried* best = nullptr;
+    for (auto& t : tried)
+      if (t.contender.ok && (best == nullptr || t.contender.error_of.evidence() < best->contender.error_of.evidence()))
+        best = &t;
+    if (best != nullptr && best->contender.error_of.evidence() < current_.error_of.evidence())
+      settle(best->contender);
+    else
+      settle(current_);
+    current_.error_of = evidence_->error(current_.prediction);
+    for (auto& t : tried) {
+      if (t.contender.ok) t.contender.error_of = evidence_->error(t.contender.prediction);
+      judge(t, current_, first_fall);
+    }
+  }
+
+  /// Indices of candidates that could be fitted, best score first.
+  std::vector<std::size_t> ranking(const std::vector<Tried>& tried) const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+      if (tried[i].contender.ok) order.push_back(i);
+    const double n = current_.error_of.n();
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return tried[a].contender.score(n) < tried[b].contender.score(n);
+    });
+    return order;
+  }
+
+  /// Further effects were screened with the earlier ones held: the best few are fitted together with them.
+  void refit_best(std::vector<Tried>& tried, double first_fall, double bar) {
+    auto order = ranking(tried);
+    for (std::size_t k = 0; k < order.size() && !stopped(); ++k) {
+      Tried& t = tried[order[k]];
+      if (k >= 4) {
+        t.admitted = false;
+        if (t.reason.empty()) t.reason = "screened";
+        continue;
+      }
+      progress("together with what was found: " + t.effect->id, bar);
+      Contender better = refit(shop_, t.contender, Effort::full);
+      d_.model_runs += better.runs;
+      if (better.ok) t.contender = std::move(better);
+    }
+    compare_all(tried, first_fall);
+    for (std::size_t k = 4; k < order.size(); ++k) tried[order[k]].admitted = false;
+  }
+
+  /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first.
+  void enrich(std::vector<Tried>& tried, double first_fall, double bar) {
+    const auto order = ranking(tried);
+    if (order.empty()) return;
+    const bool far = tried[order.front()].contender.error_of.over_floor() > 3;
+    bool any = false;
+    for (std::size_t k = 0; k < order.size() && !stopped(); ++k) {
+      if (!far && k >= static_cast<std::size_t>(rules::enriched)) break;
+      Tried& t = tried[order[k]];
+      if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
+      for (std::size_t law = 1; law < t.laws.size(); ++law) {
+        progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
+        Contender richer = with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, Effort::full);
+        d_.model_runs += richer.runs;
+        if (!richer.ok) continue;
+        const double n = current_.error_of.n();
+        if (richer.score(n) < t.contender.score(n)) {
+          t.contender = std::move(richer);
+          t.law = law;
+          any = true;
+        }
+      }
+    }
+    if (any) compare_all(tried, first_fall);
+  }
+
+  /// The richer law starts where the simple one ended, for parameters of the same name.
+  static Law started_from(const Tried& t, std::size_t law) {
+    Law richer = t.laws[law];
+    for (const auto& p : parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1)) {
+      if (p.estimate == nullptr || p.estimate->linear) continue;
+      for (auto& q : richer.free)
+        if (q.path == p.law->path) {
+          q.start = p.estimate->used;
+          q.scan = {p.estimate->used, p.estimate->used / 2};
+        }
+    }
+    return richer;
+  }
+
+  int best_admitted(const std::vector<Tried>& tried) const {
+    for (const std::size_t i : ranking(tried))
+      if (tried[i].admitted) return static_cast<int>(i);
+    return -1;
+  }
+
+  // --- ties
+  // -----------------------------------------------------------------------------------------------------------
+
+  /// With few recordings a spare gain tells look-alikes apart that are none: each gets one, and an offset, before the
+  /// comparison.
+  double tie_score(const Tried& t, bool few) {
+    if (!few || t.effect->id == "calibration") return t.contender.tie_score();
+    const Effect* calibration = effects_.find("calibration");
+    if (calibration == nullptr) return t.contender.tie_score();
+    const auto places = places_of(*calibration, t.contender.diagram, registry_);
+    if (places.empty()) return t.contender.tie_score();
+    const auto at = circumstances_at(t.contender.diagram, registry_, *data_, places.front(), options_.free_paths);
+    if (!calibration->unseen(at).empty()) return t.contender.tie_score();
+    const Contender free =
+        with_effect(shop_, t.contender, *calibration, calibration->laws(at).front(), places.front(), Effort::full);
+    d_.model_runs += free.runs;
+    return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
+  }
+
+  std::vector<int> ties_of(const std::vector<Tried>& tried, std::size_t winner) {
+    const bool few = static_cast<int>(evidence_->recordings().size()) <= rules::few_recordings;
+    const Tried& w = tried[winner];
+    std::vector<int> ties;
+    double own = w.contender.tie_score();
+    bool freed = false;
+    for (const std::size_t i : ranking(tried)) {
+      const Tried& t = tried[i];
+      if (i == winner || t.effect->id == w.effect->id || !t.admitted) continue;
+      if (std::find(t.effect->contains.begin(), t.effect->contains.end(), w.effect->id) != t.effect->contains.end())
+        continue;
+      bool tied = t.contender.tie_score() - w.contender.tie_score() < rules::tie;
+      if (!tied && few && look_alike(*t.effect, *w.effect)) {
+        if (!freed) own = tie_score(w, true);
+        freed = true;
+        tied = tie_score(t, true) - own < rules::tie;
+      }
+      if (tied) ties.push_back(static_cast<int>(i));
+    }
+    return ties;
+  }
+
+  std::optional<Experiment> experiment_between(const Tried& a, const Tried& b) {
+    std::vector<std::string> preferred;
+    for (const auto& l : a.effect->look_alikes)
+      if (l.effect == b.effect->id) preferred.push_back(l.experiment);
+    for (const auto& l : b.effect->look_alikes)
+      if (l.effect == a.effect->id) preferred.push_back(l.experiment);
+    std::vector<bool> free_zero;
+    for (int o = 0; o < static_cast<int>(base_model_->outputs().size()); ++o)
+      free_zero.push_back(base_model_->zero_per_recording(o));
+    // Compiled anew: fitted values stand in the diagram.
+    auto e = separate(compile(a.contender.diagram, registry_), compile(b.contender.diagram, registry_),
+                      base_model_->outputs(), device_of(base_model_->program(), *data_), evidence_->noise().white(),
+                      free_zero, preferred);
+    if (e) e->between = a.effect->id + " and " + b.effect->id;
+    return e;
+  }
+
+  // --- claim
+  // ----------------------------------------------------------------------------------------------------------
+
+  void claim(int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties, double bar) {
+    Tried& w = tried[winner];
+    progress("intervals of " + w.effect->id, bar);
+    FoundStep found;
+    found.before = current_.error_of;
+    Contender final = refit(shop_, w.contender, Effort::final);
+    d_.model_runs += final.runs;
+    if (final.ok && final.error_of.evidence() <= w.contender.error_of.evidence() + 1) {
+      final.change = w.contender.change;
+      w.contender = std::move(final);
+    }
+    for (const int t : ties) {
+      found.ties.push_back(candidate_of(tried[static_cast<std::size_t>(t)], step));
+      auto e = experiment_between(w, tried[static_cast<std::size_t>(t)]);
+      if (e && (!found.experiment || e->separation > found.experiment->separation)) found.experiment = e;
+    }
+    found.experiment_would_tell = found.experiment && found.experiment->separation > rules::experiment_tells;
+    const ModelError before = current_.error_of;
+    current_ = w.contender;
+    if (current_.standing.size() > 1) exchange(w, bar);
+    settle(current_);
+    found.before = evidence_->error(before_prediction_.y.empty() ? base_.prediction : before_prediction_);
+    before_prediction_ = current_.prediction;
+    w.contender.error_of = current_.error_of;
+    judge_again(w, found.before);
+    found.after = current_.error_of;
+    found.winner = candidate_of(w, step);
+    found.winner.claimed = true;
+    found.change = current_.change;
+    found.change.diagram = current_.diagram;
+    found.sentence = step_sentence(w, found.ties, found.before, found.after, output_unit());
+    d_.steps.push_back(std::move(found));
+  }
+
+  /// The reason is told in the units of the noise as settled by the claimed model.
+  void judge_again(Tried& w, const ModelError& before) {
+    Contender was;
+    was.ok = true;
+    was.error_of = before;
+    was.parameters = 0;
+    const bool admitted = w.admitted;
+    judge(w, was, 0);
+    w.admitted = admitted;
+  }
+
+  /// Greedy search takes a look-alike where the right one was masked: in sets of two or more each member is replaced in
+  /// turn.
+  void exchange(Tried& w, double bar) {
+    const double n = current_.error_of.n();
+    for (std::size_t i = 0; i + 1 < current_.standing.size() && !stopped(); ++i) {
+      const Effect& member = *current_.standing[i].effect;
+      for (const auto& e : effects_.list()) {
+        if (!wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(e))) continue;
+        Contender rest = without(shop_, current_, i);
+        const auto places = places_of(e, rest.diagram, registry_);
+        if (places.empty()) continue;
+        const auto at = circumstances_at(rest.diagram, registry_, *data_, places, options_.free_paths);
+        for (std::size_t p = 0; p < places.size() && !stopped(); ++p) {
+          if (!e.unseen(at[p]).empty()) continue;
+          progress(fmt::format("{} in place of {}", e.id, member.id), bar);
+          Contender other = with_effect(shop_, rest, e, e.laws(at[p]).front(), places[p], Effort::full);
+          d_.model_runs += other.runs;
+          if (!other.ok || other.score(n) > current_.score(n) - rules::exchange) continue;
+          d_.data_remarks.push_back(fmt::format("{} was taken at first; together with {} the recordings speak for {}",
+                                                member.id, w.effect->id, e.id));
+          current_ = std::move(other);
+          return;
+        }
+      }
+    }
+  }
+
+  // --- verdict
+  // --------------------------------------------------------------------------------------------------------
+
+  Unit output_unit() const {
+    return base_model_->program().signals[static_cast<std::size_t>(base_model_->output_signal(0))].unit;
+  }
+
+  void finish() {
+    progress("what is left", 0.97);
+    settle(current_);
+    d_.base = evidence_->error(base_.prediction);
+    const double floor = current_.error_of.over_floor();
+    const double removed = d_.base.chi2_validate - current_.error_of.chi2_validate;
+    const bool base_is_off = d_.base.over_floor() > rules::floor_gate;
+    std::optional<Structure> structure;
+    if (base_is_off && !stopped()) structure = find_structure(*evidence_, base_.prediction);
+    const bool structure_wins = structure && structure->share_removed > rules::structure_share &&
+                                structure->fall_validate > std::max(removed, rules::claim_fall);
+    if (structure_wins) {
+      d_.verdict = Verdict::unexplained;
+      d_.structure = structure;
+      withdraw();
+    } else if (d_.steps.empty()) {
+      d_.verdict = base_is_off ? Verdict::unexplained : Verdict::adequate;
+      if (base_is_off && structure && structure->fall_validate > rules::claim_fall) d_.structure = structure;
+    } else {
+      const bool certain = std::any_of(d_.steps.begin(), d_.steps.end(),
+                                       [](const FoundStep& s) { return s.ties.empty() || !s.experiment_would_tell; });
+      d_.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
+      if (floor > rules::floor_gate && !stopped()) {
+        auto left = find_structure(*evidence_, current_.prediction);
+        if (left && left->share_removed > rules::structure_share && left->fall_validate > rules::claim_fall)
+          d_.structure = left;
+      }
+    }
+    d_.remainder = current_.error_of.over_floor() > rules::floor_gate ? Remainder::structured : Remainder::noise;
+    for (const auto& s : d_.steps)
+      if (s.experiment && s.experiment_would_tell &&
+          (!d_.experiment || s.experiment->separation > d_.experiment->separation))
+        d_.experiment = s.experiment;
+    d_.final_diagram = current_.diagram;
+    d_.final_error = current_.error_of;
+    test_recordings();
+    tell_noise();
+    put_into_words(d_, *data_, output_unit());
+    progress("done", 1);
+  }
+
+  /// A structure that no effect describes explains more than the effects did: what they took away was part of it.
+  void withdraw() {
+    for (auto& c : d_.candidates)
+      if (c.claimed) {
+        c.claimed = false;
+        c.reason = "withdrawn: " + d_.structure->sentence + ", more than this effect takes away";
+      }
+    d_.steps.clear();
+    current_ = base_;
+    settle(current_);
+  }
+
+  /// Read once, here, and used for nothing but the report.
+  void test_recordings() {
+    const auto test = base_model_->recordings(Role::test);
+    if (test.empty()) return;
+    DataModel model(compile(d_.final_diagram, registry_), data_);
+    const Prediction p = model.predict({}, test);
+    if (!p.ok) return;
+    if (const auto e = evidence_->test_error(p)) {
+      d_.final_error.rms_test = e->first;
+      d_.final_error.nrmse_test = e->second;
+    }
+  }
+
+  void tell_noise() {
+    d_.noise_guessed = !evidence_->noise_known();
+    for (std::size_t o = 0; o < base_model_->outputs().size(); ++o) {
+      const auto& n = evidence_->noise().outputs[o];
+      JudgedNoise told;
+      told.output = base_model_->outputs()[o];
+      told.unit = base_model_->program()
+                      .signals[static_cast<std::size_t>(base_model_->output_signal(static_cast<int>(o)))]
+                      .unit;
+      told.white = n.white;
+      told.one_over_f = n.one_over_f;
+      told.origin = to_text(n.source);
+      told.remark = n.remark;
+      d_.noise.push_back(std::move(told));
+    }
+  }
+
+  const Registry& registry_;
+  const Effects& effects_;
+  const DiscoverOptions& options_;
+  std::shared_ptr<const DataSet> data_;
+  const Diagram& user_;
+  Workshop shop_;
+  std::unique_ptr<DataModel> base_model_;
+  std::unique_ptr<Evidence> evidence_;
+  Contender base_, current_;
+  Prediction before_prediction_;  ///< of the model before the present step; empty = the base
+  Discovery d_;
+};
+
+}  // namespace
+
+Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   const DiscoverOptions& options) {
+  return Investigation(diagram, data, registry, effects, options).run();
+}
+
+Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   DiscoverOptions options) {
+  options.max_steps = 1;
+  return discover(diagram, data, registry, effects, options);
+}
+
+}  // namespace hysteron

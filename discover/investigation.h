@@ -1,0 +1,63 @@
+// Decides how the loop of a discovery keeps its books: what was tried in a step, at which places, with what result.
+// Internal to discover; the rules of judging are in judge_step.cpp, the loop in discover.cpp, the words in words.cpp.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discover/contender.h"
+#include "discover/discover.h"
+
+namespace hysteron {
+
+/// An effect at a place, with the best law tried there.
+struct Tried {
+  const Effect* effect = nullptr;
+  Place place;
+  Circumstances circumstances;
+  std::vector<Law> laws;
+  std::size_t law = 0;  ///< of laws: the one in `contender`
+  std::vector<std::string> same_places, same_effects;
+  Contender contender;
+  double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
+  double share = 0;                          ///< of the excess on validation that it removes
+  bool admitted = false;                     ///< passes the rules of a claim
+  std::string reason;
+};
+
+/// Rules of a claim (DISCOVERY 1, steps 6 and 8).
+namespace rules {
+constexpr double claim_fall =
+    10;  ///< validation evidence must fall by this: nothing-hidden cases reached 1.8, true ones start at 14.5
+constexpr double tie = 7;                ///< in evidence + 2p
+constexpr double exchange = 6;           ///< fall of the score for which a look-alike is taken instead
+constexpr double floor_gate = 1.12;      ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double own_law_left = 0.015;   ///< share of its own effect that a simple law leaves, in rms
+constexpr double share_of_rest = 0.6;    ///< a further effect removes this share of the excess ...
+constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
+constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
+constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
+constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
+constexpr int enriched = 3;        ///< names whose richer laws are tried
+}  // namespace rules
+
+/// Fills falls, share, admitted and reason. `first_fall` = fall of chi2 on validation by the first finding (0 in step
+/// 1).
+void judge(Tried& tried, const Contender& before, double first_fall);
+
+/// True if `a` and `b` are effects that can be taken for each other (either names the other).
+bool look_alike(const Effect& a, const Effect& b);
+
+std::string effect_words(const Tried& tried);  ///< "a lag, in the amplifier or in the sensor"
+std::string percent(double share);
+std::string size_text(double si, const Unit& unit);  ///< "0.42 um"
+std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at);
+Candidate candidate_of(const Tried& tried, int step);
+/// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %".
+std::string step_sentence(const Tried& tried, const std::vector<Candidate>& ties, const ModelError& before,
+                          const ModelError& after, const Unit& unit);
+/// Headline, sentences, warnings of the finished discovery.
+void put_into_words(Discovery& d, const DataSet& data, const Unit& output_unit);
+
+}  // namespace hysteron

@@ -1,0 +1,79 @@
+// Decides which candidate may be claimed: chance, share of what is left, an excitation of its own (DISCOVERY 1, steps 6
+// and 8).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discover/investigation.h"
+
+namespace hysteron {
+namespace {
+
+/// True if the candidate takes away most of what stands above the noise in at least one train and one validate
+/// recording: a real effect owns a kind of excitation, a patch nibbles everywhere.
+bool owns_an_excitation(const ModelError& before, const ModelError& after) {
+  bool train = false;
+  bool validate = false;
+  for (std::size_t i = 0; i < before.recordings.size() && i < after.recordings.size(); ++i) {
+    const auto& b = before.recordings[i];
+    const double rows = static_cast<double>(b.rows);
+    if (b.chi2 < rules::floor_gate * rows) continue;
+    if (b.chi2 - after.recordings[i].chi2 < rules::share_of_own * b.excess()) continue;
+    (b.role == Role::train ? train : validate) = true;
+  }
+  return train && validate;
+}
+
+}  // namespace
+
+bool look_alike(const Effect& a, const Effect& b) {
+  const auto names = [](const Effect& x, const Effect& y) {
+    return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),
+                       [&](const LookAlike& l) { return l.effect == y.id; });
+  };
+  return names(a, b) || names(b, a);
+}
+
+void judge(Tried& tried, const Contender& before, double first_fall) {
+  const Contender& c = tried.contender;
+  tried.admitted = false;
+  if (!c.ok) {
+    tried.reason = "could not be fitted: " + c.error;
+    return;
+  }
+  const ModelError& was = before.error_of;
+  const ModelError& is = c.error_of;
+  tried.fall_train = was.evidence_train - is.evidence_train;
+  tried.fall_validate = was.evidence_validate - is.evidence_validate;
+  const double plain = was.chi2_validate - is.chi2_validate;
+  tried.share = was.excess_validate() > 0 ? plain / was.excess_validate() : 0;
+  const double n = was.n();
+  if (!(tried.fall_validate > rules::claim_fall)) {
+    tried.reason =
+        fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
+                    tried.fall_validate, rules::claim_fall);
+    return;
+  }
+  if (!(c.score(n) < before.score(n))) {
+    tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
+    return;
+  }
+  if (first_fall > 0) {
+    if (plain < rules::own_law_left * rules::own_law_left * first_fall) {
+      tried.reason = "no larger than what the law of the first effect may have left of its own";
+      return;
+    }
+    if (tried.share < rules::share_of_rest && !owns_an_excitation(was, is)) {
+      tried.reason = fmt::format("a patch: it takes away {} of what is left, and most of it in no kind of recording",
+                                 percent(tried.share));
+      return;
+    }
+  }
+  tried.admitted = true;
+  tried.reason =
+      fmt::format("takes away {:.0f} of chi2 on recordings not used for the fit, {} of what stands above the noise",
+                  tried.fall_validate, percent(std::clamp(tried.share, 0.0, 1.0)));
+}
+
+}  // namespace hysteron

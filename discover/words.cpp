@@ -1,0 +1,198 @@
+// Decides how a discovery is told to people. Decides nothing else.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discover/effects/library.h"
+#include "discover/investigation.h"
+
+namespace hysteron {
+namespace {
+
+/// What kind of thing an effect is, when its place cannot be told.
+std::string common_name(const Tried& t) {
+  if (t.effect->family == "lag") return "a lag, in the amplifier or in the sensor";
+  return t.effect->title;
+}
+
+std::string place_text(const Tried& t) {
+  if (t.same_places.empty()) return "at " + t.place.at;
+  std::vector<std::string> all{t.place.at};
+  for (const auto& p : t.same_places)
+    if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
+  return fmt::format("at {} (these places cannot be told apart)", fmt::join(all, " or "));
+}
+
+std::string remark_of(const ParameterOfEffect& p, const Circumstances& at) {
+  const ParameterEstimate& e = *p.estimate;
+  if (!e.determined) return "the data do not determine it";
+  if (!e.value) return "";
+  std::string text;
+  const auto shown = [&](double si) { return size_text(si, e.unit); };
+  if (*e.value > p.law->plausible_upper)
+    text = fmt::format("more than {}, which is unusual", shown(p.law->plausible_upper));
+  else if (*e.value < p.law->plausible_lower)
+    text = fmt::format("less than {}, which is unusual", shown(p.law->plausible_lower));
+  if ((e.at_lower || e.at_upper) && p.law->path.find('[') == std::string::npos)
+    text += text.empty() ? "held at its bound" : "; held at its bound";
+  (void)at;
+  return text;
+}
+
+std::string error_fall(const ModelError& before, const ModelError& after, const Unit& unit) {
+  return fmt::format("error on recordings not used for the fit {:.3g} % -> {:.3g} % ({} -> {})",
+                     100 * before.nrmse_validate, 100 * after.nrmse_validate, size_text(before.rms_validate, unit),
+                     size_text(after.rms_validate, unit));
+}
+
+std::string words_of(const FoundStep& s) {
+  std::vector<std::string> names{s.winner.effect};
+  for (const auto& n : s.winner.same_effects) names.push_back(n);
+  for (const auto& t : s.ties) {
+    names.push_back(t.effect);
+    for (const auto& n : t.same_effects) names.push_back(n);
+  }
+  return fmt::format("{}", fmt::join(names, " or "));
+}
+
+void tell_noise(Discovery& d) {
+  for (const auto& n : d.noise)
+    if (!n.remark.empty())
+      d.warnings.push_back(fmt::format("{}: {}; {} rms was used", n.output, n.remark, size_text(n.white, n.unit)));
+}
+
+}  // namespace
+
+std::string to_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "adequate";
+    case Verdict::missing_effect:
+      return "missing_effect";
+    case Verdict::not_distinguishable:
+      return "not_distinguishable";
+    case Verdict::unexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+std::string to_text(Remainder remainder) { return remainder == Remainder::noise ? "noise" : "structured"; }
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+std::string size_text(double si, const Unit& unit) {
+  return unit.text.empty() ? fmt::format("{:.3g}", unit.difference_from_si(si))
+                           : fmt::format("{:.3g} {}", unit.difference_from_si(si), unit.text);
+}
+
+std::string effect_words(const Tried& t) { return t.same_effects.empty() ? t.effect->title : common_name(t); }
+
+std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at) {
+  std::vector<FoundParameter> list;
+  for (const auto& e : c.fit.estimates) list.push_back({e, ""});
+  for (const auto& p : parameters_of(c))
+    for (auto& f : list)
+      if (p.estimate != nullptr && f.estimate.path == p.estimate->path) f.remark = remark_of(p, at);
+  return list;
+}
+
+Candidate candidate_of(const Tried& t, int step) {
+  Candidate c;
+  c.effect = t.effect->id;
+  c.title = effect_words(t);
+  c.law = t.laws.empty() ? "" : t.laws[t.law].name;
+  c.place = t.place.at;
+  c.same_places = t.same_places;
+  c.same_effects = t.same_effects;
+  c.step = step;
+  c.fall_train = t.fall_train;
+  c.fall_validate = t.fall_validate;
+  c.share_removed = t.share;
+  c.failed = !t.contender.ok;
+  c.reason = t.reason;
+  c.model_runs = t.contender.runs;
+  if (t.contender.ok) {
+    c.parameters = t.contender.parameters;
+    c.error = t.contender.error_of;
+    c.score = t.contender.score(t.contender.error_of.n());
+    c.found = found_parameters(t.contender, t.circumstances);
+    std::vector<double> values;
+    bool known = true;
+    const auto own = parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1);
+    for (const auto& p : own) {
+      known = known && p.estimate != nullptr;
+      values.push_back(p.estimate != nullptr ? p.estimate->used : 0);
+    }
+    if (t.effect->summary && known && values.size() == t.laws[t.law].free.size())
+      c.summary = t.effect->summary(t.laws[t.law], values, t.circumstances);
+  }
+  return c;
+}
+
+std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, const ModelError& before,
+                          const ModelError& after, const Unit& unit) {
+  const Candidate c = candidate_of(t, 1);
+  std::string text = fmt::format("{} {}", effect_words(t), place_text(t));
+  if (!c.summary.empty()) text += ": " + c.summary;
+  text += "; " + error_fall(before, after, unit);
+  if (!ties.empty()) {
+    std::vector<std::string> names;
+    for (const auto& tie : ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));
+    text += fmt::format("; explained as well by {}", fmt::join(names, ", "));
+  }
+  return text;
+}
+
+void put_into_words(Discovery& d, const DataSet& data, const Unit& unit) {
+  const std::string fall = error_fall(d.base, d.final_error, unit);
+  std::vector<std::string> names;
+  for (const auto& s : d.steps) names.push_back(words_of(s));
+  switch (d.verdict) {
+    case Verdict::adequate:
+      d.headline = fmt::format(
+          "Adequate: what the model leaves ({}, {:.3g} %) is the noise of the recordings, and no effect improves it by "
+          "more than chance.",
+          size_text(d.base.rms_validate, unit), 100 * d.base.nrmse_validate);
+      break;
+    case Verdict::missing_effect:
+      d.headline = fmt::format("Missing: {}. {}.", fmt::join(names, ", then "), fall);
+      break;
+    case Verdict::not_distinguishable:
+      d.headline = fmt::format("Something is missing, and these recordings cannot tell what: {}. With {} the {}.",
+                               fmt::join(names, "; "), d.steps.front().winner.effect, fall);
+      break;
+    case Verdict::unexplained:
+      d.headline = d.structure
+                       ? fmt::format("Unexplained: {}, and no known effect takes it away.", d.structure->sentence)
+                       : fmt::format(
+                             "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no "
+                             "known effect takes it away.",
+                             std::sqrt(std::max(d.base.over_floor(), 0.0)));
+      break;
+  }
+  for (const auto& s : d.steps) d.sentences.push_back(s.sentence);
+  if (!d.steps.empty())
+    d.sentences.push_back(d.remainder == Remainder::noise
+                              ? fmt::format("What is left ({}) is noise.", size_text(d.final_error.rms_validate, unit))
+                              : fmt::format("What is left ({}) still has structure: {:.2g} times the noise.",
+                                            size_text(d.final_error.rms_validate, unit),
+                                            std::sqrt(std::max(d.final_error.over_floor(), 0.0))));
+  if (!d.steps.empty() && d.structure) d.sentences.push_back("In what is left " + d.structure->sentence + ".");
+  if (d.experiment)
+    d.sentences.push_back(
+        fmt::format("To tell {} apart, record {}: {}. The two models differ there by {:.3g} times the noise.",
+                    d.experiment->between, d.experiment->word, d.experiment->text, d.experiment->separation));
+  if (data.single)
+    d.warnings.push_back(
+        "One recording only: its first 60 % trained, the rest judged. That is weak evidence; a second recording with "
+        "another amplitude or frequency would be the best addition.");
+  if (d.verdict == Verdict::adequate && d.base.nrmse_validate > 0.9)
+    d.warnings.push_back(
+        "The measured output hardly moves beyond its noise in the validation recordings: little could have been "
+        "found.");
+  tell_noise(d);
+}
+
+}  // namespace hysteron
