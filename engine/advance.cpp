@@ -76,7 +76,7 @@ std::vector<std::vector<int>> components(const Program& program) {
 
 std::string why_not_block(const BlockInstance& b) {
   const auto& type = b.kernel->declaration.type;
-  if (b.kernel->uses_time && !b.kernel->declaration.is_series)
+  if (b.kernel->uses_time && !b.kernel->declaration.is_series && !b.sizes.history)
     return fmt::format("source {} \"{}\" is a function of time, not a recording", type, b.path);
   if (b.sizes.smoothness == Smoothness::no_rate) return fmt::format("{} \"{}\" draws random numbers", type, b.path);
   if (b.sizes.states > 0 && !b.kernel->declaration.is_linear)
@@ -262,6 +262,7 @@ struct Advance::Plan {
   // --- a run --------------------------------------------------------------------------------------------------------
 
   void evaluate_sources(Run& run, double t, double branch) {
+    run.branch = branch;
     for (const int b : sources) {
       const BlockInstance& source = block(b);
       if (source.series_index >= 0) {
@@ -269,7 +270,6 @@ struct Advance::Plan {
         y[at(source.y_begin)] = series->value(t, branch);
         continue;
       }
-      run.branch = branch;
       View<double> v = view_of(*program, run, b);
       v.t = t;
       v.out = y.data() + source.y_begin;

@@ -134,8 +134,8 @@ Run start(const Program& program) {
   return run;
 }
 
-void set_parameter(const Program& program, Run& run, const ParameterInfo& parameter, double si_value) {
-  for (const int slot : parameter.slots) run.p[static_cast<std::size_t>(slot)] = si_value;
+void set_parameter(const Program& program, Run& run, const ParameterInfo& parameter, double si) {
+  for (const int slot : parameter.slots) run.p[static_cast<std::size_t>(slot)] = si;
   for (const int slot : parameter.slots)
     for (std::size_t b = 0; b < program.blocks.size(); ++b) {
       const BlockInstance& block = program.blocks[b];
@@ -143,14 +143,14 @@ void set_parameter(const Program& program, Run& run, const ParameterInfo& parame
     }
 }
 
-void set_parameter(const Program& program, Run& run, const std::string& path, double si_value) {
+void set_parameter(const Program& program, Run& run, const std::string& path, double si) {
   const ParameterInfo* info = program.find_parameter(path);
   if (info == nullptr) {
     std::vector<std::string> names;
     for (const auto& p : program.parameters) names.push_back(p.path);
     fail("unknown_parameter", path, fmt::format("there is no parameter \"{}\"", path), did_you_mean(path, names));
   }
-  set_parameter(program, run, *info, si_value);
+  set_parameter(program, run, *info, si);
 }
 
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series) {

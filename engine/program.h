@@ -119,8 +119,8 @@ struct Run {
 Run start(const Program& program);
 
 /// Sets a parameter [SI] and what depends on it. Throws Error "unknown_parameter".
-void set_parameter(const Program& program, Run& run, const std::string& path, double si_value);
-void set_parameter(const Program& program, Run& run, const ParameterInfo& parameter, double si_value);
+void set_parameter(const Program& program, Run& run, const std::string& path, double si);
+void set_parameter(const Program& program, Run& run, const ParameterInfo& parameter, double si);
 /// Recomputes the constants that blocks derive from their parameters (all blocks, or one). Throws Error if a block
 /// refuses its values.
 void prepare(const Program& program, Run& run);
