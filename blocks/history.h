@@ -4,20 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/kernel.h"
 
 namespace hysteron::blocks {
 
-/// Value of the history at `time`, on the interval that holds `branch`: cubic Hermite where both ends have a rate, else
-/// linear; constant before the first point; behind the last one straight on with its rate. A time that stands twice is
-/// a jump or a corner: the second one counts from there on.
+/// Value of the history at `time`: cubic Hermite where both ends of its interval have a rate, else linear; constant
+/// before the first point; behind the last one straight on with its rate. A time that stands twice is a jump or a
+/// corner: there `branch`, a time inside the present smooth piece, tells on which side we are, since `time` is rounded.
 template <class T>
 T history_value(const History& h, const T& time, double branch) {
   const std::size_t n = h.t.size();
-  if (n <= h.first || branch < h.t[h.first]) return T{h.before};
+  if (n <= h.first) return T{h.before};
+  const double at = value_of(time);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(at), std::abs(h.t.back()));
   const auto from = h.t.begin() + static_cast<std::ptrdiff_t>(h.first);
-  const auto k = static_cast<std::size_t>(std::upper_bound(from, h.t.end(), branch) - h.t.begin()) - 1;
+  auto next = static_cast<std::size_t>(std::upper_bound(from, h.t.end(), at) - h.t.begin());
+  if (next > h.first && at - h.t[next - 1] <= rounding && branch < h.t[next - 1]) {
+    const double here = h.t[next - 1];
+    while (next > h.first && h.t[next - 1] >= here) --next;
+  } else if (next < n && h.t[next] - at <= rounding && branch >= h.t[next]) {
+    const double here = h.t[next];
+    while (next < n && h.t[next] <= here) ++next;
+  }
+  if (next == h.first) return T{h.before};
+  const std::size_t k = next - 1;
   const T since = time - T{h.t[k]};
   if (k + 1 == n) return std::isnan(h.rate[k]) ? T{h.u[k]} : T{h.u[k]} + T{h.rate[k]} * since;
   const double step = h.t[k + 1] - h.t[k];

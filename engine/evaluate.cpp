@@ -1,6 +1,8 @@
 // Decides how the steps of a program are carried out: gather inputs, call the block, keep its outputs. Pure towards the
 // run; accept() alone changes memory. Allocates nothing.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/program.h"
 
@@ -108,7 +110,9 @@ void remember(const Program& program, Run& run, Work& work, int block, double t)
   const double u = work.y[signal];
   const double rate = program.has_rate[signal] ? work.rate[signal] : std::numeric_limits<double>::quiet_NaN();
   if (h.t.empty()) h.before = u;
-  if (!h.t.empty() && h.t.back() == t && h.u.back() == u) return;
+  // At a corner the point stands twice, with the rates of both sides.
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  if (!h.t.empty() && h.t.back() == t && h.u.back() == u && same(h.rate.back(), rate)) return;
   h.t.push_back(t);
   h.u.push_back(u);
   h.rate.push_back(rate);
