@@ -61,11 +61,13 @@ void cut_single(DataSet& data) {
   const double cut = begin + train_share * (end - begin);
   const auto row = static_cast<std::size_t>(std::upper_bound(train.t.begin(), train.t.end(), cut) - train.t.begin());
   if (row < train.first + fewest_rows || train.last < row + fewest_rows)
-    fail("too_few_rows", train.name,
-         fmt::format(
-             "the recording has {} rows to judge, too few to be cut into a part that trains and one that validates",
-             train.last - train.first),
-         "record longer, or list a second recording");
+    throw Error(
+        Fault::input,
+        {{"too_few_rows", train.name,
+          fmt::format(
+              "the recording has {} rows to judge, too few to be cut into a part that trains and one that validates",
+              train.last - train.first),
+          "record longer, or list a second recording", data.file, 0}});
   Recording validate = train;
   validate.role = Role::validate;
   validate.name = unique_name(train.name, data.recordings);

@@ -1,0 +1,34 @@
+// Decides the pieces that several JSON Schemas share: numbers with units, names, the head of a file. Internal to io.
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hysteron::schema {
+
+using Json = nlohmann::ordered_json;
+
+Json text(const std::string& description);
+Json number(const std::string& description);
+Json choice_of(const std::string& description, const std::vector<std::string>& values);
+/// 5, "5 Hz", {"value": 5, "unit": "Hz"}; with `reference` also "$name".
+Json quantity(const std::string& description, bool reference);
+Json list_of(const std::string& description, Json items);
+/// An object with exactly these members.
+Json object(const std::string& description, Json properties, const std::vector<std::string>& required = {});
+/// An object whose member names match [a-z][a-z0-9_]* and whose members all look like `member`.
+Json named(const std::string& description, Json member);
+
+/// The head of a schema: draft, title, and the definitions that quantity() refers to.
+Json head(const std::string& title, const std::string& description);
+/// Members that every file of ours has: $schema, format, title, source, remark.
+void add_head_members(Json& properties);
+
+/// Indented text; objects and lists that fit stay on one line.
+std::string to_text(const Json& schema);
+
+}  // namespace hysteron::schema
