@@ -1,0 +1,240 @@
+// Decides how a test calls one block without a diagram: parameters by name in SI, inputs, states and memory by hand.
+// Does not check anything.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "blocks/register_all.h"
+#include "engine/kernel.h"
+
+namespace hysteron::bench {
+
+using Numbers = std::vector<double>;
+using Duals = std::vector<Dual>;
+
+inline const Registry& registry() {
+  static const Registry all = all_blocks();
+  return all;
+}
+inline const Kernel& kernel_of(const std::string& type) {
+  const Kernel* k = registry().find(type);
+  if (k == nullptr) throw std::logic_error("no block " + type);
+  return *k;
+}
+
+inline Duals dual(const Numbers& value, const Numbers& rate = {}) {
+  Duals d;
+  for (std::size_t i = 0; i < value.size(); ++i) d.push_back({value[i], rate.empty() ? 0 : rate[i]});
+  return d;
+}
+inline Numbers rates(const Duals& d) {
+  Numbers r;
+  for (const Dual& x : d) r.push_back(x.rate);
+  return r;
+}
+
+/// One block with its numbers. Text parameters are given as the index of the choice, free texts as character codes.
+class Bench {
+ public:
+  using Values = std::map<std::string, Numbers>;
+
+  Bench(const std::string& type, const Values& values, int inputs = -1) : kernel(kernel_of(type)) {
+    const Declaration& d = kernel.declaration;
+    p_at.push_back(0);
+    shape.declaration = &d;
+    for (const auto& q : d.parameters) {
+      Numbers own;
+      if (const auto given = values.find(q.name); given != values.end())
+        own = given->second;
+      else if (q.kind == ParameterKind::text)
+        own = q.choices.empty() ? Numbers{} : Numbers{0};
+      else if (q.default_text)
+        own = {std::strtod(q.default_text->c_str(), nullptr)};  // every default is zero or plain
+      else
+        throw std::logic_error(type + " needs " + q.name);
+      p.insert(p.end(), own.begin(), own.end());
+      p_at.push_back(static_cast<int>(p.size()));
+      shape.list_lengths.push_back(static_cast<int>(own.size()));
+      shape.text_choices.push_back(q.kind == ParameterKind::text && !own.empty() ? static_cast<int>(own[0]) : 0);
+    }
+    for (const auto& [name, numbers] : values)
+      if (d.parameter_index(name) < 0) throw std::logic_error(type + " has no parameter " + name);
+    shape.inputs = inputs < 0 ? static_cast<int>(d.inputs.size()) : inputs;
+    sizes = kernel.sizes(shape);
+    if (sizes.error.empty()) prepare();
+  }
+
+  void prepare() {
+    c.assign(static_cast<std::size_t>(sizes.constants), 0);
+    if (kernel.prepare == nullptr) return;
+    View<double> v = view<double>(p, {}, {}, {}, 0, 0);
+    v.out = c.data();
+    kernel.prepare(v);
+  }
+  std::string check() const { return kernel.check == nullptr ? "" : kernel.check(view<double>(p, {}, {}, {}, 0, 0)); }
+
+  /// Outputs for advanced memory `m`; the branch is the time where nothing else is said.
+  Numbers output(double t, const Numbers& u = {}, const Numbers& x = {}, const Numbers& m = {}) const {
+    return output(t, t, u, x, m);
+  }
+  Numbers output(double t, double branch, const Numbers& u, const Numbers& x, const Numbers& m) const {
+    return call(kernel.output, view<double>(p, u, x, m, t, branch), sizes.outputs);
+  }
+  Duals output_rate(double t, double branch, const Duals& u, const Duals& x, const Duals& m) const {
+    const Duals dp = dual(p);
+    return call(kernel.output_rate, view<Dual>(dp, u, x, m, Dual{t, 1}, branch), sizes.outputs);
+  }
+  Numbers derivative(const Numbers& u, const Numbers& x, const Numbers& du = {}) const {
+    View<double> v = view<double>(p, u, x, {}, 0, 0);
+    v.du = du.data();
+    return call(kernel.derivative, v, sizes.states);
+  }
+  Numbers advance(const Numbers& m, const Numbers& u) const {
+    return call(kernel.advance, view<double>(p, u, {}, m, 0, 0), sizes.memory);
+  }
+  Duals advance_rate(const Duals& m, const Duals& u) const {
+    const Duals dp = dual(p);
+    return call(kernel.advance_rate, view<Dual>(dp, u, {}, m, Dual{0}, 0), sizes.memory);
+  }
+  Numbers rest(const Numbers& u) const { return call(kernel.rest, view<double>(p, u, {}, {}, 0, 0), sizes.states); }
+  Numbers initial_states() const {
+    if (kernel.initial_states == nullptr) return Numbers(static_cast<std::size_t>(sizes.states), 0);
+    return call(kernel.initial_states, view<double>(p, {}, {}, {}, 0, 0), sizes.states);
+  }
+  Numbers initial_memory() const {
+    if (kernel.initial_memory == nullptr) return Numbers(static_cast<std::size_t>(sizes.memory), 0);
+    return call(kernel.initial_memory, view<double>(p, {}, {}, {}, 0, 0), sizes.memory);
+  }
+  double next_corner(double t) const { return kernel.next_corner(view<double>(p, {}, {}, {}, t, t)); }
+  double pace() const { return kernel.pace(view<double>(p, {}, {}, {}, 0, 0)); }
+
+  /// Output of a run by explicit Euler steps, memory committed after each: the response to inputs u[k] per wire.
+  Numbers response(const std::vector<Numbers>& u, double step) const {
+    Numbers x = initial_states(), m = initial_memory(), y;
+    Numbers before;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      if (sizes.memory > 0) m = advance(m, u[k]);
+      y.push_back(output(static_cast<double>(k) * step, u[k], x, m)[0]);
+      if (sizes.states == 0) continue;
+      Numbers du(u[k].size(), 0);
+      for (std::size_t i = 0; i < du.size() && k > 0; ++i) du[i] = (u[k][i] - u[k - 1][i]) / step;
+      const Numbers dx = derivative(u[k], x, du);
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] += step * dx[i];
+    }
+    return y;
+  }
+
+  Kernel kernel;
+  Shape shape;
+  Sizes sizes;
+  Numbers p, c;
+  std::vector<int> p_at;
+  const Series* series = nullptr;
+  const History* history = nullptr;
+
+ private:
+  template <class T>
+  View<T> view(const std::vector<T>& parameters, const std::vector<T>& u, const std::vector<T>& x,
+               const std::vector<T>& m, T t, double branch) const {
+    View<T> v;
+    v.p = parameters.data();
+    v.p_at = p_at.data();
+    v.c = c.data();
+    v.n_c = sizes.constants;
+    v.x = x.data();
+    v.n_x = sizes.states;
+    v.m = m.data();
+    v.n_m = sizes.memory;
+    v.u = u.data();
+    v.n_u = shape.inputs;
+    v.n_y = sizes.outputs;
+    v.t = t;
+    v.branch = branch;
+    v.series = series;
+    v.history = history;
+    return v;
+  }
+  template <class T>
+  static std::vector<T> call(void (*function)(const View<T>&), View<T> v, int count) {
+    if (function == nullptr) throw std::logic_error("the block has no such function");
+    std::vector<T> out(static_cast<std::size_t>(count));
+    v.out = out.data();
+    function(v);
+    return out;
+  }
+};
+
+/// Every block type with parameters that make sense, for laws that hold for all of them.
+struct Sample {
+  std::string type;
+  Bench::Values values;
+  int inputs = -1;
+};
+inline void PrintTo(const Sample& s, std::ostream* out) { *out << s.type; }
+inline std::vector<Sample> samples() {
+  return {
+      {"constant", {{"value", {2.5}}}},
+      {"sine", {{"amplitude", {3}}, {"offset", {1}}, {"frequency", {0.7}}, {"phase", {0.4}}}},
+      {"triangle", {{"amplitude", {3}}, {"offset", {1}}, {"frequency", {0.7}}, {"phase", {0.4}}}},
+      {"step", {{"before", {1}}, {"after", {4}}, {"time", {0.35}}}},
+      {"staircase", {{"levels", {1, 4, 2}}, {"duration", {0.3}}}},
+      {"chirp",
+       {{"amplitude", {3}},
+        {"offset", {1}},
+        {"from", {0.5}},
+        {"to", {6}},
+        {"duration", {0.9}},
+        {"sweep", {1}},
+        {"phase", {0.2}}}},
+      {"multisine",
+       {{"rms", {2}}, {"offset", {1}}, {"lowest", {0.5}}, {"highest", {4}}, {"spacing", {0.5}}, {"seed", {3}}}},
+      {"gain", {{"gain", {-1.7}}}},
+      {"sum", {{"signs", {'+', '-', '+'}}}, 3},
+      {"product", {}},
+      {"pass", {}},
+      {"saturation", {{"lower", {-1}}, {"upper", {1.4}}}},
+      {"calibration", {{"gain", {1.1}}, {"offset", {0.3}}}},
+      {"integrator", {{"initial", {0.6}}}},
+      {"transfer_function", {{"gain", {2}}, {"num", {1, 3}}, {"den", {0.5, 2, 8}}}},
+      {"transfer_function", {{"gain", {2}}, {"num", {1, 0.2, 3}}, {"den", {0.5, 2, 8}}}},
+      {"pi_controller", {{"kp", {1.2}}, {"ki", {3}}, {"initial", {0.1}}}},
+      {"lag", {{"times", {0.3}}}},
+      {"lag", {{"times", {0.3, 0.7}}}},
+      {"creep", {{"amounts", {0.1, 0.3}}, {"times", {0.2, 2}}}},
+      {"dead_time", {{"delay", {0.21}}}},
+      {"play", {{"radius", {0.4}}, {"before", {2}}}},
+      {"play", {{"radius", {0.4}}, {"sides", {1}}, {"before", {-2}}}},
+      {"prandtl_ishlinskii", {{"thresholds", {0, 0.4, 1.1}}, {"weights", {1, 0.3, 0.2}}}},
+      {"prandtl_ishlinskii",
+       {{"thresholds", {0, 0.4, 1.1}}, {"weights", {1, 0.3, 0.2}}, {"sides", {1}}, {"before", {3}}}},
+      {"bouc_wen", {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"initial", {0.2}}}},
+      {"bouc_wen",
+       {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"exponent", {2}}, {"scale", {0.5}}}},
+      {"sensor_noise", {{"rms", {0.3}}, {"period", {0.05}}, {"seed", {11}}}}};
+}
+
+/// The samples for which a law is meant, so that no test is skipped for a block that it does not concern.
+template <class Wanted>
+std::vector<Sample> samples_where(Wanted wanted) {
+  std::vector<Sample> list;
+  for (const auto& s : samples())
+    if (wanted(Bench(s.type, s.values, s.inputs))) list.push_back(s);
+  return list;
+}
+inline bool any_parameter(const Bench& b, bool ParameterDeclaration::*flag) {
+  for (const auto& p : b.kernel.declaration.parameters)
+    if (p.*flag && p.kind != ParameterKind::text) return true;
+  return false;
+}
+inline std::string sample_name(const testing::TestParamInfo<Sample>& made) {
+  return made.param.type + "_" + std::to_string(made.index);
+}
+
+}  // namespace hysteron::bench

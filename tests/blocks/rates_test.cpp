@@ -1,0 +1,69 @@
+// The rate of every block's output is exact: held against central differences of its values.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "models/random.h"
+#include "tests/blocks/bench.h"
+
+namespace hysteron {
+namespace {
+
+using bench::Bench;
+using bench::dual;
+using bench::Duals;
+using bench::Numbers;
+
+Numbers draw(std::size_t n, std::uint64_t stream, double scale) {
+  Numbers v;
+  for (std::size_t i = 0; i < n; ++i) v.push_back(scale * random::normal(99, stream, i));
+  return v;
+}
+Numbers moved(const Numbers& a, const Numbers& direction, double h) {
+  Numbers b = a;
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] += h * direction[i];
+  return b;
+}
+
+class EverySample : public testing::TestWithParam<bench::Sample> {};
+
+TEST_P(EverySample, CarriesTheExactRateOfItsOutput) {
+  Bench b(GetParam().type, GetParam().values, GetParam().inputs);
+  ASSERT_EQ(b.sizes.error, "");
+  const History history{{0, 0.1, 0.4, 0.9}, {0, 1, 0.5, 2}, {3, -1, 2, 1}, 0, 0};
+  b.history = &history;
+  const auto nu = static_cast<std::size_t>(b.shape.inputs), nx = static_cast<std::size_t>(b.sizes.states);
+  const Numbers m = b.initial_memory();
+  const double h = 1e-6;
+  for (std::uint64_t trial = 0; trial < 50; ++trial) {
+    const double t = 0.02 * static_cast<double>(trial) + 0.0031, branch = t;
+    const Numbers u = draw(nu, 4 * trial, 2), du = draw(nu, 4 * trial + 1, 1), x = draw(nx, 4 * trial + 2, 1),
+                  dx = draw(nx, 4 * trial + 3, 1);
+    const auto value = [&](double e) {
+      const Numbers at = moved(u, du, e);
+      const Numbers memory = b.sizes.memory > 0 ? b.advance(m, at) : m;
+      return b.output(t + e, branch, at, moved(x, dx, e), memory)[0];
+    };
+    const Duals memory = b.sizes.memory > 0 ? b.advance_rate(dual(m), dual(u, du)) : Duals{};
+    const Dual y = b.output_rate(t, branch, dual(u, du), dual(x, dx), memory)[0];
+    EXPECT_NEAR(y.value, value(0), 1e-13 * (1 + std::fabs(y.value)));
+    // central differences: rounding 1e-16/h = 1e-10, curvature h^2 times at most 2e5 (a sum of sines of 4 Hz) = 1e-7
+    EXPECT_NEAR(y.rate, (value(h) - value(-h)) / (2 * h), 2e-7 * (1 + std::fabs(y.rate)))
+        << GetParam().type << " trial " << trial;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Blocks, EverySample, testing::ValuesIn(bench::samples()), bench::sample_name);
+
+TEST(RecordedBlock, RateIsTheSlopeBetweenTheSamples) {
+  Bench b("recorded", {});
+  const Series series{{0, 1, 3}, {2, 5, 1}, Between::linear};
+  b.series = &series;
+  EXPECT_EQ(b.output_rate(0.5, 0.5, {}, {}, {})[0].rate, 3);
+  EXPECT_EQ(b.output_rate(1.5, 1.5, {}, {}, {})[0].rate, -2);
+  EXPECT_EQ(b.output_rate(1.0, 0.5, {}, {}, {})[0].rate, 3) << "at the sample the branch decides";
+  EXPECT_EQ(b.output_rate(4.0, 4.0, {}, {}, {})[0].rate, 0);
+}
+
+}  // namespace
+}  // namespace hysteron
