@@ -39,7 +39,7 @@ void refuse_overwriting(const fs::path& folder, const std::vector<std::string>& 
 }
 
 /// All files or none: what was written before a failure is taken away again.
-void write_all(const fs::path& folder, const Starter& starter, const std::string& csv_name, const fs::path& from) {
+void write_all(const fs::path& folder, const Starter& starter, const std::string& csv_name, const std::string& csv_text) {
   std::vector<fs::path> written;
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file((folder / name).string(), text);
@@ -47,7 +47,7 @@ void write_all(const fs::path& folder, const Starter& starter, const std::string
   };
   std::error_code code;
   try {
-    if (!csv_name.empty()) write(csv_name, read_file(from.string()));
+    if (!csv_name.empty()) write(csv_name, csv_text);
     write("dataset.json", starter.dataset_text);
     if (!fs::exists(folder / "hysteron.project", code))
       write("hysteron.project",
@@ -76,7 +76,7 @@ int make_new(const Arguments& arguments) {
   refuse_overwriting(folder, written);
   fs::create_directories(folder, code);
   if (code) fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o");
-  write_all(folder, starter, recording_is_there ? "" : csv_name, from);
+  write_all(folder, starter, recording_is_there ? "" : csv_name, read_file(from.string()));
 
   fmt::print("wrote {}, {}\n", (folder / "diagram.json").string(), (folder / "dataset.json").string());
   if (!arguments.quiet()) {

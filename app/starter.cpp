@@ -184,7 +184,7 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
   const auto first = std::upper_bound(t.begin(), t.end(), cut);
   const double edge = first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
   const std::string unit = unit_text(table.find(roles.time)->unit);
-  const std::string at = fmt::format("{:.9g} {}", edge, unit.empty() ? "s" : unit);
+  const std::string at = fmt::format("{:.9g} {}", edge - t.front(), unit.empty() ? "s" : unit);  // counted from the first row
   assumed.push_back(fmt::format("the first 60 % of the time ({}) train, the rest validates", at));
   return fmt::format(
       "{{\n  \"format\": 1,\n  \"title\": {0},\n  \"columns\": {{{1}}},\n  \"recordings\": [\n"
@@ -199,12 +199,11 @@ StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<
   check_columns(table, given.inputs, "--input");
   check_columns(table, given.outputs, "--output");
   const Dimension second = parse_unit("s").dimension;
-  for (const auto& column : table.columns)
-    if (given.time.empty() && column.unit.dimension == second && is_one_of(lower_case(column.name), {"t", "time"}))
-      given.time = column.name;
-  if (given.time.empty())
+  const CsvColumn* time = table.find("t");
+  if (time == nullptr || !(time->unit.dimension == second))
     fail("missing_column", table.file, "no column is the time",
          "name one \"t [s]\" in the header line; the columns are " + names_of(table));
+  given.time = "t";
 
   std::vector<std::string> inputs, outputs, maybe;
   for (const auto& column : table.columns) {

@@ -1,0 +1,22 @@
+// Decides how a discovery is told: sections, figures, facts, and the files of its folder.
+// Does not discover anything.
+#pragma once
+
+#include <string>
+
+#include "discover/discover.h"
+#include "io/result.h"
+
+namespace hysteron {
+
+struct DiscoveryFiles {
+  std::string diagram_file;  ///< as the user named it
+  std::string data_file;
+  std::string folder;        ///< where the results go
+};
+
+/// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and after,
+/// candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
+Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data, const DiscoveryFiles& files);
+
+}  // namespace hysteron

@@ -1,0 +1,94 @@
+// Who may include whom (DESIGN 2), read from the #include lines of every source file.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::set<std::string>> may_include = {
+    {"engine", {}},
+    {"models", {}},
+    {"blocks", {"engine", "models"}},
+    {"io", {"engine"}},
+    {"fit", {"engine", "io"}},
+    {"discover", {"engine", "io", "fit"}},
+    {"report", {"io", "engine"}},  // engine: units and errors, through io's own headers
+    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report"}},
+};
+
+bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
+
+/// Rooms that a text includes from.
+std::set<std::string> rooms_in(const std::string& text) {
+  static const std::regex include("(^|\n)[ \t]*#[ \t]*include[ \t]*[\"<]([a-z_]+)/");
+  std::set<std::string> rooms;
+  for (std::sregex_iterator i(text.begin(), text.end(), include), end; i != end; ++i)
+    if (may_include.contains((*i)[2].str()) || (*i)[2].str() == "tests") rooms.insert((*i)[2].str());
+  return rooms;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(Architecture, RoomsIncludeOnlyTheRoomsThatTheyMay) {
+  for (const auto& [room, allowed] : may_include) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(HYSTERON_SOURCE_DIR) / room)) {
+      if (!is_source(entry.path())) continue;
+      ++files;
+      for (const auto& other : rooms_in(text_of(entry.path())))
+        EXPECT_TRUE(other == room || allowed.contains(other)) << entry.path() << " includes from " << other;
+    }
+    EXPECT_GT(files, 0U) << room << " was not looked at";
+  }
+}
+
+TEST(Architecture, TheTestItselfSeesAForbiddenInclude) {
+  const auto rooms = rooms_in("// x\n#include <vector>\n#include \"blocks/gain.h\"\n  # include \"engine/error.h\"\n");
+  EXPECT_EQ(rooms, (std::set<std::string>{"blocks", "engine"}));
+}
+
+/// Every source file of every room.
+template <class Action>
+void for_each_source(const Action& action) {
+  for (const auto& [room, allowed] : may_include)
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(HYSTERON_SOURCE_DIR) / room))
+      if (is_source(entry.path())) action(room, entry.path(), text_of(entry.path()));
+}
+
+TEST(Architecture, HeadersAreReadOnceAndOpenWithWhatTheyDecide) {
+  for_each_source([](const std::string&, const fs::path& file, const std::string& text) {
+    if (file.extension() != ".h") return;
+    EXPECT_NE(text.find("#pragma once"), std::string::npos) << file;
+    EXPECT_TRUE(text.starts_with("//")) << file << " does not open with what it decides";
+  });
+}
+
+// A header that costs seconds to read may be included by sources and by headers that no other room sees.
+TEST(Architecture, NoRoomReadsAHeavyHeaderThroughAnother) {
+  std::set<std::string> heavy;  // "engine/linear_part.h"
+  for_each_source([&](const std::string& room, const fs::path& file, const std::string& text) {
+    if (file.extension() != ".h") return;
+    for (const char* costly : {"<nlohmann/json.hpp>", "<Eigen/", "<ceres/", "<CLI/"})
+      if (text.find(costly) != std::string::npos)
+        heavy.insert(room + "/" + fs::relative(file, fs::path(HYSTERON_SOURCE_DIR) / room).generic_string());
+  });
+  for_each_source([&](const std::string& room, const fs::path& file, const std::string& text) {
+    for (const auto& header : heavy) {
+      if (!header.starts_with(room + "/") || file.extension() == ".h") {
+        EXPECT_EQ(text.find("\"" + header + "\""), std::string::npos) << file << " includes " << header;
+      }
+    }
+  });
+}
+
+}  // namespace

@@ -1,0 +1,97 @@
+// The command line itself: help that teaches, exit codes, documentation from the declarations.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/app/hysteron_process.h"
+
+namespace hysteron {
+namespace {
+
+using process::Folder;
+using process::Outcome;
+
+const std::vector<std::string> verbs{"new", "run", "check", "compare", "diagnose", "add",
+                                     "remove", "fit", "discover", "blocks", "effects", "schema"};
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);)
+    longest = std::max(longest, static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+                                  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+                                })));
+  return longest;
+}
+
+TEST(CommandLine, WithoutWordsItShowsTheVerbsAndAsksForOne) {
+  const Folder folder;
+  const Outcome outcome = process::hysteron(folder.path(), {});
+  EXPECT_EQ(outcome.code, 2);
+  for (const auto& verb : verbs) EXPECT_NE(outcome.out.find("  " + verb + " "), std::string::npos) << verb;
+}
+
+TEST(CommandLine, VersionIsPrinted) {
+  const Folder folder;
+  const Outcome outcome = process::hysteron(folder.path(), {"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.out.starts_with("hysteron ")) << outcome.out;
+}
+
+class Help : public testing::TestWithParam<std::string> {};
+TEST_P(Help, TeachesWithExamplesWhatIsWrittenAndExitCodes) {
+  const Folder folder;
+  const Outcome outcome = process::hysteron(folder.path(), {GetParam(), "--help"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+  EXPECT_NE(outcome.out.find("Examples:\n  hysteron " + GetParam()), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("Exit codes: 0"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(outcome.out.find("rites") != std::string::npos || outcome.out.find("nothing is written") != std::string::npos)
+      << "does not say what it writes\n"
+      << outcome.out;
+  EXPECT_EQ(folder.entries().size(), 0U);
+}
+INSTANTIATE_TEST_SUITE_P(Verbs, Help, testing::ValuesIn(verbs), [](const auto& info) { return info.param; });
+
+TEST(Blocks, EveryTypeIsListedAndShownWithinAHundredColumns) {
+  const Folder folder;
+  const Outcome all = process::hysteron(folder.path(), {"blocks"});
+  ASSERT_EQ(all.code, 0);
+  EXPECT_LE(longest_line(all.out), 100U) << all.out;
+  for (const char* type : {"sine", "triangle", "step", "staircase", "chirp", "multisine", "recorded", "gain", "sum", "product",
+                           "pass", "integrator", "transfer_function", "saturation", "pi_controller", "play",
+                           "prandtl_ishlinskii", "bouc_wen", "creep", "lag", "dead_time", "sensor_noise"}) {
+    EXPECT_NE(all.out.find("  " + std::string(type) + " "), std::string::npos) << type;
+    const Outcome one = process::hysteron(folder.path(), {"blocks", type});
+    EXPECT_EQ(one.code, 0) << type;
+    EXPECT_LE(longest_line(one.out), 100U) << one.out;
+    for (const char* part : {"\nlaw\n", "\noutputs\n", "\nsource\n", "\nexample\n"})
+      EXPECT_NE(one.out.find(part), std::string::npos) << type << " lacks " << part;
+  }
+}
+
+TEST(Effects, EveryEffectIsListedAndShownWithItsLookAlikes) {
+  const Folder folder;
+  const Outcome all = process::hysteron(folder.path(), {"effects"});
+  ASSERT_EQ(all.code, 0);
+  EXPECT_LE(longest_line(all.out), 100U) << all.out;
+  for (const char* id : {"calibration", "initial_remanence", "hysteresis", "creep", "amplifier_lag", "sensor_lag", "dead_time"}) {
+    EXPECT_NE(all.out.find("  " + std::string(id) + " "), std::string::npos) << id;
+    const Outcome one = process::hysteron(folder.path(), {"effects", id});
+    EXPECT_EQ(one.code, 0) << id;
+    EXPECT_LE(longest_line(one.out), 100U) << one.out;
+    for (const char* part : {"\ncause\n", "\nlaw\n", "\ndata that show it\n", "\ntaken for it easily\n"})
+      EXPECT_NE(one.out.find(part), std::string::npos) << id << " lacks " << part;
+  }
+}
+
+TEST(Schema, WritesTheThreeSchemasThatTheProjectShips) {
+  const Folder folder;
+  ASSERT_EQ(process::hysteron(folder.path(), {"schema", "-o", "made"}).code, 0);
+  for (const char* name : {"diagram.schema.json", "dataset.schema.json", "result.schema.json"})
+    EXPECT_NE(folder.read(std::string("made/") + name).find("draft-07"), std::string::npos) << name;
+}
+
+}  // namespace
+}  // namespace hysteron
