@@ -45,7 +45,7 @@ struct Pool {
 };
 
 std::string headline(const DataModel& model, const Comparison& c, int output) {
-  const auto& unit = model.program().signals[static_cast<std::size_t>(model.output_signal(output))].unit;
+  const Unit& unit = model.output_unit(output);
   const auto& name = model.outputs()[static_cast<std::size_t>(output)];
   std::vector<std::string> parts;
   for (const Role role : {Role::train, Role::validate, Role::test})

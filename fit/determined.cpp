@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "fit/dense.h"
 
 namespace hysteron {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
+using Vector = std::vector<double>;
+
+double largest_of(const Vector& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::abs(x));
+  return most;
+}
 
 /// A change of one column's parameter in units of its size: ln for log scale, else relative.
 double relative(const Sensitive& s, double change) {
@@ -19,23 +24,25 @@ double relative(const Sensitive& s, double change) {
   return s.size > 0 ? change / s.size : change;
 }
 
-/// Null vectors with as few members as possible: the null space in reduced echelon form.
-std::vector<Vector> sparse_basis(Matrix null) {
-  std::vector<Vector> list;
-  Matrix rows = null.transpose();
-  std::vector<Eigen::Index> pivots;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    Eigen::Index r = 0, c = 0;
-    rows.bottomRows(rows.rows() - i).cwiseAbs().maxCoeff(&r, &c);
-    rows.row(i).swap(rows.row(i + r));
-    if (rows(i, c) == 0) break;
-    rows.row(i) /= rows(i, c);
-    for (Eigen::Index k = 0; k < rows.rows(); ++k)
-      if (k != i) rows.row(k) -= rows(k, c) * rows.row(i);
-    pivots.push_back(c);
+/// Null vectors with as few members as possible: the null space (columns `first` .. of v) in reduced echelon form.
+std::vector<Vector> sparse_basis(const Dense& v, std::size_t first) {
+  std::vector<Vector> rows;
+  for (std::size_t j = first; j < v.cols; ++j) rows.emplace_back(v.col(j), v.col(j) + v.rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::size_t r = i, c = 0;
+    for (std::size_t k = i; k < rows.size(); ++k)
+      for (std::size_t j = 0; j < v.rows; ++j)
+        if (std::abs(rows[k][j]) > std::abs(rows[r][c])) r = k, c = j;
+    std::swap(rows[i], rows[r]);
+    const double pivot = rows[i][c];
+    for (double& x : rows[i]) x /= pivot;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (k == i) continue;
+      const double f = rows[k][c];
+      for (std::size_t j = 0; j < v.rows; ++j) rows[k][j] -= f * rows[i][j];
+    }
   }
-  for (std::size_t i = 0; i < pivots.size(); ++i) list.emplace_back(rows.row(static_cast<Eigen::Index>(i)).transpose());
-  return list;
+  return rows;
 }
 
 std::string sentence_for(const std::vector<std::string>& paths, const std::vector<double>& direction) {
@@ -50,21 +57,25 @@ std::string sentence_for(const std::vector<std::string>& paths, const std::vecto
 class Analysis {
  public:
   Analysis(const NormalForm& jacobian, const std::vector<Sensitive>& columns, FitResult& result)
-      : n_(jacobian.n),
-        r_(Eigen::Map<const Matrix>(jacobian.r.data(), n_, n_)),
+      : n_(static_cast<std::size_t>(jacobian.n)),
         columns_(columns),
         result_(result),
-        length_(Vector::Ones(n_)),
-        dropped_(static_cast<std::size_t>(n_), false) {
-    for (int j = 0; j < n_; ++j) length_[j] = r_.col(j).norm();
+        scaled_(n_, n_),
+        length_(n_),
+        dropped_(n_, false) {
+    for (std::size_t j = 0; j < n_; ++j) {
+      const double* column = jacobian.r.data() + j * n_;
+      length_[j] = length(column, n_);
+      for (std::size_t i = 0; i < n_; ++i) scaled_(i, j) = length_[j] > 0 ? column[i] / length_[j] : 0;
+    }
   }
 
-  /// Columns that leave no trace at all.
+  /// Columns that leave no trace at all: not even a change by 100 % can be seen.
   void drop_silent() {
-    const double largest = n_ > 0 ? length_.maxCoeff() : 0;
-    for (int j = 0; j < n_; ++j) {
-      const auto& s = columns_[static_cast<std::size_t>(j)];
-      const double effect = length_[j] * (s.log_scale ? 1.0 : s.size > 0 ? s.size : 1.0);  // of a change by 100 %
+    const double largest = largest_of(length_);
+    for (std::size_t j = 0; j < n_; ++j) {
+      const auto& s = columns_[j];
+      const double effect = length_[j] * (s.log_scale ? 1.0 : s.size > 0 ? s.size : 1.0);
       if (length_[j] == 0 || !(effect > 1e-9) || length_[j] < 1e-300 * largest) name({j}, {1.0});
     }
   }
@@ -73,34 +84,29 @@ class Analysis {
   void drop_combinations(double tolerance) {
     const auto kept = remaining();
     if (kept.size() < 2) return;
-    const auto svd = decompose(kept);
-    const Vector& s = svd.singularValues();
-    int null = 0;
-    for (Eigen::Index k = 0; k < s.size(); ++k)
-      if (s[k] < tolerance * s[0]) ++null;
-    if (null > 0) name_all(kept, svd.matrixV().rightCols(null));
+    const auto svd = singular_values(part(kept));
+    std::size_t rank = 0;
+    while (rank < svd.s.size() && svd.s[rank] >= tolerance * svd.s[0]) ++rank;
+    if (rank < kept.size()) name_all(kept, sparse_basis(svd.v, rank), 0.02);
   }
 
   /// Nearly parallel columns whose difference is lost in the noise: every member could double or vanish.
   void drop_lost_in_noise() {
-    for (int guard = 0; guard < n_; ++guard) {
+    for (std::size_t guard = 0; guard < n_; ++guard) {
       const auto kept = remaining();
       if (kept.size() < 2) return;
-      const auto svd = decompose(kept);
-      const auto last = svd.singularValues().size() - 1;
-      const double s = svd.singularValues()[last];
-      if (!(s < 0.03 * svd.singularValues()[0])) return;
-      const Vector v = svd.matrixV().col(last);
-      const double largest = v.cwiseAbs().maxCoeff();
+      const auto svd = singular_values(part(kept));
+      const std::size_t last = kept.size() - 1;
+      if (!(svd.s[last] < 0.03 * svd.s[0])) return;
+      const Vector v(svd.v.col(last), svd.v.col(last) + kept.size());
+      const double largest = largest_of(v);
       bool all = true;
-      for (std::size_t i = 0; i < kept.size(); ++i) {
-        const double part = v[static_cast<Eigen::Index>(i)];
-        if (std::abs(part) < 0.2 * largest) continue;
-        const auto& column = columns_[static_cast<std::size_t>(kept[i])];
-        all = all && std::abs(relative(column, std::sqrt(result_.s2) / s * part / length_[kept[i]])) > 1;
-      }
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (std::abs(v[i]) >= 0.2 * largest)
+          all = all && std::abs(relative(columns_[kept[i]],
+                                         std::sqrt(result_.s2) / svd.s[last] * v[i] / length_[kept[i]])) > 1;
       if (!all) return;
-      name_all(kept, svd.matrixV().rightCols(1), 0.2);
+      name_all(kept, {v}, 0.2);
     }
   }
 
@@ -109,11 +115,10 @@ class Analysis {
     // An interval that reaches over all that the bounds allow says nothing: such a parameter has no value either.
     for (bool again = true; again;) {
       again = false;
-      const Matrix covariance = covariance_of(kept);
+      const Dense covariance = covariance_of(kept);
       for (std::size_t i = 0; i < kept.size(); ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        const auto& s = columns_[static_cast<std::size_t>(kept[i])];
-        const double half = quantile * std::sqrt(covariance(k, k));
+        const auto& s = columns_[kept[i]];
+        const double half = quantile * std::sqrt(covariance(i, i));
         const bool lost = s.log_scale ? half > std::log(1000.0) : half > s.upper - s.lower;
         if (!lost && std::isfinite(half)) continue;
         name({kept[i]}, {1.0}, "the noise hides");
@@ -126,48 +131,44 @@ class Analysis {
   }
 
  private:
-  std::vector<int> remaining() const {
-    std::vector<int> list;
-    for (int j = 0; j < n_; ++j)
-      if (!dropped_[static_cast<std::size_t>(j)]) list.push_back(j);
+  std::vector<std::size_t> remaining() const {
+    std::vector<std::size_t> list;
+    for (std::size_t j = 0; j < n_; ++j)
+      if (!dropped_[j]) list.push_back(j);
     return list;
   }
 
-  Matrix scaled(const std::vector<int>& kept) const {
-    Matrix a = r_(Eigen::all, kept);
-    for (std::size_t i = 0; i < kept.size(); ++i) a.col(static_cast<Eigen::Index>(i)) /= length_[kept[i]];
+  Dense part(const std::vector<std::size_t>& kept) const {
+    Dense a(n_, kept.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) std::copy(scaled_.col(kept[k]), scaled_.col(kept[k]) + n_, a.col(k));
     return a;
   }
-  Eigen::JacobiSVD<Matrix> decompose(const std::vector<int>& kept) const {
-    return Eigen::JacobiSVD<Matrix>(scaled(kept), Eigen::ComputeThinV);
-  }
 
-  void name_all(const std::vector<int>& kept, const Matrix& null, double threshold = 0.02) {
-    for (const Vector& v : sparse_basis(null)) {
-      const double largest = v.cwiseAbs().maxCoeff();
-      std::vector<int> members;
-      std::vector<double> change;
+  void name_all(const std::vector<std::size_t>& kept, const std::vector<Vector>& null, double threshold) {
+    for (const Vector& v : null) {
+      const double largest = largest_of(v);
+      std::vector<std::size_t> members;
+      Vector change;
       for (std::size_t i = 0; i < kept.size(); ++i) {
-        const double part = v[static_cast<Eigen::Index>(i)];
-        if (std::abs(part) < threshold * largest) continue;
+        if (std::abs(v[i]) < threshold * largest) continue;
         members.push_back(kept[i]);
-        change.push_back(relative(columns_[static_cast<std::size_t>(kept[i])], part / length_[kept[i]]));
+        change.push_back(relative(columns_[kept[i]], v[i] / length_[kept[i]]));
       }
-      double most = 0;
-      for (const double c : change) most = std::max(most, std::abs(c));
+      const double most = largest_of(change);
       for (double& c : change) c /= most > 0 ? most : 1;
       name(members, change);
     }
   }
 
-  void name(const std::vector<int>& members, const std::vector<double>& direction, const std::string& why = "") {
+  void name(const std::vector<std::size_t>& members, const std::vector<double>& direction,
+            const std::string& why = "") {
     Undetermined u;
-    for (const int j : members) {
-      auto& estimate = result_.estimates[static_cast<std::size_t>(columns_[static_cast<std::size_t>(j)].estimate)];
+    for (const std::size_t j : members) {
+      auto& estimate = result_.estimates[static_cast<std::size_t>(columns_[j].estimate)];
       u.paths.push_back(estimate.path);
       estimate.determined = false;
       estimate.value.reset();
-      dropped_[static_cast<std::size_t>(j)] = true;
+      dropped_[j] = true;
     }
     u.direction = direction;
     u.sentence = why.empty()
@@ -177,43 +178,42 @@ class Analysis {
   }
 
   /// s2 (J'J)^-1 of the columns kept, in their own (perhaps logarithmic) units.
-  Matrix covariance_of(const std::vector<int>& kept) const {
-    const auto m = static_cast<Eigen::Index>(kept.size());
-    if (m == 0) return {};
-    const Eigen::HouseholderQR<Matrix> qr(scaled(kept));
-    const Matrix triangle = qr.matrixQR().topRows(m).triangularView<Eigen::Upper>();
-    const Matrix inverse = triangle.triangularView<Eigen::Upper>().solve(Matrix::Identity(m, m));
-    Matrix covariance = result_.s2 * inverse * inverse.transpose();
-    for (Eigen::Index i = 0; i < m; ++i)
-      for (Eigen::Index j = 0; j < m; ++j)
-        covariance(i, j) /= length_[kept[static_cast<std::size_t>(i)]] * length_[kept[static_cast<std::size_t>(j)]];
+  Dense covariance_of(const std::vector<std::size_t>& kept) const {
+    const std::size_t m = kept.size();
+    Dense triangle = part(kept);
+    triangularize(triangle);
+    const Dense inverse = inverse_of_triangle(triangle);
+    Dense covariance(m, m);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < m; ++k) sum += inverse(i, k) * inverse(j, k);
+        covariance(i, j) = result_.s2 * sum / (length_[kept[i]] * length_[kept[j]]);
+      }
     return covariance;
   }
 
-  void write(const std::vector<int>& kept, const Matrix& covariance, double quantile) {
+  void write(const std::vector<std::size_t>& kept, const Dense& covariance, double quantile) {
     const std::size_t m = kept.size();
     result_.correlation.assign(m * m, 0.0);
     for (std::size_t i = 0; i < m; ++i) {
-      const auto& s = columns_[static_cast<std::size_t>(kept[i])];
+      const auto& s = columns_[kept[i]];
       auto& e = result_.estimates[static_cast<std::size_t>(s.estimate)];
-      const auto k = static_cast<Eigen::Index>(i);
-      const double sigma = std::sqrt(covariance(k, k)), half = quantile * sigma;
+      const double sigma = std::sqrt(covariance(i, i)), half = quantile * sigma;
       e.sigma = s.log_scale ? sigma * s.value : sigma;
       e.low95 = std::max(e.lower, s.log_scale ? s.value * std::exp(-half) : s.value - half);
       e.high95 = std::min(e.upper, s.log_scale ? s.value * std::exp(half) : s.value + half);
       result_.correlated.push_back(s.estimate);
-      for (std::size_t j = 0; j < m; ++j) {
-        const auto l = static_cast<Eigen::Index>(j);
-        result_.correlation[i * m + j] = covariance(k, l) / std::sqrt(covariance(k, k) * covariance(l, l));
-      }
+      for (std::size_t j = 0; j < m; ++j)
+        result_.correlation[i * m + j] = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
     }
     result_.n_parameters = static_cast<int>(m);
   }
 
-  int n_;
-  Matrix r_;
+  std::size_t n_;
   const std::vector<Sensitive>& columns_;
   FitResult& result_;
+  Dense scaled_;  ///< columns of length one
   Vector length_;
   std::vector<bool> dropped_;
 };

@@ -222,10 +222,10 @@ void Fitting::search_from(const PointPointer& start) {
     if (!point->ok) return false;
     std::copy(point->residual.begin(), point->residual.end(), residual);
     if (jacobian == nullptr) return true;
-    std::vector<double> columns;
+    Dense columns;
     if (!projection_->jacobian(*point, false, true, columns)) return false;
     for (std::size_t k = 0; k < m; ++k)
-      for (std::size_t i = 0; i < projection_->rows(); ++i) jacobian[i * m + k] = columns[k * projection_->rows() + i];
+      for (std::size_t i = 0; i < projection_->rows(); ++i) jacobian[i * m + k] = columns(i, k);
     return true;
   };
   problem.go_on = [&] { return go_on("search"); };
@@ -299,7 +299,7 @@ std::string list_of(const std::string& path) {
 }
 
 void Fitting::find_intervals() {
-  std::vector<double> nonlinear;
+  Dense nonlinear;
   if (!projection_->jacobian(*best_, true, false, nonlinear)) {
     result_.remarks.push_back("no intervals: the neighbourhood of the result cannot be simulated");
     return;
@@ -319,10 +319,8 @@ void Fitting::find_intervals() {
     columns.push_back(s);
     jacobian.insert(jacobian.end(), column, column + rows);
   };
-  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k)
-    add(projection_->nonlinear()[k], nonlinear.data() + k * rows);
-  for (std::size_t j = 0; j < projection_->linear().size(); ++j)
-    add(projection_->linear()[j], best_->columns.data() + j * rows);
+  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k) add(projection_->nonlinear()[k], nonlinear.col(k));
+  for (std::size_t j = 0; j < projection_->linear().size(); ++j) add(projection_->linear()[j], best_->columns.col(j));
   for (double& x : jacobian)
     if (!std::isfinite(x)) return;
   NormalForm normal(static_cast<int>(columns.size()));

@@ -1,81 +1,89 @@
 #include "fit/linear.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "fit/dense.h"
+
 namespace hysteron {
 namespace {
-
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
 
 /// One run of the active set method; the members are its state.
 class ActiveSet {
  public:
   ActiveSet(const NormalForm& problem, std::span<const double> lower, std::span<const double> upper,
             std::span<const double> near)
-      : n_(problem.n),
-        r_(Eigen::Map<const Matrix>(problem.r.data(), n_, n_)),
-        d_(Eigen::Map<const Vector>(problem.d.data(), n_)),
-        lower_(Eigen::Map<const Vector>(lower.data(), n_)),
-        upper_(Eigen::Map<const Vector>(upper.data(), n_)),
-        near_(Vector::Zero(n_)),
-        scale_(Vector::Ones(n_)),
-        x_(Vector::Zero(n_)),
-        bound_(static_cast<std::size_t>(n_), Bound::inside) {
-    for (int j = 0; j < n_; ++j) {
-      if (!near.empty()) near_[j] = near[static_cast<std::size_t>(j)];
-      const double length = r_.col(j).norm();
-      if (length > 0) scale_[j] = length;
+      : n_(static_cast<std::size_t>(problem.n)),
+        r_(n_, n_),
+        d_(problem.d),
+        lower_(n_),
+        upper_(n_),
+        near_(n_),
+        scale_(n_, 1.0),
+        bound_(n_, Bound::inside) {
+    for (std::size_t j = 0; j < n_; ++j) {
+      // Unknowns in units of their columns' lengths.
+      const double* column = problem.r.data() + j * n_;
+      if (const double l = length(column, n_); l > 0) scale_[j] = l;
+      for (std::size_t i = 0; i < n_; ++i) r_(i, j) = column[i] / scale_[j];
+      lower_[j] = lower[j] * scale_[j];
+      upper_[j] = upper[j] * scale_[j];
+      near_[j] = std::min(std::max((near.empty() ? 0.0 : near[j]) * scale_[j], lower_[j]), upper_[j]);
     }
-    r_ = r_ * scale_.cwiseInverse().asDiagonal();  // unknowns in units of their columns' lengths
-    lower_ = lower_.cwiseProduct(scale_);
-    upper_ = upper_.cwiseProduct(scale_);
-    near_ = near_.cwiseProduct(scale_).cwiseMax(lower_).cwiseMin(upper_);
-    tolerance_ = 1e-12 * std::max(d_.norm(), std::numeric_limits<double>::min());
+    x_ = near_;
+    tolerance_ = 1e-12 * std::max(length(d_.data(), n_), std::numeric_limits<double>::min());
   }
 
   LinearSolution solve(double rest) {
     LinearSolution s;
     start();
-    const int limit = 10 * n_ + 20;
+    const int limit = 10 * static_cast<int>(n_) + 20;
     move_inside();
     while (s.iterations < limit) {
-      const int j = to_free();
-      if (j < 0) break;
+      const auto j = to_free();
+      if (j == n_) break;
       ++s.iterations;
-      const Vector before = x_;
-      const auto from = at(j);
-      set(j, Bound::inside);
+      const auto before = x_;
+      const auto from = bound_[j];
+      bound_[j] = Bound::inside;
       move_inside();
       // Rounding alone can ask for a column that cannot move: keep it where it was and never ask again.
-      if (at(j) == from && (x_ - before).norm() <= 1e-14 * (1 + before.norm())) barred_.push_back(j);
+      if (bound_[j] == from && same(before)) barred_.push_back(j);
     }
     s.converged = s.iterations < limit;
     s.bound = bound_;
     s.rank = rank_;
-    s.squared_error = (d_ - r_ * x_).squaredNorm() + rest;
-    const Vector x = x_.cwiseQuotient(scale_);
-    s.x.assign(x.data(), x.data() + n_);
-    for (int j = 0; j < n_; ++j) {  // exactly at the bound, not a rounding beside it
-      auto& value = s.x[static_cast<std::size_t>(j)];
-      if (at(j) == Bound::lower) value = lower_[j] / scale_[j];
-      if (at(j) == Bound::upper) value = upper_[j] / scale_[j];
+    const auto error = remainder(x_);
+    s.squared_error = dot(error.data(), error.data(), n_) + rest;
+    for (std::size_t j = 0; j < n_; ++j) {
+      double value = x_[j] / scale_[j];  // exactly at the bound where it is held, not a rounding beside it
+      if (bound_[j] == Bound::lower) value = lower_[j] / scale_[j];
+      if (bound_[j] == Bound::upper) value = upper_[j] / scale_[j];
+      s.x.push_back(value);
     }
     return s;
   }
 
  private:
-  Bound at(int j) const { return bound_[static_cast<std::size_t>(j)]; }
-  void set(int j, Bound b) { bound_[static_cast<std::size_t>(j)] = b; }
+  bool same(const std::vector<double>& before) const {
+    for (std::size_t j = 0; j < n_; ++j)
+      if (std::abs(x_[j] - before[j]) > 1e-14 * (1 + std::abs(before[j]))) return false;
+    return true;
+  }
+
+  /// d - R x
+  std::vector<double> remainder(const std::vector<double>& x) const {
+    auto e = d_;
+    for (std::size_t j = 0; j < n_; ++j)
+      for (std::size_t i = 0; i < n_; ++i) e[i] -= r_(i, j) * x[j];
+    return e;
+  }
 
   /// Everything free first: most problems end there. Else begin from that solution, clamped.
   void start() {
-    x_ = near_;
     x_ = free_minimum();
-    for (int j = 0; j < n_; ++j) {
+    for (std::size_t j = 0; j < n_; ++j) {
       if (lower_[j] == upper_[j] || x_[j] <= lower_[j])
         hold(j, Bound::lower);
       else if (x_[j] >= upper_[j])
@@ -83,63 +91,60 @@ class ActiveSet {
     }
   }
 
-  void hold(int j, Bound b) {
-    set(j, b);
+  void hold(std::size_t j, Bound b) {
+    bound_[j] = b;
     x_[j] = b == Bound::lower ? lower_[j] : upper_[j];
   }
 
   /// Minimum over the free unknowns, the others held; of many minima the one nearest to near_.
-  Vector free_minimum() {
-    std::vector<int> free;
-    for (int j = 0; j < n_; ++j)
-      if (at(j) == Bound::inside) free.push_back(j);
-    Vector target = x_;
+  std::vector<double> free_minimum() {
+    std::vector<std::size_t> free;
+    for (std::size_t j = 0; j < n_; ++j)
+      if (bound_[j] == Bound::inside) free.push_back(j);
+    auto target = x_;
     rank_ = 0;
     if (free.empty()) return target;
-    for (const int j : free) target[j] = near_[j];
-    const Vector b = d_ - r_ * target;
-    const Matrix a = r_(Eigen::all, free);
-    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
-    qr.setThreshold(1e-10);
-    qr.compute(a);
-    rank_ = static_cast<int>(qr.rank());
-    const Vector step = qr.solve(b);
-    for (std::size_t k = 0; k < free.size(); ++k) target[free[k]] += step[static_cast<Eigen::Index>(k)];
+    for (const auto j : free) target[j] = near_[j];
+    Dense a(n_, free.size());
+    for (std::size_t k = 0; k < free.size(); ++k) std::copy(r_.col(free[k]), r_.col(free[k]) + n_, a.col(k));
+    const auto step = minimum_norm(a, remainder(target), 1e-10);
+    rank_ = step.rank;
+    for (std::size_t k = 0; k < free.size(); ++k) target[free[k]] += step.x[k];
     return target;
   }
 
   /// Walks towards the minimum over the free unknowns; whoever meets a bound on the way is held there.
   void move_inside() {
-    for (int guard = 0; guard <= n_; ++guard) {
-      const Vector target = free_minimum();
+    for (std::size_t guard = 0; guard <= n_; ++guard) {
+      const auto target = free_minimum();
       double alpha = 1;
-      int blocking = -1;
-      for (int j = 0; j < n_; ++j) {
-        if (at(j) != Bound::inside) continue;
+      std::size_t blocking = n_;
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (bound_[j] != Bound::inside || (target[j] >= lower_[j] && target[j] <= upper_[j])) continue;
         const double limit = target[j] < lower_[j] ? lower_[j] : upper_[j];
-        if (target[j] >= lower_[j] && target[j] <= upper_[j]) continue;
         const double fraction = (limit - x_[j]) / (target[j] - x_[j]);
         if (fraction < alpha) {
           alpha = std::max(0.0, fraction);
           blocking = j;
         }
       }
-      for (int j = 0; j < n_; ++j)
-        if (at(j) == Bound::inside) x_[j] += alpha * (target[j] - x_[j]);
-      if (blocking < 0) return;
+      for (std::size_t j = 0; j < n_; ++j)
+        if (bound_[j] == Bound::inside) x_[j] += alpha * (target[j] - x_[j]);
+      if (blocking == n_) return;
       hold(blocking, target[blocking] < lower_[blocking] ? Bound::lower : Bound::upper);
     }
   }
 
-  /// The held unknown whose release lowers the error most, -1 if none does (Kuhn-Tucker).
-  int to_free() const {
-    const Vector slope = r_.transpose() * (d_ - r_ * x_);
-    int best = -1;
+  /// The held unknown whose release lowers the error most, n if none does (Kuhn-Tucker).
+  std::size_t to_free() const {
+    const auto error = remainder(x_);
+    std::size_t best = n_;
     double largest = tolerance_;
-    for (int j = 0; j < n_; ++j) {
-      if (at(j) == Bound::inside || lower_[j] == upper_[j]) continue;
+    for (std::size_t j = 0; j < n_; ++j) {
+      if (bound_[j] == Bound::inside || lower_[j] == upper_[j]) continue;
       if (std::find(barred_.begin(), barred_.end(), j) != barred_.end()) continue;
-      const double gain = at(j) == Bound::lower ? slope[j] : -slope[j];
+      const double slope = dot(r_.col(j), error.data(), n_);
+      const double gain = bound_[j] == Bound::lower ? slope : -slope;
       if (gain > largest) {
         largest = gain;
         best = j;
@@ -148,11 +153,11 @@ class ActiveSet {
     return best;
   }
 
-  int n_;
-  Matrix r_;
-  Vector d_, lower_, upper_, near_, scale_, x_;
+  std::size_t n_;
+  Dense r_;
+  std::vector<double> d_, lower_, upper_, near_, scale_, x_;
   std::vector<Bound> bound_;
-  std::vector<int> barred_{};
+  std::vector<std::size_t> barred_{};
   double tolerance_ = 0;
   int rank_ = 0;
 };
@@ -165,18 +170,23 @@ NormalForm::NormalForm(int unknowns)
       d(static_cast<std::size_t>(unknowns), 0.0) {}
 
 void NormalForm::add(std::span<const double> a, std::span<const double> b) {
-  const auto rows = static_cast<Eigen::Index>(b.size());
+  const std::size_t rows = b.size(), m = static_cast<std::size_t>(n);
   if (rows == 0) return;
-  Matrix m = Matrix::Zero(n + 1 + rows, n + 1);
-  m.topLeftCorner(n, n) = Eigen::Map<const Matrix>(r.data(), n, n);
-  m.block(0, n, n, 1) = Eigen::Map<const Vector>(d.data(), n);
-  m(n, n) = std::sqrt(rest);
-  m.block(n + 1, 0, rows, n) = Eigen::Map<const Matrix>(a.data(), rows, n);
-  m.block(n + 1, n, rows, 1) = Eigen::Map<const Vector>(b.data(), rows);
-  const Matrix upper = Eigen::HouseholderQR<Eigen::Ref<Matrix>>(m).matrixQR().topRows(n + 1);
-  Eigen::Map<Matrix>(r.data(), n, n) = upper.topLeftCorner(n, n).triangularView<Eigen::Upper>();
-  Eigen::Map<Vector>(d.data(), n) = upper.block(0, n, n, 1);
-  rest = upper(n, n) * upper(n, n);
+  Dense all(m + 1 + rows, m + 1);  // what is there already on top, the new rows below; b as the last column
+  for (std::size_t j = 0; j < m; ++j) {
+    std::copy(r.begin() + static_cast<std::ptrdiff_t>(j * m), r.begin() + static_cast<std::ptrdiff_t>((j + 1) * m),
+              all.col(j));
+    std::copy(a.begin() + static_cast<std::ptrdiff_t>(j * rows),
+              a.begin() + static_cast<std::ptrdiff_t>((j + 1) * rows), all.col(j) + m + 1);
+  }
+  std::copy(d.begin(), d.end(), all.col(m));
+  all(m, m) = std::sqrt(rest);
+  std::copy(b.begin(), b.end(), all.col(m) + m + 1);
+  triangularize(all);
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i < m; ++i) r[j * m + i] = all(i, j);
+  for (std::size_t i = 0; i < m; ++i) d[i] = all(i, m);
+  rest = all(m, m) * all(m, m);
 }
 
 LinearSolution solve_bounded(const NormalForm& problem, std::span<const double> lower, std::span<const double> upper,

@@ -55,6 +55,7 @@ struct DataModel::Content {
   DataModelOptions options;
   std::vector<std::string> outputs;
   std::vector<int> signals;
+  std::vector<Unit> units;
   std::vector<Bound> bound;
   std::string not_exact;
   bool substeps_chosen = false;
@@ -83,9 +84,10 @@ struct DataModel::Content {
 void DataModel::Content::find_outputs() {
   for (std::size_t i = 0; i < program->output_names.size(); ++i) {
     const auto& name = program->output_names[i];
-    const bool there = std::any_of(data->recordings.begin(), data->recordings.end(),
-                                   [&](const Recording& r) { return r.columns.count(name) > 0; });
-    if (!there) continue;
+    const auto there = std::find_if(data->recordings.begin(), data->recordings.end(),
+                                    [&](const Recording& r) { return r.columns.count(name) > 0; });
+    if (there == data->recordings.end()) continue;
+    units.push_back(there->units.at(name));
     outputs.push_back(name);
     signals.push_back(program->output_signals[i]);
   }
@@ -324,6 +326,7 @@ std::vector<int> DataModel::recordings(Role role) const { return recordings(std:
 
 const std::vector<std::string>& DataModel::outputs() const { return content_->outputs; }
 int DataModel::output_signal(int output) const { return content_->signals[static_cast<std::size_t>(output)]; }
+const Unit& DataModel::output_unit(int output) const { return content_->units[static_cast<std::size_t>(output)]; }
 bool DataModel::zero_per_recording(int output) const {
   const auto note = data().notes.find(outputs()[static_cast<std::size_t>(output)]);
   return note != data().notes.end() && note->second.zero_per_recording;

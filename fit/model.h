@@ -61,6 +61,7 @@ class DataModel {
   /// Outputs of the program that the data set has measured; the index is used everywhere as [output].
   const std::vector<std::string>& outputs() const;
   int output_signal(int output) const;
+  const Unit& output_unit(int output) const;  ///< in which people see it: as in the recordings
   bool zero_per_recording(int output) const;
   /// Measured values on the judged rows [SI]; empty where this recording lacks the column.
   const Rows& measured(int recording, int output) const;

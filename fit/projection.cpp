@@ -1,6 +1,5 @@
 #include "fit/projection.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,31 +7,7 @@
 namespace hysteron {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
-using Columns = Eigen::Map<const Matrix>;
-
-/// Orthonormal basis of the columns of `a`, columns that depend on others left out.
-std::vector<double> basis_of(const Matrix& a) {
-  if (a.cols() == 0 || a.rows() == 0) return {};
-  Matrix scaled = a;
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    if (const double length = a.col(j).norm(); length > 0) scaled.col(j) /= length;
-  Eigen::ColPivHouseholderQR<Matrix> qr(scaled);
-  qr.setThreshold(1e-10);
-  const auto rank = qr.rank();
-  const Matrix q = qr.householderQ() * Matrix::Identity(a.rows(), rank);
-  return {q.data(), q.data() + q.size()};
-}
-
-/// v - Q Q' v for a basis of orthonormal columns.
-void clear_of(const std::vector<double>& basis, double* v, std::size_t rows) {
-  if (basis.empty() || rows == 0) return;
-  const auto n = static_cast<Eigen::Index>(rows);
-  const Columns q(basis.data(), n, static_cast<Eigen::Index>(basis.size() / rows));
-  Eigen::Map<Vector> x(v, n);
-  x -= q * (q.transpose() * x);
-}
+constexpr double dependent = 1e-10;  // columns are differences of simulations that are good to about 1e-13
 
 }  // namespace
 
@@ -127,9 +102,8 @@ void Projection::whiten_difference(const Prediction& a, const Prediction& b, dou
 /// Takes the free initial states out of a whitened column.
 void Projection::clear(const ProjectedPoint& point, double* column) const {
   for (std::size_t k = 0; k < point.initial_basis.size(); ++k) {
-    const std::size_t n = judge_.size(recordings_[k]);
-    clear_of(point.initial_basis[k], column, n);
-    column += n;
+    clear_of(point.initial_basis[k], column);
+    column += judge_.size(recordings_[k]);
   }
 }
 
@@ -150,7 +124,7 @@ bool Projection::responses(std::span<const double> z, ProjectedPoint& point, std
     judge_.whiten(r, rows, out);
     out += judge_.size(r);
   }
-  point.columns.resize(rows_ * linear_.size());
+  point.columns = Dense(rows_, linear_.size());
   for (std::size_t j = 0; j < linear_.size(); ++j) {
     auto theta = ref;
     const auto& f = free_[static_cast<std::size_t>(linear_[j])];
@@ -162,7 +136,7 @@ bool Projection::responses(std::span<const double> z, ProjectedPoint& point, std
       point.error = moved.error;
       return false;
     }
-    whiten_difference(moved, base, 1 / step, point.columns.data() + j * rows_);
+    whiten_difference(moved, base, 1 / step, point.columns.col(j));
   }
   return true;
 }
@@ -170,18 +144,18 @@ bool Projection::responses(std::span<const double> z, ProjectedPoint& point, std
 /// Free initial states are responses too, but scaled by the linear parameters: taken at `theta`.
 void Projection::clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta) {
   const auto prediction = model_.predict(values(point.z, theta), recordings_, true);
-  point.initial_basis.assign(recordings_.size(), {});
+  point.initial_basis.clear();
   if (!prediction.ok) return;
+  point.initial_basis.resize(recordings_.size());
   for (std::size_t k = 0; k < recordings_.size(); ++k) {
     const int r = recordings_[k];
     const auto& initial = prediction.initial[static_cast<std::size_t>(r)];
-    Matrix columns(static_cast<Eigen::Index>(judge_.size(r)), static_cast<Eigen::Index>(initial.size()));
-    for (std::size_t s = 0; s < initial.size(); ++s)
-      judge_.whiten(r, initial[s], columns.col(static_cast<Eigen::Index>(s)).data());
-    point.initial_basis[k] = basis_of(columns);
+    Dense columns(judge_.size(r), initial.size());
+    for (std::size_t s = 0; s < initial.size(); ++s) judge_.whiten(r, initial[s], columns.col(s));
+    point.initial_basis[k] = orthonormal_basis(columns, dependent);
   }
   clear(point, residual.data());
-  for (std::size_t j = 0; j < linear_.size(); ++j) clear(point, point.columns.data() + j * rows_);
+  for (std::size_t j = 0; j < linear_.size(); ++j) clear(point, point.columns.col(j));
 }
 
 ProjectedPoint Projection::evaluate(std::span<const double> z) {
@@ -209,7 +183,7 @@ ProjectedPoint Projection::evaluate(std::span<const double> z) {
     theta.push_back(f.start);
   }
   LinearSolution solution;
-  const auto plain_columns = has_initial_ ? point.columns : std::vector<double>{};
+  const auto plain_columns = has_initial_ ? point.columns : Dense{};
   const auto plain_residual = has_initial_ ? residual : std::vector<double>{};
   for (int pass = 0; pass < (has_initial_ ? 2 : 1); ++pass) {
     if (has_initial_) {
@@ -218,7 +192,7 @@ ProjectedPoint Projection::evaluate(std::span<const double> z) {
       clear_initial(point, residual, theta);
     }
     NormalForm normal(static_cast<int>(m));
-    normal.add(point.columns, residual);
+    normal.add(point.columns.a, residual);
     solution = solve_bounded(normal, low, high, near);
     for (std::size_t j = 0; j < m; ++j) theta[j] = ref[j] + solution.x[j];
   }
@@ -229,10 +203,11 @@ ProjectedPoint Projection::evaluate(std::span<const double> z) {
   }
   point.theta = std::move(theta);
   point.bound = solution.bound;
-  Eigen::Map<Vector> r(residual.data(), static_cast<Eigen::Index>(rows_));
-  const Columns c(point.columns.data(), static_cast<Eigen::Index>(rows_), static_cast<Eigen::Index>(m));
-  for (std::size_t j = 0; j < m; ++j) r -= c.col(static_cast<Eigen::Index>(j)) * solution.x[j];
-  point.chi2 = r.squaredNorm();
+  for (std::size_t j = 0; j < m; ++j) {
+    const double* c = point.columns.col(j);
+    for (std::size_t i = 0; i < rows_; ++i) residual[i] -= c[i] * solution.x[j];
+  }
+  point.chi2 = dot(residual.data(), residual.data(), rows_);
   point.residual = std::move(residual);
   point.ok = std::isfinite(point.chi2);
   if (!point.ok) point.error = "the residual is not finite";
@@ -248,16 +223,18 @@ PointPointer Projection::at(std::span<const double> z) {
   return point;
 }
 
-bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, std::vector<double>& columns) {
+bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns) {
   const auto low = lower(), high = upper();
-  columns.assign(rows_ * nonlinear_.size(), 0.0);
-  std::vector<double> basis;
+  columns = Dense(rows_, nonlinear_.size());
+  Dense basis(rows_, 0);
   if (projected) {
-    std::vector<int> inside;
+    Dense inside(rows_, 0);
     for (std::size_t j = 0; j < linear_.size(); ++j)
-      if (point.bound[j] == Bound::inside) inside.push_back(static_cast<int>(j));
-    const Columns c(point.columns.data(), static_cast<Eigen::Index>(rows_), static_cast<Eigen::Index>(linear_.size()));
-    basis = basis_of(Matrix(c(Eigen::all, inside)));
+      if (point.bound[j] == Bound::inside) {
+        inside.a.insert(inside.a.end(), point.columns.col(j), point.columns.col(j) + rows_);
+        ++inside.cols;
+      }
+    basis = orthonormal_basis(inside, dependent);
   }
   // BDF's own error is noise of its tolerance between two neighbouring trials; the exact advance has rounding only.
   const bool exact = model_.why_not_exact().empty();
@@ -281,10 +258,10 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
       down = model_.predict(values(backward, point.theta), recordings_, false);
       if (!down.ok || forward[k] == backward[k]) return false;
     }
-    double* column = columns.data() + k * rows_;
+    double* column = columns.col(k);
     whiten_difference(up, down, -1 / (forward[k] - backward[k]), column);
     clear(point, column);
-    if (projected) clear_of(basis, column, rows_);
+    if (projected) clear_of(basis, column);
   }
   return true;
 }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/dense.h"
 #include "fit/free_parameter.h"
 #include "fit/linear.h"
 #include "fit/model.h"
@@ -29,8 +30,8 @@ struct ProjectedPoint {
   std::vector<Bound> bound;      ///< of the linear ones
   std::vector<double> residual;  ///< whitened, all recordings one behind the other
   double chi2 = 0;
-  std::vector<double> columns;                     ///< whitened responses to the linear parameters, column by column
-  std::vector<std::vector<double>> initial_basis;  ///< per recording: orthonormal columns of the free initial states
+  Dense columns;                     ///< whitened responses to the linear parameters
+  std::vector<Dense> initial_basis;  ///< per recording: orthonormal columns of the free initial states
 };
 using PointPointer = std::shared_ptr<const ProjectedPoint>;
 
@@ -54,9 +55,9 @@ class Projection {
   PointPointer at(std::span<const double> z);
   void forget() { recent_.clear(); }
 
-  /// dr/dz column by column (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
+  /// dr/dz (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
   /// had.
-  bool jacobian(const ProjectedPoint& point, bool central, bool projected, std::vector<double>& columns);
+  bool jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns);
 
   /// All free parameters at a point, for DataModel::predict.
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;

@@ -1,20 +1,17 @@
 #include "fit/score.h"
 
-#include <Eigen/Dense>
 #include <cmath>
+
+#include "fit/dense.h"
 
 namespace hysteron {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
-
 /// Whitened responses to the initial states that are free in this recording, one column each.
-Matrix initial_columns(const Judge& judge, const Prediction& prediction, int recording) {
+Dense initial_columns(const Judge& judge, const Prediction& prediction, int recording) {
   const auto& initial = prediction.initial[static_cast<std::size_t>(recording)];
-  Matrix columns(static_cast<Eigen::Index>(judge.size(recording)), static_cast<Eigen::Index>(initial.size()));
-  for (std::size_t k = 0; k < initial.size(); ++k)
-    judge.whiten(recording, initial[k], columns.col(static_cast<Eigen::Index>(k)).data());
+  Dense columns(judge.size(recording), initial.size());
+  for (std::size_t k = 0; k < initial.size(); ++k) judge.whiten(recording, initial[k], columns.col(k));
   return columns;
 }
 
@@ -89,12 +86,8 @@ void Judge::whiten(int recording, const std::vector<Rows>& rows, double* out) co
 std::vector<double> Judge::residual(const DataModel& model, const Prediction& prediction, int recording) const {
   std::vector<double> w(size(recording));
   whiten(recording, differences(model, prediction, recording), w.data());
-  if (!prediction.initial[static_cast<std::size_t>(recording)].empty()) {
-    Eigen::Map<Vector> residual(w.data(), static_cast<Eigen::Index>(w.size()));
-    const Matrix columns = initial_columns(*this, prediction, recording);
-    const Vector start = columns.completeOrthogonalDecomposition().solve(Vector(residual));
-    residual -= columns * start;
-  }
+  if (!prediction.initial[static_cast<std::size_t>(recording)].empty())
+    clear_of(orthonormal_basis(initial_columns(*this, prediction, recording), 1e-10), w.data());
   return w;
 }
 
@@ -130,13 +123,10 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
     if (const auto& initial = prediction.initial[r]; !initial.empty()) {
       std::vector<double> w(judge.size(recording));
       judge.whiten(recording, differences(model, prediction, recording), w.data());
-      const Vector start = initial_columns(judge, prediction, recording)
-                               .completeOrthogonalDecomposition()
-                               .solve(Eigen::Map<Vector>(w.data(), static_cast<Eigen::Index>(w.size())));
+      const auto start = minimum_norm(initial_columns(judge, prediction, recording), w, 1e-10);
       for (std::size_t k = 0; k < initial.size(); ++k)
         for (std::size_t o = 0; o < y.size(); ++o)
-          for (std::size_t i = 0; i < y[o].size(); ++i)
-            y[o][i] += start[static_cast<Eigen::Index>(k)] * initial[k][o][i];
+          for (std::size_t i = 0; i < y[o].size(); ++i) y[o][i] += start.x[k] * initial[k][o][i];
     }
     for (std::size_t o = 0; o < y.size(); ++o) {
       if (!model.zero_per_recording(static_cast<int>(o))) continue;
