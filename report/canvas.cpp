@@ -40,17 +40,17 @@ double text_width(const std::string& text) {
 
 std::vector<std::string> wrap(const std::string& text, double width, std::size_t lines) {
   std::vector<std::string> result(1);
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const auto end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
+  std::string glue;  // between the line and the next piece: a space, or nothing behind an underscore
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = std::min(text.find_first_of(" _", begin), text.size());
+    const bool underscore = end < text.size() && text[end] == '_';
+    const std::string piece = text.substr(begin, end - begin) + (underscore ? "_" : "");
     auto& line = result.back();
-    if (line.empty())
-      line = word;
-    else if (text_width(line + " " + word) <= width)
-      line += " " + word;
+    if (line.empty() || text_width(line + glue + piece) <= width)
+      line += (line.empty() ? "" : glue) + piece;
     else
-      result.push_back(word);
+      result.push_back(piece);
+    glue = underscore ? "" : " ";
     begin = end + 1;
   }
   const bool cut = result.size() > lines;

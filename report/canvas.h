@@ -42,7 +42,8 @@ std::string svg_text(double x, double y, const std::string& anchor, const std::s
 /// Width of a text in the figures' font (12 px), estimated: no font is at hand here.
 double text_width(const std::string& text);
 
-/// The text in at most `lines` lines of about `width` pixels, broken at spaces; what does not fit ends in an ellipsis.
+/// The text in at most `lines` lines of about `width` pixels, broken at spaces and behind underscores; what does not
+/// fit ends in an ellipsis.
 std::vector<std::string> wrap(const std::string& text, double width, std::size_t lines);
 
 }  // namespace hysteron

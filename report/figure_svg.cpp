@@ -66,8 +66,8 @@ std::string rect(double x, double y, double width, double height, const std::str
 Canvas waterfall_canvas(const PreparedFigure& f, bool floor, std::size_t label_lines) {
   Canvas c;
   c.bottom = 12 + 15 * static_cast<double>(label_lines);
-  c.height = 264 + c.bottom;
-  c.top = 26;
+  c.height = 278 + c.bottom;
+  c.top = 40;
   if (floor) c.right = 132;
   double low = 0, high = 0;
   for (const auto& bar : f.bars) {
@@ -79,6 +79,12 @@ Canvas waterfall_canvas(const PreparedFigure& f, bool floor, std::size_t label_l
   c.y = {f.log_y ? Range{low / 2, high * 1.3} : Range{0, high * 1.04}, f.log_y, c.height - c.bottom, c.top};
   c.x = {Range{0, 1}, false, c.left, c.width - c.right};
   return c;
+}
+
+/// "+ creep" must not leave its plus alone on a line.
+std::string keep_plus(std::string label) {
+  if (label.starts_with("+ ")) label.replace(1, 1, "\u00a0");
+  return label;
 }
 
 /// One step: its bar, what it took away from the step before as an outline, value above, label below.
@@ -95,15 +101,18 @@ std::string step_svg(const Bar& bar, const Bar* before, double x, double width, 
     const double share = 100 * (1 - bar.value / before->value);
     out += rect(x, former, width, head - former, "ghost",
                 fmt::format("{}: {:.1f} % less than the step before", bar.label, share));
-    if (head - former > 42)
-      out += svg_text(x + width / 2, (former + head) / 2 - 4, "middle", fmt::format("−{:.3g} %", share), "fall");
+    if (head - former > 62)
+      out += svg_text(x + width / 2, (former + head) / 2 - 12, "middle", fmt::format("−{:.3g} %", share), "fall");
     // A text that would cross the outline's upper edge stands above it instead.
     if (head - former > 1 && head - former < 20) text_y = former - 6;
   }
   out += rect(x, head, width, foot - head, "bar c-" + colour, bar.label + ": " + text);
-  out += svg_text(x + width / 2, text_y, "middle", wrap(text, slot + 8, 1).front(), "value");
+  const auto value_lines = wrap(text, 0.85 * slot, 2);  // bold, so wider than the estimate
+  for (std::size_t i = 0; i < value_lines.size(); ++i)
+    out += svg_text(x + width / 2, text_y - 16 * static_cast<double>(value_lines.size() - 1 - i), "middle",
+                    value_lines[i], "value");
   double y = foot + 17;
-  for (const auto& line : wrap(bar.label, slot - 8, 3)) {
+  for (const auto& line : wrap(keep_plus(bar.label), slot - 8, 3)) {
     out += svg_text(x + width / 2, y, "middle", line);
     y += 15;
   }
@@ -123,7 +132,7 @@ std::string waterfall_svg(const PreparedFigure& f) {
   const double room = c.width - c.left - c.right;
   const double slot = std::min(190.0, room / static_cast<double>(std::max<std::size_t>(1, steps.size())));
   std::size_t label_lines = 1;
-  for (const auto& step : steps) label_lines = std::max(label_lines, wrap(step.label, slot - 8, 3).size());
+  for (const auto& step : steps) label_lines = std::max(label_lines, wrap(keep_plus(step.label), slot - 8, 3).size());
   c = waterfall_canvas(f, floor != nullptr, label_lines);
   const double foot = c.height - c.bottom;
   const double begin = c.left + (room - slot * static_cast<double>(steps.size())) / 2;

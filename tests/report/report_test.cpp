@@ -156,6 +156,15 @@ TEST(Report, DrawsTheFloorOfAWaterfallAsALine) {
   EXPECT_TRUE(has(page, "−83.1 %"));                        // 1 - 0.061 / 0.36
 }
 
+TEST(FigureFile, IsASvgWithItsOwnStyle) {
+  const Document d = example::discovery();
+  const std::string svg = figure_file(d, d.sections[0].figures[0]);
+  EXPECT_EQ(svg.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\"", 0), 0U);
+  EXPECT_EQ(count(svg, "<svg"), 1U);
+  EXPECT_LT(svg.find("<style>"), svg.find("<line"));
+  EXPECT_TRUE(has(svg, "noise floor"));
+}
+
 TEST(Report, IsTheSameForTheSameDocument) {
   EXPECT_EQ(report_html(example::discovery()), report_html(example::discovery()));
 }
