@@ -26,6 +26,9 @@ static_assert(std::is_same_v<realtype, double>);
 
 // Steps that do not advance the time beyond rounding before we give up: the solution has no continuation there.
 constexpr int standing_steps_allowed = 20;
+// Behind a corner of an input the first step may be ten thousand times too long, and each failure divides it by ten at
+// most.
+constexpr int error_failures_allowed = 30;
 constexpr std::size_t states_in_a_message = 10;  // ENGINE 14
 
 template <auto Destroy>
@@ -133,6 +136,7 @@ void Cvode::Memory::first_start() {
   expect(CVodeSetUserData(memory, this), "CVodeSetUserData");
   expect(CVodeSVtolerances(memory, options.relative_tolerance, tolerance.get()), "CVodeSVtolerances");
   if (options.max_step > 0) expect(CVodeSetMaxStep(memory, options.max_step), "CVodeSetMaxStep");
+  expect(CVodeSetMaxErrTestFails(memory, error_failures_allowed), "CVodeSetMaxErrTestFails");
   if (options.formula == Formula::bdf) {
     matrix.reset(expect(SUNDenseMatrix(system.states, system.states, context.get()), "SUNDenseMatrix"));
     linear_solver.reset(expect(SUNLinSol_Dense(x.get(), matrix.get(), context.get()), "SUNLinSol_Dense"));

@@ -18,6 +18,7 @@ constexpr int iterations_allowed = 50;
 constexpr int halvings_allowed = 20;
 constexpr double difference_step =
     1e-6;  // of the nominal size; central: exact for linear parts but for 1e-10 of rounding
+constexpr double no_influence = 1e-12;   // of what a state of nominal size does: nothing moves this rate
 constexpr double rank_threshold = 1e-8;  // above that rounding, below any coupling that matters
 constexpr double reached = 1e-10, good_enough = 1e-7;
 
@@ -93,8 +94,9 @@ class RestProblem {
 
   /// The rate that counts as one, per row.
   Eigen::VectorXd row_size(const Eigen::MatrixXd& jacobian) const {
-    return jacobian.cwiseAbs().rowwise().sum() + size_ * rate_of_size_one_;
+    return jacobian.cwiseAbs().rowwise().sum() + unit_rate();
   }
+  Eigen::VectorXd unit_rate() const { return size_ * rate_of_size_one_; }
   const Eigen::VectorXd& size() const { return size_; }
 
   void finish(const Eigen::VectorXd& z, Run& run) {
@@ -118,6 +120,19 @@ class RestProblem {
   std::vector<double> zero_, inputs_;
   Eigen::VectorXd size_;
 };
+
+/// States whose rate no free unknown can change have no equilibrium of their own and stay: an integrator without input,
+/// a law that is driven by a rate. What is left may lose its last influence with them.
+void hold_free_states(Eigen::MatrixXd& jacobian, const Eigen::VectorXd& unit) {
+  for (bool held = true; held;) {
+    held = false;
+    for (long i = 0; i < jacobian.rows(); ++i) {
+      if ((jacobian.col(i).array() == 0).all() || jacobian.row(i).cwiseAbs().sum() > no_influence * unit[i]) continue;
+      jacobian.col(i).setZero();
+      held = true;
+    }
+  }
+}
 
 [[noreturn]] void no_rest(const Program& program, double t, const Eigen::VectorXd& rate,
                           const Eigen::VectorXd& relative) {
@@ -143,11 +158,12 @@ void settle_at_rest(const Program& program, Run& run, double t) {
   Eigen::VectorXd rate = problem.residual(z);
   Eigen::VectorXd relative = Eigen::VectorXd::Zero(z.size());
   for (int iteration = 0; iteration < iterations_allowed && z.size() > 0; ++iteration) {
-    const Eigen::MatrixXd jacobian = problem.jacobian(z);
+    Eigen::MatrixXd jacobian = problem.jacobian(z);
     const Eigen::VectorXd row = problem.row_size(jacobian);
     relative = rate.cwiseQuotient(row);
     if (!relative.allFinite() || relative.lpNorm<Eigen::Infinity>() <= reached) break;
-    // Minimum norm: an integrator that nothing pulls stays where it is.
+    hold_free_states(jacobian, problem.unit_rate());
+    // Of several equilibria the nearest, in nominal sizes.
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(rank_threshold);
     solver.compute(row.cwiseInverse().asDiagonal() * jacobian);

@@ -251,11 +251,18 @@ void not_finite(const Program& program, const Run& run, Work& work, double t, co
   };
   const auto tell = [&](const BlockInstance& block, const std::string& of, double value) {
     std::vector<std::string> near;
+    const auto name_state = [&](int i) {
+      near.push_back(fmt::format("state {} = {:.6g}", program.state_names[static_cast<std::size_t>(i)], x[i]));
+    };
     for (const int s : block.source)
       near.push_back(fmt::format("{} = {:.6g}", program.signals[static_cast<std::size_t>(s)].path,
                                  work.y[static_cast<std::size_t>(s)]));
-    for (int i = block.x_begin; i < block.x_begin + block.sizes.states; ++i)
-      near.push_back(fmt::format("state {} = {:.6g}", program.state_names[static_cast<std::size_t>(i)], x[i]));
+    for (int i = block.x_begin; i < block.x_begin + block.sizes.states; ++i) name_state(i);
+    if (block.sizes.states == 0 && program.n_x > 0) {
+      const auto* largest =
+          std::max_element(x, x + program.n_x, [](double a, double b) { return std::abs(a) < std::abs(b); });
+      name_state(static_cast<int>(largest - x));
+    }
     fail_numerics(
         "diverged", block.path,
         fmt::format("{} is {} at t = {:.9g} s (of block type {}); there [SI]: {}", of, value, t,

@@ -109,8 +109,8 @@ std::vector<double> output_instants(const SimulateOptions& o) {
     fail("bad_value", "/simulate/every", fmt::format("{:.3g} output times are more than can be kept", steps),
          "choose a longer output step");
   std::vector<double> instants(static_cast<std::size_t>(steps) + 1);
-  for (std::size_t k = 0; k < instants.size(); ++k)
-    instants[k] = std::min(o.begin + static_cast<double>(k) * every, o.until);
+  for (std::size_t k = 0; k < instants.size(); ++k) instants[k] = o.begin + static_cast<double>(k) * every;
+  if (o.until - instants.back() < 1e-6 * every) instants.back() = o.until;
   return instants;
 }
 
