@@ -2,11 +2,11 @@
 
 namespace hysteron::blocks {
 
-void Constant::describe(BlockSpec<Constant>& spec) {
-  spec.name("constant", "a value that never changes").in_group("sources").law("y = value").from("definition");
-  spec.remark("Write the value with its unit (\"20 degC\"): nothing else tells the unit of the signal.");
-  spec.output(&Out<double>::y, "y", "$a", "the value");
-  spec.param(&Params<double>::value, "value", "$a", "the value").offset();
+void Constant::describe(Declaration& d) {
+  d.name("constant", "a value that never changes").in_group("sources").law("y = value").from("definition");
+  d.remark("Write the value with its unit (\"20 degC\"): nothing else tells the unit of the signal.");
+  d.output("y", "$a", "the value");
+  d.parameter("value", "$a", "the value").offset();
 }
 
 Kernel constant_block() { return kernel<Constant>(); }

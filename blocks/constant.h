@@ -5,20 +5,19 @@
 
 namespace hysteron::blocks {
 
+/// In sized form because it is no function of time: a diagram with constants can still be advanced row by row.
 struct Constant {
-  template <class T>
-  struct Params {
-    T value;
-  };
-  template <class T>
-  struct Out {
-    T y;
-  };
+  enum Parameter { value };
 
-  static void describe(BlockSpec<Constant>& spec);
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape&) {
+    Sizes s;
+    s.feedthrough = false;
+    return s;
+  }
   template <class T>
-  static Out<T> output(const Params<T>& p, const Time<T>&) {
-    return {p.value};
+  static void output(const View<T>& v) {
+    v.out[0] = v.parameter(value);
   }
 };
 

@@ -30,6 +30,10 @@ TEST(Sources, DefaultsAreAnOffsetAndAPhaseOfZero) {
   EXPECT_DOUBLE_EQ(sine.pace(), 1);
 }
 
+TEST(Sources, AConstantIsNoFunctionOfTime) {
+  EXPECT_FALSE(bench::kernel_of("constant").uses_time) << "the exact advance refuses functions of time";
+}
+
 TEST(Sources, ChirpSweepsAsItsTextSays) {
   const Bench::Values values{{"amplitude", {1}}, {"from", {2}}, {"to", {50}}, {"duration", {4}}};
   auto logarithmic = values;
