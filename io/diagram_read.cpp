@@ -122,7 +122,8 @@ class DiagramReader {
     node.origin = origin(place);
     if (is_block) {
       if (const auto in = place.find("in")) node.in = wires(*in);
-      if (place.find("from") || place.find("choose")) return choice(place, std::move(node));
+      // "from" alone may be a parameter of a type (chirp).
+      if (place.find("choose") || (place.find("from") && !place.find("type"))) return choice(place, std::move(node));
     } else if (const auto in = place.find("in")) {
       in->add("unknown_key", "a candidate has no inputs of its own",
               "write \"in\" beside \"choose\": all candidates read the same");

@@ -166,7 +166,9 @@ void add_definitions(Json& definitions, const Registry& registry) {
                                                 {{"type", "string"}, {"pattern", R"(^\$[a-z][a-z0-9_]*$)"}},
                                                 {{"type", "number"}}})}};
   definitions["wires"] = wires();
-  definitions["block"] = {{"if", {{"anyOf", Json::array({{{"required", {"from"}}}, {{"required", {"choose"}}}})}}},
+  // "from" alone may be a parameter of a type (chirp).
+  const Json from_without_type{{"required", {"from"}}, {"not", {{"required", {"type"}}}}};
+  definitions["block"] = {{"if", {{"anyOf", Json::array({{{"required", {"choose"}}}, from_without_type})}}},
                           {"then", choice()},
                           {"else", typed_node(registry, true)}};
   definitions["candidate"] = typed_node(registry, false);
