@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"OpenBrace", "{\"format\": 1,\n \"blocks\": {", "bad_json", "column 13", 2},
         Case{"TrailingComma", "{\"format\": 1,\n\"blocks\": {},\n}", "bad_json", "column 1", 3},
         Case{"HugeNumber", "{\"format\": 1,\n\"blocks\": {\"a\": {\"type\": \"gain\", \"gain\": 1e999}}}", "bad_json",
-             "column 44", 2},
+             "column 42", 2},
         Case{"NoObject", "[1]", "wrong_type", "", 1},
         Case{"DuplicateKey",
              "{\"format\": 1,\n\"blocks\": {\"a\": {\"type\": \"pass\"},\n\"a\": {\"type\": \"gain\"}}}",
