@@ -117,7 +117,9 @@ void remember(const Program& program, Run& run, Work& work, int block, double t)
   h.u.push_back(u);
   h.rate.push_back(rate);
   if (!b.kernel->reach_back) return;
-  const double needed = t - b.kernel->reach_back(view_of(program, run, block));
+  // A time that meets a point but for rounding may still ask for the interval before it.
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const double needed = t - b.kernel->reach_back(view_of(program, run, block)) - rounding;
   while (h.first + 2 < h.t.size() && h.t[h.first + 1] < needed) ++h.first;
   if (h.first < 4096) return;
   const auto cut = static_cast<std::ptrdiff_t>(h.first);
