@@ -1,5 +1,7 @@
 // The verb add: puts an effect into a diagram, as a choice that can be switched off, and shows the change.
 // Does not fit it and does not judge whether it is missing.
+#include "discover/add.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,7 +11,6 @@
 #include "app/rewrite.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "discover/add.h"
 #include "discover/circumstances.h"
 #include "engine/error.h"
 #include "io/diagram_file.h"
@@ -59,8 +60,7 @@ int add(const Arguments& arguments) {
   if (!arguments.quiet())
     for (const auto& remark : added.remarks) fmt::print("{}", wrapped("note: " + remark));
   rewrite(arguments, added.diagram, added.nested);
-  if (!arguments.quiet())
-    fmt::print("{} enters at {} as {}\n", effect.id, added.at, added.name);
+  if (!arguments.quiet()) fmt::print("{} enters at {} as {}\n", effect.id, added.at, added.name);
   return exit_code::done;
 }
 

@@ -45,8 +45,9 @@ void print_all() {
     }
     fmt::print("{}\n{}\n", group, table_text({}, rows));
   }
-  fmt::print("\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts a diagram\n"
-             "into a diagram.\n");
+  fmt::print(
+      "\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts a diagram\n"
+      "into a diagram.\n");
 }
 
 std::string unit_column(const UnitExpression& unit) { return unit.empty() ? "1" : unit; }
@@ -54,9 +55,12 @@ std::string unit_column(const UnitExpression& unit) { return unit.empty() ? "1" 
 /// What a checker would say of a parameter, in brackets behind its meaning.
 std::string conditions(const ParameterDeclaration& p) {
   std::vector<std::string> list;
-  if (p.exclusive_minimum && p.minimum == 0) list.emplace_back("positive");
-  else if (p.minimum == 0) list.emplace_back("not negative");
-  else if (std::isfinite(p.minimum)) list.push_back("at least " + number_text(p.minimum) + " (SI)");
+  if (p.exclusive_minimum && p.minimum == 0)
+    list.emplace_back("positive");
+  else if (p.minimum == 0)
+    list.emplace_back("not negative");
+  else if (std::isfinite(p.minimum))
+    list.push_back("at least " + number_text(p.minimum) + " (SI)");
   if (std::isfinite(p.maximum)) list.push_back("at most " + number_text(p.maximum) + " (SI)");
   if (p.is_increasing) list.emplace_back("increasing");
   if (!p.same_length_as.empty()) list.push_back("as many as " + p.same_length_as);
@@ -74,8 +78,7 @@ std::string kind_column(const ParameterDeclaration& p) {
 std::string example_value(const ParameterDeclaration& p) {
   const bool plain = p.unit.empty() || p.unit.find('$') != std::string::npos;
   const std::string one = plain ? "1" : fmt::format("\"1 {}\"", p.unit);
-  if (p.kind == ParameterKind::list)
-    return plain ? "[1]" : fmt::format("[{}]", one);
+  if (p.kind == ParameterKind::list) return plain ? "[1]" : fmt::format("[{}]", one);
   return p.kind == ParameterKind::text ? fmt::format("\"{}\"", p.choices.empty() ? "..." : p.choices.front()) : one;
 }
 
@@ -125,7 +128,8 @@ void print_one(const Declaration& d) {
   if (!d.source.empty()) fmt::print("\nsource\n{}", wrapped(d.source, 2));
   fmt::print("\nexample\n  {}\n", example(d));
   const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
-  if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) || std::any_of(d.outputs.begin(), d.outputs.end(), variable))
+  if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
+      std::any_of(d.outputs.begin(), d.outputs.end(), variable))
     fmt::print("\n$a, $b stand for units that come from the wires and from the units written at the parameters.\n");
 }
 

@@ -94,8 +94,7 @@ Arguments arguments_of(const ParsedVerb& parsed) {
   const std::string word = extras.empty() ? "" : extras.front();
   const std::string bare = word.substr(0, word.find('='));
   fail("bad_command_line", parsed.verb.name, fmt::format("\"{}\" was not expected here", word),
-       bare.starts_with("-") ? did_you_mean(bare, known)
-                             : fmt::format("see hysteron {} --help", parsed.verb.name));
+       bare.starts_with("-") ? did_you_mean(bare, known) : fmt::format("see hysteron {} --help", parsed.verb.name));
 }
 
 void check_verb_name(const std::vector<std::string>& words, const std::deque<ParsedVerb>& verbs) {
@@ -174,8 +173,8 @@ int run_command_line(const std::vector<std::string>& words) {
                    code, as_json);
   } catch (const std::system_error& error) {  // files and terminals
     code = exit_code::bad_input;
-    print_problems({{"cannot_write", "files", error.what(), "check the disk and the rights of the folder", "", 0}}, code,
-                   as_json);
+    print_problems({{"cannot_write", "files", error.what(), "check the disk and the rights of the folder", "", 0}},
+                   code, as_json);
   } catch (const std::exception& error) {
     code = exit_code::numerics;
     print_problems(unexpected(error.what()), code, as_json);

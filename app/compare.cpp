@@ -76,10 +76,10 @@ std::vector<std::string> judge_tolerances(const std::vector<Tolerance>& toleranc
       const double found = tolerance.is_share ? m->nrmse : m->rms;
       const bool good = found <= tolerance.limit;
       within = within && good;
-      sentences.push_back(fmt::format("{}: {} of {} is {} the tolerance of {}.", model.outputs()[static_cast<std::size_t>(y)],
-                                      tolerance.is_share ? "NRMSE" : "RMS",
-                                      tolerance.is_share ? percent_text(found) : difference_text(found, unit),
-                                      good ? "within" : "OUTSIDE", tolerance.written));
+      sentences.push_back(fmt::format(
+          "{}: {} of {} is {} the tolerance of {}.", model.outputs()[static_cast<std::size_t>(y)],
+          tolerance.is_share ? "NRMSE" : "RMS", tolerance.is_share ? percent_text(found) : difference_text(found, unit),
+          good ? "within" : "OUTSIDE", tolerance.written));
     }
     if (!used)
       fail("wrong_unit", "--tolerance", fmt::format("\"{}\" has the unit of no measured output", tolerance.written),

@@ -142,7 +142,8 @@ CsvTable recording_table(const Beside& view, int recording, const std::string& f
   for (int k = 0; k < static_cast<int>(model.program().input_names.size()); ++k) {
     const Rows u = model.input(recording, k);
     add_column(table, input_name(model, k), input_unit(model, k), u);
-    if (k == model.main_input()) add_column(table, input_name(model, k) + "_rate", rate_unit(input_unit(model, k)), rate_of(t, u));
+    if (k == model.main_input())
+      add_column(table, input_name(model, k) + "_rate", rate_unit(input_unit(model, k)), rate_of(t, u));
   }
   for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
     if (model.measured(recording, y).empty()) continue;
@@ -167,14 +168,15 @@ void add_time_figures(Section& section, const Beside& view, const CsvTable& tabl
     both.curves.push_back(trace_curve(table, "t", name + "_measured", "measured", "line", "measured"));
     if (view.before != nullptr)
       both.curves.push_back(trace_curve(table, "t", name + "_simulated_before", "simulated before", "line", "before"));
-    both.curves.push_back(trace_curve(table, "t", name + "_simulated", view.before != nullptr ? "simulated after" : "simulated",
-                                      "line", view.before != nullptr ? "after" : "simulated"));
+    both.curves.push_back(trace_curve(table, "t", name + "_simulated",
+                                      view.before != nullptr ? "simulated after" : "simulated", "line",
+                                      view.before != nullptr ? "after" : "simulated"));
     Figure left = figure_of(name + ": residual (measured minus simulated)", "t [s]",
                             axis_text("residual", unit_of_differences(unit)));
     if (view.before != nullptr)
       left.curves.push_back(trace_curve(table, "t", name + "_residual_before", "before", "line", "before"));
-    left.curves.push_back(trace_curve(table, "t", name + "_residual", view.before != nullptr ? "after" : "residual", "line",
-                                      view.before != nullptr ? "after" : "residual"));
+    left.curves.push_back(trace_curve(table, "t", name + "_residual", view.before != nullptr ? "after" : "residual",
+                                      "line", view.before != nullptr ? "after" : "residual"));
     section.figures.push_back(std::move(both));
     section.figures.push_back(std::move(left));
   }
@@ -204,10 +206,12 @@ void add_residual_figures(Section& section, const Beside& view, const std::vecto
       }
     }
     const std::string rows = stride == 1 ? "Every row judged." : fmt::format("Every {}th row judged.", stride);
-    Figure level = figure_of(name + ": residual against level and branch", axis_text(u_name, u_unit), axis_text("residual", unit));
+    Figure level =
+        figure_of(name + ": residual against level and branch", axis_text(u_name, u_unit), axis_text("residual", unit));
     level.caption = rows + " A lens that opens between rising and falling is memory; one single curve is a static law.";
     by_level.into(level);
-    Figure rate = figure_of(name + ": residual against rate", axis_text(u_name + " rate", rate_unit(u_unit)), axis_text("residual", unit));
+    Figure rate = figure_of(name + ": residual against rate", axis_text(u_name + " rate", rate_unit(u_unit)),
+                            axis_text("residual", unit));
     rate.caption = rows + " A straight line through zero is a delay or a lag.";
     by_rate.into(rate);
     section.figures.push_back(std::move(level));

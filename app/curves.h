@@ -14,22 +14,24 @@ namespace hysteron {
 
 /// A model's rows beside those of a second one: "before" an effect or a fit and after it.
 struct Beside {
-  const DataModel* model = nullptr;     ///< for times, inputs and measurements
-  const Comparison* now = nullptr;      ///< what is shown as simulated
-  const Comparison* before = nullptr;   ///< null = there is none
+  const DataModel* model = nullptr;    ///< for times, inputs and measurements
+  const Comparison* now = nullptr;     ///< what is shown as simulated
+  const Comparison* before = nullptr;  ///< null = there is none
 };
 
 /// In which unit an output is shown: that of the recordings.
 Unit output_unit(const DataModel& model, int output);
 Unit input_unit(const DataModel& model, int input);
 
-/// One recording: t, inputs, the rate of the main input, and per output measured, simulated, residual (and these before).
+/// One recording: t, inputs, the rate of the main input, and per output measured, simulated, residual (and these
+/// before).
 CsvTable recording_table(const Beside& view, int recording, const std::string& file);
 
 /// Measured and simulated, and the residual, over time; the figures share their time axis.
 void add_time_figures(Section& section, const Beside& view, const CsvTable& table);
 
-/// The residual against level and rate of the main input, rising, falling and holding branch apart, over all recordings.
+/// The residual against level and rate of the main input, rising, falling and holding branch apart, over all
+/// recordings.
 void add_residual_figures(Section& section, const Beside& view, const std::vector<int>& recordings);
 
 /// A bar for each part of each split; lengths are shares of the squared error.

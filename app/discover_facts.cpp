@@ -48,8 +48,10 @@ Json facts_of(const std::vector<FoundParameter>& parameters) {
       if (!si) return nullptr;
       return e.difference ? e.unit.difference_from_si(*si) : e.unit.from_si(*si);
     };
-    Json entry{{"parameter", e.path},     {"unit", unit_text(e.unit)}, {"determined", e.determined}, {"value", shown(e.value)},
-               {"low95", shown(e.low95)}, {"high95", shown(e.high95)}, {"start", shown(e.start)},    {"at_bound", e.at_lower || e.at_upper}};
+    Json entry{{"parameter", e.path},        {"unit", unit_text(e.unit)},
+               {"determined", e.determined}, {"value", shown(e.value)},
+               {"low95", shown(e.low95)},    {"high95", shown(e.high95)},
+               {"start", shown(e.start)},    {"at_bound", e.at_lower || e.at_upper}};
     if (!p.remark.empty()) entry["remark"] = p.remark;
     list.push_back(std::move(entry));
   }
@@ -76,6 +78,7 @@ Json facts_of(const Candidate& c, const Unit& unit) {
           {"found", facts_of(c.found)},
           {"claimed", c.claimed},
           {"failed", c.failed},
+          {"summary", c.summary},
           {"reason", c.reason}};
 }
 
@@ -101,7 +104,7 @@ Json facts_of(const Structure& s) {
   for (const auto& [recording, list] : s.intervals) intervals[recording] = list;
   Json facts{{"kind", s.kind},
              {"variable", s.variable},
-             {"recording", s.recording},
+             {"output", s.output},
              {"unit", unit_text(s.unit)},
              {"intervals_s", intervals},
              {"fall_validate", s.fall_validate},
@@ -129,7 +132,8 @@ nlohmann::json discovery_facts(const Discovery& found, const Unit& unit, const s
   facts["candidates"] = Json::array();
   for (const auto& c : found.candidates) facts["candidates"].push_back(facts_of(c, unit));
   facts["refused"] = Json::array();
-  for (const auto& r : found.refused) facts["refused"].push_back({{"effect", r.effect}, {"place", r.place}, {"reason", r.reason}});
+  for (const auto& r : found.refused)
+    facts["refused"].push_back({{"effect", r.effect}, {"place", r.place}, {"reason", r.reason}});
   if (found.structure) facts["structure"] = facts_of(*found.structure);
   facts["noise"] = Json::array();
   for (const auto& n : found.noise)
@@ -137,8 +141,8 @@ nlohmann::json discovery_facts(const Discovery& found, const Unit& unit, const s
                               {"unit", unit_text(n.unit)},
                               {"white_rms", n.unit.difference_from_si(n.white)},
                               {"one_over_f", n.one_over_f},
-                              {"scale", n.scale},
-                              {"origin", n.origin}});
+                              {"origin", n.origin},
+                              {"remark", n.remark}});
   facts["noise_guessed"] = found.noise_guessed;
   if (found.experiment) facts["next_experiment"] = facts_of(*found.experiment);
   facts["simulations"] = found.model_runs;

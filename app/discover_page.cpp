@@ -25,7 +25,7 @@ struct Seen {
   const DataModel& model;  ///< bound to the final diagram
   const Comparison& after;
   const Comparison& before;
-  Unit unit;               ///< of the first output: in which errors over all outputs are shown
+  Unit unit;  ///< of the first output: in which errors over all outputs are shown
 };
 
 std::string step_name(const FoundStep& step) {
@@ -47,7 +47,8 @@ Figure waterfall(const Seen& seen) {
   const auto bar = [&](const std::string& label, const ModelError& error, const std::string& role) {
     const double rms = judged_rms(error);
     figure.bars.push_back({label, seen.unit.difference_from_si(rms),
-                           fmt::format("{} ({})", difference_text(rms, seen.unit), percent_text(judged_nrmse(error))), role});
+                           fmt::format("{} ({})", difference_text(rms, seen.unit), percent_text(judged_nrmse(error))),
+                           role});
   };
   const Discovery& found = seen.found;
   bar("as given", found.as_given, "before");
@@ -56,13 +57,14 @@ Figure waterfall(const Seen& seen) {
   for (const auto& step : found.steps) bar("+ " + step_name(step), step.after, "");
   if (figure.bars.size() > 1) figure.bars.back().role = "after";
   double floor = 0;
-  for (const auto& noise : found.noise)
-    floor += noise.scale * noise.white * noise.white * (1 + noise.one_over_f * noise.one_over_f);
+  for (const auto& noise : found.noise) floor += noise.white * noise.white * (1 + noise.one_over_f * noise.one_over_f);
   floor = found.noise.empty() ? 0 : std::sqrt(floor / static_cast<double>(found.noise.size()));
   if (floor > 0)
-    figure.bars.push_back({"noise of the sensor", seen.unit.difference_from_si(floor), difference_text(floor, seen.unit), "floor"});
+    figure.bars.push_back(
+        {"noise of the sensor", seen.unit.difference_from_si(floor), difference_text(floor, seen.unit), "floor"});
   figure.log_y = judged_rms(found.as_given) > 20 * judged_rms(found.final_error);
-  if (found.noise_guessed) figure.caption = "The noise is not in the data set: it was estimated from the residual itself.";
+  if (found.noise_guessed)
+    figure.caption = "The noise is not in the data set: it was estimated from the residual itself.";
   return figure;
 }
 
@@ -77,18 +79,26 @@ Section steps_section(const Seen& seen) {
 Section parameters_section(const Seen& seen) {
   Section section;
   section.title = "Parameters";
+  for (const auto& step : seen.found.steps)
+    if (!step.winner.summary.empty())
+      section.text.push_back(fmt::format("{}: {}.", step.winner.effect, step.winner.summary));
   Table table;
   table.columns = {"parameter", "value", "95 % interval", "start", "remark"};
   const auto add = [&](const FoundParameter& p) {
     const auto& e = p.estimate;
-    const auto text = [&](double si) { return e.difference ? difference_text(si, e.unit, 5) : quantity_text(si, e.unit, 5); };
+    const auto text = [&](double si) {
+      return e.difference ? difference_text(si, e.unit, 5) : quantity_text(si, e.unit, 5);
+    };
     const std::string interval = e.low95 && e.high95 ? text(*e.low95) + " .. " + text(*e.high95) : "-";
-    table.rows.push_back({e.path, e.value ? text(*e.value) : "not determined by these data", interval, text(e.start), p.remark});
+    table.rows.push_back(
+        {e.path, e.value ? text(*e.value) : "not determined by these data", interval, text(e.start), p.remark});
   };
   const auto& last = seen.found.steps.empty() ? seen.found.base_parameters : seen.found.steps.back().winner.found;
   for (const auto& p : last) add(p);
-  if (table.rows.empty()) section.text.emplace_back("Nothing was free.");
-  else section.tables.push_back(std::move(table));
+  if (table.rows.empty())
+    section.text.emplace_back("Nothing was free.");
+  else
+    section.tables.push_back(std::move(table));
   return section;
 }
 
@@ -96,15 +106,18 @@ Section candidates_section(const Seen& seen) {
   Section section;
   section.title = "What was tried";
   section.text.emplace_back(
-      "Each candidate was fitted, together with everything that was free, on the train recordings. The fall of chi2 is counted "
-      "in units of the noise: chance alone reaches a few. The score is chi2 on train and validate plus p ln N; lower is better.");
+      "Each candidate was fitted, together with everything that was free, on the train recordings. The fall of chi2 is "
+      "counted "
+      "in units of the noise: chance alone reaches a few. The score is chi2 on train and validate plus p ln N; lower "
+      "is better.");
   Table table;
-  table.columns = {"step", "effect", "law", "place", "p", "chi2 fall, train", "chi2 fall, validate", "score", "RMS, validate", "why"};
+  table.columns = {"step",  "effect",        "law", "place", "p", "chi2 fall, train", "chi2 fall, validate",
+                   "score", "RMS, validate", "why"};
   for (const auto& c : seen.found.candidates)
     table.rows.push_back({std::to_string(c.step), c.effect, c.law, c.place, std::to_string(c.parameters),
                           c.failed ? "-" : number_text(c.fall_train), c.failed ? "-" : number_text(c.fall_validate),
-                          c.failed ? "-" : number_text(c.score, 6), c.failed ? "-" : difference_text(judged_rms(c.error), seen.unit),
-                          c.reason});
+                          c.failed ? "-" : number_text(c.score, 6),
+                          c.failed ? "-" : difference_text(judged_rms(c.error), seen.unit), c.reason});
   section.tables.push_back(std::move(table));
   if (!seen.found.refused.empty()) {
     Table refused;
@@ -120,11 +133,12 @@ Section errors_section(const Seen& seen) {
   Section section;
   section.title = "Error on each recording";
   Table table;
-  table.columns = {"recording", "role", "output", "rows", "RMS before", "RMS after", "NRMSE before", "NRMSE after", "chi2/N after"};
+  table.columns = {"recording", "role",         "output",      "rows",        "RMS before",
+                   "RMS after", "NRMSE before", "NRMSE after", "chi2/N after"};
   for (const auto& after : seen.found.final_error.recordings) {
-    const auto before = std::find_if(seen.found.as_given.recordings.begin(), seen.found.as_given.recordings.end(), [&](const auto& b) {
-      return b.recording == after.recording && b.output == after.output;
-    });
+    const auto before =
+        std::find_if(seen.found.as_given.recordings.begin(), seen.found.as_given.recordings.end(),
+                     [&](const auto& b) { return b.recording == after.recording && b.output == after.output; });
     const bool known = before != seen.found.as_given.recordings.end();
     table.rows.push_back({after.recording, to_text(after.role), after.output, std::to_string(after.rows),
                           known ? difference_text(before->rms, seen.unit) : "-", difference_text(after.rms, seen.unit),
@@ -149,10 +163,10 @@ Section data_section(const Discovery& found) {
   section.title = "The data";
   section.text = found.data_remarks;
   Table table;
-  table.columns = {"output", "white noise, rms", "1/f share", "factor found", "from"};
+  table.columns = {"output", "white noise, rms", "1/f share", "from", "remark"};
   for (const auto& n : found.noise)
-    table.rows.push_back({n.output, difference_text(n.white, n.unit), number_text(n.one_over_f, 3),
-                          number_text(std::sqrt(n.scale), 3), n.origin});
+    table.rows.push_back(
+        {n.output, difference_text(n.white, n.unit), number_text(n.one_over_f, 3), n.origin, n.remark});
   section.tables.push_back(std::move(table));
   return section;
 }
@@ -173,8 +187,10 @@ Section next_section(const Discovery& found) {
     section.text.push_back(fmt::format("{}: {} It would set {} apart by {} times the noise.", e.word, e.text, e.between,
                                        number_text(e.separation, 3)));
   };
-  if (found.experiment) say(*found.experiment);
-  else section.text.emplace_back("No experiment is needed to separate what was found.");
+  if (found.experiment)
+    say(*found.experiment);
+  else
+    section.text.emplace_back("No experiment is needed to separate what was found.");
   return section;
 }
 
@@ -191,15 +207,18 @@ void add_recordings(Document& document, const Seen& seen) {
 
 /// Every step's diagram, and the last one as final.json, as seen from the folder of results.
 void add_diagrams(Document& document, const Discovery& found, const std::string& folder) {
+  NestedDiagrams nested;  // those that changed, of all steps
   document.files.emplace_back("base.json", text_in_folder(found.base_diagram, folder, "base.json"));
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     const auto& change = found.steps[i].change;
+    nested.insert(nested.end(), change.nested.begin(), change.nested.end());
     const std::string name = fmt::format("step{}_{}.json", i + 1, change.effect);
-    document.files.emplace_back(name, text_in_folder(change.diagram, folder, name));
-    for (const auto& [written, nested] : change.nested)
-      document.files.emplace_back(written, text_in_folder(nested, folder, written));
+    document.files.emplace_back(name, text_in_folder(change.diagram, folder, name, nested));
   }
-  document.files.emplace_back("final.json", text_in_folder(found.final_diagram, folder, "final.json"));
+  document.files.emplace_back("final.json", text_in_folder(found.final_diagram, folder, "final.json", nested));
+  for (const auto& [written, content] : nested)
+    document.files.emplace_back(name_in_folder(written),
+                                text_in_folder(content, folder, name_in_folder(written), nested));
 }
 
 Comparison comparison_of(const Diagram& diagram, const std::shared_ptr<const DataSet>& data, DataModel*& kept,
@@ -213,7 +232,8 @@ Comparison comparison_of(const Diagram& diagram, const std::shared_ptr<const Dat
 
 }  // namespace
 
-Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data, const DiscoveryFiles& files) {
+Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
+                            const DiscoveryFiles& files) {
   Document document;
   document.verb = verb;
   document.title = found.base_diagram.title;
@@ -240,7 +260,8 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sections.push_back(data_section(found));
   add_recordings(document, seen);
   add_diagrams(document, found, files.folder);
-  document.facts = std::make_shared<nlohmann::json>(discovery_facts(found, seen.unit, files.diagram_file, files.data_file));
+  document.facts =
+      std::make_shared<nlohmann::json>(discovery_facts(found, seen.unit, files.diagram_file, files.data_file));
   return document;
 }
 

@@ -12,11 +12,12 @@ namespace hysteron {
 struct DiscoveryFiles {
   std::string diagram_file;  ///< as the user named it
   std::string data_file;
-  std::string folder;        ///< where the results go
+  std::string folder;  ///< where the results go
 };
 
-/// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and after,
-/// candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
-Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data, const DiscoveryFiles& files);
+/// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and
+/// after, candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
+Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
+                            const DiscoveryFiles& files);
 
 }  // namespace hysteron

@@ -31,7 +31,8 @@ void print_part(const std::string& title, const std::string& text) {
 }
 
 std::string way_text(const Effect& effect) {
-  const std::string places = effect.places.empty() ? "" : fmt::format(" Kinds of place: {}.", fmt::join(effect.places, ", "));
+  const std::string places =
+      effect.places.empty() ? "" : fmt::format(" Kinds of place: {}.", fmt::join(effect.places, ", "));
   if (effect.way == Way::insert)
     return fmt::format("A block of type {} is put on a wire.{}", effect.block_type, places);
   if (effect.way == Way::vary)
@@ -47,7 +48,8 @@ void print_one(const Effect& effect) {
   if (!effect.parameters.empty()) {
     std::vector<std::vector<std::string>> rows;
     for (const auto& p : effect.parameters)
-      rows.push_back({p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
+      rows.push_back(
+          {p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
     fmt::print("\nparameters\n{}", table_text({}, rows));
   }
   print_part("what it leaves in the residual", effect.residual);
@@ -62,8 +64,10 @@ void print_one(const Effect& effect) {
 
 int effects(const Arguments& arguments) {
   const Effects library = all_effects();
-  if (!arguments.has("effect")) print_all(library);
-  else print_one(library.get(arguments.text("effect")));
+  if (!arguments.has("effect"))
+    print_all(library);
+  else
+    print_one(library.get(arguments.text("effect")));
   return exit_code::done;
 }
 

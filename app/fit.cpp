@@ -54,8 +54,8 @@ Table parameter_table(const FitResult& result) {
   Table table;
   table.columns = {"parameter", "value", "95 % interval", "start", "found by"};
   for (const auto& e : result.estimates)
-    table.rows.push_back({e.path, e.value ? value_text_of(e, *e.value) : "not determined by these data", interval_text(e),
-                          value_text_of(e, e.start), e.linear ? "linear least squares" : "search"});
+    table.rows.push_back({e.path, e.value ? value_text_of(e, *e.value) : "not determined by these data",
+                          interval_text(e), value_text_of(e, e.start), e.linear ? "linear least squares" : "search"});
   return table;
 }
 
@@ -108,9 +108,10 @@ std::string rms_sentence(const DataModel& model, const Comparison& before, const
       const Metrics* b = after.find(role, y);
       if (a == nullptr || b == nullptr) continue;
       const Unit unit = output_unit(model, y);
-      parts.push_back(fmt::format("{} on {}: RMS {} -> {}, NRMSE {} -> {}", model.outputs()[static_cast<std::size_t>(y)],
-                                  to_text(role), difference_text(a->rms, unit), difference_text(b->rms, unit),
-                                  percent_text(a->nrmse), percent_text(b->nrmse)));
+      parts.push_back(fmt::format("{} on {}: RMS {} -> {}, NRMSE {} -> {}",
+                                  model.outputs()[static_cast<std::size_t>(y)], to_text(role),
+                                  difference_text(a->rms, unit), difference_text(b->rms, unit), percent_text(a->nrmse),
+                                  percent_text(b->nrmse)));
     }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -155,8 +156,9 @@ void add_sections(Document& document, const DataModel& model, const Fitted& fitt
   parameters.title = "Parameters";
   parameters.tables.push_back(parameter_table(fitted.result));
   for (const auto& line : strong_correlations(fitted.result)) parameters.text.push_back(line);
-  parameters.text.push_back(fmt::format("Method: {}; {}; {}, {} failed.", fitted.result.method, fitted.result.convergence,
-                                        count_text(fitted.result.runs, "simulation"), fitted.result.failed_runs));
+  parameters.text.push_back(fmt::format("Method: {}; {}; {}, {} failed.", fitted.result.method,
+                                        fitted.result.convergence, count_text(fitted.result.runs, "simulation"),
+                                        fitted.result.failed_runs));
   document.sections.push_back(std::move(parameters));
 
   Section errors;
@@ -210,7 +212,9 @@ int fit_verb_acts(const Arguments& arguments) {
   document.headline = fmt::format("{} fitted; {}", count_text(static_cast<long>(free.size()), "parameter"),
                                   rms_sentence(model, fitted.before, fitted.after));
   for (const auto& e : result.estimates)
-    if (e.value) document.sentences.push_back(fmt::format("{} = {} (95 %: {})", e.path, value_text_of(e, *e.value), interval_text(e)));
+    if (e.value)
+      document.sentences.push_back(
+          fmt::format("{} = {} (95 %: {})", e.path, value_text_of(e, *e.value), interval_text(e)));
   for (const auto& u : result.undetermined) document.warnings.push_back(u.sentence);
   for (const auto& delay : fitted.delays)
     if (!delay.sentence.empty()) document.warnings.push_back(delay.sentence);

@@ -35,11 +35,13 @@ void refuse_overwriting(const fs::path& folder, const std::vector<std::string>& 
     fail("folder_in_use", folder.string(), "this is a file, not a folder", "name another place with -o FOLDER");
   for (const auto& name : names)
     if (fs::exists(folder / name, code))
-      fail("folder_in_use", (folder / name).string(), "this file is there already", "name another place with -o FOLDER");
+      fail("folder_in_use", (folder / name).string(), "this file is there already",
+           "name another place with -o FOLDER");
 }
 
 /// All files or none: what was written before a failure is taken away again.
-void write_all(const fs::path& folder, const Starter& starter, const std::string& csv_name, const std::string& csv_text) {
+void write_all(const fs::path& folder, const Starter& starter, const std::string& csv_name,
+               const std::string& csv_text) {
   std::vector<fs::path> written;
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file((folder / name).string(), text);
@@ -75,7 +77,8 @@ int make_new(const Arguments& arguments) {
   if (!recording_is_there) written.push_back(csv_name);
   refuse_overwriting(folder, written);
   fs::create_directories(folder, code);
-  if (code) fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o");
+  if (code)
+    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o");
   write_all(folder, starter, recording_is_there ? "" : csv_name, read_file(from.string()));
 
   fmt::print("wrote {}, {}\n", (folder / "diagram.json").string(), (folder / "dataset.json").string());

@@ -40,8 +40,10 @@ std::string trace_file(const std::string& name, const std::vector<CsvTable>& tak
   std::string clean;
   for (const char c : stem) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-    if (plain) clean += c;
-    else if (!clean.empty() && clean.back() != '-') clean += '-';
+    if (plain)
+      clean += c;
+    else if (!clean.empty() && clean.back() != '-')
+      clean += '-';
   }
   while (!clean.empty() && (clean.back() == '-' || clean.back() == '.')) clean.pop_back();
   clean.erase(0, clean.find_first_not_of(".-"));

@@ -9,8 +9,8 @@
 
 namespace hysteron {
 
-/// Writes `folder` whole or not at all, then prints headline, sentences, warnings and, on the last line, the verdict and where
-/// report.html lies.
+/// Writes `folder` whole or not at all, then prints headline, sentences, warnings and, on the last line, the verdict
+/// and where report.html lies.
 void publish(const Arguments& arguments, const std::string& folder, const Document& document);
 
 /// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.

@@ -8,6 +8,7 @@
 
 #include "engine/error.h"
 #include "io/diagram_file.h"
+#include "io/project_path.h"
 
 namespace hysteron {
 namespace {
@@ -30,16 +31,29 @@ void rewrite(const Arguments& arguments, const Diagram& diagram, const NestedDia
   std::error_code code;
   for (const auto& [written, content] : nested)
     if (fs::exists(place_of(diagram, written), code))
-      fail("file_there", place_of(diagram, written), "the changed nested diagram would go here, and there is a file already",
-           "remove or rename that file");
+      fail("file_there", place_of(diagram, written),
+           "the changed nested diagram would go here, and there is a file already", "remove or rename that file");
   for (const auto& [written, content] : nested) write_diagram(place_of(diagram, written), content);
   write_diagram(file, diagram);
   for (const auto& [written, content] : nested) fmt::print("wrote {}\n", place_of(diagram, written));
   fmt::print("wrote {}\n", file);
 }
 
-std::string text_in_folder(const Diagram& diagram, const std::string& folder, const std::string& name) {
-  return diagram_text(moved_diagram(diagram, (fs::path(folder) / name).string()));
+std::string name_in_folder(const std::string& written) { return fs::path(written).filename().string(); }
+
+std::string text_in_folder(const Diagram& diagram, const std::string& folder, const std::string& name,
+                           const NestedDiagrams& nested) {
+  const std::string target = (fs::path(folder) / name).string();
+  Diagram moved = moved_diagram(diagram, target);
+  for (const auto& [written, content] : nested) {
+    const std::string elsewhere = moved_path(written, diagram.file, target);
+    for (auto& [block, node] : moved.blocks) {
+      if (node.file == elsewhere) node.file = name_in_folder(written);
+      for (auto& [candidate, body] : node.from)
+        if (body.file == elsewhere) body.file = name_in_folder(written);
+    }
+  }
+  return diagram_text(moved);
 }
 
 }  // namespace hysteron

@@ -18,6 +18,10 @@ using NestedDiagrams = std::vector<std::pair<std::string, Diagram>>;
 void rewrite(const Arguments& arguments, const Diagram& diagram, const NestedDiagrams& nested);
 
 /// The text of a diagram for a file inside a folder of results: its paths are seen from there.
-std::string text_in_folder(const Diagram& diagram, const std::string& folder, const std::string& name);
+/// Nested diagrams that changed are expected beside it, under their bare file names.
+std::string text_in_folder(const Diagram& diagram, const std::string& folder, const std::string& name,
+                           const NestedDiagrams& nested = {});
+/// The name under which a changed nested diagram lies in a folder of results.
+std::string name_in_folder(const std::string& written);
 
 }  // namespace hysteron

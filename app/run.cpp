@@ -102,10 +102,8 @@ void add_ranges(Section& section, nlohmann::json& facts, const CsvTable& table) 
       return number_text(value, 6) + (unit.empty() ? "" : " " + unit);
     };
     ranges.rows.push_back({column.name, text(*low), text(*high), text(column.values.back())});
-    entries[column.name] = {{"unit", unit_text(column.unit)},
-                            {"smallest", *low},
-                            {"largest", *high},
-                            {"last", column.values.back()}};
+    entries[column.name] = {
+        {"unit", unit_text(column.unit)}, {"smallest", *low}, {"largest", *high}, {"last", column.values.back()}};
   }
   section.tables.push_back(std::move(ranges));
 }
@@ -119,13 +117,12 @@ void add_traces(Document& document, nlohmann::json& facts, const Program& progra
   add_figures(section, table);
   add_ranges(section, facts, table);
   const auto& s = traces.statistics;
-  section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(), s.method,
-                                     count_text(s.steps, "step"), s.rejected, s.evaluations,
+  section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(),
+                                     s.method, count_text(s.steps, "step"), s.rejected, s.evaluations,
                                      count_text(s.reversals, "reversal")));
-  facts["statistics"][table.file] = {{"method", s.method},       {"steps", s.steps},
-                                     {"rejected", s.rejected},   {"evaluations", s.evaluations},
-                                     {"jacobians", s.jacobians}, {"reversals", s.reversals},
-                                     {"restarts", s.restarts}};
+  facts["statistics"][table.file] = {
+      {"method", s.method},       {"steps", s.steps},         {"rejected", s.rejected}, {"evaluations", s.evaluations},
+      {"jacobians", s.jacobians}, {"reversals", s.reversals}, {"restarts", s.restarts}};
   document.sections.push_back(std::move(section));
 }
 
@@ -138,7 +135,8 @@ SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diag
   settings.every = arguments.seconds("--every", settings.every);
   if (settings.until <= settings.begin || settings.every < 0)
     fail("bad_value", "--until", "the simulation would end before it begins", "give times above 0 s");
-  if (settings.every > 0 && (settings.until / settings.every) * static_cast<double>(settings.signals.size() + 1) > most_numbers)
+  if (settings.every > 0 &&
+      (settings.until / settings.every) * static_cast<double>(settings.signals.size() + 1) > most_numbers)
     fail("too_many_rows", "--every",
          fmt::format("{:.3g} rows of {} would be recorded", settings.until / settings.every,
                      count_text(static_cast<long>(settings.signals.size()), "signal")),
@@ -193,8 +191,10 @@ int run(const Arguments& arguments) {
   document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
   auto facts = std::make_shared<nlohmann::json>();
   (*facts)["diagram"] = arguments.text("diagram");
-  if (arguments.has("--data")) run_recordings(arguments, diagram, *program, document, *facts);
-  else run_own_time(arguments, diagram, *program, document, *facts);
+  if (arguments.has("--data"))
+    run_recordings(arguments, diagram, *program, document, *facts);
+  else
+    run_own_time(arguments, diagram, *program, document, *facts);
   document.facts = facts;
   publish(arguments, result_folder(arguments, "run"), document);
   return exit_code::done;

@@ -28,7 +28,8 @@ int schema(const Arguments& arguments) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code)
-    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o FOLDER");
+    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(),
+         "name another with -o FOLDER");
   const auto write = [&](const std::string& name, const std::string& text) {
     write_file((folder / name).string(), text);
     fmt::print("{}\n", (folder / name).string());

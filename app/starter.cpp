@@ -28,8 +28,10 @@ std::string diagram_name(const std::string& column) {
   std::string name;
   for (const char c : lower_case(column)) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (plain) name += c;
-    else if (!name.empty() && name.back() != '_') name += '_';
+    if (plain)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
   }
   while (!name.empty() && name.back() == '_') name.pop_back();
   if (name.empty() || !(name.front() >= 'a' && name.front() <= 'z')) name = "column_" + name;
@@ -76,9 +78,7 @@ void check_columns(const CsvTable& table, const std::vector<std::string>& wanted
 }
 
 /// In which unit a difference of this column is written: a temperature step in K.
-std::string difference_unit(const CsvColumn& column) {
-  return column.unit.offset != 0 ? "K" : unit_text(column.unit);
-}
+std::string difference_unit(const CsvColumn& column) { return column.unit.offset != 0 ? "K" : unit_text(column.unit); }
 double in_difference_unit(const CsvColumn& column, double number) {
   return column.unit.offset != 0 ? column.unit.scale * number : number;
 }
@@ -103,7 +103,8 @@ bool looks_held(const CsvColumn& column) {
   return changes > 0 && changes * 20 < column.values.size();
 }
 
-/// y = sum of slopes times inputs + offset, least squares over the first 60 % of the time. Numbers as written in the file.
+/// y = sum of slopes times inputs + offset, least squares over the first 60 % of the time. Numbers as written in the
+/// file.
 std::vector<double> straight_line(const CsvTable& table, const StarterRoles& roles, const CsvColumn& y) {
   const auto& t = table.find(roles.time)->values;
   const double until = t.front() + train_share * (t.back() - t.front());
@@ -172,8 +173,8 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
   std::vector<std::string> columns;
   for (const auto& input : roles.inputs) {
     const bool held = looks_held(*table.find(input));
-    columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", quoted(input), diagram_name(input),
-                                  held ? "hold" : "linear"));
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", quoted(input),
+                                  diagram_name(input), held ? "hold" : "linear"));
     assumed.push_back(held ? fmt::format("{} seldom changes: held between samples", input)
                            : fmt::format("{} moves along a straight line between samples", input));
   }
@@ -182,9 +183,11 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
   const auto& t = table.find(roles.time)->values;
   const double cut = t.front() + train_share * (t.back() - t.front());
   const auto first = std::upper_bound(t.begin(), t.end(), cut);
-  const double edge = first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
+  const double edge =
+      first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
   const std::string unit = unit_text(table.find(roles.time)->unit);
-  const std::string at = fmt::format("{:.9g} {}", edge - t.front(), unit.empty() ? "s" : unit);  // counted from the first row
+  const std::string at =
+      fmt::format("{:.9g} {}", edge - t.front(), unit.empty() ? "s" : unit);  // counted from the first row
   assumed.push_back(fmt::format("the first 60 % of the time ({}) train, the rest validates", at));
   return fmt::format(
       "{{\n  \"format\": 1,\n  \"title\": {0},\n  \"columns\": {{{1}}},\n  \"recordings\": [\n"
@@ -235,7 +238,8 @@ Starter make_starter(const CsvTable& table, const StarterRoles& given, const std
   Starter starter;
   const StarterRoles roles = guess_roles(table, given, starter.assumed);
   if (table.rows() < 3)
-    fail("too_few_rows", table.file, fmt::format("{} cannot show a straight line", count_text(static_cast<long>(table.rows()), "row")),
+    fail("too_few_rows", table.file,
+         fmt::format("{} cannot show a straight line", count_text(static_cast<long>(table.rows()), "row")),
          "record at least three rows");
   Diagram& diagram = starter.diagram;
   diagram.title = "Starter: gain and offset";
@@ -246,7 +250,8 @@ Starter make_starter(const CsvTable& table, const StarterRoles& given, const std
   starter.dataset_text = dataset_text(table, roles, csv_name, starter.assumed);
   std::vector<std::string> side;
   for (const auto& column : table.columns)
-    if (column.name != roles.time && std::find(roles.inputs.begin(), roles.inputs.end(), column.name) == roles.inputs.end() &&
+    if (column.name != roles.time &&
+        std::find(roles.inputs.begin(), roles.inputs.end(), column.name) == roles.inputs.end() &&
         std::find(roles.outputs.begin(), roles.outputs.end(), column.name) == roles.outputs.end())
       side.push_back(column.name);
   if (!side.empty()) starter.assumed.push_back(fmt::format("left as side channels: {}", fmt::join(side, ", ")));

@@ -9,7 +9,8 @@ namespace hysteron {
 
 inline constexpr std::size_t terminal_width = 100;
 
-/// Breaks text into lines of at most 100 columns, each behind `indent` spaces; ends with a newline. Line ends of the text stay.
+/// Breaks text into lines of at most 100 columns, each behind `indent` spaces; ends with a newline. Line ends of the
+/// text stay.
 std::string wrapped(const std::string& text, std::size_t indent = 0);
 
 /// Columns aligned under their heads, two spaces apart; the last column is wrapped. Empty `heads` = no head line.

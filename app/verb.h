@@ -10,10 +10,10 @@ namespace hysteron {
 
 /// Exit codes of the program (DESIGN 8).
 namespace exit_code {
-inline constexpr int done = 0;         ///< whatever was found
-inline constexpr int no = 1;           ///< a yes-or-no question was asked, and the answer is no
-inline constexpr int bad_input = 2;    ///< the input is wrong
-inline constexpr int numerics = 3;     ///< the computation failed
+inline constexpr int done = 0;       ///< whatever was found
+inline constexpr int no = 1;         ///< a yes-or-no question was asked, and the answer is no
+inline constexpr int bad_input = 2;  ///< the input is wrong
+inline constexpr int numerics = 3;   ///< the computation failed
 inline constexpr int interrupted = 130;
 }  // namespace exit_code
 
@@ -23,7 +23,7 @@ struct OptionSpec {
   std::string placeholder;  ///< what stands for its value in the help; empty = a flag
   std::string meaning;
   bool required = false;
-  bool repeated = false;    ///< may be given several times
+  bool repeated = false;  ///< may be given several times
 };
 
 /// What the user wrote behind a verb.

@@ -10,8 +10,8 @@
 namespace hysteron {
 
 std::vector<Verb> all_verbs() {
-  return {new_verb(),  run_verb(),    check_verb(), compare_verb(),  diagnose_verb(), add_verb(),
-          remove_verb(), fit_verb(), discover_verb(), blocks_verb(), effects_verb(), schema_verb()};
+  return {new_verb(),    run_verb(), check_verb(),    compare_verb(), diagnose_verb(), add_verb(),
+          remove_verb(), fit_verb(), discover_verb(), blocks_verb(),  effects_verb(),  schema_verb()};
 }
 
 std::string Arguments::text(const std::string& name, const std::string& otherwise) const {
@@ -56,8 +56,8 @@ OptionSpec data(bool required) {
   return {"--data", "FILE", "the recordings: a data set (.json), or one recording (.csv)", required, false};
 }
 OptionSpec output_folder() {
-  return {"-o", "FOLDER", "where the results go; default: named after the diagram and the verb, e.g. stage.compare", false,
-          false};
+  return {"-o", "FOLDER", "where the results go; default: named after the diagram and the verb, e.g. stage.compare",
+          false, false};
 }
 OptionSpec output_file() { return {"-o", "FILE.json", "the diagram file to write", false, false}; }
 OptionSpec set() {

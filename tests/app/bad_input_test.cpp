@@ -1,5 +1,5 @@
-// Bad input never crashes and never passes silently: for each kind, the code, the place, the cure and the exit code of the
-// program, and nothing left behind.
+// Bad input never crashes and never passes silently: for each kind, the code, the place, the cure and the exit code of
+// the program, and nothing left behind.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -15,14 +15,14 @@ using process::Outcome;
 
 struct Case {
   const char* name;
-  std::vector<std::string> words;      ///< the command line
-  const char* file;                    ///< the file that is spoiled ("" = none)
-  std::string content;                 ///< what it holds then
-  const char* code;                    ///< expected
-  const char* place;                   ///< part of path or file of the problem
-  const char* cure;                    ///< part of the cure
+  std::vector<std::string> words;  ///< the command line
+  const char* file;                ///< the file that is spoiled ("" = none)
+  std::string content;             ///< what it holds then
+  const char* code;                ///< expected
+  const char* place;               ///< part of path or file of the problem
+  const char* cure;                ///< part of the cure
   int exit_code = 2;
-  int line = 0;                        ///< expected line, 0 = not asked
+  int line = 0;  ///< expected line, 0 = not asked
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
@@ -40,12 +40,15 @@ std::string dataset_with(const std::string& old_text, const std::string& new_tex
   if (at == std::string::npos) return "the laboratory has no " + old_text;
   return text.replace(at, old_text.size(), new_text);
 }
-std::string csv_with_row(const std::string& row) { return "t [s],u [V],y [um]\n0,0,0\n1,1,1\n" + row + "\n3,1,1\n4,2,2\n"; }
+std::string csv_with_row(const std::string& row) {
+  return "t [s],u [V],y [um]\n0,0,0\n1,1,1\n" + row + "\n3,1,1\n4,2,2\n";
+}
 
 std::string closed_loop(const std::string& loop) {
   return R"({"format": 1, "title": "loop", "blocks": {
     "drive": {"type": "step", "before": 0, "after": 1, "time": "0.1 s"},
-    )" + loop + R"(},
+    )" + loop +
+         R"(},
     "record": ["error"], "simulate": {"until": "1 s"}})";
 }
 
@@ -63,9 +66,12 @@ std::vector<Case> cases() {
       {"NoSuchDiagram", {"check", "digram.json"}, "", "", "no_file", "digram.json", ""},
       {"AFolderAsDiagram", {"check", "."}, "", "", "is_directory", ".", ""},
       {"ADeviceAsDiagram", {"check", "/dev/full"}, "", "", "not_a_file", "/dev/full", ""},
-      {"ANewerFormat", check, "diagram.json", diagram_with("\"format\": 1", "\"format\": 2"), "newer_format", "/format", ""},
-      {"UnknownKey", check, "diagram.json", diagram_with("\"outputs\"", "\"outptus\""), "unknown_key", "outptus", "outputs"},
-      {"DuplicateKey", check, "diagram.json", diagram_with("\"sensor\": ", "\"actuator\": "), "duplicate_key", "actuator", ""},
+      {"ANewerFormat", check, "diagram.json", diagram_with("\"format\": 1", "\"format\": 2"), "newer_format", "/format",
+       ""},
+      {"UnknownKey", check, "diagram.json", diagram_with("\"outputs\"", "\"outptus\""), "unknown_key", "outptus",
+       "outputs"},
+      {"DuplicateKey", check, "diagram.json", diagram_with("\"sensor\": ", "\"actuator\": "), "duplicate_key",
+       "actuator", ""},
       {"PathOutsideTheProject", check, "diagram.json",
        diagram_with("{\"type\": \"calibration\", \"gain\": 1, \"offset\": \"0.2 um\"",
                     "{\"type\": \"diagram\", \"file\": \"../../etc/passwd\""),
@@ -74,31 +80,37 @@ std::vector<Case> cases() {
       // Names and values
       {"UnknownBlock", check, "diagram.json", diagram_with("\"type\": \"gain\"", "\"type\": \"gian\""), "unknown_block",
        "/blocks/actuator", "gain", 2, 7},
-      {"UnknownParameter", check, "diagram.json", diagram_with("\"gain\": \"$gain\"", "\"gain\": \"$gain\", \"gani\": 2"),
-       "unknown_parameter", "/blocks/actuator/gani", "gain", 2, 7},
+      {"UnknownParameter", check, "diagram.json",
+       diagram_with("\"gain\": \"$gain\"", "\"gain\": \"$gain\", \"gani\": 2"), "unknown_parameter",
+       "/blocks/actuator/gani", "gain", 2, 7},
       {"MissingParameter", check, "diagram.json", diagram_with("\"gain\": \"$gain\", ", ""), "missing_parameter",
        "/blocks/actuator", "gain", 2, 7},
       {"UnknownReference", check, "diagram.json", diagram_with("\"$gain\"", "\"$gian\""), "unknown_reference",
        "/blocks/actuator/gain", "gain", 2, 7},
-      {"TextForANumber", check, "diagram.json", diagram_with("\"$gain\"", "\"big\""), "wrong_type", "/blocks/actuator/gain", ""},
-      {"UnitThatDoesNotExist", check, "diagram.json", diagram_with("0.2 um", "0.2 umm"), "bad_unit", "/blocks/sensor/offset", ""},
+      {"TextForANumber", check, "diagram.json", diagram_with("\"$gain\"", "\"big\""), "wrong_type",
+       "/blocks/actuator/gain", ""},
+      {"UnitThatDoesNotExist", check, "diagram.json", diagram_with("0.2 um", "0.2 umm"), "bad_unit",
+       "/blocks/sensor/offset", ""},
       {"WrongUnit", check, "diagram.json", diagram_with("0.2 um", "0.2 V"), "wrong_unit", "/blocks/sensor", "", 2, 8},
-      {"GainInAForeignUnit", check, "diagram.json", diagram_with("\"unit\": \"um/V\"", "\"unit\": \"s\""), "wrong_unit", "", ""},
+      {"GainInAForeignUnit", check, "diagram.json", diagram_with("\"unit\": \"um/V\"", "\"unit\": \"s\""), "wrong_unit",
+       "", ""},
 
       // Wires
-      {"UnknownSignal", check, "diagram.json", diagram_with("\"in\": \"actuator\"", "\"in\": \"actuatr\""), "unknown_signal",
-       "/blocks/sensor", "actuator", 2, 8},
+      {"UnknownSignal", check, "diagram.json", diagram_with("\"in\": \"actuator\"", "\"in\": \"actuatr\""),
+       "unknown_signal", "/blocks/sensor", "actuator", 2, 8},
       {"MissingConnection", check, "diagram.json", diagram_with(", \"in\": \"actuator\"", ""), "missing_connection",
        "/blocks/sensor", "", 2, 8},
       {"DoubleConnection", check, "diagram.json", diagram_with("\"in\": \"actuator\"", "\"in\": [\"actuator\", \"u\"]"),
        "double_connection", "/blocks/sensor", "", 2, 8},
       {"UnusedBlock", check, "diagram.json",
-       diagram_with("\"actuator\": {", "\"spare\": {\"type\": \"gain\", \"gain\": 2, \"in\": \"u\"},\n    \"actuator\": {"),
+       diagram_with("\"actuator\": {",
+                    "\"spare\": {\"type\": \"gain\", \"gain\": 2, \"in\": \"u\"},\n    \"actuator\": {"),
        "unused_block", "/blocks/spare", "", 2, 7},
-      {"UnknownSignalInRecord", check, "diagram.json", diagram_with("[\"actuator\", \"sensor\"]", "[\"sensr\"]"), "unknown_signal",
-       "/record", "sensor"},
+      {"UnknownSignalInRecord", check, "diagram.json", diagram_with("[\"actuator\", \"sensor\"]", "[\"sensr\"]"),
+       "unknown_signal", "/record", "sensor"},
       {"AlgebraicLoop", check, "diagram.json",
-       closed_loop(R"("error": {"type": "sum", "signs": "+-", "in": ["drive", "back"]}, "back": {"type": "gain", "gain": 2, "in": "error"})"),
+       closed_loop(
+           R"("error": {"type": "sum", "signs": "+-", "in": ["drive", "back"]}, "back": {"type": "gain", "gain": 2, "in": "error"})"),
        "algebraic_loop", "error", ""},
       {"JumpIntoARateDrivenLaw", check, "diagram.json",
        R"({"format": 1, "title": "step", "blocks": {
@@ -110,16 +122,32 @@ std::vector<Case> cases() {
       // Choices and settings from the command line
       {"UnknownSetting", {"check", "diagram.json", "--set", "gian=2"}, "", "", "unknown_parameter", "gian", "gain"},
       {"SettingWithoutValue", {"check", "diagram.json", "--set", "gain"}, "", "", "bad_command_line", "--set", "="},
-      {"UnknownChoice", {"check", "diagram.json", "--choose", "actuator=on"}, "", "", "bad_choice", "actuator", "choose"},
+      {"UnknownChoice",
+       {"check", "diagram.json", "--choose", "actuator=on"},
+       "",
+       "",
+       "bad_choice",
+       "actuator",
+       "choose"},
       {"UnknownVerb", {"comapre", "diagram.json"}, "", "", "unknown_verb", "comapre", "compare"},
       {"UnknownOption", {"check", "diagram.json", "--dta", "a.csv"}, "", "", "bad_command_line", "check", "--data"},
       {"MissingOption", {"compare", "diagram.json"}, "", "", "bad_command_line", "compare", "--help"},
       {"NoDiagramGiven", {"check"}, "", "", "bad_command_line", "check", "--help"},
       {"TimeThatIsNone", {"run", "diagram.json", "--until", "2 V"}, "", "", "bad_command_line", "--until", "ms"},
-      {"ToleranceThatIsNone", {"compare", "diagram.json", "--data", "a.csv", "--tolerance", "small"}, "", "", "bad_command_line",
-       "--tolerance", "5%"},
-      {"ToleranceInAForeignUnit", {"compare", "diagram.json", "--data", "dataset.json", "--tolerance", "2 kg"}, "", "",
-       "wrong_unit", "--tolerance", "um"},
+      {"ToleranceThatIsNone",
+       {"compare", "diagram.json", "--data", "a.csv", "--tolerance", "small"},
+       "",
+       "",
+       "bad_command_line",
+       "--tolerance",
+       "5%"},
+      {"ToleranceInAForeignUnit",
+       {"compare", "diagram.json", "--data", "dataset.json", "--tolerance", "2 kg"},
+       "",
+       "",
+       "wrong_unit",
+       "--tolerance",
+       "um"},
       {"UnknownBlockTypeAsked", {"blocks", "bouc_wenn"}, "", "", "unknown_block", "bouc_wenn", "bouc_wen"},
       {"UnknownEffectAsked", {"effects", "crep"}, "", "", "unknown_effect", "crep", "creep"},
 
@@ -132,20 +160,30 @@ std::vector<Case> cases() {
       {"MissingColumn", compare_csv, "a.csv", "t [s],y [um]\n0,0\n1,1\n2,0\n3,1\n", "missing_column", "u", ""},
       {"NoMeasuredColumn", compare_csv, "a.csv", "t [s],u [V]\n0,0\n1,1\n2,0\n3,1\n", "missing_column", "y", ""},
       {"NoTimeColumn", compare_csv, "a.csv", "u [V],y [um]\n0,0\n1,1\n2,0\n3,1\n", "missing_column", "t", ""},
-      {"ColumnInAForeignUnit", compare_csv, "a.csv", "t [s],u [V],y [kg]\n0,0,0\n1,1,1\n2,0,0\n3,1,1\n4,1,1\n5,1,1\n6,1,1\n",
-       "wrong_unit", "y", ""},
+      {"ColumnInAForeignUnit", compare_csv, "a.csv",
+       "t [s],u [V],y [kg]\n0,0,0\n1,1,1\n2,0,0\n3,1,1\n4,1,1\n5,1,1\n6,1,1\n", "wrong_unit", "y", ""},
       {"EmptyRecording", compare_csv, "a.csv", "", "empty_file", "a.csv", ""},
       {"TooFewRows", compare_csv, "a.csv", "t [s],u [V],y [um]\n0,0,0\n1,1,1\n", "too_few_rows", "a.csv", ""},
       {"AFolderAsData", {"compare", "diagram.json", "--data", "."}, "", "", "is_directory", ".", ""},
       {"NoSuchData", {"compare", "diagram.json", "--data", "b1.csv"}, "", "", "no_file", "b1.csv", ""},
-      {"RoleMisspelt", check_data, "dataset.json", dataset_with("\"validate\"", "\"valdate\""), "unknown_role", "/recordings/1/role",
-       "validate", 2, 6},
+      {"RoleMisspelt", check_data, "dataset.json", dataset_with("\"validate\"", "\"valdate\""), "unknown_role",
+       "/recordings/1/role", "validate", 2, 6},
       {"RecordingThatIsNotThere", check_data, "dataset.json", dataset_with("b.csv", "c.csv"), "no_file", "c.csv", ""},
       {"BrokenDataSet", check_data, "dataset.json", "{\"format\": 1,", "bad_json", "dataset.json", ""},
-      {"NewWithoutATimeColumn", {"new", "--from", "a.csv", "-o", "made"}, "a.csv", "u [V],y [um]\n0,0\n1,1\n2,0\n3,1\n",
-       "missing_column", "a.csv", "t [s]"},
-      {"NewWithUnclearColumns", {"new", "--from", "a.csv", "-o", "made"}, "a.csv", "t [s],foo,bar\n0,0,0\n1,1,1\n2,0,0\n3,1,1\n",
-       "unclear_columns", "a.csv", "--input"},
+      {"NewWithoutATimeColumn",
+       {"new", "--from", "a.csv", "-o", "made"},
+       "a.csv",
+       "u [V],y [um]\n0,0\n1,1\n2,0\n3,1\n",
+       "missing_column",
+       "a.csv",
+       "t [s]"},
+      {"NewWithUnclearColumns",
+       {"new", "--from", "a.csv", "-o", "made"},
+       "a.csv",
+       "t [s],foo,bar\n0,0,0\n1,1,1\n2,0,0\n3,1,1\n",
+       "unclear_columns",
+       "a.csv",
+       "--input"},
 
       // Running
       {"NothingSaysUntilWhen", run, "diagram.json",
@@ -161,10 +199,34 @@ std::vector<Case> cases() {
          "rate": {"type": "gain", "gain": "1 1/s", "in": "level"}},
          "record": ["level"], "simulate": {"until": "10 s"}})",
        "diverged", "", "", 3},
-      {"AnImpossibleFolder", {"compare", "diagram.json", "--data", "dataset.json", "-o", "/dev/full"}, "", "", "", "/dev/full", ""},
-      {"AFolderOfSomebodyElse", {"compare", "diagram.json", "--data", "dataset.json", "-o", "."}, "", "", "folder_in_use", ".", "-o"},
-      {"AFullDiskForADiagram", {"add", "creep", "diagram.json", "-o", "/dev/full"}, "", "", "cannot_write", "/dev/full", ""},
-      {"AnEffectWithoutSuchAPlace", {"add", "creep", "diagram.json", "--at", "actuatr"}, "", "", "unknown_place", "actuatr", "actuator"},
+      {"AnImpossibleFolder",
+       {"compare", "diagram.json", "--data", "dataset.json", "-o", "/dev/full"},
+       "",
+       "",
+       "",
+       "/dev/full",
+       ""},
+      {"AFolderOfSomebodyElse",
+       {"compare", "diagram.json", "--data", "dataset.json", "-o", "."},
+       "",
+       "",
+       "folder_in_use",
+       ".",
+       "-o"},
+      {"AFullDiskForADiagram",
+       {"add", "creep", "diagram.json", "-o", "/dev/full"},
+       "",
+       "",
+       "cannot_write",
+       "/dev/full",
+       ""},
+      {"AnEffectWithoutSuchAPlace",
+       {"add", "creep", "diagram.json", "--at", "actuatr"},
+       "",
+       "",
+       "unknown_place",
+       "actuatr",
+       "actuator"},
       {"RemovingWhatIsNotThere", {"remove", "creep", "diagram.json"}, "", "", "unknown_effect", "creep", ""},
   };
 }
@@ -194,7 +256,8 @@ TEST_P(BadInput, IsToldWithCodePlaceAndCureAndLeavesNothingBehind) {
                       problem["cure"].get<std::string>().find(c.cure) != std::string::npos &&
                       (c.line == 0 || problem.value("line", 0) == c.line));
   }
-  EXPECT_TRUE(found) << "expected " << c.code << " at " << c.place << " line " << c.line << ", cure " << c.cure << "; told\n"
+  EXPECT_TRUE(found) << "expected " << c.code << " at " << c.place << " line " << c.line << ", cure " << c.cure
+                     << "; told\n"
                      << outcome.err;
   EXPECT_EQ(folder.entries(), before) << "something was left behind";
 }

@@ -12,16 +12,16 @@ namespace {
 using process::Folder;
 using process::Outcome;
 
-const std::vector<std::string> verbs{"new", "run", "check", "compare", "diagnose", "add",
-                                     "remove", "fit", "discover", "blocks", "effects", "schema"};
+const std::vector<std::string> verbs{"new",    "run", "check",    "compare", "diagnose", "add",
+                                     "remove", "fit", "discover", "blocks",  "effects",  "schema"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
   std::size_t longest = 0;
   for (std::string line; std::getline(lines, line);)
     longest = std::max(longest, static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
-                                  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-                                })));
+                         return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+                       })));
   return longest;
 }
 
@@ -47,7 +47,8 @@ TEST_P(Help, TeachesWithExamplesWhatIsWrittenAndExitCodes) {
   EXPECT_TRUE(outcome.err.empty()) << outcome.err;
   EXPECT_NE(outcome.out.find("Examples:\n  hysteron " + GetParam()), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("Exit codes: 0"), std::string::npos) << outcome.out;
-  EXPECT_TRUE(outcome.out.find("rites") != std::string::npos || outcome.out.find("nothing is written") != std::string::npos)
+  EXPECT_TRUE(outcome.out.find("rites") != std::string::npos ||
+              outcome.out.find("nothing is written") != std::string::npos)
       << "does not say what it writes\n"
       << outcome.out;
   EXPECT_EQ(folder.entries().size(), 0U);
@@ -59,9 +60,28 @@ TEST(Blocks, EveryTypeIsListedAndShownWithinAHundredColumns) {
   const Outcome all = process::hysteron(folder.path(), {"blocks"});
   ASSERT_EQ(all.code, 0);
   EXPECT_LE(longest_line(all.out), 100U) << all.out;
-  for (const char* type : {"sine", "triangle", "step", "staircase", "chirp", "multisine", "recorded", "gain", "sum", "product",
-                           "pass", "integrator", "transfer_function", "saturation", "pi_controller", "play",
-                           "prandtl_ishlinskii", "bouc_wen", "creep", "lag", "dead_time", "sensor_noise"}) {
+  for (const char* type : {"sine",
+                           "triangle",
+                           "step",
+                           "staircase",
+                           "chirp",
+                           "multisine",
+                           "recorded",
+                           "gain",
+                           "sum",
+                           "product",
+                           "pass",
+                           "integrator",
+                           "transfer_function",
+                           "saturation",
+                           "pi_controller",
+                           "play",
+                           "prandtl_ishlinskii",
+                           "bouc_wen",
+                           "creep",
+                           "lag",
+                           "dead_time",
+                           "sensor_noise"}) {
     EXPECT_NE(all.out.find("  " + std::string(type) + " "), std::string::npos) << type;
     const Outcome one = process::hysteron(folder.path(), {"blocks", type});
     EXPECT_EQ(one.code, 0) << type;
@@ -76,7 +96,8 @@ TEST(Effects, EveryEffectIsListedAndShownWithItsLookAlikes) {
   const Outcome all = process::hysteron(folder.path(), {"effects"});
   ASSERT_EQ(all.code, 0);
   EXPECT_LE(longest_line(all.out), 100U) << all.out;
-  for (const char* id : {"calibration", "initial_remanence", "hysteresis", "creep", "amplifier_lag", "sensor_lag", "dead_time"}) {
+  for (const char* id :
+       {"calibration", "initial_remanence", "hysteresis", "creep", "amplifier_lag", "sensor_lag", "dead_time"}) {
     EXPECT_NE(all.out.find("  " + std::string(id) + " "), std::string::npos) << id;
     const Outcome one = process::hysteron(folder.path(), {"effects", id});
     EXPECT_EQ(one.code, 0) << id;

@@ -27,12 +27,13 @@ TEST(FromCpp, ADiagramIsBuiltRunAndChangedWithoutAFile) {
   const ProgramPointer program = compile(diagram, all_blocks());
   Run run = start(*program);
   SimulateOptions settings;
-  settings.until = 1;       // s
-  settings.every = 1e-4;    // s
+  settings.until = 1;     // s
+  settings.every = 1e-4;  // s
   const Traces traces = simulate(*program, run, settings);
   ASSERT_EQ(traces.values.size(), 2U);
 
-  // After the first periods the amplitude is 3 V / sqrt(1 + (w tau)^2); 1e-5 relative: the tolerance 1e-6 over some steps.
+  // After the first periods the amplitude is 3 V / sqrt(1 + (w tau)^2); 1e-5 relative: the tolerance 1e-6 over some
+  // steps.
   const auto amplitude = [](const Traces& t) {
     double peak = 0;
     for (std::size_t i = 8000; i < t.t.size(); ++i) peak = std::max(peak, std::abs(t.values[1][i]));

@@ -1,4 +1,5 @@
-// Decides how tests run the built program: as a user would, in a folder of its own, with exit code and both streams kept.
+// Decides how tests run the built program: as a user would, in a folder of its own, with exit code and both streams
+// kept.
 #include "tests/app/hysteron_process.h"
 
 #include <fcntl.h>

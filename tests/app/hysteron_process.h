@@ -1,5 +1,5 @@
-// Decides how tests run the built program: as a user would, in a folder of its own, with exit code and both streams kept.
-// Does not know what the program should say.
+// Decides how tests run the built program: as a user would, in a folder of its own, with exit code and both streams
+// kept. Does not know what the program should say.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace hysteron::process {
 
 struct Outcome {
-  int code = -1;        ///< exit code; 128 + signal where it was killed, as a shell says it
+  int code = -1;  ///< exit code; 128 + signal where it was killed, as a shell says it
   std::string out, err;
 };
 

@@ -1,0 +1,74 @@
+// The README is true: its diagram runs, and its commands do what stands below them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/app/hysteron_process.h"
+
+namespace hysteron {
+namespace {
+
+using process::Folder;
+using process::Outcome;
+
+struct Fence {
+  std::string language;
+  std::string text;
+};
+
+std::vector<Fence> fences_of(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<Fence> fences;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) fences.push_back({line.substr(3), ""});
+    } else if (inside) {
+      fences.back().text += line + "\n";
+    }
+  }
+  return fences;
+}
+
+/// What the README shows of an output: its lines without the "..." that stand for more.
+std::vector<std::string> shown_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty() && line.find("...") == std::string::npos) lines.push_back(line);
+  return lines;
+}
+
+TEST(Readme, ItsDiagramRunsAndItsCommandsPrintWhatItShows) {
+  const std::string root = HYSTERON_SOURCE_DIR;
+  const Folder folder;
+  std::filesystem::create_directory_symlink(root + "/diagrams", folder.path() + "/diagrams");
+  std::string output;
+  int commands = 0, diagrams = 0;
+  for (const auto& fence : fences_of(root + "/README.md")) {
+    if (fence.language == "json") {
+      folder.write("first.json", fence.text);
+      ++diagrams;
+    } else if (fence.language == "sh") {
+      const Outcome outcome = process::shell(folder.path(), "set -e\n" + fence.text);
+      ASSERT_EQ(outcome.code, 0) << fence.text << outcome.err;
+      output = outcome.out;
+      ++commands;
+    } else if (fence.language == "text") {
+      for (const auto& line : shown_lines(fence.text))
+        EXPECT_NE(output.find(line), std::string::npos) << "README shows\n"
+                                                        << line << "\nbut the program printed\n"
+                                                        << output;
+    }
+  }
+  EXPECT_EQ(diagrams, 1);
+  EXPECT_GE(commands, 5);
+}
+
+}  // namespace
+}  // namespace hysteron

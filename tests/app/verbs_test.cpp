@@ -1,0 +1,229 @@
+// The verbs on a small laboratory: what each prints, writes and returns.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hysteron_process.h"
+#include "tests/app/lab.h"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+using process::Folder;
+using process::hysteron;
+using process::Outcome;
+
+class Verbs : public testing::Test {
+ protected:
+  void SetUp() override { lab::furnish(folder_); }
+  json result(const std::string& folder) { return json::parse(folder_.read(folder + "/result.json")); }
+  const Folder folder_;
+};
+
+const char sine[] = R"({
+  "format": 1, "title": "Sine",
+  "blocks": {
+    "drive": {"type": "sine", "amplitude": "3 V", "frequency": "5 Hz"},
+    "double": {"type": "gain", "gain": 2, "in": "drive"}
+  },
+  "record": ["drive", "double"],
+  "simulate": {"until": "0.2 s", "every": "10 ms"}
+}
+)";
+
+TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
+  const auto before = folder_.entries();
+  const Outcome outcome = hysteron(folder_.path(), {"check", "diagram.json", "--data", "dataset.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("diagram.json: ok: 3 blocks, 1 input, 1 output"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("dataset.json: ok: 2 recordings, 350 rows judged"), std::string::npos) << outcome.out;
+  EXPECT_EQ(folder_.entries(), before);
+}
+
+TEST_F(Verbs, RunRecordsSignalsInTheirUnitsAtExactlyTheInstantsAskedFor) {
+  folder_.write("sine.json", sine);
+  const Outcome outcome = hysteron(folder_.path(), {"run", "sine.json", "--set", "drive.amplitude=1 V"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.ends_with("report: sine.run/report.html\n")) << outcome.out;
+  const std::string trace = folder_.read("sine.run/traces/signals.csv");
+  EXPECT_EQ(trace.substr(0, trace.find('\n')), "t [s],drive [V],double [V]");
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 22);  // header and 0, 10, ... 200 ms
+  // sin(2 pi 5 Hz 0.05 s) = 1: the largest of the 21 values, and twice that behind the gain.
+  const json signals = result("sine.run")["facts"]["traces"]["signals.csv"];
+  EXPECT_NEAR(signals["drive"]["largest"].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(signals["double"]["largest"].get<double>(), 2, 1e-12);
+  EXPECT_EQ(signals["double"]["unit"], "V");
+}
+
+TEST_F(Verbs, RunDrivesADiagramWithTheInputsOfRecordings) {
+  const Outcome outcome = hysteron(folder_.path(), {"run", "diagram.json", "--data", "dataset.json", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(folder_.has("out/traces/a.csv"));
+  EXPECT_TRUE(folder_.has("out/traces/b.csv"));
+  EXPECT_NEAR(result("out")["facts"]["traces"]["b.csv"]["sensor"]["largest"].get<double>(), 3.2,
+              1e-9);  // 1.5 * 2 + 0.2 um
+}
+
+TEST_F(Verbs, CompareOfAPerfectModelIsWithinItsToleranceAndOfAWrongOneIsNot) {
+  const std::vector<std::string> words{"compare", "diagram.json", "--data",      "dataset.json",
+                                       "-o",      "out",          "--tolerance", "1 nm"};
+  const Outcome good = hysteron(folder_.path(), words);
+  EXPECT_EQ(good.code, 0) << good.err << good.out;
+  auto wrong = words;
+  wrong.insert(wrong.end(), {"--set", "gain=1.4 um/V"});
+  const Outcome bad = hysteron(folder_.path(), wrong);
+  EXPECT_EQ(bad.code, 1) << bad.err;
+  EXPECT_NE(bad.out.find("OUTSIDE"), std::string::npos) << bad.out;
+  EXPECT_EQ(result("out")["facts"]["within_tolerance"], false);
+}
+
+TEST_F(Verbs, CompareGivesTheFiguresOfAKnownError) {
+  // The gain is too small by 0.1 um/V, so the residual is 0.1 um/V * u; u is a triangle 0..2 V whose rows repeat after
+  // 0.5 s.
+  const Outcome outcome = hysteron(
+      folder_.path(), {"compare", "diagram.json", "--data", "dataset.json", "-o", "out", "--set", "gain=1.4 um/V"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  double sum = 0, sum_u = 0, sum_uu = 0;
+  for (int i = 0; i < 150; ++i) {
+    const double phase = 0.02 * i - std::floor(0.02 * i);
+    const double u = phase < 0.5 ? 4 * phase : 4 - 4 * phase;
+    sum += 0.01 * u * u;
+    sum_u += u;
+    sum_uu += u * u;
+  }
+  const double rms = std::sqrt(sum / 150);
+  const double deviation = 1.5 * std::sqrt(sum_uu / 150 - (sum_u / 150) * (sum_u / 150));
+  bool seen = false;
+  for (const auto& m : result("out")["facts"]["metrics"]) {
+    if (m["recording"] != "b.csv") continue;
+    seen = true;
+    EXPECT_NEAR(m["rms"].get<double>(), rms, 1e-6);  // the CSV has six digits
+    EXPECT_NEAR(m["peak"].get<double>(), 0.2, 1e-6);
+    EXPECT_NEAR(m["nrmse"].get<double>(), rms / deviation, 1e-5);
+    EXPECT_NEAR(m["fit_percent"].get<double>(), 100 * (1 - rms / deviation), 1e-3);
+    EXPECT_EQ(m["unit"], "um");
+    EXPECT_EQ(m["rows"], 150);
+  }
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(Verbs, SharesOfEverySplitAddUpToAHundredPercent) {
+  ASSERT_EQ(hysteron(folder_.path(),
+                     {"compare", "diagram.json", "--data", "dataset.json", "-o", "out", "--set", "gain=1.4 um/V"})
+                .code,
+            0);
+  const json splits = result("out")["facts"]["splits"];
+  std::vector<std::string> by;
+  for (const auto& split : splits) {
+    double error = 0, rows = 0;
+    for (const auto& part : split["parts"]) {
+      error += part["share_of_squared_error"].get<double>();
+      rows += part["share_of_rows"].get<double>();
+    }
+    EXPECT_NEAR(error, 1, 1e-9) << split;
+    EXPECT_NEAR(rows, 1, 1e-9) << split;
+    by.push_back(split["by"]);
+  }
+  for (const char* variable : {"time", "level", "branch", "rate", "cycle"})
+    EXPECT_NE(std::find(by.begin(), by.end(), variable), by.end()) << variable;
+}
+
+TEST_F(Verbs, FitFindsTheGainAndWritesADiagramThatRuns) {
+  std::string text = lab::diagram();
+  text.replace(text.find("\"value\": 1.5"), 12, "\"value\": 1.2");
+  folder_.write("poor.json", text);
+  const Outcome outcome =
+      hysteron(folder_.path(), {"fit", "poor.json", "--data", "dataset.json", "--write", "good.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json parameter = result("poor.fit")["facts"]["parameters"][0];
+  EXPECT_EQ(parameter["parameter"], "gain");
+  EXPECT_EQ(parameter["unit"], "um/V");
+  EXPECT_NEAR(parameter["value"].get<double>(), 1.5, 1e-6);  // six digits in the CSV
+  EXPECT_LE(parameter["low95"].get<double>(), 1.5 + 1e-6);
+  EXPECT_GE(parameter["high95"].get<double>(), 1.5 - 1e-6);
+  for (const char* file : {"good.json", "poor.fit/fitted.json"})
+    EXPECT_EQ(
+        hysteron(folder_.path(), {"compare", file, "--data", "dataset.json", "--tolerance", "1 nm", "-o", "after"})
+            .code,
+        0)
+        << file;
+}
+
+TEST_F(Verbs, FitWithNothingFreeSaysHowToFreeSomething) {
+  std::string text = lab::diagram();
+  text.replace(text.find(", \"free\": true"), 14, "");
+  folder_.write("fixed.json", text);
+  const Outcome outcome = hysteron(folder_.path(), {"fit", "fixed.json", "--data", "dataset.json"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--free"), std::string::npos) << outcome.err;
+  EXPECT_EQ(hysteron(folder_.path(), {"fit", "fixed.json", "--data", "dataset.json", "--free", "gain"}).code, 0);
+}
+
+TEST_F(Verbs, AddPrintsTheChangeAndRemoveUndoesItToTheLetter) {
+  const Outcome shown = hysteron(folder_.path(), {"add", "creep", "diagram.json", "--at", "actuator"});
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find("+    \"actuator_creep\""), std::string::npos) << shown.out;
+  EXPECT_FALSE(folder_.has("next.json"));
+
+  ASSERT_EQ(hysteron(folder_.path(), {"add", "creep", "diagram.json", "--at", "actuator", "-o", "next.json"}).code, 0);
+  EXPECT_EQ(hysteron(folder_.path(), {"check", "next.json"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"remove", "creep", "next.json", "-o", "back.json"}).code, 0);
+  // Written by the same writer from the same value: compare with the original after one pass through the writer.
+  ASSERT_EQ(hysteron(folder_.path(), {"add", "dead_time", "diagram.json", "-o", "a.json"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"remove", "dead_time", "a.json", "-o", "once.json"}).code, 0);
+  EXPECT_EQ(folder_.read("back.json"), folder_.read("once.json"));
+}
+
+TEST_F(Verbs, AnEffectSwitchedOffGivesTheModelWithoutIt) {
+  ASSERT_EQ(hysteron(folder_.path(), {"add", "creep", "diagram.json", "--at", "actuator", "-o", "next.json"}).code, 0);
+  const Outcome off = hysteron(folder_.path(), {"compare", "next.json", "--data", "dataset.json", "--choose",
+                                                "actuator_creep=off", "--tolerance", "1 nm", "-o", "off"});
+  EXPECT_EQ(off.code, 0) << off.err << off.out;
+  const Outcome on =
+      hysteron(folder_.path(), {"compare", "next.json", "--data", "dataset.json", "--tolerance", "1 nm", "-o", "on"});
+  EXPECT_EQ(on.code, 1) << on.err << on.out;
+}
+
+TEST_F(Verbs, NewWritesAStarterThatFitsAStraightLineAndSaysWhatItAssumed) {
+  const Outcome outcome = hysteron(folder_.path(), {"new", "--from", "a.csv", "-o", "stage"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* file : {"stage/diagram.json", "stage/dataset.json", "stage/hysteron.project", "stage/a.csv"})
+    EXPECT_TRUE(folder_.has(file)) << file;
+  for (const char* said : {"inputs, by their names: u", "measured outputs, by their names: y", "60 %"})
+    EXPECT_NE(outcome.out.find(said), std::string::npos) << said << "\n" << outcome.out;
+  EXPECT_EQ(hysteron(folder_.path(), {"check", "stage/diagram.json", "--data", "stage/dataset.json"}).code, 0);
+  // The recording is a straight line: the starter describes it, to the five digits that it writes.
+  const Outcome compared = hysteron(folder_.path(), {"compare", "stage/diagram.json", "--data", "stage/dataset.json",
+                                                     "-o", "out", "--tolerance", "0.1 nm"});
+  EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
+  // A second time it would overwrite.
+  EXPECT_EQ(hysteron(folder_.path(), {"new", "--from", "a.csv", "-o", "stage"}).code, 2);
+}
+
+TEST_F(Verbs, TheSameInputGivesTheSameResult) {
+  for (const char* out : {"one", "two"})
+    ASSERT_EQ(hysteron(folder_.path(),
+                       {"compare", "diagram.json", "--data", "dataset.json", "--set", "gain=1.4 um/V", "-o", out})
+                  .code,
+              0);
+  EXPECT_EQ(folder_.read("one/result.json"), folder_.read("two/result.json"));
+  EXPECT_EQ(folder_.read("one/traces/a.csv"), folder_.read("two/traces/a.csv"));
+}
+
+TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
+  std::string text = lab::dataset();
+  text.replace(text.find("\"validate\"}"), 11, "\"validate\"},\n    {\"file\": \"c.csv\", \"role\": \"test\"}");
+  folder_.write("dataset.json", text);
+  folder_.write("c.csv", lab::recording(100, 50));  // 50 um off: it would be seen
+  ASSERT_EQ(hysteron(folder_.path(),
+                     {"compare", "diagram.json", "--data", "dataset.json", "--tolerance", "1 nm", "-o", "out"})
+                .code,
+            0);
+  EXPECT_FALSE(folder_.has("out/traces/c.csv"));
+}
+
+}  // namespace
+}  // namespace hysteron
