@@ -58,6 +58,8 @@ std::string element(const std::string& list, int index) { return fmt::format("{}
 
 namespace effects {
 
+void give(Node& block, const std::string& parameter, Value value) { block.parameters[parameter] = std::move(value); }
+
 double rounded(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double scale = std::pow(10.0, 2 - std::floor(std::log10(std::abs(value))));

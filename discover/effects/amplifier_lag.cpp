@@ -28,12 +28,12 @@ std::vector<Law> lag_laws(const Circumstances& at) {
   Law one;
   one.name = "one pole";
   one.block.type = "lag";
-  one.block.parameters["times"] = Value(NumberList{with_unit(at.shortest_step, parse_unit("s"))});
+  give(one.block, "times", NumberList{with_unit(at.shortest_step, parse_unit("s"))});
   one.free = {time_constant(at, 0)};
 
   Law two = one;
   two.name = "two poles";
-  two.block.parameters["times"] = Value(with_unit({at.shortest_step, at.shortest_step / 10}, parse_unit("s")));
+  give(two.block, "times", with_unit({at.shortest_step, at.shortest_step / 10}, parse_unit("s")));
   two.free = {time_constant(at, 0), time_constant(at, 1)};
   two.free[1].start = at.shortest_step / 10;
   return {one, two};

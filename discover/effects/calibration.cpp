@@ -50,8 +50,8 @@ Effect calibration() {
     Law law;
     law.name = at.gain_is_free ? "offset" : at.offset_is_free ? "gain" : "gain and offset";
     law.block.type = "calibration";
-    law.block.parameters["gain"] = Value(1.0);
-    law.block.parameters["offset"] = Value(with_unit(0.0, at.unit));
+    give(law.block, "gain", 1.0);
+    give(law.block, "offset", with_unit(0.0, at.unit));
     if (!at.gain_is_free) {
       LawParameter gain;
       gain.path = "gain";

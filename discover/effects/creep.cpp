@@ -69,8 +69,8 @@ Effect creep() {
       c.plausible_upper = 0.05;
       law.free.push_back(c);
     }
-    law.block.parameters["amounts"] = Value(std::move(amounts));
-    law.block.parameters["times"] = Value(with_unit(times, parse_unit("s")));
+    give(law.block, "amounts", std::move(amounts));
+    give(law.block, "times", with_unit(times, parse_unit("s")));
     return std::vector<Law>{law};
   };
   e.unseen = [](const Circumstances& at) -> std::string {

@@ -37,7 +37,7 @@ Effect dead_time() {
     Law law;
     law.name = "one delay";
     law.block.type = "dead_time";
-    law.block.parameters["delay"] = Value(with_unit(at.shortest_step, parse_unit("s")));
+    give(law.block, "delay", with_unit(at.shortest_step, parse_unit("s")));
     LawParameter delay;
     delay.path = "delay";
     delay.start = at.shortest_step;

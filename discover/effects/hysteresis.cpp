@@ -19,7 +19,7 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
   Law law;
   law.name = name;
   law.block.type = "prandtl_ishlinskii";
-  law.block.parameters["thresholds"] = Value(with_unit(thresholds, at.unit));
+  give(law.block, "thresholds", with_unit(thresholds, at.unit));
   NumberList weights{Number{1.0, {}}};
   if (!at.gain_is_free) {
     LawParameter own;
@@ -36,8 +36,8 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
     w.lower = 0;  // domains switch with the field, never against it
     law.free.push_back(w);
   }
-  law.block.parameters["weights"] = Value(std::move(weights));
-  law.block.parameters["sides"] = Value(sides);
+  give(law.block, "weights", std::move(weights));
+  give(law.block, "sides", sides);
   return law;
 }
 

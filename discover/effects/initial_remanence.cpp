@@ -30,7 +30,7 @@ Effect initial_remanence() {
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "one value";
-    law.block.parameters["before"] = Value(with_unit(0.0, at.unit));
+    give(law.block, "before", with_unit(0.0, at.unit));
     LawParameter before;
     before.path = "before";
     // Both signs: beyond a threshold the value no longer matters, so a fit sees no gradient there and must be scanned.

@@ -16,6 +16,8 @@ Effect dead_time();
 /// The laws that amplifier and sensor lag share: one pole, two poles.
 std::vector<Law> lag_laws(const Circumstances& at);
 std::string lag_summary(const Law& law, const std::vector<double>& values, const Circumstances& at);
+/// Gives a block a parameter.
+void give(Node& block, const std::string& parameter, Value value);
 /// Values from `from` to `to`, `per_decade` of them in each decade, rounded to three digits so that a file stays
 /// readable.
 std::vector<double> per_decade(double from, double to, double per_decade);

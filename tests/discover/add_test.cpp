@@ -1,0 +1,192 @@
+#include "discover/add.h"
+
+#include <gtest/gtest.h>
+
+#include "blocks/register_all.h"
+#include "engine/program.h"
+#include "io/diagram_file.h"
+
+namespace hysteron {
+namespace {
+
+Node node(const char* type, std::vector<Wire> in) {
+  Node n;
+  n.type = type;
+  n.in = std::move(in);
+  return n;
+}
+
+/// u -> plays -> stage -> sensor -> y, with a monitor that reads the drive too.
+Diagram stage() {
+  Diagram d;
+  d.title = "stage";
+  d.inputs["u"].unit = "V";
+  d.blocks["drive"] = node("gain", {{"", "u"}});
+  d.blocks["drive"].parameters["gain"] = Value("10");
+  d.blocks["actuator"] = node("prandtl_ishlinskii", {{"", "drive"}});
+  d.blocks["actuator"].parameters["thresholds"] = Value(NumberList{Number{0, "V"}, Number{5, "V"}});
+  d.blocks["actuator"].parameters["weights"] = Value(NumberList{Number{0.1, "um/V"}, Number{0.02, "um/V"}});
+  d.blocks["monitor"] = node("gain", {{"", "drive"}});
+  d.blocks["monitor"].parameters["gain"] = Value("0.01");
+  d.blocks["sensor"] = node("calibration", {{"", "actuator"}});
+  d.blocks["sensor"].parameters["gain"] = Value("1");
+  d.blocks["sensor"].parameters["offset"] = Value("0.3 um");
+  d.outputs["y"] = "sensor";
+  d.outputs["v"] = "monitor";
+  d.record = {"drive", "actuator"};
+  return d;
+}
+
+class AddedEffect : public ::testing::Test {
+ protected:
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+TEST_F(AddedEffect, StandsAsAChoiceRightBehindItsSourceAndEveryReaderReadsIt) {
+  const Added a = add_effect(stage(), registry, effects.get("creep"), "drive");
+  EXPECT_EQ(a.name, "drive_creep");
+  const auto names = a.diagram.blocks.names();
+  EXPECT_EQ(names, (std::vector<std::string>{"drive", "drive_creep", "actuator", "monitor", "sensor"}));
+  const Node& choice = *a.diagram.blocks.find("drive_creep");
+  EXPECT_EQ(choice.choose, "on");
+  EXPECT_EQ(choice.effect, "creep");
+  EXPECT_EQ(choice.in.front().from, "drive");
+  EXPECT_EQ(choice.from.find("off")->type, "pass");
+  EXPECT_EQ(choice.from.find("on")->type, "creep");
+  EXPECT_EQ(a.diagram.blocks.find("actuator")->in.front().from, "drive_creep");
+  EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, "drive_creep");
+  EXPECT_EQ(a.diagram.record, stage().record) << "what is recorded stays what it was";
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
+TEST_F(AddedEffect, AtAnOutputIsReadByTheOutput) {
+  const Added a = add_effect(stage(), registry, effects.get("sensor_lag"), "sensor");
+  EXPECT_EQ(*a.diagram.outputs.find("y"), "sensor_sensor_lag");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
+TEST_F(AddedEffect, AtAnInputOfTheDiagramStandsFirst) {
+  const Added a = add_effect(stage(), registry, effects.get("amplifier_lag"), "u");
+  EXPECT_EQ(a.diagram.blocks.names().front(), "u_amplifier_lag");
+  EXPECT_EQ(a.diagram.blocks.find("drive")->in.front().from, "u_amplifier_lag");
+}
+
+TEST_F(AddedEffect, AtAnInputPortLeavesOtherReadersAlone) {
+  const Added a = add_effect(stage(), registry, effects.get("dead_time"), "actuator.in");
+  EXPECT_EQ(a.diagram.blocks.find("actuator")->in.front().from, a.name);
+  EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, "drive");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
+TEST_F(AddedEffect, ComesAfterTheOneThatStandsOnTheWireAlready) {
+  const Added first = add_effect(stage(), registry, effects.get("amplifier_lag"), "u");
+  const Added second = add_effect(first.diagram, registry, effects.get("dead_time"), "u");
+  EXPECT_EQ(second.name, "u_dead_time");
+  EXPECT_EQ(second.diagram.blocks.find("u_dead_time")->in.front().from, "u_amplifier_lag");
+  EXPECT_EQ(second.diagram.blocks.find("drive")->in.front().from, "u_dead_time");
+  EXPECT_NO_THROW(compile(second.diagram, registry));
+}
+
+TEST_F(AddedEffect, IsRefusedWhereItStandsAlready) {
+  const Added first = add_effect(stage(), registry, effects.get("creep"), "drive");
+  try {
+    add_effect(first.diagram, registry, effects.get("creep"), "drive");
+    FAIL() << "the same effect twice at one place";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "effect_there");
+    EXPECT_FALSE(e.problems.front().cure.empty());
+  }
+}
+
+TEST_F(AddedEffect, AtAnUnknownPlaceNamesTheNearestSignal) {
+  try {
+    add_effect(stage(), registry, effects.get("creep"), "drve");
+    FAIL() << "no such signal";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "unknown_place");
+    EXPECT_NE(e.problems.front().cure.find("\"drive\""), std::string::npos) << e.problems.front().cure;
+  }
+}
+
+TEST_F(AddedEffect, IsTakenOutWithoutATrace) {
+  const Diagram before = stage();
+  for (const auto& effect : effects.list()) {
+    for (const auto& place : places_of(effect, before, registry)) {
+      Circumstances at;
+      at.unit = parse_unit("V");
+      const Added a = add_effect(before, registry, effect, effect.laws(at).front(), place);
+      EXPECT_EQ(diagram_text(remove_effect(a.diagram, a.name)), diagram_text(before))
+          << effect.id << " at " << place.at;
+      EXPECT_EQ(diagram_text(remove_effect(a.diagram, effect.id)), diagram_text(before))
+          << effect.id << " at " << place.at;
+    }
+  }
+}
+
+TEST_F(AddedEffect, OfTwoOnOneWireEitherCanBeTakenOut) {
+  const Added lag = add_effect(stage(), registry, effects.get("amplifier_lag"), "u");
+  const Added both = add_effect(lag.diagram, registry, effects.get("dead_time"), "u");
+  EXPECT_EQ(diagram_text(remove_effect(both.diagram, "dead_time")), diagram_text(lag.diagram));
+  const Added delay_alone = add_effect(stage(), registry, effects.get("dead_time"), "u");
+  EXPECT_EQ(diagram_text(remove_effect(both.diagram, "amplifier_lag")), diagram_text(delay_alone.diagram));
+}
+
+TEST_F(AddedEffect, ThatVariesABlockKeepsItsNameAndItsReaders) {
+  const Added a = add_effect(stage(), registry, effects.get("initial_remanence"), "actuator");
+  const Node& choice = *a.diagram.blocks.find("actuator");
+  EXPECT_EQ(choice.from.find("off")->parameters.find("before"), nullptr);
+  EXPECT_NE(choice.from.find("on")->parameters.find("before"), nullptr);
+  EXPECT_EQ(choice.in.front().from, "drive");
+  EXPECT_EQ(a.diagram.blocks.find("sensor")->in.front().from, "actuator");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
+TEST_F(AddedEffect, InsideADiagramChangesThatDiagramAndNamesItsNewFile) {
+  auto inner = std::make_shared<Diagram>(stage());
+  Diagram outer;
+  outer.inputs["w"].unit = "V";
+  Node n;
+  n.type = "diagram";
+  n.file = "stages/stage.json";
+  n.nested = inner;
+  n.in = {{"", "w"}};
+  outer.blocks["rig"] = n;
+  outer.outputs["y"] = "rig.y";
+  const Added a = add_effect(outer, registry, effects.get("creep"), "rig/actuator.in");
+  EXPECT_EQ(a.name, "rig/drive_creep");
+  ASSERT_EQ(a.nested.size(), 1u);
+  EXPECT_EQ(a.nested.front().first, "stages/stage_creep.json");
+  EXPECT_EQ(a.diagram.blocks.find("rig")->file, "stages/stage_creep.json");
+  const auto program = compile(a.diagram, registry);
+  EXPECT_GE(program->block_index("rig/drive_creep"), 0);
+  const Diagram back = remove_effect(a.diagram, "rig/drive_creep");
+  EXPECT_EQ(back.blocks.find("rig")->file, "stages/stage.json");
+  EXPECT_EQ(diagram_text(*back.blocks.find("rig")->nested), diagram_text(*inner));
+}
+
+TEST_F(AddedEffect, ThatIsNotThereCannotBeRemovedAndTheMessageSaysWhatIs) {
+  const Added a = add_effect(stage(), registry, effects.get("creep"), "drive");
+  try {
+    remove_effect(a.diagram, "hysteresis");
+    FAIL() << "nothing to remove";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "unknown_effect");
+    EXPECT_NE(e.problems.front().cure.find("drive_creep"), std::string::npos) << e.problems.front().cure;
+  }
+}
+
+TEST_F(AddedEffect, AddedTwiceIsAmbiguousByIdAndClearByName) {
+  const Added one = add_effect(stage(), registry, effects.get("creep"), "drive");
+  const Added two = add_effect(one.diagram, registry, effects.get("creep"), "actuator");
+  try {
+    remove_effect(two.diagram, "creep");
+    FAIL() << "two of them";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "ambiguous_effect");
+  }
+  EXPECT_EQ(diagram_text(remove_effect(two.diagram, two.name)), diagram_text(one.diagram));
+}
+
+}  // namespace
+}  // namespace hysteron

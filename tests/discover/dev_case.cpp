@@ -1,0 +1,171 @@
+#include "tests/discover/dev_case.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace hysteron::testing {
+namespace {
+
+using nlohmann::json;
+
+json read_json(const std::string& file) {
+  std::ifstream in(file);
+  return json::parse(in);
+}
+
+NumberList list_of(const json& values, const char* unit) {
+  NumberList list;
+  for (const auto& v : values) {
+    Number n;
+    n.value = v.get<double>();
+    if (*unit != 0) n.unit = unit;
+    list.push_back(n);
+  }
+  return list;
+}
+
+Number in(double value, const char* unit) {
+  Number n;
+  n.value = value;
+  n.unit = unit;
+  return n;
+}
+
+}  // namespace
+
+std::string shared(const std::string& path) { return std::string(HYSTERON_SHARED_DIR) + "/" + path; }
+bool shared_is_there() { return std::filesystem::is_directory(shared("hidden-effects/dev")); }
+
+DataSet data_from_json(const std::string& name, const std::string& text) {
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("hysteron_discover_{}", getpid());
+  std::filesystem::create_directories(folder);
+  const auto file = folder / (name + ".json");
+  std::ofstream(file) << text;
+  return read_dataset(file.string(), {shared("")});
+}
+
+Case dev_case(const std::string& id) {
+  const std::string folder = shared("hidden-effects/dev/" + id);
+  const json task = read_json(folder + "/task.json");
+  const auto& p = task.at("base_parameters");
+  Case c;
+  Diagram& d = c.diagram;
+  d.title = "case " + id;
+  d.inputs["u"].unit = "V";
+  if (task.at("base") == "B1") {
+    Node& plant = d.blocks["stage"];
+    plant.type = "transfer_function";
+    plant.parameters["gain"] = Value(in(p.at("gain_um_per_V"), "um/V"));
+    plant.parameters["num"] = Value(list_of(p.at("dynamics").at("num"), ""));
+    plant.parameters["den"] = Value(list_of(p.at("dynamics").at("den"), ""));
+    plant.in = {{"", "u"}};
+  } else {
+    Node& stage = d.blocks["stage"];
+    stage.type = "prandtl_ishlinskii";
+    stage.parameters["thresholds"] = Value(list_of(p.at("thresholds_V"), "V"));
+    stage.parameters["weights"] = Value(list_of(p.at("weights_um_per_V"), "um/V"));
+    stage.in = {{"", "u"}};
+  }
+  Node& sensor = d.blocks["sensor"];
+  sensor.type = "calibration";
+  sensor.parameters["gain"] = Value(1.0);
+  sensor.parameters["offset"] = Value(in(p.at("offset_um"), "um"));
+  sensor.in = {{"", "stage"}};
+  d.outputs["y"] = "sensor";
+
+  json data;
+  data["format"] = 1;
+  data["columns"]["u"] = {{"to", "u"}};
+  data["columns"]["y"] = {{"to", "y"},
+                          {"noise",
+                           {{"white", fmt::format("{} um", task.at("sensor").at("datasheet_noise_rms").get<double>())},
+                            {"resolution", fmt::format("{} um", task.at("sensor").at("lsb").get<double>())}}}};
+  for (const auto& f : task.at("files")) {
+    json r;
+    r["file"] = folder + "/" + f.at("file").get<std::string>();
+    r["role"] = f.at("role");
+    r["start"] = fmt::format("{} h", f.at("start_h").get<double>());
+    r["cycles_before"] = f.at("cycles_before");
+    data["recordings"].push_back(r);
+  }
+  c.data = data_from_json("dev_" + id, data.dump(1));
+  return c;
+}
+
+double noise_floor(const std::string& id) {
+  return read_json(shared("hidden-effects/dev/" + id + "/case.json"))
+             .at("expected")
+             .at("noise_floor_rms")
+             .get<double>() *
+         1e-6;
+}
+
+Case piezo_stack() {
+  Case c;
+  Diagram& d = c.diagram;
+  d.title = "piezo stack P-885.91, gain and offset";
+  d.inputs["u"].unit = "V";
+  DiagramParameter gain;
+  gain.value = Value(in(12, "um/V"));
+  gain.free = true;
+  d.parameters["gain"] = gain;
+  Node& stack = d.blocks["stack"];
+  stack.type = "gain";
+  stack.parameters["gain"] = Value(Reference{"gain"});
+  stack.in = {{"", "u"}};
+  d.outputs["y"] = "stack";
+  const std::string folder = shared("measured/piezo-stack-p885");
+  c.data = data_from_json("piezo_stack", fmt::format(R"({{"format": 1,
+  "columns": {{"u": {{"to": "u"}}, "y": {{"to": "y", "zero": "per_recording", "delay": "1 sample"}}}},
+  "recordings": [{{"file": "{0}/train_sine_1Hz.csv", "role": "train", "skip": "2 s"}},
+                 {{"file": "{0}/test_varying_amplitude.csv", "role": "validate", "skip": "2 s", "until": "37 s"}}]}})",
+                                                     folder));
+  return c;
+}
+
+Case heater() {
+  Case c;
+  Diagram& d = c.diagram;
+  d.title = "one heater, first order";
+  d.inputs["u1"].unit = "%";
+  const auto parameter = [&](const char* name, Number value, std::optional<Number> low, std::optional<Number> high) {
+    DiagramParameter p;
+    p.value = Value(std::move(value));
+    p.lower = std::move(low);
+    p.upper = std::move(high);
+    p.free = true;
+    d.parameters[name] = p;
+  };
+  parameter("gain", in(0.5, "K/%"), {}, {});
+  parameter("time_constant", in(100, "s"), in(5, "s"), in(2000, "s"));
+  parameter("ambient", in(26, "degC"), {}, {});
+  // K, not degC: what the heater adds is a difference.
+  Node& heater = d.blocks["heater"];
+  heater.type = "gain";
+  heater.parameters["gain"] = Value(Reference{"gain"});
+  heater.in = {{"", "u1"}};
+  Node& plant = d.blocks["plant"];
+  plant.type = "lag";
+  plant.parameters["times"] = Value(Reference{"time_constant"});
+  plant.in = {{"", "heater"}};
+  Node& room = d.blocks["room"];
+  room.type = "constant";
+  room.parameters["value"] = Value(Reference{"ambient"});
+  Node& sensor = d.blocks["sensor"];
+  sensor.type = "sum";
+  sensor.in = {{"", "plant"}, {"", "room"}};
+  d.outputs["T1"] = "sensor";
+  c.data = data_from_json(
+      "heater",
+      fmt::format(
+          R"({{"format": 1, "columns": {{"u1": {{"to": "u1", "between_samples": "hold"}}, "T1": {{"to": "T1"}}}},
+  "recordings": [{{"file": "{}/one_heater_steps.csv", "role": "train"}}]}})",
+          shared("measured/thermal-tclab")));
+  return c;
+}
+
+}  // namespace hysteron::testing

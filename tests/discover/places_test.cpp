@@ -1,0 +1,101 @@
+#include "discover/places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blocks/register_all.h"
+#include "discover/add.h"
+
+namespace hysteron {
+namespace {
+
+Node node(const char* type, std::vector<Wire> in) {
+  Node n;
+  n.type = type;
+  n.in = std::move(in);
+  return n;
+}
+
+/// u -> dynamics -> sensor(gain, offset) -> y
+Diagram linear_stage() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  d.blocks["stage"] = node("transfer_function", {{"", "u"}});
+  d.blocks["stage"].parameters["gain"] = Value("1.2 um/V");
+  d.blocks["stage"].parameters["num"] = Value(NumberList{Number{1, {}}});
+  d.blocks["stage"].parameters["den"] = Value(NumberList{Number{1e-3, {}}, Number{1, {}}});
+  d.blocks["sensor"] = node("calibration", {{"", "stage"}});
+  d.blocks["sensor"].parameters["gain"] = Value("1");
+  d.blocks["sensor"].parameters["offset"] = Value("0.4 um");
+  d.outputs["y"] = "sensor";
+  return d;
+}
+
+Diagram hysteretic_stage() {
+  Diagram d = linear_stage();
+  d.blocks["stage"] = node("prandtl_ishlinskii", {{"", "u"}});
+  d.blocks["stage"].parameters["thresholds"] = Value(NumberList{Number{0, "V"}, Number{1, "V"}});
+  d.blocks["stage"].parameters["weights"] = Value(NumberList{Number{1, "um/V"}, Number{0.2, "um/V"}});
+  return d;
+}
+
+class Places : public ::testing::Test {
+ protected:
+  std::vector<std::string> where(const char* effect, const Diagram& d) {
+    std::vector<std::string> list;
+    for (const auto& p : places_of(effects.get(effect), d, registry)) list.push_back(p.at);
+    return list;
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+TEST_F(Places, OfAChainAreTheDriveTheCoreAndTheSignalBeforeTheOffsetOfTheSensor) {
+  EXPECT_EQ(where("amplifier_lag", linear_stage()), std::vector<std::string>{"u"});
+  EXPECT_EQ(where("sensor_lag", linear_stage()), std::vector<std::string>{"stage"})
+      << "a lag must not act on the sensor's zero";
+  EXPECT_EQ(where("hysteresis", linear_stage()), (std::vector<std::string>{"u", "stage"}));
+  EXPECT_EQ(where("creep", linear_stage()), std::vector<std::string>{"stage"}) << "creep adds behind the core";
+  EXPECT_EQ(where("calibration", linear_stage()), std::vector<std::string>{"sensor"});
+}
+
+TEST_F(Places, OfAMemoryAreBeforeAndBehindIt) {
+  EXPECT_EQ(where("creep", hysteretic_stage()), std::vector<std::string>{"stage"});
+  EXPECT_EQ(where("initial_remanence", hysteretic_stage()), std::vector<std::string>{"stage"});
+  EXPECT_TRUE(where("initial_remanence", linear_stage()).empty()) << "nothing remembers there";
+}
+
+TEST_F(Places, ThatOnlyLinearBlocksSeparateCannotBeToldApartByALag) {
+  const auto lag = effects.get("amplifier_lag");
+  const auto in = places_of(lag, linear_stage(), registry).front();
+  const auto out = places_of(effects.get("sensor_lag"), linear_stage(), registry).front();
+  EXPECT_EQ(in.group_for(lag), out.group_for(lag));
+  const auto in_plays = places_of(lag, hysteretic_stage(), registry).front();
+  const auto out_plays = places_of(effects.get("sensor_lag"), hysteretic_stage(), registry).front();
+  EXPECT_NE(in_plays.group_for(lag), out_plays.group_for(lag))
+      << "a lag before plays is another thing than behind them";
+  const auto delay = effects.get("dead_time");
+  EXPECT_EQ(in_plays.group_for(delay), out_plays.group_for(delay))
+      << "a delay may change places with anything that has no clock";
+}
+
+TEST_F(Places, OfTheCommandStayBeforeAnEffectOfTheCoreThatWasFoundFirst) {
+  Circumstances at;
+  at.unit = parse_unit("V");
+  const auto& h = effects.get("hysteresis");
+  const Added a =
+      add_effect(linear_stage(), registry, h, h.laws(at).front(), places_of(h, linear_stage(), registry).front());
+  EXPECT_EQ(where("amplifier_lag", a.diagram), std::vector<std::string>{"u_hysteresis.in"});
+  EXPECT_TRUE(where("hysteresis", a.diagram).empty() || where("hysteresis", a.diagram).front() != "u")
+      << "it stands there already";
+}
+
+TEST_F(Places, NamedInTheDiagramGoBeforeThoseWorkedOut) {
+  Diagram d = linear_stage();
+  d.places["command"] = {"stage"};
+  EXPECT_EQ(where("amplifier_lag", d), std::vector<std::string>{"stage"});
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,77 @@
+// Discovery on recordings that nobody here made. Skipped, visibly, where ../shared is absent.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blocks/register_all.h"
+#include "discover/discover.h"
+#include "tests/discover/dev_case.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+
+class Recordings : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!shared_is_there()) GTEST_SKIP() << "../shared is not there: " << HYSTERON_SHARED_DIR;
+  }
+  Discovery found(const Case& c) { return discover(c.diagram, c.data, registry, effects); }
+  void expect_named(const std::string& id, const std::string& effect) {
+    const Discovery d = found(dev_case(id));
+    EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
+    ASSERT_FALSE(d.steps.empty());
+    EXPECT_EQ(d.steps.front().winner.effect, effect) << d.headline;
+    EXPECT_EQ(d.steps.size(), 1u) << d.headline;
+    EXPECT_EQ(to_text(d.remainder), "noise");
+    EXPECT_LE(d.final_error.rms_validate, 1.15 * noise_floor(id)) << d.headline;
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+TEST_F(Recordings, Case003LacksCreep) { expect_named("003", "creep"); }
+TEST_F(Recordings, Case006LacksHysteresis) { expect_named("006", "hysteresis"); }
+TEST_F(Recordings, Case010LacksCreep) { expect_named("010", "creep"); }
+TEST_F(Recordings, Case012LacksTheLagOfTheAmplifier) { expect_named("012", "amplifier_lag"); }
+
+TEST_F(Recordings, Case004IsAdequate) {
+  const Discovery d = found(dev_case("004"));
+  EXPECT_EQ(to_text(d.verdict), "adequate") << d.headline;
+  EXPECT_TRUE(d.steps.empty());
+}
+
+TEST_F(Recordings, Case008JumpsWithoutAnyKnownCause) {
+  const Discovery d = found(dev_case("008"));
+  EXPECT_EQ(to_text(d.verdict), "unexplained") << d.headline;
+  ASSERT_TRUE(d.structure.has_value());
+  EXPECT_EQ(d.structure->kind, "jumps");
+}
+
+TEST_F(Recordings, PiezoStackLacksHysteresisAndNotALag) {
+  const Discovery d = found(piezo_stack());
+  EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
+  ASSERT_FALSE(d.steps.empty());
+  EXPECT_EQ(d.steps.front().winner.effect, "hysteresis") << d.headline;
+  EXPECT_NEAR(d.base.nrmse_validate, 0.183, 0.005) << "its README: 18.3 %";
+  EXPECT_LE(d.steps.front().after.nrmse_validate, 0.04);
+  EXPECT_LE(d.final_error.nrmse_validate, 0.04);
+}
+
+TEST_F(Recordings, HeaterLacksALagOrADeadTimeAndNobodyCanTell) {
+  const Discovery d = found(heater());
+  EXPECT_EQ(to_text(d.verdict), "not_distinguishable") << d.headline;
+  ASSERT_EQ(d.steps.size(), 1u) << d.headline;
+  std::vector<std::string> all{d.steps.front().winner.effect};
+  for (const auto& t : d.steps.front().ties) all.push_back(t.effect);
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, (std::vector<std::string>{"amplifier_lag", "dead_time"}));
+  EXPECT_NEAR(d.base.nrmse_validate, 0.39, 0.02) << "its README: 39 %";
+  EXPECT_LE(d.final_error.nrmse_validate, 0.06);
+  EXPECT_TRUE(d.experiment.has_value());
+  EXPECT_FALSE(d.warnings.empty()) << "a single recording is weak evidence, and that is said";
+}
+
+}  // namespace
+}  // namespace hysteron

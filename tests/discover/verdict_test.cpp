@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blocks/register_all.h"
+#include "discover/discover.h"
+#include "discover/rows.h"
+#include "io/diagram_file.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+class Verdicts : public ::testing::Test {
+ protected:
+  Discovery found(const Diagram& d, const DataSet& data) { return discover(d, data, registry, effects); }
+  static std::vector<std::string> names(const Discovery& d) {
+    std::vector<std::string> list;
+    for (const auto& s : d.steps) list.push_back(s.winner.effect);
+    return list;
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+std::vector<double> plus(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
+  return a;
+}
+
+/// Bouc-Wen hysteresis by small Euler steps: another law than the plays that hysteron inserts.
+std::vector<double> bouc_wen_response(const std::vector<double>& u, double share) {
+  std::vector<double> y;
+  double z = 0;
+  double before = u.front();
+  for (const double now : u) {
+    const int parts = 50;
+    for (int k = 0; k < parts; ++k) {
+      const double dv = (now - before) / parts;
+      z += dv * (share - 1.2 * share * 0.9 * (dv >= 0 ? 1 : -1) * z / share - 0.1 * std::abs(z));
+    }
+    y.push_back(now - z * 0.5);
+    before = now;
+  }
+  return y;
+}
+
+TEST_F(Verdicts, AModelsOwnOutputWithWhiteNoiseIsAdequateForTwentySeeds) {
+  Diagram d = plain_gain();
+  d.blocks["stage"].type = "prandtl_ishlinskii";
+  d.blocks["stage"].parameters = {};
+  d.blocks["stage"].parameters["thresholds"] =
+      Value(NumberList{Number{0, "V"}, Number{0.1, "V"}, Number{0.3, "V"}, Number{0.6, "V"}});
+  d.blocks["stage"].parameters["weights"] =
+      Value(NumberList{Number{1, "m/V"}, Number{0.1, "m/V"}, Number{0.1, "m/V"}, Number{0.1, "m/V"}});
+  const auto program = compile(d, registry);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const double slow = seed % 2 == 0 ? 0.3e-2 : 0;  // every other seed has a little 1/f noise too
+    std::vector<Recording> list;
+    int k = 0;
+    for (const Role role : {Role::train, Role::train, Role::validate}) {
+      const auto t = rows(600, k == 1 ? 0.05 : 0.01);
+      const auto u = k == 0   ? decaying_triangle(t, 1, 4)
+                     : k == 1 ? levels(t, {0.5, 1, 0.2, 0.7})
+                              : several_sines(t, 1, {0.7, 1.9});
+      const auto series = std::make_shared<const Series>(Series{t, u, Between::linear});
+      const auto y = simulate_rows(program, {series}, t, program->output_signals, true).front();
+      list.push_back(recording(std::to_string(k) + ".csv", role, t, u,
+                               plus(y, noise(t.size(), 1e-2, slow, 100 * seed + static_cast<std::uint64_t>(k)))));
+      ++k;
+    }
+    const Discovery result = found(d, data_set(list, 1e-2));
+    EXPECT_EQ(to_text(result.verdict), "adequate") << "seed " << seed << ": " << result.headline;
+    EXPECT_TRUE(result.steps.empty()) << "seed " << seed;
+    EXPECT_EQ(diagram_text(result.final_diagram), diagram_text(d)) << "nothing was added";
+  }
+}
+
+TEST_F(Verdicts, AnotherLawOfHysteresisIsNamedAndTheErrorFallsToTheNoise) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 7;
+  const auto add = [&](Role role, const std::vector<double>& t, const std::vector<double>& u) {
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u,
+                             plus(bouc_wen_response(u, 0.4), noise(t.size(), 3e-3, 0, seed))));
+    ++seed;
+  };
+  add(Role::train, rows(800, 0.01), decaying_triangle(rows(800, 0.01), 1, 5));
+  add(Role::train, rows(800, 0.002), several_sines(rows(800, 0.002), 1, {2.5, 7.5}));
+  add(Role::validate, rows(800, 0.005), several_sines(rows(800, 0.005), 1, {0.5, 1.25}));
+  const Discovery d = found(plain_gain(), data_set(list, 3e-3));
+  EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
+  ASSERT_EQ(names(d), std::vector<std::string>{"hysteresis"});
+  // Ten plays approximate the Bouc-Wen branch to about a hundredth of the loop: a few noises at most.
+  EXPECT_LT(d.final_error.rms_validate, 2 * 3e-3);
+  EXPECT_LT(d.final_error.rms_validate, 0.2 * d.base.rms_validate);
+  ASSERT_EQ(effects_in(d.final_diagram).size(), 1u);
+}
+
+TEST_F(Verdicts, LogarithmicCreepIsNamedWithItsAmountPerDecade) {
+  // y = sum of steps du (1 + gamma log10(1 + t / 10 ms)): no relaxations in it.
+  const double gamma = 0.03;
+  std::vector<Recording> list;
+  std::uint64_t seed = 40;
+  for (const auto& [role, step, values] : {std::tuple{Role::train, 0.05, std::vector<double>{1, 0.3, 0.8, 0}},
+                                           {Role::train, 0.01, {0.4, 1, 0.1}},
+                                           {Role::validate, 0.04, {0.7, 0.2, 1, 0.5}}}) {
+    const auto t = rows(1000, step);
+    const auto u = levels(t, values);
+    std::vector<double> y;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      double sum = u[k];
+      for (std::size_t j = 1; j <= k; ++j)
+        if (u[j] != u[j - 1]) sum += gamma * (u[j] - u[j - 1]) * std::log10(1 + (t[k] - t[j] + step / 2) / 0.01);
+      y.push_back(sum);
+    }
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 1e-3, 0.2e-3, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
+  ASSERT_FALSE(d.steps.empty());
+  EXPECT_EQ(d.steps.front().winner.effect, "creep");
+  EXPECT_LT(d.final_error.rms_validate, 1.5e-3) << "noise 1.02e-3";
+  EXPECT_NE(d.steps.front().winner.summary.find("per decade"), std::string::npos) << d.steps.front().winner.summary;
+}
+
+TEST_F(Verdicts, ALagSeenAtOneFrequencyAloneCannotBeToldFromADelayAndAnExperimentIsNamed) {
+  // At one frequency a lag is a phase and a gain, and so is a delay with a gain. The gain is the user's, and free.
+  const double f = 2;
+  const double tau = 0.01;
+  std::vector<Recording> list;
+  std::uint64_t seed = 3;
+  for (const Role role : {Role::train, Role::validate}) {
+    const auto t = rows(1000, 0.004);
+    const double a = role == Role::train ? 1.0 : 0.6;
+    const auto u = sampled(t, [&](double x) { return a * std::sin(2 * pi * f * x); });
+    // Steady state of tau y' = u - y plus its start from rest.
+    const double w = 2 * pi * f * tau;
+    const auto y = sampled(t, [&](double x) {
+      return a / (1 + w * w) * (std::sin(2 * pi * f * x) - w * std::cos(2 * pi * f * x) + w * std::exp(-x / tau));
+    });
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 2e-2, 0, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 2e-2));
+  EXPECT_EQ(to_text(d.verdict), "not_distinguishable") << d.headline;
+  ASSERT_EQ(d.steps.size(), 1u);
+  std::vector<std::string> all{d.steps.front().winner.effect};
+  for (const auto& t : d.steps.front().ties) all.push_back(t.effect);
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, (std::vector<std::string>{"amplifier_lag", "dead_time"}));
+  ASSERT_TRUE(d.experiment.has_value());
+  EXPECT_GT(d.experiment->separation, 1);
+  EXPECT_FALSE(d.experiment->text.empty());
+}
+
+TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 11;
+  std::vector<double> first_jumps;
+  for (const Role role : {Role::train, Role::train, Role::validate, Role::validate}) {
+    const auto t = rows(1000, 0.01);
+    const auto u = several_sines(t, 1, {0.3, 0.7});
+    std::mt19937_64 engine(seed);
+    std::exponential_distribution<double> wait(1.0);
+    double next = wait(engine);
+    double level = 1;
+    std::vector<double> y;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      if (t[k] > next) {
+        level = -level;
+        next += wait(engine);
+        if (list.empty()) first_jumps.push_back(t[k]);
+      }
+      y.push_back(u[k] + 0.02 * level);
+    }
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 1e-3, 0, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  EXPECT_EQ(to_text(d.verdict), "unexplained") << d.headline;
+  EXPECT_TRUE(d.steps.empty());
+  EXPECT_EQ(to_text(d.remainder), "structured");
+  ASSERT_TRUE(d.structure.has_value());
+  EXPECT_EQ(d.structure->kind, "jumps");
+  // Every true jump lies in an interval that was told.
+  const auto& intervals = d.structure->intervals.front().second;
+  for (const double t : first_jumps)
+    EXPECT_TRUE(std::any_of(intervals.begin(), intervals.end(),
+                            [&](const auto& i) { return t >= i.first - 0.011 && t <= i.second + 0.011; }))
+        << t << " s";
+}
+
+TEST_F(Verdicts, AWrongGainIsACalibrationAndNothingElse) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 5;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(600, 0.01);
+    const auto u = several_sines(t, 1, {0.4, 1.1 + 0.3 * static_cast<double>(list.size())});
+    auto y = u;
+    for (auto& v : y) v = 1.02 * v + 0.01;
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 1e-3, 0, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
+  EXPECT_EQ(names(d), std::vector<std::string>{"calibration"});
+  ASSERT_FALSE(d.steps.empty());
+  EXPECT_TRUE(d.steps.front().ties.empty());
+  for (const auto& p : d.steps.front().winner.found)
+    if (p.estimate.path.ends_with(".gain"))
+      EXPECT_NEAR(p.estimate.used, 1.02, 4 * 1e-3 / std::sqrt(1200 * 0.08));  // four standard deviations
+}
+
+TEST_F(Verdicts, WhatTheDataCannotShowIsRefusedWithTheReason) {
+  std::vector<Recording> list;
+  for (const Role role : {Role::train, Role::validate}) {
+    const auto t = rows(400, 0.01);
+    const auto u = several_sines(t, 1, {0.4, 1.1});
+    list.push_back(recording(role == Role::train ? "a" : "b", role, t, u,
+                             plus(u, noise(t.size(), 1e-3, 0, role == Role::train ? 1 : 2))));
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  const auto refused = [&](const std::string& id) {
+    for (const auto& r : d.refused)
+      if (r.effect == id) return r.reason;
+    return std::string();
+  };
+  EXPECT_NE(refused("creep").find("hold"), std::string::npos) << refused("creep");
+  EXPECT_NE(refused("initial_remanence").find("memory"), std::string::npos) << refused("initial_remanence");
+}
+
+TEST_F(Verdicts, TheSameQuestionHasTheSameAnswer) {
+  const auto t = rows(400, 0.01);
+  const auto u = several_sines(t, 1, {0.4, 1.1});
+  auto y = bouc_wen_response(u, 0.4);
+  const DataSet data = data_set({recording("a", Role::train, t, u, plus(y, noise(t.size(), 1e-3, 0, 1))),
+                                 recording("b", Role::validate, t, u, plus(y, noise(t.size(), 1e-3, 0, 2)))},
+                                1e-3);
+  const Discovery a = found(plain_gain(), data);
+  const Discovery b = found(plain_gain(), data);
+  EXPECT_EQ(diagram_text(a.final_diagram), diagram_text(b.final_diagram));
+  EXPECT_EQ(a.headline, b.headline);
+}
+
+TEST_F(Verdicts, WithoutARecordingToJudgeOnThereIsNoDiscovery) {
+  const auto t = rows(400, 0.01);
+  const auto u = several_sines(t, 1, {0.4, 1.1});
+  try {
+    found(plain_gain(), data_set({recording("a", Role::train, t, u, u)}, 1e-3));
+    FAIL() << "nothing to judge on";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "no_validation");
+    EXPECT_FALSE(e.problems.front().cure.empty());
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
