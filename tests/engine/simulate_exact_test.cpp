@@ -88,6 +88,20 @@ TEST(ExactAndCvode, AgreeOnADeadTime) {
   EXPECT_LT(disagreement(behind, Between::linear, 1e-6, true), 20e-6);
 }
 
+TEST(ExactAndCvode, AgreeOnWhichSideOfAHeldSampleADeadTimeShows) {
+  // 7 ms is a whole number of rows: every row looks back at a jump, and must see the value behind it.
+  const auto d = diagram({{"y", block("dead_time", {{"delay", "7 ms"}}, {"u"})}}, {"y"}, {{"u", "V"}});
+  EXPECT_EQ(disagreement(d, Between::hold, 1e-6, true), 0);
+  const auto program = compiled(d);
+  auto run = start(*program);
+  const auto u = recording(Between::hold);
+  bind_input(*program, run, "u", u);
+  SimulateOptions options;
+  options.instants = u->t;
+  const auto traces = simulate(*program, run, options);
+  for (std::size_t k = 0; k < u->t.size(); ++k) EXPECT_EQ(trace(traces)[k], u->v[k < 7 ? 0 : k - 7]) << "row " << k;
+}
+
 TEST(ExactAndCvode, TheExactOneTakesOverOnlyWhereEverySourceIsARecording) {
   const auto program = compiled(diagram({{"w", block("sine", {{"amplitude", "1 V"}, {"frequency", "3 Hz"}})},
                                          {"s", block("sum", {}, {"u", "w"})},
