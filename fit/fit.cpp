@@ -130,7 +130,7 @@ void Fitting::prepare_result() {
     ParameterEstimate e;
     e.parameter = f.parameter;
     e.path = info.path;
-    e.unit = info.unit;
+    e.unit = parameter_unit(model_.program(), info);
     e.difference = info.difference;
     e.start = e.used = f.start;
     e.lower = f.lower;
@@ -311,16 +311,18 @@ void Fitting::find_intervals() {
       largest;  // elements of one list share their size: a weight of zero is small against the others
   for (const auto& e : result_.estimates)
     if (const auto list = list_of(e.path); !list.empty()) largest[list] = std::max(largest[list], std::abs(e.used));
-  const auto add = [&](int index, const double* column) {
+  const auto add = [&](int index, const double* column, double sign) {
     const auto& e = result_.estimates[static_cast<std::size_t>(index)];
     if (e.at_lower || e.at_upper) return;  // held by its bound
     Sensitive s{index, e.log_scale, e.used, std::max(std::abs(e.used), std::abs(e.start)), e.lower, e.upper};
     if (const auto list = list_of(e.path); !list.empty()) s.size = std::max(s.size, largest[list]);
     columns.push_back(s);
-    jacobian.insert(jacobian.end(), column, column + rows);
+    for (std::size_t i = 0; i < rows; ++i) jacobian.push_back(sign * column[i]);
   };
-  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k) add(projection_->nonlinear()[k], nonlinear.col(k));
-  for (std::size_t j = 0; j < projection_->linear().size(); ++j) add(projection_->linear()[j], best_->columns.col(j));
+  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k)
+    add(projection_->nonlinear()[k], nonlinear.col(k), 1);
+  for (std::size_t j = 0; j < projection_->linear().size(); ++j)
+    add(projection_->linear()[j], best_->columns.col(j), -1);
   for (double& x : jacobian)
     if (!std::isfinite(x)) return;
   NormalForm normal(static_cast<int>(columns.size()));

@@ -109,4 +109,8 @@ class DataModel {
 /// Index of a parameter; throws Error "unknown_parameter" with the nearest name.
 int parameter_index(const Program& program, const std::string& path);
 
+/// The unit in which people see a parameter: as written; where none was written (a zero, a default) and the block
+/// leaves its unit to the wires ("$b/$a"), the one that the wires give it.
+Unit parameter_unit(const Program& program, const ParameterInfo& parameter);
+
 }  // namespace hysteron

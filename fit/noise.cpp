@@ -99,7 +99,7 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
   NoiseModel noise = before;
   for (std::size_t o = 0; o < noise.outputs.size(); ++o) {
     NoiseOfOutput& n = noise.outputs[o];
-    std::vector<double> high, middle;
+    std::vector<double> high, low;
     for (const int r : recordings) {
       const Rows& measured = model.measured(r, static_cast<int>(o));
       const auto& predicted = best.y[static_cast<std::size_t>(r)];
@@ -110,7 +110,7 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
       std::vector<double> w(whitener.size());
       whitener.apply(residual, w.data());
       high.push_back(level(w, whitener.upper_half(), w.size()));
-      middle.push_back(level(w, whitener.upper_half() / 2, whitener.upper_half()));
+      low.push_back(level(w, whitener.upper_half() / 8, whitener.upper_half() / 4));
     }
     if (high.empty()) continue;
     double s2 = median(high);
@@ -121,8 +121,10 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
       n.source = NoiseSource::estimated;
       n.remark = "the data set does not say how noisy this output is: estimated from the high band of the residual";
       // White noise has the same level in both bands (a median of some hundred squares scatters by some per cent).
-      if (median(middle) > 4 * s2)
-        n.remark += "; the recordings are smoother than their sampling, so the true noise may be larger";
+      if (median(low) > 4 * s2)
+        n.remark +=
+            "; the residual is smoother than its sampling (a filtered sensor, or structure), so the true noise may be "
+            "larger";
     }
     n.white = std::max(n.white * std::sqrt(s2), floor_of(model, static_cast<int>(o), n.resolution));
   }

@@ -261,7 +261,11 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
     double* column = columns.col(k);
     whiten_difference(up, down, -1 / (forward[k] - backward[k]), column);
     clear(point, column);
-    if (projected) clear_of(basis, column);
+    if (!projected) continue;
+    const double before = length(column, rows_);
+    clear_of(basis, column);
+    // What the linear parameters make up for completely is rounding: a search must not follow it.
+    if (length(column, rows_) < (exact ? 1e-7 : 1e-4) * before) std::fill(column, column + rows_, 0.0);
   }
   return true;
 }

@@ -13,8 +13,8 @@ namespace {
 
 double rounded(double x, int digits) { return std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr); }
 
-double shown(const ParameterInfo& info, double si) {
-  return info.difference ? info.unit.difference_from_si(si) : info.unit.from_si(si);
+double shown(const Unit& unit, bool difference, double si) {
+  return difference ? unit.difference_from_si(si) : unit.from_si(si);
 }
 
 /// Splits "core.weights[2]" into "core.weights" and 2 (-1 without an index).
@@ -25,22 +25,27 @@ std::pair<std::string, int> without_index(const std::string& path) {
 }
 
 /// Puts a number into a value, keeping the unit that was written there.
-void put(Value& value, int index, double number, const std::string& unit_if_new) {
+void put(Value& value, int index, double number, const Unit& unit, bool worked_out) {
+  Number* old = std::get_if<Number>(&value.content);
   if (auto* list = std::get_if<NumberList>(&value.content); list != nullptr && index >= 0) {
-    if (static_cast<std::size_t>(index) < list->size()) (*list)[static_cast<std::size_t>(index)].value = number;
-    return;
+    if (static_cast<std::size_t>(index) >= list->size()) return;
+    old = &(*list)[static_cast<std::size_t>(index)];
   }
-  if (auto* old = std::get_if<Number>(&value.content)) {
-    old->value = number;
-    return;
+  if (old == nullptr) {
+    value = Value(Number{});
+    old = std::get_if<Number>(&value.content);
+    worked_out = true;
   }
-  value = Value(unit_if_new.empty() ? Number{number, {}} : Number{number, unit_if_new});
+  old->value = number;
+  if (worked_out && !old->unit && !unit.text.empty())
+    old->unit = unit.text;  // a plain zero needed none, this number does
 }
 
 class Writer {
  public:
-  Writer(const ParameterInfo& info, double number, std::vector<std::pair<std::string, Diagram>>* nested)
-      : info_(info), number_(number), nested_(nested) {}
+  Writer(const ParameterInfo& info, const Unit& unit, double number,
+         std::vector<std::pair<std::string, Diagram>>* nested)
+      : info_(info), unit_(unit), number_(number), nested_(nested) {}
 
   void write(Diagram& diagram, const std::string& path) const {
     const auto slash = path.find('/');
@@ -50,13 +55,15 @@ class Writer {
     if (dot == std::string::npos) {
       DiagramParameter* parameter = diagram.parameters.find(name);
       if (parameter == nullptr) lost();
-      return put(parameter->value, index, number_, info_.unit.text);
+      return put_here(parameter->value, index);
     }
     Node* node = body(diagram, name.substr(0, dot));
     write_at(*node, name.substr(dot + 1), index);
   }
 
  private:
+  void put_here(Value& value, int index) const { put(value, index, number_, unit_, info_.unit.text.empty()); }
+
   [[noreturn]] void lost() const {
     fail("unknown_parameter", info_.path, fmt::format("the diagram has no place for \"{}\"", info_.path),
          "write the value by hand");
@@ -73,7 +80,7 @@ class Writer {
     if (node.parameters.find(parameter) == nullptr)
       if (const Value* from_file = node.parameters_from_file.find(parameter))
         node.parameters[parameter] = *from_file;  // the set keeps its own value, this block gets another
-    put(node.parameters[parameter], index, number_, info_.unit.text);
+    put_here(node.parameters[parameter], index);
   }
 
   void write_nested(Diagram& diagram, const std::string& block, const std::string& rest) const {
@@ -84,7 +91,7 @@ class Writer {
       // A parameter of the nested diagram is given where the diagram is used; its file stays as it is.
       if (node->parameters.find(name) == nullptr)
         if (const DiagramParameter* inner = node->nested->parameters.find(name)) node->parameters[name] = inner->value;
-      return put(node->parameters[name], index, number_, info_.unit.text);
+      return put_here(node->parameters[name], index);
     }
     auto copy = std::make_shared<Diagram>(*node->nested);
     write(*copy, rest);
@@ -110,6 +117,7 @@ class Writer {
   }
 
   const ParameterInfo& info_;
+  const Unit& unit_;
   double number_;
   std::vector<std::pair<std::string, Diagram>>* nested_;
 };
@@ -121,22 +129,21 @@ Diagram with_parameters(const Diagram& diagram, const Program& program, const st
   Diagram result = diagram;
   for (const auto& v : values) {
     const auto& info = program.parameters[static_cast<std::size_t>(v.parameter)];
-    Writer(info, rounded(shown(info, v.value), digits), nested).write(result, info.path);
+    const Unit unit = parameter_unit(program, info);
+    Writer(info, unit, rounded(shown(unit, info.difference, v.value), digits), nested).write(result, info.path);
   }
   return result;
 }
 
-std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data) {
+std::string parameter_file_text(const FitResult& result, const Program&, const DataSet& data) {
   using nlohmann::ordered_json;
   ordered_json set = ordered_json::object();
   for (const auto& e : result.estimates) {
     if (!e.value) continue;  // what the data do not determine has no value
-    const auto& info = program.parameters[static_cast<std::size_t>(e.parameter)];
-    ordered_json one = {{"value", rounded(shown(info, *e.value), 8)}, {"unit", e.unit.text}};
-    const auto difference = [&](double si) { return rounded(info.unit.difference_from_si(si), 4); };
-    if (e.sigma) one["std"] = difference(*e.sigma);
-    if (e.low95 && e.high95)
-      one["interval_95"] = {rounded(shown(info, *e.low95), 6), rounded(shown(info, *e.high95), 6)};
+    const auto number = [&](double si, int digits) { return rounded(shown(e.unit, e.difference, si), digits); };
+    ordered_json one = {{"value", number(*e.value, 8)}, {"unit", e.unit.text}};
+    if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
+    if (e.low95 && e.high95) one["interval_95"] = {number(*e.low95, 6), number(*e.high95, 6)};
     if (e.at_lower || e.at_upper) one["at_bound"] = e.at_lower ? "lower" : "upper";
     set[e.path] = std::move(one);
   }

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fit/compare.h"
+#include "tests/fit/lab.h"
+
+namespace hysteron {
+namespace {
+
+struct Case {
+  Rows t, u, residual;
+};
+
+Case triangle_case() {
+  Case c;
+  lab::Noise random(4);
+  for (int i = 0; i < 400; ++i) {
+    const int phase = i % 200;
+    c.t.push_back(0.01 * i);
+    c.u.push_back(phase < 100 ? 0.01 * phase : 2 - 0.01 * phase);
+    c.residual.push_back((phase < 100 ? 0.1 : 1.0) * random());
+  }
+  return c;
+}
+
+const Split& split(const std::vector<Split>& list, const std::string& variable) {
+  for (const auto& s : list)
+    if (s.variable == variable) return s;
+  throw std::runtime_error("no split by " + variable);
+}
+
+TEST(Splits, SharesOfErrorAndOfRowsAddUpToOneInEverySplit) {
+  const auto c = triangle_case();
+  Case d;  // a second recording of other length, with holds and steps
+  for (int i = 0; i < 90; ++i) {
+    d.t.push_back(0.5 * i);
+    d.u.push_back(i / 30);
+    d.residual.push_back(0.3 * (i % 30));
+  }
+  for (const auto& recordings :
+       {std::vector<SplitInput>{{&c.t, &c.u, &c.residual, "a"}},
+        std::vector<SplitInput>{{&c.t, &c.u, &c.residual, "a"}, {&d.t, &d.u, &d.residual, "b"}}}) {
+    const auto splits = splits_of(recordings, "u", parse_unit("V"));
+    EXPECT_EQ(splits.size(), recordings.size() > 1 ? 6U : 5U);
+    for (const auto& s : splits) {
+      double error = 0, rows = 0;
+      for (const auto& p : s.parts) {
+        error += p.error;
+        rows += p.rows;
+      }
+      EXPECT_NEAR(error, 1, 1e-12) << s.variable;
+      EXPECT_NEAR(rows, 1, 1e-12) << s.variable;
+    }
+  }
+}
+
+TEST(Splits, TheOneThatTellsMostComesFirstAndSaysWhere) {
+  const auto c = triangle_case();
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
+  EXPECT_EQ(splits.front().variable, "branch");
+  // Noise ten times larger while falling: 100/101 of the squared error, on about half of the rows.
+  EXPECT_NEAR(split(splits, "branch").parts[1].error, 100.0 / 101, 0.01);
+  EXPECT_NE(
+      splits.front().sentence.find("% of the squared error lies on the falling branch, which holds 50 % of the rows"),
+      std::string::npos)
+      << splits.front().sentence;
+}
+
+TEST(Splits, AnEvenErrorTellsNothing) {
+  auto c = triangle_case();
+  for (double& e : c.residual) e = 1;
+  for (const auto& s : splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")))
+    EXPECT_NEAR(s.information, 0, 1e-12) << s.variable;
+}
+
+TEST(Splits, ATriangleHasOneRateAndHenceOneMovingPart) {
+  const auto c = triangle_case();
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
+  // At the corners the central difference is zero, everywhere else 1 V/s.
+  EXPECT_LE(split(splits, "rate").parts.size(), 3U);
+}
+
+TEST(Splits, NoErrorAtAllIsSpreadAsTheRowsAre) {
+  auto c = triangle_case();
+  for (double& e : c.residual) e = 0;
+  for (const auto& s : splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")))
+    for (const auto& p : s.parts) EXPECT_EQ(p.error, p.rows);
+}
+
+TEST(Splits, WithoutAnInputOnlyTimeIsSplit) {
+  const auto c = triangle_case();
+  const auto splits = splits_of({{&c.t, nullptr, &c.residual, "a"}}, "", Unit{});
+  ASSERT_EQ(splits.size(), 1U);
+  EXPECT_EQ(splits[0].variable, "time");
+}
+
+TEST(Metrics, NrmseIsTheRmsOverTheDeviationOfWhatWasMeasured) {
+  // Measured 0, 2, 0, 2: mean 1, deviation 1. Residual 0.5 everywhere: rms 0.5, so 50 % and fit 50 %.
+  const auto m = metrics_of({0, 2, 0, 2}, {0.5, -0.5, 0.5, -0.5});
+  EXPECT_EQ(m.rows, 4U);
+  EXPECT_NEAR(m.rms, 0.5, 1e-15);
+  EXPECT_NEAR(m.deviation, 1, 1e-15);
+  EXPECT_NEAR(m.nrmse, 0.5, 1e-15);
+  EXPECT_NEAR(m.fit, 50, 1e-13);
+  EXPECT_EQ(m.peak, 0.5);
+}
+
+TEST(Metrics, AMeasuredConstantHasNoNrmse) { EXPECT_TRUE(std::isinf(metrics_of({1, 1, 1}, {1, 0, 0}).nrmse)); }
+
+}  // namespace
+}  // namespace hysteron
