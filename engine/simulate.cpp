@@ -43,6 +43,7 @@ class Simulation {
   void pass_corner();
   void turn_back();
   void follow_directions();
+  void commit();
   [[noreturn]] void explain(const Error& error);
 
   const Program& program_;
@@ -148,6 +149,11 @@ void Simulation::record_inside(double from, double to) {
   }
 }
 
+void Simulation::commit() {
+  if (program_.n_m > 0 || program_.n_histories > 0) accept(program_, run_, work_, t_, x_.data());
+  run_.t = t_;
+}
+
 /// Inputs that begin to move get a direction.
 void Simulation::follow_directions() {
   evaluate_derivatives(program_, run_, work_, t_, x_.data());
@@ -160,7 +166,7 @@ void Simulation::pass_corner() {
   if (states) derivative(t_, x_.data(), before_.data());
   corners_.pass(t_);
   run_.branch = corners_.branch();
-  accept(program_, run_, work_, t_, x_.data());
+  commit();
   if (reversals_.count() > 0) follow_directions();
   if (!states || solver_->counters().steps == 0) return;
   derivative(t_, x_.data(), after_.data());
@@ -173,7 +179,7 @@ void Simulation::turn_back() {
   std::vector<int> fired;
   for (int i = 0; i < reversals_.count(); ++i)
     if (solver_->fired(i)) fired.push_back(i);
-  accept(program_, run_, work_, t_, x_.data());
+  commit();
   for (const int i : fired) reversals_.turn(run_, i);
   traces_.statistics.reversals += static_cast<long>(fired.size());
   solver_->start(t_, x_);
@@ -186,14 +192,14 @@ void Simulation::take_step(double stop) {
   t_ = solver_->t();
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
   if (outcome == Cvode::Outcome::root) return turn_back();
-  accept(program_, run_, work_, t_, x_.data());
+  commit();
   if (reversals_.open(run_)) follow_directions();
 }
 
 Traces Simulation::operator()() {
   const auto& instants = traces_.t;
   try {
-    accept(program_, run_, work_, t_, x_.data());
+    commit();
     if (reversals_.count() > 0) follow_directions();
     solver_->start(t_, x_);
     for (;;) {
