@@ -1,4 +1,5 @@
-// Decides how a diagram stands in a JSON file (DESIGN 4.1) and how it is written back so that a diff shows only what changed.
+// Decides how a diagram stands in a JSON file (DESIGN 4.1) and how it is written back so that a diff shows only what
+// changed.
 #pragma once
 
 #include <string>
@@ -11,7 +12,8 @@
 namespace hysteron {
 
 /// Reads a diagram with everything that it names (nested diagrams, parameter sets, recorded inputs).
-/// Throws Error with file, line and JSON path for syntax, unknown keys, wrong types, a newer format, paths outside the project.
+/// Throws Error with file, line and JSON path for syntax, unknown keys, wrong types, a newer format, paths outside the
+/// project.
 Diagram read_diagram(const std::string& file, const std::vector<std::string>& allowed = {});
 
 /// The text of a diagram file: keys in the order of DESIGN 4.1, one block per line where it fits.
@@ -23,7 +25,9 @@ Diagram moved_diagram(const Diagram& diagram, const std::string& file);
 /// Writes a diagram whole or not at all. `$schema` and relative paths are adapted to the place of `file`.
 void write_diagram(const std::string& file, const Diagram& diagram);
 
-/// Runs `action`; an Error that it throws gets file and line of the diagram (its JSON pointers looked up in the text).
+/// Gives the problems of an Error the file and line of the diagram (their JSON pointers, or the names that begin block
+/// paths, looked up in the text; "other.json#/blocks/a" in that file). What is located already, or stands on the
+/// command line, stays.
 void locate_problems(Error& error, const std::string& file);
 
 /// JSON Schemas, written from the declarations.
