@@ -139,9 +139,15 @@ std::string sentence_of(const DelayFinding& f, const std::string& name) {
           "cannot be told apart: if the data are known to be late, write \"delay\" at the column",
           name, std::abs(f.samples), time_text(std::abs(f.seconds)), late, fall);
     case DelayKind::unclear:
+      for (const auto& r : f.recordings)
+        if (r.at_edge && r.fall > 0.1)
+          return fmt::format(
+              "shifting {} by {:.0f} samples and more would take error away ({}): no slip of the recording, rather "
+              "hysteresis "
+              "or a lag",
+              name, std::abs(r.samples), fall);
       return fmt::format(
-          "shifting {} in time would take error away ({}), but by different amounts in different recordings: no "
-          "delay",
+          "shifting {} in time would take error away ({}), but by different amounts in different recordings: no delay",
           name, fall);
   }
   return "";

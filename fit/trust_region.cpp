@@ -67,7 +67,11 @@ TrustRegionResult minimize(const LeastSquares& problem, std::vector<double> star
   result.z = std::move(start);
   result.iterations = static_cast<int>(summary.iterations.size());
   result.converged = summary.termination_type == ceres::CONVERGENCE;
-  result.message = summary.message;
+  result.message = summary.termination_type == ceres::CONVERGENCE ? "converged: the error no longer falls"
+                   : summary.termination_type == ceres::NO_CONVERGENCE
+                       ? "not converged: the number of iterations is used up"
+                   : summary.termination_type == ceres::USER_SUCCESS ? "stopped on request"
+                                                                     : "failed: " + summary.message;
   return result;
 }
 

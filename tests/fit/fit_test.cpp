@@ -369,6 +369,34 @@ TEST(Fit, AStartPerRecordingIsEstimatedWithTheParameters) {
   EXPECT_NEAR(r.after.find(0)->rms[0], 1e-9, 2e-10);
 }
 
+TEST(Fit, WhatCannotBeAdvancedExactlyIsFittedThroughCvode) {
+  DataSet data = two_recordings(150, 0.02);
+  for (auto& r : data.recordings)
+    for (std::size_t i = 0; i < r.t.size(); ++i)
+      r.columns["u"][i] = 5 * std::sin(2 * std::numbers::pi * (r.role == Role::train ? 1.0 : 1.4) * r.t[i]);
+  Diagram d = lab::diagram("core");
+  auto& core = lab::add(d, "core", "bouc_wen", "u");
+  core.parameters["alpha"] = "0.6 um/V";
+  core.parameters["beta"] = "0.3 1/V";
+  core.parameters["gamma"] = "0.05 1/V";
+  core.parameters["d_p"] = "1.5 um/V";
+  const auto program = compile(d, lab::registry());
+  lab::measure(data, program, 1e-9, 20);
+  DataModel model(program, lab::shared(data));
+  EXPECT_NE(model.why_not_exact(), "");
+  auto free = free_parameters(*program, {"core.alpha", "core.beta", "core.d_p"});
+  const double truth[] = {0.6e-6, 0.3, 1.5e-6};
+  for (auto& f : free) f.start *= 1.3;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(r.estimates[i].sigma) << r.estimates[i].path;
+    // BDF at 1e-7 adds a little to the noise.
+    EXPECT_NEAR(*r.estimates[i].value, truth[i], 5 * *r.estimates[i].sigma + 1e-5 * truth[i]) << r.estimates[i].path;
+    EXPECT_LT(*r.estimates[i].sigma, 0.01 * truth[i]);
+  }
+}
+
 TEST(Fit, NothingFreeAndNothingToFitAreErrorsWithACure) {
   DataSet data = two_recordings();
   const auto program = compile(gain_and_offset(), lab::registry());
@@ -447,6 +475,17 @@ TEST(DataModel, RowsAreRefinedUntilPlaysBehindWhichALagStandsNoLongerChange) {
   const std::vector<double> coarse_noise{1e-6};
   model.choose_substeps({}, coarse_noise);
   EXPECT_LE(model.substeps(0), 8);
+}
+
+TEST(Fit, ADiagramThatNeedsNoFitStaysWhereItIs) {
+  DataSet data = two_recordings();
+  const auto program = compile(lag_and_gain(), lab::registry());
+  lab::measure(data, program, 10e-9, 19);
+  DataModel model(program, lab::shared(data));
+  const auto r = fit(model, noise_before_fit(model), free_parameters(*program, {"amplifier.times", "g.gain"}));
+  ASSERT_TRUE(r.ok);
+  for (const auto& e : r.estimates) EXPECT_NEAR(*e.value, e.start, 4 * *e.sigma) << e.path;
+  EXPECT_LE(r.chi2, r.before.chi2(Role::train));
 }
 
 TEST(DataModel, AFailingSimulationIsAValue) {
