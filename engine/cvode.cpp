@@ -295,6 +295,8 @@ void Cvode::interpolate(double time, std::span<double> x) const {
   std::copy(v.begin(), v.end(), x.begin());
 }
 
+std::string Cvode::where() const { return memory_->where(); }
+
 double Cvode::next_step() const {
   double step = 0;
   CVodeGetCurrentStep(memory_->cvode.get(), &step);

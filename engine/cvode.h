@@ -59,6 +59,8 @@ class Cvode {
   double next_step() const;  ///< step that will be tried next [s]
   /// Root mean square of v_i / (relative_tolerance * |x_i| + absolute_tolerance_i).
   double weighted_norm(std::span<const double> v) const;
+  /// Time, step, order and the states of the largest weighted error, for messages.
+  std::string where() const;
   /// Of all steps since construction, restarts included.
   Counters counters() const;
 

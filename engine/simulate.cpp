@@ -25,6 +25,9 @@ namespace {
 // A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
 // its error control deals with smaller ones.
 constexpr double noticed_jump = 0.1;
+// So many steps on end that together advance less than this share of the span: it would never come to an end.
+constexpr long crawl_steps = 200'000;
+constexpr double crawl_share = 1e-4;
 constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
 
 class Simulation {
@@ -44,6 +47,7 @@ class Simulation {
   void turn_back();
   void follow_directions();
   void commit();
+  void check_pace();
   [[noreturn]] void explain(const Error& error);
 
   const Program& program_;
@@ -57,7 +61,8 @@ class Simulation {
   Traces traces_;
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
   std::size_t next_instant_ = 0;
-  double t_ = 0, until_ = 0;
+  double t_ = 0, until_ = 0, milestone_ = 0;
+  long steps_since_milestone_ = 0;
   bool not_finite_ = false;  // the last derivative was not; then these are where
   double bad_t_ = 0;
   std::vector<double> bad_x_;
@@ -73,7 +78,8 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       sizes_(nominal_sizes(program, run_)),
       reversals_(program, sizes_, options.relative_tolerance),
       t_(options.begin),
-      until_(std::max(options.begin, instants.back())) {
+      until_(std::max(options.begin, instants.back())),
+      milestone_(t_) {
   run_.t = t_;
   run_.branch = corners_.branch();
   x_ = run_.x;
@@ -185,7 +191,19 @@ void Simulation::turn_back() {
   solver_->start(t_, x_);
 }
 
+void Simulation::check_pace() {
+  if (++steps_since_milestone_ < crawl_steps) return;
+  if (t_ - milestone_ < crawl_share * (until_ - options_.begin))
+    fail_numerics("step_too_small", "simulate/solver",
+                  fmt::format("the last {} steps advanced from t = {:.12g} s by {:.3g} s only; now at {}",
+                              steps_since_milestone_, milestone_, t_ - milestone_, solver_->where()),
+                  "something jumps to and fro: check the loop through the states named, or ask for less accuracy");
+  milestone_ = t_;
+  steps_since_milestone_ = 0;
+}
+
 void Simulation::take_step(double stop) {
+  check_pace();
   const auto outcome = solver_->step(stop);
   const double from = t_;
   record_inside(from, solver_->t());

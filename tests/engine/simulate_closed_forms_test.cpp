@@ -101,6 +101,41 @@ TEST_P(EachMethod, AHeldInputIsAStaircase) {
   }
 }
 
+/// z of Bouc-Wen (n = 1) after the input has moved by `du` from `z` in one direction; SPEC 2.3: with q = d z, x = |u|,
+/// dq/dx = alpha - beta q - gamma |q|.
+double bouc_wen_branch(double z, double du, double alpha, double beta, double gamma) {
+  const double direction = du < 0 ? -1 : 1;
+  double q = direction * z, x = std::abs(du);
+  if (q < 0) {
+    const double rate = beta - gamma, end = alpha / rate, to_zero = std::log((end - q) / end) / rate;
+    if (x <= to_zero) return direction * (end - (end - q) * std::exp(-rate * x));
+    x -= to_zero;
+    q = 0;
+  }
+  const double rate = beta + gamma, end = alpha / rate;
+  return direction * (end - (end - q) * std::exp(-rate * x));
+}
+
+TEST_P(EachMethod, ARecordingThroughBoucWenTurnsSharplyAtItsSamples) {
+  const auto program = compiled(diagram({{"y", thesis_bouc_wen("u")}}, {"y"}, {{"u", "V"}}));
+  std::vector<double> t, u, expected;
+  double z = 0;
+  for (int k = 0; k <= 300; ++k) {
+    t.push_back(0.001 * k);
+    u.push_back(3 - 3 * std::cos(2.3 * k) + 0.01 * (k % 7) - 0.01 * std::cos(2.3 * k));
+    if (k == 0) u[0] = 0;
+    if (k > 0) z = bouc_wen_branch(z, u.back() - u[u.size() - 2], 0.6187, 0.2418, 0.0237);
+    expected.push_back((1.6126 * u.back() - z) * 1e-6);
+  }
+  auto run = start(*program);
+  bind_input(*program, run, "u", series(t, u));
+  for (const double tolerance : {1e-4, 1e-7}) {
+    SimulateOptions options{.method = GetParam(), .relative_tolerance = tolerance};
+    options.instants = t;
+    EXPECT_LT(distance(trace(simulate(*program, run, options)), expected), 5 * tolerance * largest(expected));
+  }
+}
+
 TEST(Simulate, AHeldSampleThatDecidesNothingDoesNotRestartTheIntegrator) {
   auto d = diagram({{"w", block("sine", {{"amplitude", "1 V"}, {"frequency", "1 Hz"}})},
                     {"y", block("lag", {{"times", list({0.05}, "s")}}, {"w"})},

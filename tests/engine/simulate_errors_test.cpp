@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/block.h"
 #include "engine/error.h"
 #include "tests/engine/simulate_tools.h"
 
@@ -46,6 +47,44 @@ TEST(SimulateErrors, ALinearLoopThatGrowsBeyondAllNumbersNamesItsBlock) {
   EXPECT_TRUE(p.path == "rate" || p.path == "x") << p.path;
   EXPECT_TRUE(says(p, "t = 0.07")) << p.what;  // exp(1e4 t) passes 1e308 at t = 0.0709 s
   EXPECT_TRUE(says(p, "x.x")) << p.what;
+}
+
+/// The sign of its input, which no solver can hold at zero.
+struct Sign {
+  template <class T>
+  struct Params {};
+  template <class T>
+  struct In {
+    T u;
+  };
+  template <class T>
+  struct Out {
+    T y;
+  };
+  static void describe(BlockSpec<Sign>& spec) {
+    spec.name("sign", "for this test");
+    spec.input(&In<double>::u, "u", "s", "the signal");
+    spec.output(&Out<double>::y, "y", "", "its sign");
+  }
+  template <class T>
+  static Out<T> output(const Params<T>&, const In<T>& in) {
+    return {in.u > T{0.0} ? T{1.0} : T{-1.0}};
+  }
+};
+
+TEST(SimulateErrors, AStateThatChattersIsNamedInsteadOfTakingForEver) {
+  auto all = all_blocks();
+  all.add(kernel<Sign>());
+  const auto program = compile(diagram({{"sign", block("sign", {}, {"x"})},
+                                        {"back", block("gain", {{"gain", -1.0}}, {"sign"})},
+                                        {"x", block("integrator", {{"initial", "0.1 s"}}, {"back"})}},
+                                       {"x"}),
+                               all);
+  const auto p = problem_of([&] { simulate(*program, start(*program), {.until = 1, .relative_tolerance = 1e-10}); });
+  EXPECT_TRUE(p.code == "step_too_small" || p.code == "solver_failed") << p.code;
+  EXPECT_TRUE(says(p, "t = 0.1") || says(p, "t = 0.0999")) << p.what;
+  EXPECT_TRUE(says(p, "x.x")) << p.what;
+  EXPECT_FALSE(p.cure.empty());
 }
 
 TEST(SimulateErrors, AJumpIntoALawThatIsDrivenByARateDoesNotCompile) {
