@@ -192,6 +192,11 @@ std::string result_text(const Document& d) {
   return text + '\n';
 }
 
+bool is_result(std::string_view text) {
+  const auto j = nlohmann::json::parse(text, nullptr, false);
+  return j.is_object() && j.contains("program") && j["program"] == "hysteron";
+}
+
 Document read_result(const std::string& folder) {
   const fs::path root(folder);
   const std::string file = (root / "result.json").string();

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
@@ -69,10 +67,8 @@ void check_curves(const Document& document, const std::string& folder) {
 /// Empty, or written by an earlier run: such a folder may be replaced.
 bool ours(const fs::path& folder) {
   if (fs::is_empty(folder)) return true;
-  std::ifstream in(folder / "result.json", std::ios::binary);
-  if (!in || fs::is_directory(folder / "result.json")) return false;
-  const auto j = nlohmann::json::parse(in, nullptr, false);
-  return j.is_object() && j.contains("program") && j["program"] == "hysteron";
+  const fs::path result = folder / "result.json";
+  return fs::is_regular_file(result) && is_result(read_file(result.string()));
 }
 
 void write_files(const fs::path& folder, const Document& document, const std::string& report_html) {

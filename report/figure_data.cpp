@@ -5,15 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "report/html.h"
 
 namespace hysteron {
 namespace {
 
+/// A JSON string. Bytes that are no UTF-8 are left to the browser, which shows them as replacement characters.
 std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (u < 0x20)
+      out += fmt::format("\\u{:04x}", u);
+    else
+      out += c;
+  }
+  return out + '"';
 }
 
 /// Digits that resolve the range to a millionth (x: a hundred-millionth, since neighbouring times must stay apart),

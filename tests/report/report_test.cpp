@@ -121,6 +121,14 @@ TEST(Report, KeepsAPageWithManyRecordingsLight) {
   EXPECT_GE(kept, 200000U);
 }
 
+TEST(Report, EmbedsNamesOfAnyKindAsValidJson) {
+  Document d;
+  d.sections.resize(1);
+  d.sections[0].figures.resize(1);
+  d.sections[0].figures[0].curves = {{"a\"b\\c\n\x01µ</script>", "line", "", "", "", "", {0, 1}, {0, 1}}};
+  EXPECT_EQ(data_of(report_html(d)).at(0)["curves"][0]["name"], d.sections[0].figures[0].curves[0].name);
+}
+
 TEST(Report, LinksTheFiguresOfASectionOverTheSameQuantity) {
   const auto data = data_of(report_html(example::discovery()));
   EXPECT_EQ(data[0]["link"], data[1]["link"]);  // measured and simulated, residual: both over time
