@@ -63,39 +63,38 @@ bool is_linear(const BlockInstance& block) {
 }
 
 /// Free gains and offsets in the chain of linear blocks before and behind a signal.
-class FreeInSeries {
+/// Gains and offsets in the chain of linear blocks before and behind a signal.
+class InSeries {
  public:
-  FreeInSeries(const Program& program, const std::vector<std::string>& free_paths) : program_(program) {
+  InSeries(const Program& program, const std::vector<std::string>& free_paths) : program_(program) {
     for (const auto& f : free_parameters(program, free_paths))
       free_.push_back(&program.parameters[static_cast<std::size_t>(f.parameter)]);
   }
 
-  void look(int signal, bool& gain, bool& offset) const {
-    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = behind(s, gain, offset);
-    bool ignored = false;  // an offset before the place is another matter
-    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = before(s, gain, ignored);
+  void look(int signal, Circumstances& c) const {
+    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = behind(s, c);
+    for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = before(s, c);
   }
 
  private:
-  void note(int block, bool& gain, bool& offset) const {
-    for (const auto* p : free_) {
-      if (!p->linear || p->block != block) continue;
-      const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
-      if (p->offset || constant)
-        offset = true;
-      else
-        gain = true;
+  const BlockInstance& block_of(int signal) const {
+    return program_.blocks[static_cast<std::size_t>(program_.signals[static_cast<std::size_t>(signal)].block)];
+  }
+  bool is_free(const ParameterInfo& p) const { return std::find(free_.begin(), free_.end(), &p) != free_.end(); }
+
+  void note(int block, Circumstances& c, bool behind_place) const {
+    const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
+    for (const auto& p : program_.parameters) {
+      if (!p.linear || p.block != block) continue;
+      if (!p.offset && !constant) {
+        c.gain_is_free = c.gain_is_free || is_free(p);
+      } else if (behind_place) {  // an offset before the place is another matter
+        c.offset_is_free = c.offset_is_free || is_free(p);
+        c.zeros.push_back(p.path);
+      }
     }
   }
-  void note_with_constants(int block, bool& gain, bool& offset) const {
-    note(block, gain, offset);
-    for (const int s : program_.blocks[static_cast<std::size_t>(block)].source) {
-      const int from = program_.signals[static_cast<std::size_t>(s)].block;
-      const auto& b = program_.blocks[static_cast<std::size_t>(from)];
-      if (b.n_u == 0 && !b.kernel->uses_time && !b.kernel->declaration.is_series) note(from, gain, offset);
-    }
-  }
-  int behind(int signal, bool& gain, bool& offset) const {
+  int behind(int signal, Circumstances& c) const {
     int reader = -1;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b)
       for (const int s : program_.blocks[b].source)
@@ -106,14 +105,15 @@ class FreeInSeries {
     if (reader < 0) return -1;
     const auto& block = program_.blocks[static_cast<std::size_t>(reader)];
     if (!is_linear(block) || moving_input(program_, block) != signal) return -1;
-    note_with_constants(reader, gain, offset);
+    note(reader, c, true);
+    for (const int s : block.source)
+      if (s != signal) note(program_.signals[static_cast<std::size_t>(s)].block, c, true);
     return block.y_begin;
   }
-  int before(int signal, bool& gain, bool& offset) const {
-    const int b = program_.signals[static_cast<std::size_t>(signal)].block;
-    const auto& block = program_.blocks[static_cast<std::size_t>(b)];
+  int before(int signal, Circumstances& c) const {
+    const auto& block = block_of(signal);
     if (block.n_u == 0 || !is_linear(block)) return -1;
-    note(b, gain, offset);
+    note(program_.signals[static_cast<std::size_t>(signal)].block, c, false);
     return moving_input(program_, block);
   }
 
@@ -165,7 +165,7 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
     for (auto& s : rows.back()) s.resize(r.last);
   }
 
-  const FreeInSeries in_series(*program, free_paths);
+  const InSeries in_series(*program, free_paths);
   std::vector<Circumstances> result(n, common);
   const auto span = [&](std::size_t s, double& low, double& high) {
     low = std::numeric_limits<double>::infinity();
@@ -180,7 +180,7 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
     auto& c = result[i];
     c.unit = program->signals[static_cast<std::size_t>(signals[i])].unit;
     c.offset_is_free = free_zero;
-    in_series.look(signals[i], c.gain_is_free, c.offset_is_free);
+    in_series.look(signals[i], c);
     span(i, c.lowest, c.highest);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto& v = rows[r][i];

@@ -33,13 +33,18 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
   c.program = compile(c.diagram, *shop.registry);
   DataModel model(c.program, shop.data);
   auto free = free_parameters(*c.program, shop.free_paths);
-  const std::size_t users = free.size();
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
     const bool is_fresh = static_cast<int>(i) == fresh;
     if (effort == Effort::screen && scans && !is_fresh) continue;
     for (auto& f : free_of_law(*c.program, c.standing[i], is_fresh)) {
       std::erase_if(free, [&](const FreeParameter& have) { return have.parameter == f.parameter; });
       free.push_back(std::move(f));
+    }
+    for (const auto& zero : c.standing[i].zeros) {
+      FreeParameter f = free_parameter(*c.program, zero);
+      const bool have =
+          std::any_of(free.begin(), free.end(), [&](const FreeParameter& h) { return h.parameter == f.parameter; });
+      if (!have) free.push_back(std::move(f));
     }
   }
   const auto& recordings = shop.evidence != nullptr ? shop.evidence->recordings() : std::vector<int>{};
@@ -66,7 +71,6 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
   c.ok = c.prediction.ok;
   c.error = c.prediction.error;
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
-  (void)users;
 }
 
 /// Parameters that the effects spend: what is held at a bound is not there (a play with weight 0), and what the data do
@@ -75,6 +79,7 @@ int spent(const Contender& c) {
   int n = 0;
   for (const auto& p : parameters_of(c))
     if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper)) ++n;
+  for (const auto& s : c.standing) n += static_cast<int>(s.zeros.size());
   return n;
 }
 
@@ -104,7 +109,7 @@ Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort ef
 }
 
 Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
-                      const Place& place, Effort effort) {
+                      const Place& place, const Circumstances& at, Effort effort) {
   Contender c;
   c.standing = before.standing;
   try {
@@ -114,7 +119,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
     return c;
   }
   c.diagram = c.change.diagram;
-  c.standing.push_back({&effect, law, place, c.change.name});
+  c.standing.push_back({&effect, law, place, c.change.name, effect.moves_zero ? at.zeros : std::vector<std::string>{}});
   const int fresh = static_cast<int>(c.standing.size()) - 1;
   return guarded(shop, std::move(c), effort, fresh);
 }

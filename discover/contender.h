@@ -18,7 +18,8 @@ struct Standing {
   const Effect* effect = nullptr;
   Law law;
   Place place;
-  std::string name;  ///< path of its choice
+  std::string name;                ///< path of its choice
+  std::vector<std::string> zeros;  ///< the user's constants that are found anew with it (Effect::moves_zero)
 };
 
 struct Contender {
@@ -57,7 +58,7 @@ enum class Effort {
 Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort);
 /// `before` with one more effect.
 Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
-                      const Place& place, Effort effort);
+                      const Place& place, const Circumstances& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
 /// Without the effect `index`; the others keep their values.

@@ -102,8 +102,8 @@ class Investigation {
       Tried& t = tried[i];
       progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.at),
                bar(0.6 * static_cast<double>(i) / static_cast<double>(tried.size())));
-      t.contender =
-          with_effect(shop_, current_, *t.effect, t.laws.front(), t.place, step == 1 ? Effort::full : Effort::screen);
+      t.contender = with_effect(shop_, current_, *t.effect, t.laws.front(), t.place, t.circumstances,
+                                step == 1 ? Effort::full : Effort::screen);
       d_.model_runs += t.contender.runs;
     }
     compare_all(tried, first_fall);
@@ -250,7 +250,8 @@ class Investigation {
       if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
       for (std::size_t law = 1; law < t.laws.size(); ++law) {
         progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
-        Contender richer = with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, Effort::full);
+        Contender richer =
+            with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, t.circumstances, Effort::full);
         d_.model_runs += richer.runs;
         if (!richer.ok) continue;
         const double n = current_.error_of.n();
@@ -298,7 +299,7 @@ class Investigation {
     const auto at = circumstances_at(t.contender.diagram, registry_, *data_, places.front(), options_.free_paths);
     if (!calibration->unseen(at).empty()) return t.contender.tie_score();
     const Contender free =
-        with_effect(shop_, t.contender, *calibration, calibration->laws(at).front(), places.front(), Effort::full);
+        with_effect(shop_, t.contender, *calibration, calibration->laws(at).front(), places.front(), at, Effort::full);
     d_.model_runs += free.runs;
     return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
   }
@@ -405,7 +406,7 @@ class Investigation {
         for (std::size_t p = 0; p < places.size() && !stopped(); ++p) {
           if (!e.unseen(at[p]).empty()) continue;
           progress(fmt::format("{} in place of {}", e.id, member.id), bar);
-          Contender other = with_effect(shop_, rest, e, e.laws(at[p]).front(), places[p], Effort::full);
+          Contender other = with_effect(shop_, rest, e, e.laws(at[p]).front(), places[p], at[p], Effort::full);
           d_.model_runs += other.runs;
           if (!other.ok || other.score(n) > current_.score(n) - rules::exchange) continue;
           d_.data_remarks.push_back(fmt::format("{} was taken at first; together with {} the recordings speak for {}",

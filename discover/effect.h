@@ -35,18 +35,20 @@ struct Circumstances {
   bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
   Unit unit;               ///< of the wire, as it is written
   double lowest = 0, highest = 1;
-  double largest_jump = 0;                 ///< largest change between two rows
-  double shortest_step = 1e-3;             ///< [s] between rows, smallest over the train recordings
-  double longest_step = 1e-3;              ///< [s]
-  double longest_recording = 100;          ///< [s] of any recording, validation included
-  double longest_hold = 0;                 ///< [s] at one level after a move of at least 5 % of the range
-  double step_at_longest_hold = 1e-3;      ///< [s] between rows in that hold
-  int reversals = 0;                       ///< turning points that come back by at least 2 % of the range
-  int recordings = 0;                      ///< train recordings
-  double quickest = 0;                     ///< [1/s] largest change per second over the range
-  bool starts_away_from_zero = false;      ///< the wire is not at zero at the start of some recording
-  bool gain_is_free = false;               ///< a free gain in series behind the place makes a gain here undetermined
-  bool offset_is_free = false;             ///< a free offset behind the place (or a free zero of each recording)
+  double largest_jump = 0;             ///< largest change between two rows
+  double shortest_step = 1e-3;         ///< [s] between rows, smallest over the train recordings
+  double longest_step = 1e-3;          ///< [s]
+  double longest_recording = 100;      ///< [s] of any recording, validation included
+  double longest_hold = 0;             ///< [s] at one level after a move of at least 5 % of the range
+  double step_at_longest_hold = 1e-3;  ///< [s] between rows in that hold
+  int reversals = 0;                   ///< turning points that come back by at least 2 % of the range
+  int recordings = 0;                  ///< train recordings
+  double quickest = 0;                 ///< [1/s] largest change per second over the range
+  bool starts_away_from_zero = false;  ///< the wire is not at zero at the start of some recording
+  bool gain_is_free = false;           ///< a free gain in series behind the place makes a gain here undetermined
+  bool offset_is_free = false;         ///< a free offset behind the place (or a free zero of each recording)
+  /// Program paths of the constants that add to the signal behind the place ("sensor.offset"), free or not.
+  std::vector<std::string> zeros;
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
   double range() const { return highest - lowest; }
 };
@@ -94,6 +96,9 @@ struct Effect {
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
   Commutes commutes = Commutes::nothing;
+  /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is
+  /// found anew.
+  bool moves_zero = false;
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;

@@ -82,6 +82,7 @@ Effect hysteresis() {
   e.block_type = "prandtl_ishlinskii";
   e.places = {"core"};
   e.is_memory = true;
+  e.moves_zero = true;
   e.parameters = {
       {"thresholds", "unit of the wire", "of the plays; fixed over 4 .. 65 % of the range (richer: 2 .. 90 %)", ""},
       {"weights", "", "of the plays, relative to the wire's own gain",
@@ -98,8 +99,8 @@ Effect hysteresis() {
   e.summary = loop_width;
   e.laws = [](const Circumstances& at) {
     return std::vector<Law>{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
-                            plays(at, "10 one-sided plays", 10, 0.02, 0.90, "one", 1.5),
-                            plays(at, "10 two-sided plays", 10, 0.01, 0.45, "two", 1.5)};
+                            plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
+                            plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.memory_blocks.empty())
