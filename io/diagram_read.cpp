@@ -6,11 +6,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/units.h"
-#include "io/csv.h"
 #include "io/diagram_file.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
+#include "io/recording_file.h"
 #include "io/value_text.h"
 
 namespace hysteron {
@@ -260,16 +259,12 @@ class DiagramReader {
     const auto path = file_to_open(*file, *file->text());
     if (!path) return;
     with_file(*file, [&] {
-      const CsvTable table = read_csv(*path);
-      auto series = std::make_shared<Series>();
-      if (!take_column(table, "t", *file, series->t) || !take_column(table, *column->text(), *column, series->v))
-        return;
-      for (std::size_t i = 1; i < series->t.size(); ++i)
-        if (!(series->t[i] > series->t[i - 1]))
-          throw Error(Fault::input,
-                      {{"decreasing_time", "t",
-                        fmt::format("time does not increase: {} s after {} s", series->t[i], series->t[i - 1]),
-                        "sort the rows, and take out those that stand twice", *path, table.lines[i]}});
+      const RecordingFile recording = read_recording_file(*path, 1);
+      const auto values = recording.columns.find(*column->text());
+      if (values == recording.columns.end())
+        return column->add("missing_column", fmt::format("{} has no column \"{}\"", *path, *column->text()),
+                           did_you_mean(*column->text(), recording.names));
+      auto series = std::make_shared<Series>(Series{recording.t, values->second, Between::linear});
       if (const auto* between = node.parameters.find("between_samples"))
         if (const auto* text = std::get_if<std::string>(&between->content); text != nullptr && *text == "hold")
           series->between = Between::hold;
@@ -277,20 +272,6 @@ class DiagramReader {
       samples.origin = origin(place);
       node.parameters["samples"] = std::move(samples);
     });
-  }
-
-  static bool take_column(const CsvTable& table, const std::string& name, const JsonPlace& place,
-                          std::vector<double>& si) {
-    const auto* column = table.find(name);
-    if (column == nullptr) {
-      std::vector<std::string> known;
-      for (const auto& c : table.columns) known.push_back(c.name);
-      place.add("missing_column", fmt::format("{} has no column \"{}\"", table.file, name), did_you_mean(name, known));
-      return false;
-    }
-    si.reserve(column->values.size());
-    for (const double v : column->values) si.push_back(column->unit.to_si(v));
-    return true;
   }
 
   void places(const JsonPlace& root) {

@@ -11,8 +11,6 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t fewest_rows = 3;  // fewer carry no curvature, and a standard deviation of two is chance
-
 [[noreturn]] void fail_in(const std::string& file, int line, std::string code, std::string path, std::string what,
                           std::string cure) {
   throw Error(Fault::input, {{std::move(code), std::move(path), std::move(what), std::move(cure), file, line}});
@@ -48,7 +46,7 @@ void check_times(const CsvTable& table, const CsvColumn& time) {
 
 }  // namespace
 
-RecordingFile read_recording_file(const std::string& file) {
+RecordingFile read_recording_file(const std::string& file, std::size_t fewest_rows) {
   if (std::filesystem::path(file).extension() == ".mat")
     fail_in(file, 0, "unknown_file_type", file, "MAT files are not read yet",
             "export the columns as CSV with a header t [s],u [V],y [um]");

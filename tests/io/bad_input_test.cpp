@@ -93,6 +93,7 @@ TEST_P(BadDiagram, IsToldWithCodePointerLineAndCure) {
   folder.write("p/good.json", "{\"format\": 1, \"blocks\": {}}");
   folder.write("p/broken.csv", "t [s],u [V]\n0,1\n0,2\n");
   folder.write("p/good.csv", "t [s],u [V]\n0,1\n1,2\n");
+  folder.write("p/volts.csv", "t [V],u [V]\n0,1\n1,2\n");
   const std::string file = folder.write("p/d.json", GetParam().content);
   expect_problem(GetParam(), file, [&] { read_diagram(file); });
 }
@@ -207,6 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RecordedFileMissing",
              "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"recorded\", \"column\": \"u\",\n\"file\": \"no.csv\"}}}",
              "no_file", "/blocks/a/file", 2},
+        Case{"RecordedOverSomethingElseThanTime",
+             "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"recorded\", \"column\": \"u\",\n\"file\": "
+             "\"volts.csv\"}}}",
+             "wrong_unit", "t", 1},
         Case{"RecordedTimeStandsStill",
              "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"recorded\", \"column\": \"u\",\n\"file\": "
              "\"broken.csv\"}}}",
