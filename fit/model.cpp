@@ -3,269 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <thread>
 
-#include "engine/advance.h"
-#include "engine/simulate.h"
+#include "fit/model_content.h"
 
 namespace hysteron {
-namespace {
-
-/// Everything of one recording that does not change from trial to trial, and the workspaces that only it uses.
-struct Bound {
-  Run run;                       ///< inputs bound, parameters as compiled
-  std::vector<double> instants;  ///< where the model is evaluated: start of the recording, then all judged instants
-  std::vector<std::vector<std::size_t>> at;  ///< [output][judged row]: index into instants
-  std::vector<Rows> measured;                ///< [output][judged row]
-  Rows times;
-  int substeps = 1;
-  std::optional<Advance> advance;
-  std::vector<std::vector<double>> values;  ///< workspace: [output][instant]
-};
-
-/// Blocks whose states may be estimated linearly: linear themselves and up to every output that is measured.
-std::vector<bool> linear_to_outputs(const Program& program, const std::vector<int>& signals) {
-  const auto n = program.blocks.size();
-  std::vector<bool> ok(n, false);
-  for (std::size_t b = 0; b < n; ++b) {
-    auto reached = program.downstream_of(static_cast<int>(b));
-    reached[b] = true;
-    ok[b] = true;
-    for (std::size_t d = 0; d < n; ++d) {
-      if (!reached[d] || program.blocks[d].kernel->declaration.is_linear) continue;
-      const auto below = program.downstream_of(static_cast<int>(d));
-      for (const int s : signals) {
-        const auto block = static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block);
-        if (block == d || below[block]) ok[b] = false;
-      }
-    }
-  }
-  return ok;
-}
-
-}  // namespace
-
-struct DataModel::Content {
-  ProgramPointer program;
-  std::shared_ptr<const DataSet> data;
-  DataModelOptions options;
-  std::vector<std::string> outputs;
-  std::vector<int> signals;
-  std::vector<Unit> units;
-  std::vector<Bound> bound;
-  std::string not_exact;
-  bool substeps_chosen = false;
-  bool needs_substeps = false;
-  std::vector<std::string> free_states, remarks;
-  std::vector<std::size_t> free_state_index;
-  std::vector<double> spans;
-  std::atomic<long> runs{0}, failures{0};
-
-  void find_outputs();
-  void bind(int r);
-  void find_free_states();
-  Run prepared(const Bound& b, std::span<const ParameterValue> values) const;
-  void set_start(const Recording& recording, Run& run, double t) const;
-  bool from_rest(const Recording& recording) const;
-  void simulate_into(Bound& b, Run run, bool at_rest, int substeps, bool cvode) const;
-  std::vector<Rows> rows_of(const Bound& b) const;
-  std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
-  void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,
-                   std::string& error);
-  void predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction);
-  template <class Job>
-  void side_by_side(std::span<const int> recordings, const Job& job) const;
-};
-
-void DataModel::Content::find_outputs() {
-  for (std::size_t i = 0; i < program->output_names.size(); ++i) {
-    const auto& name = program->output_names[i];
-    const auto there = std::find_if(data->recordings.begin(), data->recordings.end(),
-                                    [&](const Recording& r) { return r.columns.count(name) > 0; });
-    if (there == data->recordings.end()) continue;
-    units.push_back(there->units.at(name));
-    outputs.push_back(name);
-    signals.push_back(program->output_signals[i]);
-  }
-}
-
-void DataModel::Content::bind(int r) {
-  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
-  Bound& b = bound[static_cast<std::size_t>(r)];
-  b.run = start(*program);
-  for (const auto& input : program->input_names)
-    bind_input(*program, b.run, input, input_series(*data, recording, input));
-
-  const auto first = static_cast<std::ptrdiff_t>(recording.first), last = static_cast<std::ptrdiff_t>(recording.last);
-  b.times.assign(recording.t.begin() + first, recording.t.begin() + last);
-  b.measured.resize(outputs.size());
-  b.at.resize(outputs.size());
-  std::vector<std::vector<double>> wanted(outputs.size());
-  const double begin = recording.t.front();
-  b.instants = {begin};
-  for (std::size_t o = 0; o < outputs.size(); ++o) {
-    const auto column = recording.columns.find(outputs[o]);
-    if (column == recording.columns.end()) continue;
-    b.measured[o].assign(column->second.begin() + first, column->second.begin() + last);
-    const auto instants = output_instants(*data, recording, outputs[o]);
-    for (auto i = first; i < last; ++i) {
-      // Before the start the model is where it starts: at rest there.
-      wanted[o].push_back(std::max(begin, instants[static_cast<std::size_t>(i)]));
-    }
-    b.instants.insert(b.instants.end(), wanted[o].begin(), wanted[o].end());
-  }
-  std::sort(b.instants.begin(), b.instants.end());
-  b.instants.erase(std::unique(b.instants.begin(), b.instants.end()), b.instants.end());
-  for (std::size_t o = 0; o < outputs.size(); ++o)
-    for (const double t : wanted[o])
-      b.at[o].push_back(
-          static_cast<std::size_t>(std::lower_bound(b.instants.begin(), b.instants.end(), t) - b.instants.begin()));
-  if (not_exact.empty()) {
-    b.advance.emplace(program, signals);
-    needs_substeps = needs_substeps || !b.advance->exact_without_substeps();
-  }
-}
-
-void DataModel::Content::find_free_states() {
-  const bool wanted = std::any_of(data->recordings.begin(), data->recordings.end(),
-                                  [](const Recording& r) { return r.initial_per_recording; });
-  if (!wanted) return;
-  const auto linear = linear_to_outputs(*program, signals);
-  for (std::size_t b = 0; b < program->blocks.size(); ++b) {
-    const auto& block = program->blocks[b];
-    for (int i = 0; i < block.sizes.states; ++i) {
-      const auto index = static_cast<std::size_t>(block.x_begin + i);
-      if (linear[b]) {
-        free_states.push_back(program->state_names[index]);
-        free_state_index.push_back(index);
-      } else {
-        remarks.push_back(
-            fmt::format("the start of {} is not estimated per recording, because the path from there to the "
-                        "outputs is not linear; it begins in equilibrium",
-                        program->state_names[index]));
-      }
-    }
-    if (block.sizes.memory > 0)
-      remarks.push_back(fmt::format("the memory of {} begins virgin in every recording", block.path));
-  }
-}
-
-/// A run with these values; throws where a block refuses them.
-Run DataModel::Content::prepared(const Bound& b, std::span<const ParameterValue> values) const {
-  Run run = b.run;
-  for (const auto& v : values) {
-    if (!std::isfinite(v.value))
-      fail_numerics("not_finite", program->parameters[static_cast<std::size_t>(v.parameter)].path,
-                    "value is not finite", "give a finite start value");
-    for (const int slot : program->parameters[static_cast<std::size_t>(v.parameter)].slots)
-      run.p[static_cast<std::size_t>(slot)] = v.value;
-  }
-  // All at once: two values that belong together are never seen half changed.
-  prepare(*program, run);
-  reset(*program, run);
-  return run;
-}
-
-bool DataModel::Content::from_rest(const Recording& recording) const {
-  return recording.at_rest || (recording.initial_per_recording && recording.initial_values.empty());
-}
-
-/// States that the data set gives; the others stay as declared.
-void DataModel::Content::set_start(const Recording& recording, Run& run, double t) const {
-  run.t = t;
-  for (const auto& [name, value] : recording.initial_values) {
-    const auto found = std::find(program->state_names.begin(), program->state_names.end(), name);
-    if (found == program->state_names.end())
-      fail("unknown_state", name,
-           fmt::format("recording {} gives a start for \"{}\", which is no state", recording.name, name),
-           did_you_mean(name, program->state_names));
-    run.x[static_cast<std::size_t>(found - program->state_names.begin())] = value;
-  }
-}
-
-/// values[output][instant] of one recording.
-void DataModel::Content::simulate_into(Bound& b, Run run, bool at_rest, int substeps, bool cvode) const {
-  if (b.advance && !cvode) {
-    AdvanceOptions o;
-    o.substeps = substeps;
-    o.at_rest = at_rest;
-    (*b.advance)(run, b.instants, o, b.values);
-    return;
-  }
-  SimulateOptions o;
-  o.begin = b.instants.front();
-  o.until = b.instants.back();
-  o.instants = b.instants;
-  o.signals = signals;
-  o.method = Method::bdf;
-  o.relative_tolerance = options.relative_tolerance;
-  o.at_rest = at_rest;
-  b.values = simulate(*program, std::move(run), o).values;
-}
-
-std::vector<Rows> DataModel::Content::rows_of(const Bound& b) const {
-  std::vector<Rows> rows(outputs.size());
-  for (std::size_t o = 0; o < outputs.size(); ++o) {
-    rows[o].reserve(b.at[o].size());
-    for (const std::size_t i : b.at[o]) {
-      const double y = b.values[o][i];
-      if (!std::isfinite(y))
-        fail_numerics("diverged", outputs[o], fmt::format("not finite at {} s", b.instants[i]), "narrow the bounds");
-      rows[o].push_back(y);
-    }
-  }
-  return rows;
-}
-
-std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue> values, int substeps, bool cvode) {
-  Bound& b = bound[static_cast<std::size_t>(r)];
-  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
-  ++runs;
-  Run run = prepared(b, values);
-  set_start(recording, run, b.instants.front());
-  simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
-  return rows_of(b);
-}
-
-void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction) {
-  Bound& b = bound[static_cast<std::size_t>(r)];
-  const auto k = static_cast<std::size_t>(r);
-  Run rest = prepared(b, values);
-  rest.t = b.instants.front();
-  settle_at_rest(*program, rest, rest.t);
-  const auto response = [&](std::size_t state, double unit) {
-    ++runs;
-    Run run = rest;
-    run.x[state] += unit;
-    simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
-    return rows_of(b);
-  };
-  const auto zero = response(0, 0.0);
-  for (const std::size_t state : free_state_index) {
-    auto rows = response(state, 1.0);
-    for (std::size_t o = 0; o < rows.size(); ++o)
-      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] -= zero[o][i];
-    prediction.initial[k].push_back(std::move(rows));
-  }
-}
-
-/// No exception leaves: a failing simulation is a text.
-void DataModel::Content::predict_one(int r, std::span<const ParameterValue> values, bool with_initial,
-                                     Prediction& prediction, std::string& error) {
-  const auto k = static_cast<std::size_t>(r);
-  try {
-    prediction.y[k] = one(r, values, bound[k].substeps, options.force_cvode);
-    if (with_initial && data->recordings[k].initial_per_recording && !free_states.empty())
-      predict_initial(r, values, prediction);
-  } catch (const std::exception& e) {
-    ++failures;
-    error = fmt::format("{}: {}", data->recordings[k].name, e.what());
-  }
-}
 
 template <class Job>
 void DataModel::Content::side_by_side(std::span<const int> recordings, const Job& job) const {
@@ -337,7 +81,7 @@ const Rows& DataModel::measured(int recording, int output) const {
 const Rows& DataModel::times(int recording) const { return content_->bound[static_cast<std::size_t>(recording)].times; }
 
 Rows DataModel::input(int recording, int input) const {
-  const Bound& b = content_->bound[static_cast<std::size_t>(recording)];
+  const BoundRecording& b = content_->bound[static_cast<std::size_t>(recording)];
   const auto signal = static_cast<std::size_t>(program().input_signals[static_cast<std::size_t>(input)]);
   const auto block = static_cast<std::size_t>(program().signals[signal].block);
   const auto& series = *b.run.series[static_cast<std::size_t>(program().blocks[block].series_index)];
@@ -402,7 +146,7 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
     tolerance[o] = std::max(c.options.substep_tolerance * c.spans[o], noise.empty() ? 0.0 : noise[o] / 1000);
   bool all = true;
   for (int r = 0; r < n_recordings(); ++r) {
-    Bound& b = c.bound[static_cast<std::size_t>(r)];
+    BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
     try {
       auto coarse = c.one(r, values, 1, false);
       int n = 1;

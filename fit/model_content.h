@@ -1,0 +1,60 @@
+// Decides what a DataModel keeps between trials. Internal to fit/: model.cpp and recording_run.cpp are its two halves.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/advance.h"
+#include "fit/model.h"
+
+namespace hysteron {
+
+/// Everything of one recording that does not change from trial to trial, and the workspaces that only it uses.
+struct BoundRecording {
+  Run run;                       ///< inputs bound, parameters as compiled
+  std::vector<double> instants;  ///< where the model is evaluated: start of the recording, then all judged instants
+  std::vector<std::vector<std::size_t>> at;  ///< [output][judged row]: index into instants
+  std::vector<Rows> measured;                ///< [output][judged row]
+  Rows times;
+  int substeps = 1;
+  std::optional<Advance> advance;
+  std::vector<std::vector<double>> values;  ///< workspace: [output][instant]
+};
+
+struct DataModel::Content {
+  ProgramPointer program;
+  std::shared_ptr<const DataSet> data;
+  DataModelOptions options;
+  std::vector<std::string> outputs;
+  std::vector<int> signals;
+  std::vector<Unit> units;
+  std::vector<BoundRecording> bound;
+  std::string not_exact;
+  bool substeps_chosen = false;
+  bool needs_substeps = false;
+  std::vector<std::string> free_states, remarks;
+  std::vector<std::size_t> free_state_index;
+  std::vector<double> spans;
+  std::atomic<long> runs{0}, failures{0};
+
+  void find_outputs();
+  void bind(int r);
+  void find_free_states();
+  Run prepared(const BoundRecording& b, std::span<const ParameterValue> values) const;
+  void set_start(const Recording& recording, Run& run, double t) const;
+  bool from_rest(const Recording& recording) const;
+  void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
+  std::vector<Rows> rows_of(const BoundRecording& b) const;
+  std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
+  void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,
+                   std::string& error);
+  void predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction);
+  template <class Job>
+  void side_by_side(std::span<const int> recordings, const Job& job) const;
+};
+
+}  // namespace hysteron
