@@ -101,8 +101,9 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
 Diagram with_parameters(const Diagram& diagram, const Program& program, const std::vector<ParameterValue>& values,
                         int digits = 8, std::vector<std::pair<std::string, Diagram>>* nested = nullptr);
 
-/// A parameter set as JSON text that a diagram can name: path -> value with unit, standard deviation, interval, and its
-/// source.
+/// A parameter set as JSON text (ENGINE 10): path -> value with unit, standard deviation, and the interval in words;
+/// what the data do not determine is left out. Where all parameters belong to one block, the names are the block's own
+/// and the block can name the file as its "parameters".
 std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data);
 
 }  // namespace hysteron

@@ -135,28 +135,85 @@ Diagram with_parameters(const Diagram& diagram, const Program& program, const st
   return result;
 }
 
-std::string parameter_file_text(const FitResult& result, const Program&, const DataSet& data) {
-  using nlohmann::ordered_json;
-  ordered_json set = ordered_json::object();
-  for (const auto& e : result.estimates) {
-    if (!e.value) continue;  // what the data do not determine has no value
-    const auto number = [&](double si, int digits) { return rounded(shown(e.unit, e.difference, si), digits); };
-    ordered_json one = {{"value", number(*e.value, 8)}, {"unit", e.unit.text}};
-    if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
-    if (e.low95 && e.high95) one["interval_95"] = {number(*e.low95, 6), number(*e.high95, 6)};
-    if (e.at_lower || e.at_upper) one["at_bound"] = e.at_lower ? "lower" : "upper";
-    set[e.path] = std::move(one);
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double shown(const ParameterEstimate& e, double si, int digits) {
+  return rounded(shown(e.unit, e.difference, si), digits);
+}
+
+/// What a fit knows of one number, in words.
+std::string knowledge(const ParameterEstimate& e) {
+  if (!e.determined) return e.path + " is not determined by the data: this is its start value";
+  if (e.at_lower || e.at_upper)
+    return fmt::format("{} is held at its {} bound", e.path, e.at_lower ? "lower" : "upper");
+  if (!e.low95 || !e.high95) return "";
+  return fmt::format("{}: 95 % within {} .. {} {}", e.path, shown(e, *e.low95, 6), shown(e, *e.high95, 6), e.unit.text);
+}
+
+/// All elements of a list, those that were not fitted as they stand in the program: a block takes it only as a whole.
+Json list_value(const std::string& name, const std::vector<ParameterEstimate>& estimates, const Program& program,
+                std::string& remark, std::string& unit) {
+  Json values = Json::array();
+  Json stds = Json::array();
+  for (const auto& info : program.parameters) {
+    if (without_index(info.path).first != name) continue;
+    const ParameterEstimate* fitted = nullptr;
+    for (const auto& e : estimates)
+      if (e.path == info.path) fitted = &e;
+    const Unit own = parameter_unit(program, info);
+    unit = own.text;
+    values.push_back(rounded(shown(own, info.difference, fitted != nullptr ? fitted->used : info.value), 8));
+    stds.push_back(fitted != nullptr && fitted->sigma ? Json(rounded(own.difference_from_si(*fitted->sigma), 4))
+                                                      : Json());
+    if (fitted == nullptr) continue;
+    if (const auto known = knowledge(*fitted); !known.empty()) remark += (remark.empty() ? "" : "; ") + known;
   }
-  ordered_json undetermined = ordered_json::array();
-  for (const auto& u : result.undetermined) undetermined.push_back(u.sentence);
-  const ordered_json file = {{"format", 1},
-                             {"parameters", std::move(set)},
-                             {"undetermined", std::move(undetermined)},
-                             {"source",
-                              {{"data", data.file.empty() ? data.title : data.file},
-                               {"method", result.method},
-                               {"chi2", rounded(result.chi2, 8)},
-                               {"rows", result.n}}}};
+  return {{"value", std::move(values)}, {"unit", unit}, {"std", std::move(stds)}};
+}
+
+/// "core." if everything that was fitted belongs to that block: then it can name the file as its parameter set.
+std::string common_block(const FitResult& result) {
+  std::string prefix;
+  for (const auto& e : result.estimates) {
+    const auto dot = e.path.rfind('.');
+    const std::string block = dot == std::string::npos ? "" : e.path.substr(0, dot + 1);
+    if (block.empty() || (!prefix.empty() && block != prefix)) return "";
+    prefix = block;
+  }
+  return prefix;
+}
+
+}  // namespace
+
+std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data) {
+  Json file = {{"format", 1},
+               {"title", "fitted parameters"},
+               {"source", fmt::format("fit of {} by {}", data.file.empty() ? data.title : data.file, result.method)}};
+  std::string undetermined;
+  for (const auto& u : result.undetermined) undetermined += (undetermined.empty() ? "" : "; ") + u.sentence;
+  if (!undetermined.empty()) file["remark"] = undetermined;
+  const std::string block = common_block(result);
+  for (const auto& e : result.estimates) {
+    const auto [name, index] = without_index(e.path);
+    const std::string key = name.substr(block.size());
+    if (file.contains(key)) continue;
+    std::string remark, unit = e.unit.text;
+    Json one;
+    if (index >= 0) {
+      one = list_value(name, result.estimates, program, remark, unit);
+    } else if (e.value) {  // what the data do not determine has no value
+      one = {{"value", shown(e, *e.value, 8)}, {"unit", unit}};
+      if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
+      remark = knowledge(e);
+    } else {
+      continue;
+    }
+    if (unit.empty()) one.erase("unit");
+    if (!remark.empty()) one["remark"] = remark;
+    file[key] = std::move(one);
+  }
   return file.dump(2) + "\n";
 }
 

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "fit/fit.h"
+#include "io/diagram_file.h"
 #include "tests/fit/lab.h"
 
 namespace hysteron {
@@ -115,15 +118,39 @@ TEST(ParameterFile, HoldsValueUnitAndIntervalOfWhatIsDeterminedAndNothingElse) {
   const auto r = fit(model, noise_before_fit(model), free_parameters(*program, {"a.gain", "b.gain", "b.offset"}));
   ASSERT_TRUE(r.ok);
   const auto json = nlohmann::json::parse(parameter_file_text(r, *program, data));
-  EXPECT_FALSE(json["parameters"].contains("a.gain"));
-  EXPECT_FALSE(json["parameters"].contains("b.gain"));
-  ASSERT_TRUE(json["parameters"].contains("b.offset"));
-  const auto& offset = json["parameters"]["b.offset"];
+  EXPECT_FALSE(json.contains("a.gain"));
+  EXPECT_FALSE(json.contains("b.gain"));
+  ASSERT_TRUE(json.contains("b.offset"));
+  const auto& offset = json["b.offset"];
   EXPECT_EQ(offset["unit"], "um");
   EXPECT_NEAR(offset["value"].get<double>(), 0, 1e-3);
-  EXPECT_LT(offset["interval_95"][0].get<double>(), offset["interval_95"][1].get<double>());
-  EXPECT_EQ(json["undetermined"].size(), 1U);
-  EXPECT_EQ(json["source"]["data"], "lab.json");
+  EXPECT_GT(offset["std"].get<double>(), 0);
+  EXPECT_NE(offset["remark"].get<std::string>().find("95 % within"), std::string::npos);
+  EXPECT_NE(json["remark"].get<std::string>().find("a.gain"), std::string::npos);
+  EXPECT_NE(json["source"].get<std::string>().find("lab.json"), std::string::npos);
+}
+
+TEST(ParameterFile, OfOneBlockIsASetThatTheBlockCanName) {
+  DataSet data;
+  data.notes["y"].noise.white = 1e-9;
+  data.recordings = {lab::recording("a", Role::train, 0.01, 300, [](double t) { return 3 + 3 * std::sin(7 * t); })};
+  Diagram d = lab::diagram("core");
+  auto& core = lab::add(d, "core", "prandtl_ishlinskii", "u");
+  core.parameters["thresholds"] = NumberList{{0, "V"}, {1, "V"}};
+  core.parameters["weights"] = NumberList{{1, "um/V"}, {0.25, "um/V"}};
+  const auto program = compile(d, lab::registry());
+  lab::measure(data, program, 0, 1);
+  DataModel model(program, lab::shared(data));
+  const auto r = fit(model, noise_before_fit(model), free_parameters(*program, {"core.weights"}));
+
+  const std::string folder = testing::TempDir() + "/fit_parameter_set";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/set.json") << parameter_file_text(r, *program, data);
+  std::ofstream(folder + "/diagram.json") << R"({"format": 1, "inputs": {"u": {"unit": "V"}}, "outputs": {"y": "core"},
+    "blocks": {"core": {"type": "prandtl_ishlinskii", "thresholds": ["0 V", "1 V"], "parameters": "set.json", "in": "u"}}})";
+  const auto again = compile(read_diagram(folder + "/diagram.json"), lab::registry());
+  EXPECT_NEAR(again->find_parameter("core.weights[0]")->value, 1e-6, 1e-13);
+  EXPECT_NEAR(again->find_parameter("core.weights[1]")->value, 0.25e-6, 1e-13);
 }
 
 }  // namespace
