@@ -171,17 +171,19 @@ std::string bars_html(const PreparedFigure& figure) {
     high = std::max(high, bar.value);
   }
   const double span = high > low ? high - low : 1;
-  std::string out = "<table class=\"bars\">";
+  const bool long_texts =
+      std::any_of(figure.bars.begin(), figure.bars.end(), [](const Bar& bar) { return bar.text.size() > 18; });
+  std::string out = fmt::format("<table class=\"bars{}\">", long_texts ? " long" : "");
   for (const auto& bar : figure.bars) {
     const double value = std::isfinite(bar.value) ? bar.value : 0;
     const double begin = 100 * (std::min(0.0, value) - low) / span, width = 100 * std::abs(value) / span;
     const std::string css = bar.role == "after" ? "simulated" : bar.role.empty() ? "p0" : bar.role;
     out += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"track\"><svg><rect class=\"bar c-{}\" x=\"{:.2f}%\" "
+        "<tr><th scope=\"row\"{}>{}</th><td class=\"track\"><svg><rect class=\"bar c-{}\" x=\"{:.2f}%\" "
         "width=\"{:.2f}%\" "
         "y=\"0\" height=\"100%\"/></svg></td><td>{}</td></tr>",
-        escape(bar.label), escape(css), begin, width,
-        escape(bar.text.empty() ? fmt::format("{:.3g}", bar.value) : bar.text));
+        bar.label.size() > 26 ? " class=\"prose\"" : "", escape(bar.label), escape(css), begin, width,
+        escape_prose(bar.text.empty() ? fmt::format("{:.3g}", bar.value) : bar.text));
   }
   return out + "</table>";
 }

@@ -27,7 +27,34 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-std::string escape_prose(std::string_view text) {
+namespace {
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || (static_cast<unsigned char>(c) & 0x80); }
+
+/// "3.2 %", "0.4 um": no line break between a number and a short word behind it, which is mostly its unit.
+std::string glue_units(std::string_view text) {
+  constexpr std::size_t longest_unit = 5;
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    bool unit = false;
+    if (text[i] == ' ' && i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1]))) {
+      std::size_t end = i + 1;
+      while (end < text.size() && (is_letter(text[end]) || text[end] == '/')) ++end;
+      unit = (end > i + 1 && end - i - 1 <= longest_unit) || (end < text.size() && text[end] == '%');
+    }
+    if (unit)
+      out += "\u00a0";
+    else
+      out += text[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string escape_prose(std::string_view prose) {
+  const std::string glued = glue_units(prose);
+  std::string_view text = glued;
   std::string out;
   while (!text.empty()) {
     const auto open = text.find('`');

@@ -10,6 +10,7 @@ namespace hysteron {
 std::string escape(std::string_view text);
 
 /// As escape, and `code` between backticks is set as code: names of blocks and effects in a sentence.
+/// A number stays on one line with its unit.
 std::string escape_prose(std::string_view text);
 
 /// JSON text for a <script type="application/json">: no "<" that could end the element. `json` must be valid JSON.

@@ -19,6 +19,12 @@ TEST(EscapeProse, SetsCodeBetweenBackticksAndEscapesInside) {
   EXPECT_EQ(escape_prose("a lonely ` stays"), "a lonely ` stays");
 }
 
+TEST(EscapeProse, KeepsANumberAndItsUnitOnOneLine) {
+  EXPECT_EQ(escape_prose("3.2 % of 5 um, 7 V/um"), "3.2\u00a0% of 5\u00a0um, 7\u00a0V/um");
+  EXPECT_EQ(escape_prose("11 recordings"), "11 recordings");
+  EXPECT_EQ(escape_prose("ends with 3 "), "ends with 3 ");
+}
+
 TEST(EscapeJson, NeverEndsTheScriptElementAndMeansTheSame) {
   EXPECT_EQ(escape_json(R"(["</script><!--", "a"])"), R"(["\u003c/script>\u003c!--", "a"])");
 }
