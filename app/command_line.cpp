@@ -52,8 +52,6 @@ struct ParsedVerb {
   std::vector<CLI::Option*> parsed;
 };
 
-std::string spelled(const OptionSpec& spec) { return spec.name == "-o" ? "-o,--output" : spec.name; }
-
 void add_verb_to(CLI::App& app, ParsedVerb& parsed) {
   parsed.app = app.add_subcommand(parsed.verb.name, parsed.verb.summary);
   parsed.app->description(parsed.verb.summary);
@@ -66,7 +64,7 @@ void add_verb_to(CLI::App& app, ParsedVerb& parsed) {
     if (spec.placeholder.empty()) {
       option = parsed.app->add_flag(spec.name, spec.meaning);
     } else {
-      option = parsed.app->add_option(spelled(spec), value, spec.meaning);
+      option = parsed.app->add_option(spec.name, value, spec.meaning);
       option->option_text(spec.placeholder);
       option->required(spec.required);
       option->allow_extra_args(false);
@@ -129,7 +127,7 @@ int parse_and_act(const std::vector<std::string>& words) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", chosen() ? chosen()->app->help() : app.help());
+    fmt::print("{}", chosen() ? chosen()->app->help("hysteron") : app.help());
     return exit_code::done;
   } catch (const CLI::CallForVersion&) {
     fmt::print("hysteron {}\n", HYSTERON_VERSION);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "app/curves.h"
 #include "app/load.h"
@@ -156,22 +155,25 @@ int compare_verb_acts(const Arguments& arguments) {
   Document document = document_of(diagram, model, comparison);
   bool within = true;
   document.sentences = judge_tolerances(tolerances, model, comparison, within);
-  for (const auto& sentence : comparison.sentences) document.sentences.push_back(sentence);
-  auto facts = std::make_shared<nlohmann::json>();
-  (*facts)["diagram"] = arguments.text("diagram");
-  (*facts)["data"] = arguments.text("--data");
-  (*facts)["metrics"] = metrics_facts(model, comparison);
-  (*facts)["splits"] = split_facts(model, comparison);
-  if (!tolerances.empty()) (*facts)["within_tolerance"] = within;
+  for (const auto& sentence : comparison.sentences)
+    if (std::find(document.sentences.begin(), document.sentences.end(), sentence) == document.sentences.end())
+      document.sentences.push_back(sentence);  // two splits may say the same
+  Facts facts = Facts::object({{"diagram", arguments.text("diagram")},
+                               {"data", arguments.text("--data")},
+                               {"metrics", metrics_facts(model, comparison)},
+                               {"splits", split_facts(model, comparison)}});
+  if (!tolerances.empty()) facts.set("within_tolerance", within);
+  Facts::List delays;
   for (const auto& delay : find_delays(model, judge, prediction))
     if (!delay.sentence.empty()) {
       document.warnings.push_back(delay.sentence);
-      (*facts)["delays"].push_back({{"output", model.outputs()[static_cast<std::size_t>(delay.output)]},
-                                    {"samples", delay.samples},
-                                    {"seconds", delay.seconds},
-                                    {"sentence", delay.sentence}});
+      delays.push_back(Facts::object({{"output", model.outputs()[static_cast<std::size_t>(delay.output)]},
+                                      {"samples", delay.samples},
+                                      {"seconds", delay.seconds},
+                                      {"sentence", delay.sentence}}));
     }
-  document.facts = facts;
+  facts.set("delays", delays);
+  document.facts = to_json(facts);
   publish(arguments, result_folder(arguments, "compare"), document);
   return within ? exit_code::done : exit_code::no;
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/numbers.h"
 #include "fit/branches.h"
@@ -230,7 +229,7 @@ void add_split_figures(Section& section, const DataModel& model, const Compariso
         Bar bar;
         bar.label = part.label;
         bar.value = 100 * part.error;
-        bar.text = fmt::format("{} (of {} of the rows; rms {})", percent_text(part.error), percent_text(part.rows),
+        bar.text = fmt::format("{} in {} of the rows, rms {}", percent_text(part.error), percent_text(part.rows),
                                difference_text(part.rms, unit_of_differences(output_unit(model, of_output.output)), 3));
         figure.bars.push_back(std::move(bar));
       }
@@ -257,34 +256,35 @@ Table metrics_table(const DataModel& model, const Comparison& comparison) {
   return table;
 }
 
-nlohmann::json metrics_facts(const DataModel& model, const Comparison& comparison) {
-  auto list = nlohmann::json::array();
+Facts metrics_facts(const DataModel& model, const Comparison& comparison) {
+  Facts::List list;
   for (const auto& m : comparison.metrics) {
     const Unit unit = unit_of_differences(output_unit(model, m.output));
-    list.push_back({{"recording", m.recording >= 0 ? model.recording(m.recording).name : "all"},
-                    {"role", m.all_roles ? "all" : to_text(m.role)},
-                    {"output", model.outputs()[at(m.output)]},
-                    {"unit", unit_text(unit)},
-                    {"rows", m.metrics.rows},
-                    {"rms", unit.difference_from_si(m.metrics.rms)},
-                    {"peak", unit.difference_from_si(m.metrics.peak)},
-                    {"nrmse", m.metrics.nrmse},
-                    {"fit_percent", m.metrics.fit}});
+    list.push_back(Facts::object({{"recording", m.recording >= 0 ? model.recording(m.recording).name : "all"},
+                                  {"role", m.all_roles ? "all" : to_text(m.role)},
+                                  {"output", model.outputs()[at(m.output)]},
+                                  {"unit", unit_text(unit)},
+                                  {"rows", m.metrics.rows},
+                                  {"rms", unit.difference_from_si(m.metrics.rms)},
+                                  {"peak", unit.difference_from_si(m.metrics.peak)},
+                                  {"nrmse", m.metrics.nrmse},
+                                  {"fit_percent", m.metrics.fit}}));
   }
   return list;
 }
 
-nlohmann::json split_facts(const DataModel& model, const Comparison& comparison) {
-  auto list = nlohmann::json::array();
+Facts split_facts(const DataModel& model, const Comparison& comparison) {
+  Facts::List list;
   for (const auto& of_output : comparison.splits)
     for (const auto& split : of_output.splits) {
-      auto parts = nlohmann::json::array();
+      Facts::List parts;
       for (const auto& part : split.parts)
-        parts.push_back({{"label", part.label}, {"share_of_squared_error", part.error}, {"share_of_rows", part.rows}});
-      list.push_back({{"output", model.outputs()[at(of_output.output)]},
-                      {"by", split.variable},
-                      {"sentence", split.sentence},
-                      {"parts", parts}});
+        parts.push_back(Facts::object(
+            {{"label", part.label}, {"share_of_squared_error", part.error}, {"share_of_rows", part.rows}}));
+      list.push_back(Facts::object({{"output", model.outputs()[at(of_output.output)]},
+                                    {"by", split.variable},
+                                    {"sentence", split.sentence},
+                                    {"parts", parts}}));
     }
   return list;
 }

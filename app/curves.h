@@ -2,10 +2,10 @@
 // Does not simulate and does not judge (fit/compare.h).
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "app/facts.h"
 #include "fit/compare.h"
 #include "fit/model.h"
 #include "io/result.h"
@@ -40,8 +40,8 @@ void add_split_figures(Section& section, const DataModel& model, const Compariso
 /// RMS, peak, NRMSE and fit of each recording and output, and of each role together.
 Table metrics_table(const DataModel& model, const Comparison& comparison);
 /// The same as facts for programs.
-nlohmann::json metrics_facts(const DataModel& model, const Comparison& comparison);
-nlohmann::json split_facts(const DataModel& model, const Comparison& comparison);
+Facts metrics_facts(const DataModel& model, const Comparison& comparison);
+Facts split_facts(const DataModel& model, const Comparison& comparison);
 
 /// Recordings of train and validate, in the order of the data set; test recordings are left alone (DESIGN 4.2).
 std::vector<int> judged_recordings(const DataModel& model);

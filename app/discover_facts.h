@@ -2,15 +2,15 @@
 // Does not decide how people see it (discover_page.h).
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "app/facts.h"
 #include "discover/discover.h"
 
 namespace hysteron {
 
 /// `unit`: in which errors are given.
-nlohmann::json discovery_facts(const Discovery& found, const Unit& unit, const std::string& diagram_file,
-                               const std::string& data_file);
+Facts discovery_facts(const Discovery& found, const Unit& unit, const std::string& diagram_file,
+                      const std::string& data_file);
 
 }  // namespace hysteron

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/curves.h"
 #include "app/discover_facts.h"
@@ -68,11 +67,42 @@ Figure waterfall(const Seen& seen) {
   return figure;
 }
 
-Section steps_section(const Seen& seen) {
+/// The recording on which the base model was worst, among those that no fit has seen where there are such.
+int most_telling(const Seen& seen) {
+  int best = -1;
+  double largest = -1;
+  const auto validate = seen.model.recordings(Role::validate);
+  for (const int r : validate.empty() ? judged_recordings(seen.model) : validate) {
+    const Metrics* m = seen.before.find(r, 0);
+    if (m != nullptr && m->rms > largest) {
+      largest = m->rms;
+      best = r;
+    }
+  }
+  return best;
+}
+
+/// Before and after on the same axes, on the most telling recording; the others stand further down.
+void add_telling_figures(Section& section, const Document& document, const Seen& seen) {
+  const int r = most_telling(seen);
+  const auto recordings = judged_recordings(seen.model);
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (recordings[i] != r || seen.found.steps.empty()) continue;
+    Section figures;
+    add_time_figures(figures, {&seen.model, &seen.after, &seen.before}, document.traces[i]);
+    for (auto& figure : figures.figures) {
+      figure.title += ", " + seen.model.recording(r).name;
+      section.figures.push_back(std::move(figure));
+    }
+  }
+}
+
+Section steps_section(const Document& document, const Seen& seen) {
   Section section;
   section.title = seen.found.steps.empty() ? "The error" : "The error, step by step";
   section.figures.push_back(waterfall(seen));
   for (const auto& step : seen.found.steps) section.text.push_back(step.sentence);
+  add_telling_figures(section, document, seen);
   return section;
 }
 
@@ -194,15 +224,18 @@ Section next_section(const Discovery& found) {
   return section;
 }
 
-void add_recordings(Document& document, const Seen& seen) {
+/// One section per recording; their traces go into the document at once, in the order of the recordings.
+std::vector<Section> recording_sections(Document& document, const Seen& seen) {
+  std::vector<Section> sections;
   const Beside view{&seen.model, &seen.after, &seen.before};
   for (const int r : judged_recordings(seen.model)) {
     Section section;
     section.title = fmt::format("{} ({})", seen.model.recording(r).name, to_text(seen.model.recording(r).role));
     document.traces.push_back(recording_table(view, r, trace_file(seen.model.recording(r).name, document.traces)));
     add_time_figures(section, view, document.traces.back());
-    document.sections.push_back(std::move(section));
+    sections.push_back(std::move(section));
   }
+  return sections;
 }
 
 /// Every step's diagram, and the last one as final.json, as seen from the folder of results.
@@ -249,7 +282,8 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   const Comparison after = comparison_of(found.final_diagram, shared, final_model, models);
   const Seen seen{found, *final_model, after, before, output_unit(*final_model, 0)};
 
-  document.sections.push_back(steps_section(seen));
+  const auto recordings = recording_sections(document, seen);
+  document.sections.push_back(steps_section(document, seen));
   document.sections.push_back(errors_section(seen));
   document.sections.push_back(residual_section(seen, "Residual before: where the base model fails", before));
   if (!found.steps.empty()) document.sections.push_back(residual_section(seen, "Residual after: what is left", after));
@@ -258,10 +292,9 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sections.push_back(change_section(found));
   document.sections.push_back(candidates_section(seen));
   document.sections.push_back(data_section(found));
-  add_recordings(document, seen);
+  document.sections.insert(document.sections.end(), recordings.begin(), recordings.end());
   add_diagrams(document, found, files.folder);
-  document.facts =
-      std::make_shared<nlohmann::json>(discovery_facts(found, seen.unit, files.diagram_file, files.data_file));
+  document.facts = to_json(discovery_facts(found, seen.unit, files.diagram_file, files.data_file));
   return document;
 }
 

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/curves.h"
+#include "app/effect_parameters.h"
 #include "app/interrupt.h"
 #include "app/load.h"
 #include "app/numbers.h"
@@ -25,18 +25,17 @@ namespace {
 
 constexpr char help[] =
     "Answers: which values of the free parameters fit the recordings, and how sure are they.\n"
-    "Free is what the diagram marks (\"free\": true) and what --free names. Only train recordings are fitted;\n"
-    "validate recordings are judged with the result. Parameters that the data do not determine get no value.\n\n"
+    "Free is what the diagram marks (\"free\": true), the parameters of effects that were added, and what --free\n"
+    "names. Only train recordings are fitted; validate recordings are judged with the result. Parameters that the\n"
+    "data do not determine get no value.\n\n"
     "Examples:\n"
     "  hysteron fit next.json --data dataset.json\n"
-    "  hysteron fit next.json --data dataset.json --free drive_creep.amounts --write fitted.json\n\n"
+    "  hysteron fit stage.json --data dataset.json --free core.weights --write fitted.json\n\n"
     "Writes into the folder: result.json, traces/*.csv, report.html, fitted.json (the diagram with its new\n"
     "values) and parameters.json (values, standard deviations, 95 % intervals). --write FILE.json writes the\n"
     "fitted diagram to a place of its own too.\n"
     "Ctrl-C ends with the best values so far, and says so.\n"
     "Exit codes: 0 done, 2 wrong input, 3 the model cannot be simulated, 130 interrupted.";
-
-using Json = nlohmann::json;
 
 std::string interval_text(const ParameterEstimate& e) {
   if (!e.low95 || !e.high95) return e.at_lower ? "at its lower bound" : e.at_upper ? "at its upper bound" : "-";
@@ -59,22 +58,23 @@ Table parameter_table(const FitResult& result) {
   return table;
 }
 
-Json estimate_facts(const FitResult& result) {
-  Json list = Json::array();
+Facts estimate_facts(const FitResult& result) {
+  Facts::List list;
   for (const auto& e : result.estimates) {
-    const auto shown = [&](const std::optional<double>& si) -> Json {
-      if (!si) return nullptr;
+    const auto shown = [&](const std::optional<double>& si) -> std::optional<double> {
+      if (!si) return {};
       return e.difference ? e.unit.difference_from_si(*si) : e.unit.from_si(*si);
     };
-    list.push_back({{"parameter", e.path},
-                    {"unit", unit_text(e.unit)},
-                    {"determined", e.determined},
-                    {"value", shown(e.value)},
-                    {"standard_deviation", e.sigma ? Json(e.unit.difference_from_si(*e.sigma)) : Json(nullptr)},
-                    {"low95", shown(e.low95)},
-                    {"high95", shown(e.high95)},
-                    {"start", shown(e.start)},
-                    {"at_bound", e.at_lower || e.at_upper}});
+    list.push_back(
+        Facts::object({{"parameter", e.path},
+                       {"unit", unit_text(e.unit)},
+                       {"determined", e.determined},
+                       {"value", shown(e.value)},
+                       {"standard_deviation", e.sigma ? Facts(e.unit.difference_from_si(*e.sigma)) : Facts()},
+                       {"low95", shown(e.low95)},
+                       {"high95", shown(e.high95)},
+                       {"start", shown(e.start)},
+                       {"at_bound", e.at_lower || e.at_upper}}));
   }
   return list;
 }
@@ -94,10 +94,10 @@ std::vector<std::string> strong_correlations(const FitResult& result) {
   return list;
 }
 
-Json correlation_facts(const FitResult& result) {
-  Json names = Json::array();
+Facts correlation_facts(const FitResult& result) {
+  std::vector<std::string> names;
   for (const int i : result.correlated) names.push_back(result.estimates[static_cast<std::size_t>(i)].path);
-  return {{"parameters", names}, {"matrix_row_by_row", result.correlation}};
+  return Facts::object({{"parameters", names}, {"matrix_row_by_row", result.correlation}});
 }
 
 std::string rms_sentence(const DataModel& model, const Comparison& before, const Comparison& after) {
@@ -194,7 +194,9 @@ int fit_verb_acts(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(load_data(arguments, *program));
-  const auto free = free_parameters(*program, arguments.list("--free"));
+  auto wanted = effect_parameters(diagram, *program, all_effects());
+  for (const auto& path : arguments.list("--free")) wanted.push_back(path);
+  const auto free = free_parameters(*program, wanted);
   if (free.empty())
     fail("nothing_free", arguments.text("diagram"), "no parameter of the diagram is free",
          "mark parameters of the diagram with \"free\": true, or name them with --free core.weights");
@@ -222,17 +224,15 @@ int fit_verb_acts(const Arguments& arguments) {
   for (const auto& remark : data->remarks) document.warnings.push_back(remark);
   if (result.stopped) document.warnings.emplace_back("Interrupted: these are the best values found until then.");
   add_sections(document, model, fitted, text_diff(diagram_text(diagram), diagram_text(after)));
-  auto facts = std::make_shared<Json>();
-  (*facts)["diagram"] = arguments.text("diagram");
-  (*facts)["data"] = arguments.text("--data");
-  (*facts)["parameters"] = estimate_facts(result);
-  (*facts)["correlation"] = correlation_facts(result);
-  (*facts)["before"] = metrics_facts(model, fitted.before);
-  (*facts)["after"] = metrics_facts(model, fitted.after);
-  (*facts)["simulations"] = result.runs;
-  (*facts)["converged"] = result.converged;
-  (*facts)["interrupted"] = result.stopped;
-  document.facts = facts;
+  document.facts = to_json(Facts::object({{"diagram", arguments.text("diagram")},
+                                          {"data", arguments.text("--data")},
+                                          {"parameters", estimate_facts(result)},
+                                          {"correlation", correlation_facts(result)},
+                                          {"before", metrics_facts(model, fitted.before)},
+                                          {"after", metrics_facts(model, fitted.after)},
+                                          {"simulations", result.runs},
+                                          {"converged", result.converged},
+                                          {"interrupted", result.stopped}}));
   document.files.emplace_back("fitted.json", text_in_folder(after, folder, "fitted.json"));
   document.files.emplace_back("parameters.json", parameter_file_text(result, *program, *data));
   publish(arguments, folder, document);

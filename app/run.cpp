@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "app/facts.h"
 #include "app/load.h"
 #include "app/numbers.h"
 #include "app/publish.h"
@@ -89,10 +89,10 @@ void add_figures(Section& section, const CsvTable& table) {
 }
 
 /// Smallest, largest and last value of each signal: for the reader, and as facts for programs.
-void add_ranges(Section& section, nlohmann::json& facts, const CsvTable& table) {
+Facts add_ranges(Section& section, const CsvTable& table) {
   Table ranges;
   ranges.columns = {"signal", "smallest", "largest", "last"};
-  auto& entries = facts["traces"][table.file];
+  Facts entries;
   for (std::size_t i = 1; i < table.columns.size(); ++i) {
     const auto& column = table.columns[i];
     if (column.values.empty()) continue;
@@ -102,27 +102,39 @@ void add_ranges(Section& section, nlohmann::json& facts, const CsvTable& table) 
       return number_text(value, 6) + (unit.empty() ? "" : " " + unit);
     };
     ranges.rows.push_back({column.name, text(*low), text(*high), text(column.values.back())});
-    entries[column.name] = {
-        {"unit", unit_text(column.unit)}, {"smallest", *low}, {"largest", *high}, {"last", column.values.back()}};
+    entries.set(column.name, Facts::object({{"unit", unit_text(column.unit)},
+                                            {"smallest", *low},
+                                            {"largest", *high},
+                                            {"last", column.values.back()}}));
   }
   section.tables.push_back(std::move(ranges));
+  return entries;
 }
 
-void add_traces(Document& document, nlohmann::json& facts, const Program& program, const Traces& traces,
+/// What result.json says of each trace.
+struct RunFacts {
+  Facts traces, statistics;
+};
+
+void add_traces(Document& document, RunFacts& facts, const Program& program, const Traces& traces,
                 const std::string& name) {
   document.traces.push_back(table_of(program, traces, trace_file(name, document.traces)));
   const auto& table = document.traces.back();
   Section section;
   section.title = name == "signals" ? "Signals over time" : name;
   add_figures(section, table);
-  add_ranges(section, facts, table);
+  facts.traces.set(table.file, add_ranges(section, table));
   const auto& s = traces.statistics;
   section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(),
                                      s.method, count_text(s.steps, "step"), s.rejected, s.evaluations,
                                      count_text(s.reversals, "reversal")));
-  facts["statistics"][table.file] = {
-      {"method", s.method},       {"steps", s.steps},         {"rejected", s.rejected}, {"evaluations", s.evaluations},
-      {"jacobians", s.jacobians}, {"reversals", s.reversals}, {"restarts", s.restarts}};
+  facts.statistics.set(table.file, Facts::object({{"method", s.method},
+                                                  {"steps", s.steps},
+                                                  {"rejected", s.rejected},
+                                                  {"evaluations", s.evaluations},
+                                                  {"jacobians", s.jacobians},
+                                                  {"reversals", s.reversals},
+                                                  {"restarts", s.restarts}}));
   document.sections.push_back(std::move(section));
 }
 
@@ -145,7 +157,7 @@ SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diag
 }
 
 void run_own_time(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
-                  nlohmann::json& facts) {
+                  RunFacts& facts) {
   if (!program.input_names.empty())
     fail("unbound_input", "/inputs/" + program.input_names.front(),
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
@@ -161,7 +173,7 @@ void run_own_time(const Arguments& arguments, const Diagram& diagram, const Prog
 }
 
 void run_recordings(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
-                    nlohmann::json& facts) {
+                    RunFacts& facts) {
   const DataSet data = load_data(arguments, program);
   document.warnings = data.remarks;
   std::string seen;
@@ -189,13 +201,13 @@ int run(const Arguments& arguments) {
   Document document;
   document.verb = "run";
   document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
-  auto facts = std::make_shared<nlohmann::json>();
-  (*facts)["diagram"] = arguments.text("diagram");
+  RunFacts facts;
   if (arguments.has("--data"))
-    run_recordings(arguments, diagram, *program, document, *facts);
+    run_recordings(arguments, diagram, *program, document, facts);
   else
-    run_own_time(arguments, diagram, *program, document, *facts);
-  document.facts = facts;
+    run_own_time(arguments, diagram, *program, document, facts);
+  document.facts = to_json(Facts::object(
+      {{"diagram", arguments.text("diagram")}, {"traces", facts.traces}, {"statistics", facts.statistics}}));
   publish(arguments, result_folder(arguments, "run"), document);
   return exit_code::done;
 }

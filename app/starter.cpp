@@ -4,14 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <limits>
+#include <span>
 
 #include "app/numbers.h"
 #include "engine/error.h"
+#include "fit/linear.h"
+#include "io/value_text.h"
 
 namespace hysteron {
 namespace {
@@ -89,11 +91,6 @@ std::string quotient(const std::string& above, const std::string& below) {
   return fmt::format("{}/{}", above.empty() ? "1" : above, composed ? "(" + below + ")" : below);
 }
 
-/// A text as it stands in a JSON file, quotes included.
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
 
 /// A signal that stays and jumps was held between samples; one that moves was sampled.
@@ -108,19 +105,20 @@ bool looks_held(const CsvColumn& column) {
 std::vector<double> straight_line(const CsvTable& table, const StarterRoles& roles, const CsvColumn& y) {
   const auto& t = table.find(roles.time)->values;
   const double until = t.front() + train_share * (t.back() - t.front());
-  const auto rows = static_cast<Eigen::Index>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
-  const auto n = static_cast<Eigen::Index>(roles.inputs.size());
-  Eigen::MatrixXd a(rows, n + 1);
-  Eigen::VectorXd b(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k)
-      a(i, k) = table.find(roles.inputs[static_cast<std::size_t>(k)])->values[static_cast<std::size_t>(i)];
-    a(i, n) = 1;
-    b(i) = y.values[static_cast<std::size_t>(i)];
+  const auto rows = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
+  const std::size_t n = roles.inputs.size() + 1;
+  std::vector<double> columns;
+  for (const auto& input : roles.inputs) {
+    const auto& u = table.find(input)->values;
+    columns.insert(columns.end(), u.begin(), u.begin() + static_cast<std::ptrdiff_t>(rows));
   }
-  // Minimum norm: an input that does not move in these rows gets a gain of its own only as far as the rows say.
-  const Eigen::VectorXd x = a.completeOrthogonalDecomposition().solve(b);
-  return {x.data(), x.data() + x.size()};
+  columns.resize(n * rows, 1.0);  // the last column: the offset
+  NormalForm problem(static_cast<int>(n));
+  problem.add(columns, std::span(y.values).first(rows));
+  const std::vector<double> lower(n, -std::numeric_limits<double>::infinity());
+  const std::vector<double> upper(n, std::numeric_limits<double>::infinity());
+  // Smallest solution: an input that does not move in these rows gets a gain only as far as the rows say.
+  return solve_bounded(problem, lower, upper).x;
 }
 
 DiagramParameter free_parameter(double value, const std::string& unit) {
@@ -173,13 +171,13 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
   std::vector<std::string> columns;
   for (const auto& input : roles.inputs) {
     const bool held = looks_held(*table.find(input));
-    columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", quoted(input),
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", json_quoted(input),
                                   diagram_name(input), held ? "hold" : "linear"));
     assumed.push_back(held ? fmt::format("{} seldom changes: held between samples", input)
                            : fmt::format("{} moves along a straight line between samples", input));
   }
   for (const auto& output : roles.outputs)
-    columns.push_back(fmt::format("{}: {{\"to\": \"{}\"}}", quoted(output), diagram_name(output)));
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\"}}", json_quoted(output), diagram_name(output)));
   const auto& t = table.find(roles.time)->values;
   const double cut = t.front() + train_share * (t.back() - t.front());
   const auto first = std::upper_bound(t.begin(), t.end(), cut);
@@ -193,7 +191,7 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
       "{{\n  \"format\": 1,\n  \"title\": {0},\n  \"columns\": {{{1}}},\n  \"recordings\": [\n"
       "    {{\"file\": {0}, \"role\": \"train\", \"until\": \"{2}\"}},\n"
       "    {{\"file\": {0}, \"role\": \"validate\", \"skip\": \"{2}\"}}\n  ]\n}}\n",
-      quoted(csv_name), fmt::join(columns, ",\n              "), at);
+      json_quoted(csv_name), fmt::join(columns, ",\n              "), at);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+// Decides which numbers a fit may change where a diagram has effects in it: those that the effect's law leaves free.
+#include "app/effect_parameters.h"
+
+#include <algorithm>
+#include <map>
+
+#include "discover/add.h"
+
+namespace hysteron {
+namespace {
+
+/// Parameters that some law of the effect frees, each with its first free element ("weights" from 1 where the first
+/// weight is the wire's own gain).
+std::map<std::string, int> freed_by(const Effect& effect, const Circumstances& at) {
+  std::map<std::string, int> first;
+  for (const auto& law : effect.laws(at))
+    for (const auto& parameter : law.free) {
+      const auto bracket = parameter.path.find('[');
+      const std::string name = parameter.path.substr(0, bracket);
+      const int index = bracket == std::string::npos ? 0 : std::stoi(parameter.path.substr(bracket + 1));
+      const auto [known, is_new] = first.emplace(name, index);
+      if (!is_new) known->second = std::min(known->second, index);
+    }
+  return first;
+}
+
+}  // namespace
+
+std::vector<std::string> effect_parameters(const Diagram& diagram, const Program& program, const Effects& effects) {
+  Circumstances at;
+  // Beside a free gain of the user's own, a gain of the effect would not be determined.
+  at.gain_is_free =
+      std::any_of(program.parameters.begin(), program.parameters.end(), [](const auto& p) { return p.free; });
+  std::vector<std::string> paths;
+  for (const auto& [block, id] : effects_in(diagram)) {
+    const Effect* effect = effects.find(id);
+    if (effect == nullptr) continue;  // put there by a newer hysteron, or by hand
+    for (const auto& [name, first] : freed_by(*effect, at)) {
+      const std::string path = block + "." + name;
+      if (program.find_parameter(path) != nullptr) paths.push_back(path);
+      for (int k = first; program.find_parameter(element(path, k)) != nullptr; ++k) paths.push_back(element(path, k));
+    }
+  }
+  return paths;
+}
+
+}  // namespace hysteron
