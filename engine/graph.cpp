@@ -167,6 +167,11 @@ class Builder {
       SignalInfo s;
       s.path = kernel.declaration.outputs.size() == 1 ? b.path : b.path + "." + port.name;
       s.block = static_cast<int>(graph_.blocks.size());
+      if (const Value* unit = kernel.declaration.is_series ? body.parameters.find("unit") : nullptr)
+        if (const auto* text = std::get_if<std::string>(&unit->content)) {
+          s.unit = parse_unit(*text, unit->origin);
+          b.unit_known = true;
+        }
       graph_.signals.push_back(std::move(s));
     }
     graph_.blocks.push_back(std::move(b));

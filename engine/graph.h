@@ -47,6 +47,7 @@ struct GraphBlock {
   Sizes sizes;
   std::vector<ResolvedParameter> parameters;  ///< per declared parameter
   SeriesPointer series;
+  bool unit_known = false;  ///< recorded: its signal has the unit of the column
   std::vector<int> source;  ///< per input port (variadic ports: per wire): signal
   std::vector<int> port;    ///< per input: index of the declared port
   int first_signal = 0;

@@ -35,7 +35,8 @@ class Resolver {
     const auto check = [&](const Ordered<Value>& values) {
       for (const auto& [name, value] : values) {
         if (declaration_.parameter_index(name) >= 0) continue;
-        if (declaration_.is_series && (name == "samples" || name == "file" || name == "column")) continue;
+        if (declaration_.is_series && (name == "samples" || name == "file" || name == "column" || name == "unit"))
+          continue;
         problems_.add("unknown_parameter", place(name),
                       fmt::format("{} has no parameter \"{}\"", declaration_.type, name), did_you_mean(name, known));
       }

@@ -61,6 +61,9 @@ class UnitCheck {
   explicit UnitCheck(Graph& graph) : graph_(graph), units_(graph.blocks.size()), signals_(graph.signals.size()) {
     for (std::size_t i = 0; i < graph.inputs.size(); ++i)
       signals_[static_cast<std::size_t>(graph.inputs[i].second)] = graph.input_units[i].dimension;
+    for (const auto& block : graph.blocks)
+      if (const auto s = static_cast<std::size_t>(block.first_signal); block.unit_known)
+        signals_[s] = graph.signals[s].unit.dimension;
   }
 
   void run() {
@@ -167,30 +170,36 @@ class UnitCheck {
     return text.empty() ? "a plain number" : "in " + text;
   }
 
+  /// The words of a unit ("V", "um", "s" of "V/(um s)"), each noted if it is a unit of its own.
+  template <class Note>
+  static void note_words(const std::string& text, Note note) {
+    for (std::size_t k = 0; k <= text.size();) {
+      const auto end = std::min(text.find_first_of("/*() ^", k), text.size());
+      if (end > k) try {
+          note(parse_unit(text.substr(k, end - k)));
+        } catch (const Error&) {  // "1", or an exponent
+        }
+      k = end + 1;
+    }
+  }
+
   // Signals are shown in the units that the file uses: the first unit of that dimension that it names.
   void show_units() {
     std::vector<Unit> written;
     const auto note = [&](const Unit& unit) {
-      if (unit.dimension.none() && unit.scale == 1) return;
-      written.push_back(unit);
+      // "K/%" has the dimension of a temperature, but nobody reads a temperature in it: only units of one word.
+      const bool one_word = unit.text.find_first_of("/*() ") == std::string::npos;
+      if (one_word && !(unit.dimension.none() && unit.scale == 1)) written.push_back(unit);
     };
     for (const auto& unit : graph_.input_units) note(unit);
     for (const auto& block : graph_.blocks)
       for (const auto& parameter : block.parameters)
         for (const auto& number : parameter.numbers)
           if (number.has_unit) note(number.unit);
-    const std::size_t whole = written.size();
-    for (std::size_t i = 0; i < whole; ++i) {  // "um/V" also shows lengths in um
-      std::string text = written[i].text;
-      for (std::size_t k = 0; k <= text.size();) {
-        const auto end = std::min(text.find_first_of("/*() ", k), text.size());
-        if (end > k) try {
-            note(parse_unit(text.substr(k, end - k)));
-          } catch (const Error&) {
-          }
-        k = end + 1;
-      }
-    }
+    for (const auto& block : graph_.blocks)  // "um/V" also shows lengths in um
+      for (const auto& parameter : block.parameters)
+        for (const auto& number : parameter.numbers)
+          if (number.has_unit) note_words(number.unit.text, note);
     for (auto& signal : graph_.signals) {
       if (!signal.unit.text.empty()) continue;
       signal.unit = si_unit(signal.dimension);

@@ -252,9 +252,10 @@ class DiagramReader {
   void load_samples(const JsonPlace& place, Node& node) {
     const auto file = place.need("file", "write \"file\": \"drive.csv\"");
     const auto column = place.need("column", "write \"column\": \"u\"");
-    if (const auto samples = place.find("samples"))
-      samples->add("unknown_key", "samples cannot stand in a diagram file",
-                   "write them to a CSV and name it: \"file\", \"column\"");
+    for (const char* key : {"samples", "unit"})
+      if (const auto given = place.find(key))
+        given->add("unknown_key", fmt::format("{} cannot stand in a diagram file", key),
+                   "they stand in the CSV; name it: \"file\", \"column\"");
     if (!file || !column || !file->is_text() || !column->is_text()) return;
     const auto path = file_to_open(*file, *file->text());
     if (!path) return;
@@ -271,6 +272,10 @@ class DiagramReader {
       Value samples(SeriesPointer(std::move(series)));
       samples.origin = origin(place);
       node.parameters["samples"] = std::move(samples);
+      Value unit;
+      unit.content = recording.units.at(values->first).text;  // text, also where it looks like a number ("1/s")
+      unit.origin = origin(*column);
+      node.parameters["unit"] = std::move(unit);
     });
   }
 

@@ -176,9 +176,8 @@ class DiagramWriter {
            "write it to a file and name that");
     if (!node.parameter_file.empty()) m.emplace_back("parameters", json_quoted(node.parameter_file));
     for (const auto& [key, value] : node.parameters) {
-      // Samples stand in the CSV that "file" and "column" name.
-      if (key == "samples" && std::holds_alternative<SeriesPointer>(value.content) &&
-          node.parameters.find("file") != nullptr)
+      // Samples and their unit stand in the CSV that "file" and "column" name.
+      if (node.type == "recorded" && (key == "samples" || key == "unit") && node.parameters.find("file") != nullptr)
         continue;
       m.emplace_back(key, value_text(value));
     }

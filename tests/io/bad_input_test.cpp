@@ -201,6 +201,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RecordedWithoutColumn",
              "{\"format\": 1, \"blocks\": {\n\"a\": {\"type\": \"recorded\", \"file\": \"good.csv\"}}}", "missing_key",
              "/blocks/a", 2},
+        Case{"RecordedWithAUnitOfItsOwn",
+             "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"recorded\", \"file\": \"good.csv\", \"column\": "
+             "\"u\",\n\"unit\": \"V\"}}}",
+             "unknown_key", "/blocks/a/unit", 2},
         Case{"RecordedColumnMissing",
              "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"recorded\", \"file\": \"good.csv\",\n\"column\": "
              "\"x\"}}}",

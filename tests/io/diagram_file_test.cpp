@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "blocks/register_all.h"
+#include "engine/program.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -238,6 +240,20 @@ TEST(DiagramFile, ARecordedInputBringsItsSamplesInSIAndIsWrittenAsItWasRead) {
   EXPECT_NE(written.find(R"({"type": "recorded", "file": "lab.csv", "column": "u", "between_samples": "hold"})"),
             written.npos);
   EXPECT_NE(written.find(R"("column": "5 V")"), written.npos);
+}
+
+TEST(DiagramFile, ARecordedSignalHasTheUnitOfItsColumn) {
+  const TemporaryFolder folder;
+  folder.write("lab.csv", "t [s],u [um]\n0,1\n1,2\n");
+  const auto compiled = [&](const std::string& radius) {
+    return compile(read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {
+      "drive": {"type": "recorded", "file": "lab.csv", "column": "u"},
+      "play": {"type": "play", "radius": ")" + radius + R"(", "in": "drive"}}, "record": ["play"]})")),
+                   all_blocks());
+  };
+  const auto program = compiled("1 nm");
+  EXPECT_EQ(program->signals[static_cast<std::size_t>(program->signal("drive"))].unit.text, "um");
+  EXPECT_THROW(compiled("1 V"), Error);
 }
 
 TEST(DiagramFile, ADiagramWrittenElsewhereStillFindsWhatItNames) {
