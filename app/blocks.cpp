@@ -46,8 +46,8 @@ void print_all() {
     fmt::print("{}\n{}\n", group, table_text({}, rows));
   }
   fmt::print(
-      "\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts a diagram\n"
-      "into a diagram.\n");
+      "\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts\n"
+      "one diagram into another.\n");
 }
 
 std::string unit_column(const UnitExpression& unit) { return unit.empty() ? "1" : unit; }
@@ -60,8 +60,8 @@ std::string conditions(const ParameterDeclaration& p) {
   else if (p.minimum == 0)
     list.emplace_back("not negative");
   else if (std::isfinite(p.minimum))
-    list.push_back("at least " + number_text(p.minimum) + " (SI)");
-  if (std::isfinite(p.maximum)) list.push_back("at most " + number_text(p.maximum) + " (SI)");
+    list.push_back("at least " + number_text(p.minimum) + (p.unit.empty() ? "" : " (SI)"));
+  if (std::isfinite(p.maximum)) list.push_back("at most " + number_text(p.maximum) + (p.unit.empty() ? "" : " (SI)"));
   if (p.is_increasing) list.emplace_back("increasing");
   if (!p.same_length_as.empty()) list.push_back("as many as " + p.same_length_as);
   if (p.is_linear) list.emplace_back("found by linear least squares");
@@ -84,7 +84,7 @@ std::string example_value(const ParameterDeclaration& p) {
 
 /// One line of a diagram with every required parameter.
 std::string example(const Declaration& d) {
-  std::string text = fmt::format("\"my_{}\": {{\"type\": \"{}\"", d.type, d.type);
+  std::string text = fmt::format("\"name\": {{\"type\": \"{}\"", d.type);
   for (const auto& p : d.parameters)
     if (!p.default_text) text += fmt::format(", \"{}\": {}", p.name, example_value(p));
   if (d.inputs.size() == 1) {
@@ -126,7 +126,7 @@ void print_one(const Declaration& d) {
     for (const auto& remark : d.remarks) fmt::print("{}", wrapped(remark, 2));
   }
   if (!d.source.empty()) fmt::print("\nsource\n{}", wrapped(d.source, 2));
-  fmt::print("\nexample\n  {}\n", example(d));
+  fmt::print("\nexample\n{}", wrapped(example(d), 2));
   const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
   if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
       std::any_of(d.outputs.begin(), d.outputs.end(), variable))

@@ -35,7 +35,7 @@ std::string percent_text(double share) {
   const double percent = 100 * share;
   if (!std::isfinite(percent)) return "-";
   if (std::abs(percent) >= 99.95 || percent == 0) return fmt::format("{:.0f} %", percent);
-  return fmt::format("{:.{}f} %", percent, std::abs(percent) < 1 ? 2 : 1);
+  return std::abs(percent) < 1 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.1f} %", percent);
 }
 
 std::string count_text(long n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }

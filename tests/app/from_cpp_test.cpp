@@ -24,8 +24,9 @@ TEST(FromCpp, ADiagramIsBuiltRunAndChangedWithoutAFile) {
   diagram.record = {"drive", "amplifier"};
 
   // Compiled once; the program is immutable and may be shared by threads, each with its own Run.
-  const ProgramPointer program = compile(diagram, all_blocks());
-  Run run = start(*program);
+  const Registry blocks = all_blocks();  // must live as long as the program
+  const ProgramPointer program = compile(diagram, blocks);
+  hysteron::Run run = start(*program);
   SimulateOptions settings;
   settings.until = 1;     // s
   settings.every = 1e-4;  // s

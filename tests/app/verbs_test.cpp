@@ -97,7 +97,8 @@ TEST_F(Verbs, CompareGivesTheFiguresOfAKnownError) {
   const double rms = std::sqrt(sum / 150);
   const double deviation = 1.5 * std::sqrt(sum_uu / 150 - (sum_u / 150) * (sum_u / 150));
   bool seen = false;
-  for (const auto& m : result("out")["facts"]["metrics"]) {
+  const json metrics = result("out")["facts"]["metrics"];
+  for (const auto& m : metrics) {
     if (m["recording"] != "b.csv") continue;
     seen = true;
     EXPECT_NEAR(m["rms"].get<double>(), rms, 1e-6);  // the CSV has six digits
