@@ -158,11 +158,20 @@ void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& rol
   }
   const std::string offset = "offset" + of_output;
   diagram.parameters[offset] = free_parameter(line.back(), unit_text(y.unit));
-  Node& sensor = diagram.blocks["sensor" + of_output];
-  sensor.type = "calibration";
-  sensor.parameters["gain"] = Value(1.0);
-  sensor.parameters["offset"] = Value(Reference{offset});
-  sensor.in = {{"", moved}};
+  Node sensor;
+  if (y.unit.offset == 0) {
+    sensor.type = "calibration";
+    sensor.parameters["gain"] = Value(1.0);
+    sensor.parameters["offset"] = Value(Reference{offset});
+    sensor.in = {{"", moved}};
+  } else {  // the offset of a calibration is a difference; a temperature needs a zero of its own
+    Node& zero = diagram.blocks["zero" + of_output];
+    zero.type = "constant";
+    zero.parameters["value"] = Value(Reference{offset});
+    sensor.type = "sum";
+    sensor.in = {{"", moved}, {"", "zero" + of_output}};
+  }
+  diagram.blocks["sensor" + of_output] = std::move(sensor);
   diagram.outputs[name] = "sensor" + of_output;
 }
 

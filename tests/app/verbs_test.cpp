@@ -204,6 +204,19 @@ TEST_F(Verbs, NewWritesAStarterThatFitsAStraightLineAndSaysWhatItAssumed) {
   EXPECT_EQ(hysteron(folder_.path(), {"new", "--from", "a.csv", "-o", "stage"}).code, 2);
 }
 
+TEST_F(Verbs, NewKeepsATemperatureATemperature) {
+  // T = 20 degC + 0.5 K/% u: in kelvin 293.15 K, which the starter must not lose.
+  std::string text = "t [s],u1 [%],T1 [degC]\n";
+  for (int i = 0; i < 50; ++i) text += std::to_string(i) + "," + (i < 20 ? "0,20\n" : i < 40 ? "50,45\n" : "10,25\n");
+  folder_.write("heater.csv", text);
+  const Outcome made = hysteron(folder_.path(), {"new", "--from", "heater.csv", "-o", "heater"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("held between samples"), std::string::npos) << made.out;
+  const Outcome compared = hysteron(folder_.path(), {"compare", "heater/diagram.json", "--data", "heater/dataset.json",
+                                                     "-o", "out", "--tolerance", "0.001 K"});
+  EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
+}
+
 TEST_F(Verbs, TheSameInputGivesTheSameResult) {
   for (const char* out : {"one", "two"})
     ASSERT_EQ(hysteron(folder_.path(),
