@@ -88,9 +88,9 @@ class InSeries {
       if (!p.linear || p.block != block) continue;
       if (!p.offset && !constant) {
         c.gain_is_free = c.gain_is_free || is_free(p);
-      } else if (behind_place) {  // an offset before the place is another matter
+      } else {
         c.offset_is_free = c.offset_is_free || is_free(p);
-        c.zeros.push_back(p.path);
+        if (behind_place) c.zeros.push_back(p.path);
       }
     }
   }
@@ -114,7 +114,10 @@ class InSeries {
     const auto& block = block_of(signal);
     if (block.n_u == 0 || !is_linear(block)) return -1;
     note(program_.signals[static_cast<std::size_t>(signal)].block, c, false);
-    return moving_input(program_, block);
+    const int moving = moving_input(program_, block);
+    for (const int s : block.source)
+      if (s != moving) note(program_.signals[static_cast<std::size_t>(s)].block, c, false);
+    return moving;
   }
 
   const Program& program_;
@@ -203,8 +206,12 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
                                     trains[r]->t.begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
         const double hold = longest_hold(t, rows[r][s], high - low);
         const double step = median_step(t);
-        // What counts is the hold in samples: that is how many decades of creep it shows.
-        if (hold / step > c.longest_hold / c.step_at_longest_hold || c.longest_hold == 0) {
+        // The longest one that shows two decades of time; where none does, the one that shows most.
+        const bool shows = hold >= 100 * step;
+        const bool shown = c.longest_hold >= 100 * c.step_at_longest_hold;
+        if (shows != shown ? shows
+            : shows        ? hold > c.longest_hold
+                           : hold / step > c.longest_hold / c.step_at_longest_hold) {
           c.longest_hold = hold;
           c.step_at_longest_hold = step;
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/error.h"
 
@@ -27,16 +28,13 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
   return list;
 }
 
-/// Compiles and fits the diagram of `c`; `fresh` = index of the effect that starts from its law instead of its values.
-void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
-  const bool scans = fresh >= 0;
-  c.program = compile(c.diagram, *shop.registry);
-  DataModel model(c.program, shop.data);
+/// The free parameters: the user's own, and those of the chosen effects.
+std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen,
+                                   int fresh) {
   auto free = free_parameters(*c.program, shop.free_paths);
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
-    const bool is_fresh = static_cast<int>(i) == fresh;
-    if (effort == Effort::screen && scans && !is_fresh) continue;
-    for (auto& f : free_of_law(*c.program, c.standing[i], is_fresh)) {
+    if (!chosen[i]) continue;
+    for (auto& f : free_of_law(*c.program, c.standing[i], static_cast<int>(i) == fresh)) {
       std::erase_if(free, [&](const FreeParameter& have) { return have.parameter == f.parameter; });
       free.push_back(std::move(f));
     }
@@ -47,10 +45,18 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
       if (!have) free.push_back(std::move(f));
     }
   }
-  const auto& recordings = shop.evidence != nullptr ? shop.evidence->recordings() : std::vector<int>{};
+  return free;
+}
+
+/// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
+/// starts from its law instead of its values, -1 = none.
+void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
+  c.program = compile(c.diagram, *shop.registry);
+  DataModel model(c.program, shop.data);
+  const std::vector<Role> judged{Role::train, Role::validate};
+  const auto free = free_of(shop, c, chosen, fresh);
   if (free.empty()) {
-    const std::vector<Role> judged{Role::train, Role::validate};
-    c.prediction = model.predict({}, recordings.empty() ? model.recordings(judged) : recordings);
+    c.prediction = model.predict({}, model.recordings(judged));
     c.ok = c.prediction.ok;
     c.error = c.prediction.error;
     c.runs += model.runs();
@@ -61,33 +67,76 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
   options.intervals = effort == Effort::final;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
   const NoiseModel noise = shop.evidence != nullptr ? shop.evidence->noise() : noise_before_fit(model);
+  FitResult before = std::move(c.fit);
   c.fit = fit(model, noise, free, options);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
   if (!c.ok) return;
-  const std::vector<Role> judged{Role::train, Role::validate};
   c.prediction = model.predict(c.fit.values, model.recordings(judged));
   c.ok = c.prediction.ok;
   c.error = c.prediction.error;
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
+  // What was held this time keeps what was said of it last time.
+  for (auto& e : before.estimates)
+    if (std::none_of(c.fit.estimates.begin(), c.fit.estimates.end(),
+                     [&](const ParameterEstimate& now) { return now.path == e.path; }))
+      c.fit.estimates.push_back(std::move(e));
+}
+
+/// Two laws with many weights each, one behind the other, multiply each other: linear each, not together. Searching one
+/// of them without its linearity would cost a hundred times more than solving them in turn.
+bool too_many_at_once(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen) {
+  constexpr std::ptrdiff_t many = 4;
+  if (std::count(chosen.begin(), chosen.end(), true) < 2) return false;
+  std::vector<int> parameters;
+  for (const auto& f : free_of(shop, c, chosen, -1)) parameters.push_back(f.parameter);
+  const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
+  return std::count(affine.begin(), affine.end(), false) > many;
+}
+
+void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
+  std::vector<bool> chosen(c.standing.size(), true);
+  if (effort == Effort::screen && fresh >= 0)
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = static_cast<int>(i) == fresh;
+  c.program = compile(c.diagram, *shop.registry);
+  if (!too_many_at_once(shop, c, chosen)) {
+    fit_chosen(shop, c, effort, fresh, chosen);
+    return;
+  }
+  double last = std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    for (std::size_t k = 0; k < c.standing.size(); ++k) {
+      // The newest first: it has no values yet.
+      const std::size_t i = c.standing.size() - 1 - k;
+      std::vector<bool> one(c.standing.size(), false);
+      one[i] = true;
+      fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one);
+      if (!c.ok) return;
+    }
+    const double now = c.fit.chi2;
+    if (last - now < 1) return;
+    last = now;
+  }
 }
 
 /// Parameters that the effects spend: what is held at a bound is not there (a play with weight 0), and what the data do
 /// not determine buys nothing.
-int spent(const Contender& c) {
+int spent(const Contender& c, int standing) {
   int n = 0;
-  for (const auto& p : parameters_of(c))
+  for (const auto& p : parameters_of(c, standing))
     if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper)) ++n;
-  for (const auto& s : c.standing) n += static_cast<int>(s.zeros.size());
+  for (std::size_t i = 0; i < c.standing.size(); ++i)
+    if (standing < 0 || standing == static_cast<int>(i)) n += static_cast<int>(c.standing[i].zeros.size());
   return n;
 }
 
-Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh) {
+Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, int held_parameters) {
   try {
     fit_contender(shop, c, effort, fresh);
     if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
-    c.parameters = spent(c);
+    // Effects that were held keep what they spent before.
+    c.parameters = effort == Effort::screen && fresh >= 0 ? held_parameters + spent(c, fresh) : spent(c, -1);
   } catch (const Error& e) {
     c.ok = false;
     c.error = e.what();
@@ -97,7 +146,9 @@ Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh) {
 
 }  // namespace
 
-double Contender::score(double n) const { return error_of.evidence() + parameters * std::log(std::max(n, 2.0)); }
+double Contender::score() const {
+  return error_of.evidence() + parameters * std::log(std::max(error_of.witnesses, 2.0));
+}
 double Contender::tie_score() const { return error_of.evidence() + 2.0 * parameters; }
 
 Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort) {
@@ -121,7 +172,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   c.diagram = c.change.diagram;
   c.standing.push_back({&effect, law, place, c.change.name, effect.moves_zero ? at.zeros : std::vector<std::string>{}});
   const int fresh = static_cast<int>(c.standing.size()) - 1;
-  return guarded(shop, std::move(c), effort, fresh);
+  return guarded(shop, std::move(c), effort, fresh, before.parameters);
 }
 
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort) {
@@ -129,7 +180,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   c.diagram = contender.diagram;
   c.standing = contender.standing;
   c.change = contender.change;
-  return guarded(shop, std::move(c), effort, -1);
+  return guarded(shop, std::move(c), effort, -1, 0);
 }
 
 Contender without(const Workshop& shop, const Contender& contender, std::size_t index) {

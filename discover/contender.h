@@ -34,8 +34,8 @@ struct Contender {
   ModelError error_of;    ///< filled in by whoever holds the evidence
   int parameters = 0;     ///< that the effects spend: of their laws, determined and not held at a bound
   long runs = 0;
-  double score(double n) const;  ///< evidence + p ln N
-  double tie_score() const;      ///< evidence + 2 p
+  double score() const;      ///< evidence + p ln N, N = independent witnesses
+  double tie_score() const;  ///< evidence + 2 p
 };
 
 /// What every fit of a discovery shares.

@@ -212,9 +212,8 @@ class Investigation {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < tried.size(); ++i)
       if (tried[i].contender.ok) order.push_back(i);
-    const double n = current_.error_of.n();
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return tried[a].contender.score(n) < tried[b].contender.score(n);
+      return tried[a].contender.score() < tried[b].contender.score();
     });
     return order;
   }
@@ -254,8 +253,7 @@ class Investigation {
             with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, t.circumstances, Effort::full);
         d_.model_runs += richer.runs;
         if (!richer.ok) continue;
-        const double n = current_.error_of.n();
-        if (richer.score(n) < t.contender.score(n)) {
+        if (richer.score() < t.contender.score()) {
           t.contender = std::move(richer);
           t.law = law;
           any = true;
@@ -321,6 +319,10 @@ class Investigation {
         freed = true;
         tied = tie_score(t, true) - own < rules::tie;
       }
+      // Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks.
+      if (!tied && w.contender.error_of.over_floor() > rules::floor_gate && look_alike(*t.effect, *w.effect))
+        tied = std::abs(vuong(evidence_->pieces(t.contender.prediction), evidence_->pieces(w.contender.prediction))) <
+               rules::pieces_tell;
       if (tied) ties.push_back(static_cast<int>(i));
     }
     return ties;
@@ -394,7 +396,6 @@ class Investigation {
   /// Greedy search takes a look-alike where the right one was masked: in sets of two or more each member is replaced in
   /// turn.
   void exchange(Tried& w, double bar) {
-    const double n = current_.error_of.n();
     for (std::size_t i = 0; i + 1 < current_.standing.size() && !stopped(); ++i) {
       const Effect& member = *current_.standing[i].effect;
       for (const auto& e : effects_.list()) {
@@ -408,7 +409,7 @@ class Investigation {
           progress(fmt::format("{} in place of {}", e.id, member.id), bar);
           Contender other = with_effect(shop_, rest, e, e.laws(at[p]).front(), places[p], at[p], Effort::full);
           d_.model_runs += other.runs;
-          if (!other.ok || other.score(n) > current_.score(n) - rules::exchange) continue;
+          if (!other.ok || other.score() > current_.score() - rules::exchange) continue;
           d_.data_remarks.push_back(fmt::format("{} was taken at first; together with {} the recordings speak for {}",
                                                 member.id, w.effect->id, e.id));
           current_ = std::move(other);
@@ -421,7 +422,11 @@ class Investigation {
   // --- verdict
   // --------------------------------------------------------------------------------------------------------
 
+  /// As the recordings have it.
   Unit output_unit() const {
+    const auto& name = base_model_->outputs().front();
+    for (const auto& r : data_->recordings)
+      if (const auto found = r.units.find(name); found != r.units.end()) return found->second;
     return base_model_->program().signals[static_cast<std::size_t>(base_model_->output_signal(0))].unit;
   }
 

@@ -41,16 +41,16 @@ std::vector<std::string> Effects::ids() const {
   return names;
 }
 
-Number with_unit(double si_value, const Unit& unit) {
+Number with_unit(double si, const Unit& unit) {
   // Differences: a threshold of 2 degC is a span, not a temperature.
-  const double value = effects::rounded(unit.difference_from_si(si_value));
+  const double value = effects::rounded(unit.difference_from_si(si));
   if (unit.text.empty() && unit.dimension.none()) return {value, {}};
   return {value, unit.text.empty() ? to_text(unit.dimension) : unit.text};
 }
 
-NumberList with_unit(const std::vector<double>& si_values, const Unit& unit) {
+NumberList with_unit(const std::vector<double>& si, const Unit& unit) {
   NumberList list;
-  for (const double v : si_values) list.push_back(with_unit(v, unit));
+  for (const double v : si) list.push_back(with_unit(v, unit));
   return list;
 }
 

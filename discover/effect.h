@@ -108,6 +108,9 @@ struct Effect {
   std::function<std::vector<Law>(const Circumstances&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
   std::function<std::string(const Circumstances&)> unseen;
+  /// Why fitted values, though they may fit, are not this effect ("all of it lies beyond the longest hold"); "" = they
+  /// are.
+  std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> implausible;
   /// What the fitted law says, in one phrase ("1.5 % of the move per decade"); values [SI] as Law::free. May be empty.
   std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> summary;
 };
@@ -130,8 +133,8 @@ class Effects {
 Effects all_effects();
 
 /// A list of numbers with one unit, as a block parameter.
-NumberList with_unit(const std::vector<double>& si_values, const Unit& unit);
-Number with_unit(double si_value, const Unit& unit);
+NumberList with_unit(const std::vector<double>& si, const Unit& unit);
+Number with_unit(double si, const Unit& unit);
 /// "weights[3]"
 std::string element(const std::string& list, int index);
 

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/whiten.h"
+
 namespace hysteron {
 namespace {
-
-/// Bands hold at least this many coefficients: a mean of eight squares scatters by a factor of two, of one by any
-/// factor.
-constexpr std::size_t smallest_band = 8;
 
 double deviation(const Rows& rows) {
   double mean = 0;
@@ -54,25 +52,18 @@ void Evidence::settle(const Prediction& best) {
   Prediction with_zeros = best;
   add_zeros(base_, *judge_, with_zeros);
   judge_.emplace(base_, noise_from_residual(base_, before_, with_zeros, recordings_));
-}
-
-double Evidence::evidence_of(const std::vector<double>& w, std::size_t begin, std::size_t end) const {
-  double sum = 0;
-  if (known_) {
-    for (std::size_t k = begin; k < end; ++k) sum += w[k] * w[k];
-    return sum;
-  }
-  for (std::size_t from = begin, size = smallest_band; from < end;) {
-    std::size_t to = std::min(from + size, end);
-    if (end - to < smallest_band) to = end;
-    double chi2 = 0;
-    for (std::size_t k = from; k < to; ++k) chi2 += w[k] * w[k];
-    const double n = static_cast<double>(to - from);
-    sum += n * (1 + std::log(std::max(chi2 / n, 1e-3)));
-    if (from > begin) size *= 2;
-    from = to;
-  }
-  return sum;
+  double n = 0, squares = 0, fourth = 0;
+  for (const int r : recordings_)
+    for (const double w : residual(best, r)) {
+      n += 1;
+      squares += w * w;
+      fourth += w * w * w * w;
+    }
+  witnesses_ = n;
+  per_chi2_ = 1;
+  if (known_ || !(squares > 0)) return;
+  witnesses_ = std::clamp(3 * squares * squares / fourth, 3.0, n);
+  per_chi2_ = witnesses_ / squares;
 }
 
 ModelError Evidence::error(const Prediction& prediction) const {
@@ -100,7 +91,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       const double dev = deviation(measured);
       one.nrmse = dev > 0 ? one.rms / dev : 0;
       for (std::size_t k = begin; k < begin + size; ++k) one.chi2 += w[k] * w[k];
-      one.evidence = evidence_of(w, begin, begin + size);
+      one.evidence = one.chi2 * per_chi2_;
       begin += size;
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
       (is_train ? e.evidence_train : e.evidence_validate) += one.evidence;
@@ -109,6 +100,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       e.recordings.push_back(std::move(one));
     }
   }
+  e.witnesses = witnesses_ > 0 ? witnesses_ : e.n();
   e.nrmse_train = train.nrmse();
   e.nrmse_validate = validate.nrmse();
   if (one_dimension(base_)) {
@@ -116,6 +108,42 @@ ModelError Evidence::error(const Prediction& prediction) const {
     e.rms_validate = validate.rms();
   }
   return e;
+}
+
+std::vector<double> Evidence::pieces(const Prediction& prediction) const {
+  constexpr std::size_t count = 8;
+  std::vector<double> list;
+  for (const int r : recordings_) {
+    const auto w = residual(prediction, r);
+    std::size_t begin = 0;
+    for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o) {
+      const std::size_t rows = base_.measured(r, o).size();
+      if (rows == 0) continue;
+      // Back from whitened cosines to whitened rows; a coefficient that is free per recording is zero.
+      const bool dropped = base_.zero_per_recording(o);
+      std::vector<double> row(rows, 0.0);
+      std::copy_n(w.begin() + static_cast<std::ptrdiff_t>(begin), rows - (dropped ? 1 : 0),
+                  row.begin() + (dropped ? 1 : 0));
+      begin += rows - (dropped ? 1 : 0);
+      inverse_cosine_transform(row);
+      for (std::size_t k = 0; k < count; ++k) {
+        double chi2 = 0;
+        for (std::size_t i = k * rows / count; i < (k + 1) * rows / count; ++i) chi2 += row[i] * row[i];
+        list.push_back(chi2);
+      }
+    }
+  }
+  return list;
+}
+
+double vuong(const std::vector<double>& a, const std::vector<double>& b) {
+  const double n = static_cast<double>(a.size());
+  if (a.size() < 3) return 0;
+  double mean = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) mean += (a[k] - b[k]) / n;
+  double variance = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) variance += (a[k] - b[k] - mean) * (a[k] - b[k] - mean) / (n - 1);
+  return variance > 0 ? mean / std::sqrt(variance / n) : 0;
 }
 
 std::optional<std::pair<double, double>> Evidence::test_error(const Prediction& prediction) const {

@@ -36,19 +36,20 @@ struct ModelError {
   double nrmse_train = 0, nrmse_validate = 0;
   std::optional<double> rms_test, nrmse_test;  ///< only of the last model, read once at the end
 
+  double chi2() const { return chi2_train + chi2_validate; }
   double evidence() const { return evidence_train + evidence_validate; }
   double n() const { return n_train + n_validate; }
+  double witnesses = 0;  ///< independent ones among them (Evidence)
   double excess_validate() const { return chi2_validate - n_validate; }
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
 };
 
 /// The measure of a discovery. Residuals are whitened by one fixed filter (fit/whiten.h). Then
 /// - where a data sheet says how large the noise is: evidence = chi2;
-/// - where nobody says: the spectrum of what is left is unknown, noise or not, and is profiled out in octave bands of
-/// the
-///   whitened residual, evidence = sum n_b (1 + ln(chi2_b / n_b)). It equals chi2 near the floor; far above it, where
-///   the residual is a slow misfit of some dozen coefficients, it does not take ten thousand rows for ten thousand
-///   witnesses.
+/// - where nobody says, what the best model leaves is all that is known of noise and misfit. Its size is
+///   chi2_best / N, and it counts for N_eff = 3 (sum w^2)^2 / sum w^4 independent witnesses (the degrees of freedom of
+///   a sum of squares with that spectrum: N for white noise, 3 for a single line): evidence = chi2 * N_eff / chi2_best.
+///   Ten thousand rows of a slow misfit are some dozen witnesses, not ten thousand.
 class Evidence {
  public:
   /// `base`: any model of the data set; gives what was measured.
@@ -62,21 +63,31 @@ class Evidence {
     return judge_->residual(base_, prediction, recording);
   }
 
+  /// chi2 of consecutive pieces in time, eight per recording and output, in the order of recordings(). Two models that
+  /// are both not right are compared piece by piece (see tie_by_pieces).
+  std::vector<double> pieces(const Prediction& prediction) const;
+
   const Judge& judge() const { return *judge_; }
   const NoiseModel& noise() const { return judge_->noise(); }
   const DataModel& model() const { return base_; }
   const std::vector<int>& recordings() const { return recordings_; }  ///< train and validate
   bool noise_known() const { return known_; }
+  double witnesses() const { return witnesses_; }  ///< N, or N_eff: what ln N in a score means
   /// rms over rows and outputs of the test recordings, and their NRMSE; nullopt if there are none.
   std::optional<std::pair<double, double>> test_error(const Prediction& prediction) const;
 
  private:
-  double evidence_of(const std::vector<double>& w, std::size_t begin, std::size_t end) const;
   const DataModel& base_;
   NoiseModel before_;
   std::optional<Judge> judge_;
   std::vector<int> recordings_;
   bool known_ = true;
+  double per_chi2_ = 1;   ///< evidence per unit of chi2
+  double witnesses_ = 0;  ///< independent ones
 };
+
+/// Vuong's test of two models that need not be right (Econometrica 57 (1989) 307): how many standard deviations the
+/// mean difference of chi2 over pieces lies from zero. Below 2 in size, who is ahead depends on where one looks.
+double vuong(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace hysteron

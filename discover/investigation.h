@@ -30,10 +30,13 @@ struct Tried {
 namespace rules {
 constexpr double claim_fall =
     10;  ///< validation evidence must fall by this: nothing-hidden cases reached 1.8, true ones start at 14.5
-constexpr double tie = 7;                ///< in evidence + 2p
-constexpr double exchange = 6;           ///< fall of the score for which a look-alike is taken instead
-constexpr double floor_gate = 1.12;      ///< chi2/N on validation below which only noise is left: 6 % in rms
-constexpr double own_law_left = 0.015;   ///< share of its own effect that a simple law leaves, in rms
+constexpr double tie = 7;               ///< in evidence + 2p
+constexpr double pieces_tell = 2;       ///< standard deviations: with structure left, less is a tie (Vuong)
+constexpr double exchange = 6;          ///< fall of the score for which a look-alike is taken instead
+constexpr double floor_gate = 1.12;     ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms
+constexpr double share_of_first =
+    0.5;  ///< the first effect removes this share of the excess: listed ones alone 79-100 %, in unlisted cases 0-47 %
 constexpr double share_of_rest = 0.6;    ///< a further effect removes this share of the excess ...
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
@@ -45,6 +48,9 @@ constexpr int enriched = 3;        ///< names whose richer laws are tried
 /// Fills falls, share, admitted and reason. `first_fall` = fall of chi2 on validation by the first finding (0 in step
 /// 1).
 void judge(Tried& tried, const Contender& before, double first_fall);
+
+/// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
+std::vector<double> own_values(const Tried& tried);
 
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);

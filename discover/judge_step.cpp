@@ -27,6 +27,13 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
 
 }  // namespace
 
+std::vector<double> own_values(const Tried& tried) {
+  std::vector<double> values;
+  for (const auto& p : parameters_of(tried.contender, static_cast<int>(tried.contender.standing.size()) - 1))
+    if (p.estimate != nullptr) values.push_back(p.estimate->used);
+  return values;
+}
+
 bool look_alike(const Effect& a, const Effect& b) {
   const auto names = [](const Effect& x, const Effect& y) {
     return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),
@@ -48,15 +55,30 @@ void judge(Tried& tried, const Contender& before, double first_fall) {
   tried.fall_validate = was.evidence_validate - is.evidence_validate;
   const double plain = was.chi2_validate - is.chi2_validate;
   tried.share = was.excess_validate() > 0 ? plain / was.excess_validate() : 0;
-  const double n = was.n();
   if (!(tried.fall_validate > rules::claim_fall)) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
                     tried.fall_validate, rules::claim_fall);
     return;
   }
-  if (!(c.score(n) < before.score(n))) {
+  if (!(c.score() < before.score())) {
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
+    return;
+  }
+  if (tried.effect->implausible) {
+    const auto values = own_values(tried);
+    if (values.size() == tried.laws[tried.law].free.size())
+      if (const std::string why = tried.effect->implausible(tried.laws[tried.law], values, tried.circumstances);
+          !why.empty()) {
+        tried.reason = why;
+        return;
+      }
+  }
+  const bool above_noise = was.over_floor() > rules::floor_gate;
+  if (first_fall <= 0 && above_noise && tried.share < rules::share_of_first && !owns_an_excitation(was, is)) {
+    tried.reason =
+        fmt::format("a patch: it takes away {} of what stands above the noise, and most of it in no kind of recording",
+                    percent(tried.share));
     return;
   }
   if (first_fall > 0) {

@@ -116,16 +116,10 @@ Candidate candidate_of(const Tried& t, int step) {
   if (t.contender.ok) {
     c.parameters = t.contender.parameters;
     c.error = t.contender.error_of;
-    c.score = t.contender.score(t.contender.error_of.n());
+    c.score = t.contender.score();
     c.found = found_parameters(t.contender, t.circumstances);
-    std::vector<double> values;
-    bool known = true;
-    const auto own = parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1);
-    for (const auto& p : own) {
-      known = known && p.estimate != nullptr;
-      values.push_back(p.estimate != nullptr ? p.estimate->used : 0);
-    }
-    if (t.effect->summary && known && values.size() == t.laws[t.law].free.size())
+    const auto values = own_values(t);
+    if (t.effect->summary && values.size() == t.laws[t.law].free.size())
       c.summary = t.effect->summary(t.laws[t.law], values, t.circumstances);
   }
   return c;

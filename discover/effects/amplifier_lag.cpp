@@ -13,12 +13,11 @@ LawParameter time_constant(const Circumstances& at, int index) {
   LawParameter tau;
   tau.path = element("times", index);
   tau.log_scale = true;
-  // Below a hundredth of a row nothing moves any more; what needs a tenth of the recording to settle is no lag but
-  // drift.
-  tau.lower = at.shortest_step / 100;
-  tau.upper = std::max(at.longest_recording / 5, 10 * tau.lower);
+  // The lower bound must be as good as none, however quiet the sensor; what needs a fifth of the recording is drift.
+  tau.lower = at.shortest_step * 1e-4;
+  tau.upper = std::max(at.longest_recording / 5, 10 * at.shortest_step);
   tau.start = at.shortest_step;
-  if (index == 0) tau.scan = per_decade(2 * tau.lower, tau.upper / 2, 3);
+  if (index == 0) tau.scan = per_decade(at.shortest_step / 50, tau.upper / 2, 3);
   return tau;
 }
 

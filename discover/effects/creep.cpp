@@ -34,15 +34,30 @@ Effect creep() {
       {"sensor_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"dead_time", "low_frequencies", "a delay has no gain that falls with frequency"}};
   e.family = "creep";
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances& at) -> std::string {
+    // Creep goes by the logarithm of time: what shows nothing within the longest hold and much behind it is a drift.
+    const auto* times = std::get_if<NumberList>(&law.block.parameters.find("times")->content);
+    double shown = 0;
+    double all = 0;
+    for (std::size_t k = 0; times != nullptr && k < std::min(times->size(), values.size()); ++k) {
+      all += values[k];
+      if ((*times)[k].value <= at.longest_hold) shown += values[k];
+    }
+    if (shown >= 0.1 * all) return "";
+    return fmt::format("{:.0f} % of it would lie beyond the longest hold of {}: that is a drift, not creep",
+                       100 * (1 - shown / all), time_text(at.longest_hold));
+  };
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
-    // Two relaxations make a decade; those slower than the longest hold are extrapolated and do not count.
+    // Two relaxations make a decade; those slower than the longest hold are extrapolated and do not count, nor those
+    // before creep sets in.
     const auto* times = std::get_if<NumberList>(&law.block.parameters.find("times")->content);
     const double hold = std::max(at.longest_hold, 10 * at.shortest_step);
+    const double largest = values.empty() ? 0 : *std::max_element(values.begin(), values.end());
     double sum = 0;
     double first = 0;
     double last = 0;
     for (std::size_t k = 0; times != nullptr && k < std::min(times->size(), values.size()); ++k) {
-      if ((*times)[k].value > hold) continue;
+      if ((*times)[k].value > hold || (first == 0 && values[k] < 0.05 * largest)) continue;
       sum += values[k];
       if (first == 0) first = (*times)[k].value;
       last = (*times)[k].value;
@@ -66,6 +81,7 @@ Effect creep() {
       c.path = element("amounts", static_cast<int>(k));
       c.start = 0.005;
       c.lower = 0;
+      c.upper = 0.2;  // twenty times what is reported: what moves on by more is no creep but another plant
       c.plausible_upper = 0.05;
       law.free.push_back(c);
     }
