@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hysteron_process.h"
+#include "tests/app/schema_check.h"
 #include "tests/report/browser.h"
 
 namespace hysteron {
@@ -59,6 +60,8 @@ TEST(Demo, NamesCreepReachesTheNoiseOnOtherRecordingsAndTellsIt) {
   const Outcome outcome = hysteron(folder.path(), words("discover", "out"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   expect_the_answer(json::parse(folder.read("out/result.json")));
+  EXPECT_EQ(schema::refuses("result", folder.read("out/result.json")), "");
+  EXPECT_EQ(schema::refuses("diagram", folder.read("out/final.json")), "");
   expect_it_is_printed(outcome.out);
   expect_steps_that_run_by_hand(folder);
   if (browser::find().empty()) GTEST_SKIP() << "no Chromium on this machine (scripts/test installs one)";

@@ -7,6 +7,7 @@
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
+#include "tests/app/schema_check.h"
 
 namespace hysteron {
 namespace {
@@ -225,6 +226,21 @@ TEST_F(Verbs, TheSameInputGivesTheSameResult) {
               0);
   EXPECT_EQ(folder_.read("one/result.json"), folder_.read("two/result.json"));
   EXPECT_EQ(folder_.read("one/traces/a.csv"), folder_.read("two/traces/a.csv"));
+}
+
+TEST_F(Verbs, WhatIsWrittenSatisfiesTheShippedSchemas) {
+  folder_.write("sine.json", sine);
+  ASSERT_EQ(hysteron(folder_.path(), {"run", "sine.json", "-o", "ran"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"compare", "diagram.json", "--data", "dataset.json", "-o", "compared"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"fit", "diagram.json", "--data", "dataset.json", "-o", "fitted"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"new", "--from", "a.csv", "-o", "stage"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"add", "creep", "diagram.json", "-o", "next.json"}).code, 0);
+  for (const char* file : {"ran/result.json", "compared/result.json", "fitted/result.json"})
+    EXPECT_EQ(schema::refuses("result", folder_.read(file)), "") << file;
+  for (const char* file : {"stage/diagram.json", "fitted/fitted.json", "next.json"})
+    EXPECT_EQ(schema::refuses("diagram", folder_.read(file)), "") << file;
+  EXPECT_EQ(schema::refuses("dataset", folder_.read("stage/dataset.json")), "");
+  EXPECT_NE(schema::refuses("result", "{\"format\": 1}"), "") << "the schema takes anything";
 }
 
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
