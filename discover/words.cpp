@@ -151,7 +151,7 @@ void put_into_words(Discovery& d, const DataSet& data, const Unit& unit) {
           size_text(d.base.rms_validate, unit), 100 * d.base.nrmse_validate);
       break;
     case Verdict::missing_effect:
-      d.headline = fmt::format("Missing: {}. {}.", fmt::join(names, ", then "), fall);
+      d.headline = fmt::format("Missing: {}. The {}.", fmt::join(names, ", then "), fall);
       break;
     case Verdict::not_distinguishable:
       d.headline = fmt::format("Something is missing, and these recordings cannot tell what: {}. With {} the {}.",
