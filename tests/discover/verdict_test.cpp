@@ -31,19 +31,26 @@ std::vector<double> plus(std::vector<double> a, const std::vector<double>& b) {
   return a;
 }
 
-/// Bouc-Wen hysteresis by small Euler steps: another law than the plays that hysteron inserts.
-std::vector<double> bouc_wen_response(const std::vector<double>& u, double share) {
+/// Preisach's model: a triangle of relays that switch up at alpha and down at beta, more of them where the level is
+/// high. Another law than the plays that hysteron inserts: its loops are not congruent.
+std::vector<double> relay_response(const std::vector<double>& u, double share) {
+  const int n = 60;
+  std::vector<char> up(static_cast<std::size_t>(n * n), 0);
+  const auto level = [&](int k) { return (k + 0.5) / n; };
   std::vector<double> y;
-  double z = 0;
-  double before = u.front();
   for (const double now : u) {
-    const int parts = 50;
-    for (int k = 0; k < parts; ++k) {
-      const double dv = (now - before) / parts;
-      z += dv * (share - 1.2 * share * 0.9 * (dv >= 0 ? 1 : -1) * z / share - 0.1 * std::abs(z));
-    }
-    y.push_back(now - z * 0.5);
-    before = now;
+    double sum = 0;
+    double all = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) {
+        auto& state = up[static_cast<std::size_t>(i * n + j)];
+        if (now >= level(i)) state = 1;
+        if (now <= level(j)) state = 0;
+        const double density = std::exp(-(level(i) - level(j)) / 0.3) * (1 + 0.05 * (level(i) + level(j)));
+        all += density;
+        sum += density * state;
+      }
+    y.push_back((1 - share) * now + share * sum / all);
   }
   return y;
 }
@@ -84,7 +91,7 @@ TEST_F(Verdicts, AnotherLawOfHysteresisIsNamedAndTheErrorFallsToTheNoise) {
   std::uint64_t seed = 7;
   const auto add = [&](Role role, const std::vector<double>& t, const std::vector<double>& u) {
     list.push_back(recording(std::to_string(seed) + ".csv", role, t, u,
-                             plus(bouc_wen_response(u, 0.4), noise(t.size(), 3e-3, 0, seed))));
+                             plus(relay_response(u, 0.4), noise(t.size(), 3e-3, 0, seed))));
     ++seed;
   };
   add(Role::train, rows(800, 0.01), decaying_triangle(rows(800, 0.01), 1, 5));
@@ -93,7 +100,7 @@ TEST_F(Verdicts, AnotherLawOfHysteresisIsNamedAndTheErrorFallsToTheNoise) {
   const Discovery d = found(plain_gain(), data_set(list, 3e-3));
   EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
   ASSERT_EQ(names(d), std::vector<std::string>{"hysteresis"});
-  // Ten plays approximate the Bouc-Wen branch to about a hundredth of the loop: a few noises at most.
+  // Six plays leave about a quarter of the loop (DISCOVERY 3), more of them less.
   EXPECT_LT(d.final_error.rms_validate, 2 * 3e-3);
   EXPECT_LT(d.final_error.rms_validate, 0.2 * d.base.rms_validate);
   ASSERT_EQ(effects_in(d.final_diagram).size(), 1u);
@@ -210,9 +217,10 @@ TEST_F(Verdicts, AWrongGainIsACalibrationAndNothingElse) {
   EXPECT_EQ(names(d), std::vector<std::string>{"calibration"});
   ASSERT_FALSE(d.steps.empty());
   EXPECT_TRUE(d.steps.front().ties.empty());
-  for (const auto& p : d.steps.front().winner.found)
-    if (p.estimate.path.ends_with(".gain"))
-      EXPECT_NEAR(p.estimate.used, 1.02, 4 * 1e-3 / std::sqrt(1200 * 0.08));  // four standard deviations
+  for (const auto& p : d.steps.front().winner.found) {
+    if (!p.estimate.path.ends_with(".gain")) continue;
+    EXPECT_NEAR(p.estimate.used, 1.02, 4 * 1e-3 / std::sqrt(1200 * 0.08));  // four standard deviations
+  }
 }
 
 TEST_F(Verdicts, WhatTheDataCannotShowIsRefusedWithTheReason) {
@@ -236,7 +244,7 @@ TEST_F(Verdicts, WhatTheDataCannotShowIsRefusedWithTheReason) {
 TEST_F(Verdicts, TheSameQuestionHasTheSameAnswer) {
   const auto t = rows(400, 0.01);
   const auto u = several_sines(t, 1, {0.4, 1.1});
-  auto y = bouc_wen_response(u, 0.4);
+  auto y = relay_response(u, 0.4);
   const DataSet data = data_set({recording("a", Role::train, t, u, plus(y, noise(t.size(), 1e-3, 0, 1))),
                                  recording("b", Role::validate, t, u, plus(y, noise(t.size(), 1e-3, 0, 2)))},
                                 1e-3);
