@@ -128,6 +128,12 @@ DiagramParameter free_parameter(double value, const std::string& unit) {
   return parameter;
 }
 
+/// A block's name that no input of the diagram has.
+std::string block_name(const Diagram& diagram, std::string name) {
+  while (diagram.inputs.find(name) != nullptr) name += "_block";
+  return name;
+}
+
 /// One output: a gain for each input, their sum, an offset.
 void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& roles, const std::string& output) {
   const CsvColumn& y = *table.find(output);
@@ -142,7 +148,7 @@ void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& rol
     const std::string gain = single ? "gain" : "gain" + of_output + "_" + input;
     const std::string unit = quotient(difference_unit(y), difference_unit(*table.find(roles.inputs[k])));
     diagram.parameters[gain] = free_parameter(in_difference_unit(y, line[k]), unit);
-    const std::string block = single ? "actuator" : "actuator" + of_output + "_" + input;
+    const std::string block = block_name(diagram, single ? "actuator" : "actuator" + of_output + "_" + input);
     Node& node = diagram.blocks[block];
     node.type = "gain";
     node.parameters["gain"] = Value(Reference{gain});
@@ -151,7 +157,7 @@ void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& rol
   }
   std::string moved = parts.front();
   if (parts.size() > 1) {
-    moved = "sum" + of_output;
+    moved = block_name(diagram, "sum" + of_output);
     Node& sum = diagram.blocks[moved];
     sum.type = "sum";
     for (const auto& part : parts) sum.in.push_back({"", part});
@@ -165,14 +171,16 @@ void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& rol
     sensor.parameters["offset"] = Value(Reference{offset});
     sensor.in = {{"", moved}};
   } else {  // the offset of a calibration is a difference; a temperature needs a zero of its own
-    Node& zero = diagram.blocks["zero" + of_output];
+    const std::string zero_name = block_name(diagram, "zero" + of_output);
+    Node& zero = diagram.blocks[zero_name];
     zero.type = "constant";
     zero.parameters["value"] = Value(Reference{offset});
     sensor.type = "sum";
-    sensor.in = {{"", moved}, {"", "zero" + of_output}};
+    sensor.in = {{"", moved}, {"", zero_name}};
   }
-  diagram.blocks["sensor" + of_output] = std::move(sensor);
-  diagram.outputs[name] = "sensor" + of_output;
+  const std::string sensor_name = block_name(diagram, "sensor" + of_output);
+  diagram.blocks[sensor_name] = std::move(sensor);
+  diagram.outputs[name] = sensor_name;
 }
 
 std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const std::string& csv_name,
@@ -241,9 +249,27 @@ StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<
   return given;
 }
 
+namespace {
+
+/// Two columns that differ only by case or by signs would get one name in the diagram.
+void check_names(const CsvTable& table, const StarterRoles& roles) {
+  std::vector<std::string> names;
+  for (const auto* list : {&roles.inputs, &roles.outputs})
+    for (const auto& column : *list) {
+      const std::string name = diagram_name(column);
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        fail("unclear_columns", table.file, fmt::format("two columns would both be called \"{}\" in the diagram", name),
+             "rename one of them in the header line, or choose with --input NAME and --output NAME");
+      names.push_back(name);
+    }
+}
+
+}  // namespace
+
 Starter make_starter(const CsvTable& table, const StarterRoles& given, const std::string& csv_name) {
   Starter starter;
   const StarterRoles roles = guess_roles(table, given, starter.assumed);
+  check_names(table, roles);
   if (table.rows() < 3)
     fail("too_few_rows", table.file,
          fmt::format("{} cannot show a straight line", count_text(static_cast<long>(table.rows()), "row")),
@@ -254,6 +280,11 @@ Starter make_starter(const CsvTable& table, const StarterRoles& given, const std
   for (const auto& input : roles.inputs) diagram.inputs[diagram_name(input)].unit = unit_text(table.find(input)->unit);
   for (const auto& output : roles.outputs) add_output(diagram, table, roles, output);
   for (const auto& [name, signal] : diagram.outputs) diagram.record.push_back(signal);
+  for (const auto& input : roles.inputs) {
+    const auto& u = table.find(input)->values;
+    if (std::all_of(u.begin(), u.end(), [&](double value) { return value == u.front(); }))
+      starter.assumed.push_back(fmt::format("{} never moves: its gain cannot be told from the offset", input));
+  }
   starter.dataset_text = dataset_text(table, roles, csv_name, starter.assumed);
   std::vector<std::string> side;
   for (const auto& column : table.columns)

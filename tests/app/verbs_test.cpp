@@ -243,6 +243,24 @@ TEST_F(Verbs, WhatIsWrittenSatisfiesTheShippedSchemas) {
   EXPECT_NE(schema::refuses("result", "{\"format\": 1}"), "") << "the schema takes anything";
 }
 
+TEST_F(Verbs, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOneThatDoes) {
+  std::string data = lab::dataset();
+  data.replace(data.find("1 nm"), 4, "5 nm");
+  folder_.write("dataset.json", data);
+  const std::vector<std::string> words{"discover", "diagram.json", "--data", "dataset.json", "--check", "-o", "out"};
+  folder_.write("a.csv", lab::noisy_recording(1));
+  folder_.write("b.csv", lab::noisy_recording(2));
+  const Outcome adequate = hysteron(folder_.path(), words);
+  EXPECT_EQ(adequate.code, 0) << adequate.out << adequate.err;
+  EXPECT_TRUE(adequate.out.ends_with("adequate: out/report.html\n")) << adequate.out;
+
+  folder_.write("a.csv", lab::noisy_recording(3, 0.02));  // 20 ms at a period of 0.5 s: a hundred times the noise
+  folder_.write("b.csv", lab::noisy_recording(4, 0.02));
+  const Outcome missing = hysteron(folder_.path(), words);
+  EXPECT_EQ(missing.code, 1) << missing.out << missing.err;
+  EXPECT_NE(missing.out.find("lag"), std::string::npos) << missing.out;
+}
+
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
   std::string text = lab::dataset();
   text.replace(text.find("\"validate\"}"), 11, "\"validate\"},\n    {\"file\": \"c.csv\", \"role\": \"test\"}");
