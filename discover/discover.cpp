@@ -108,7 +108,7 @@ class Investigation {
     }
     compare_all(tried, first_fall);
     if (step > 1) refit_best(tried, first_fall, bar(0.7));
-    enrich(tried, first_fall, bar(0.8));
+    enrich(tried, step, first_fall, bar(0.8));
     const int winner = best_admitted(tried);
     std::vector<int> ties;
     if (winner >= 0) ties = ties_of(tried, static_cast<std::size_t>(winner));
@@ -237,11 +237,12 @@ class Investigation {
     for (std::size_t k = 4; k < order.size(); ++k) tried[order[k]].admitted = false;
   }
 
-  /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first.
-  void enrich(std::vector<Tried>& tried, double first_fall, double bar) {
+  /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
+  /// effect that was found they are screened with that one held, and fitted together only where that brings something.
+  void enrich(std::vector<Tried>& tried, int step, double first_fall, double bar) {
     const auto order = ranking(tried);
     if (order.empty()) return;
-    const bool far = tried[order.front()].contender.error_of.over_floor() > 3;
+    const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
     bool any = false;
     for (std::size_t k = 0; k < order.size() && !stopped(); ++k) {
       if (!far && k >= static_cast<std::size_t>(rules::enriched)) break;
@@ -249,15 +250,18 @@ class Investigation {
       if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
       for (std::size_t law = 1; law < t.laws.size(); ++law) {
         progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
-        Contender richer =
-            with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, t.circumstances, Effort::full);
+        Contender richer = with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, t.circumstances,
+                                       step == 1 ? Effort::full : Effort::screen);
         d_.model_runs += richer.runs;
-        if (!richer.ok) continue;
-        if (richer.score() < t.contender.score()) {
-          t.contender = std::move(richer);
-          t.law = law;
-          any = true;
+        if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
+          Contender together = refit(shop_, richer, Effort::full);
+          d_.model_runs += together.runs;
+          if (together.ok) richer = std::move(together);
         }
+        if (!richer.ok || !(richer.score() < t.contender.score())) continue;
+        t.contender = std::move(richer);
+        t.law = law;
+        any = true;
       }
     }
     if (any) compare_all(tried, first_fall);

@@ -216,6 +216,18 @@ class Search {
     return {low, high};
   }
 
+  /// Squared amplitude of a ripple with wave number k in the residual over the level, train recordings only.
+  double ripple_power(double k, double low) const {
+    double c = 0, s = 0, n = 0;
+    for (const Part* p : train())
+      for (std::size_t i = 0; i < p->y.size(); ++i) {
+        c += p->e[i] * std::cos(k * (p->y[i] - low));
+        s += p->e[i] * std::sin(k * (p->y[i] - low));
+        n += 1;
+      }
+    return n > 0 ? (c * c + s * s) / n : 0;
+  }
+
   void line_in_level() {
     const auto [low, high] = range(parts_, false);
     const double span = high - low;
@@ -231,10 +243,15 @@ class Search {
         return std::vector<Rows>{c, s};
       });
     };
+    // Screened on plain rows, where a trial costs a tenth; the best few are judged whitened.
+    std::vector<std::pair<double, double>> screened;
+    for (double lines = 3; lines <= 130; lines += 0.5)
+      screened.emplace_back(ripple_power(2 * std::numbers::pi * lines / span, low), lines);
+    std::partial_sort(screened.begin(), screened.begin() + 6, screened.end(), std::greater<>());
     double best_lines = 0;
     double best_fall = 0;
-    for (double lines = 3; lines <= 130; lines += 0.5)
-      if (const double f = fall(lines); f > best_fall) best_lines = lines, best_fall = f;
+    for (std::size_t k = 0; k < 6; ++k)
+      if (const double f = fall(screened[k].second); f > best_fall) best_lines = screened[k].second, best_fall = f;
     if (best_lines <= 0) return;
     for (double width = 0.25; width > 0.01; width /= 2)
       for (const int k : {-1, 1})
