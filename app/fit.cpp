@@ -100,20 +100,19 @@ Facts correlation_facts(const FitResult& result) {
   return Facts::object({{"parameters", names}, {"matrix_row_by_row", result.correlation}});
 }
 
-std::string rms_sentence(const DataModel& model, const Comparison& before, const Comparison& after) {
+/// "y RMS 0.093 um -> 0.0002 um (NRMSE 4.9 % -> 0.012 %)" of all outputs on the recordings of one role; "" without any.
+std::string rms_text(const DataModel& model, const Comparison& before, const Comparison& after, Role role) {
   std::vector<std::string> parts;
-  for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y)
-    for (const Role role : {Role::train, Role::validate}) {
-      const Metrics* a = before.find(role, y);
-      const Metrics* b = after.find(role, y);
-      if (a == nullptr || b == nullptr) continue;
-      const Unit unit = output_unit(model, y);
-      parts.push_back(fmt::format("{} on {}: RMS {} -> {}, NRMSE {} -> {}",
-                                  model.outputs()[static_cast<std::size_t>(y)], to_text(role),
-                                  difference_text(a->rms, unit), difference_text(b->rms, unit), percent_text(a->nrmse),
-                                  percent_text(b->nrmse)));
-    }
-  return fmt::format("{}", fmt::join(parts, "; "));
+  for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
+    const Metrics* a = before.find(role, y);
+    const Metrics* b = after.find(role, y);
+    if (a == nullptr || b == nullptr) continue;
+    const Unit unit = output_unit(model, y);
+    parts.push_back(fmt::format("{} RMS {} -> {} (NRMSE {} -> {})", model.outputs()[static_cast<std::size_t>(y)],
+                                difference_text(a->rms, unit), difference_text(b->rms, unit), percent_text(a->nrmse),
+                                percent_text(b->nrmse)));
+  }
+  return parts.empty() ? "" : fmt::format("{}: {}", to_text(role), fmt::join(parts, "; "));
 }
 
 /// Ctrl-C during a fit ends it with the best so far.
@@ -211,8 +210,11 @@ int fit_verb_acts(const Arguments& arguments) {
   Document document;
   document.verb = "fit";
   document.title = diagram.title;
+  const std::string train = rms_text(model, fitted.before, fitted.after, Role::train);
+  const std::string validate = rms_text(model, fitted.before, fitted.after, Role::validate);
   document.headline = fmt::format("{} fitted; {}", count_text(static_cast<long>(free.size()), "parameter"),
-                                  rms_sentence(model, fitted.before, fitted.after));
+                                  validate.empty() ? train : validate);
+  if (!validate.empty()) document.sentences.push_back(train);
   for (const auto& e : result.estimates)
     if (e.value)
       document.sentences.push_back(
