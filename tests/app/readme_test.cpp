@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/app/hysteron_process.h"
+#include "tests/app/schema_check.h"
 
 namespace hysteron {
 namespace {
@@ -68,6 +69,21 @@ TEST(Readme, ItsDiagramRunsAndItsCommandsPrintWhatItShows) {
   }
   EXPECT_EQ(diagrams, 1);
   EXPECT_GE(commands, 5);
+}
+
+TEST(Docs, TheDiagramThatTheyExplainRunsAndTheDataSetIsValid) {
+  const std::string docs = std::string(HYSTERON_SOURCE_DIR) + "/docs/";
+  const Folder folder;
+  const auto first_json = [](const std::string& file) {
+    for (const auto& fence : fences_of(file))
+      if (fence.language == "json") return fence.text;
+    return std::string();
+  };
+  folder.write("diagram.json", first_json(docs + "diagrams.md"));
+  const Outcome outcome = process::hysteron(folder.path(), {"run", "diagram.json", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(schema::refuses("diagram", folder.read("diagram.json")), "");
+  EXPECT_EQ(schema::refuses("dataset", first_json(docs + "datasets.md")), "");
 }
 
 }  // namespace
