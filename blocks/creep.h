@@ -15,7 +15,8 @@ struct Creep {
   static void output(const View<T>& v) {
     v.out[0] = creep::output(v.list(amounts), v.states(), v.u[0]);
   }
-  static void derivative(const View<double>& v) {
+  template <class T>
+  static void derivative(const View<T>& v) {
     const auto tau = v.list(times);
     for (std::size_t k = 0; k < tau.size(); ++k) v.out[k] = creep::relaxation_rate(tau[k], v.x[k], v.u[0]);
   }

@@ -15,7 +15,8 @@ struct Lag {
   static void output(const View<T>& v) {
     v.out[0] = v.x[v.n_x - 1];
   }
-  static void derivative(const View<double>& v) {
+  template <class T>
+  static void derivative(const View<T>& v) {
     const auto tau = v.list(times);
     for (std::size_t k = 0; k < tau.size(); ++k)
       v.out[k] = creep::relaxation_rate(tau[k], v.x[k], k == 0 ? v.u[0] : v.x[k - 1]);

@@ -24,7 +24,7 @@ struct SeriesBlock {
       return;
     }
     const double value = v.series->value(value_of(v.t), v.branch);
-    if constexpr (std::is_same_v<T, Dual>)
+    if constexpr (requires { v.t.rate; })
       v.out[0] = {value, v.series->slope(v.branch) * v.t.rate};
     else
       v.out[0] = value;

@@ -24,7 +24,8 @@ struct TransferFunction {
     v.out[0] =
         v.parameter(gain) * linear_system::output(linear_system::chain_at(v.c, v.n_x), v.x, direct ? v.u[0] : T{0});
   }
-  static void derivative(const View<double>& v) {
+  template <class T>
+  static void derivative(const View<T>& v) {
     linear_system::derivative(linear_system::chain_at(v.c, v.n_x), v.x, v.u[0], v.out);
   }
   static void rest(const View<double>& v);

@@ -1,14 +1,25 @@
 // Decides how a block is written: static functions over plain structs (fixed size), or over a View (size from the
 // shapes). The signature is the declaration: which functions a block has, and which arguments they take, tells the
-// engine what feeds through, what has states, what wants the rate of its inputs, and what remembers.
+// engine what feeds through, what has states, what wants the rate of its inputs, what remembers, what is sampled and
+// what has modes.
 //
 // Fixed form: struct templates Params<T>, In<T>, Out<T>, State<T>, Memory<T>, each holding only members of type T, and
-//   output(p, s)          no feedthrough             output(p, in) / output(p, s, in)   every input feeds through
-//   output(p, Time<T>)    a source                    output(p, m, in) + advance         m is always the advanced
-//   memory derivative(p, s, in)  dx/dt                       derivative(p, s, in, rate)         wants du/dt of its
-//   inputs advance(p, m, in)     what m becomes if `in` is accepted; pure
-// Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance (templates);
-//   prepare, rest, initial_states, initial_memory, next_corner, pace, reach_back, check (on View<double>).
+//   output(p, s)          no feedthrough           output(p, in) / output(p, s, in)   every input feeds through
+//   output(p, Time<T>)    a source                 output(p, m, in) + advance         m is always the advanced memory
+//   derivative(p, s, in)  dx/dt                    derivative(p, s, in, rate)         wants du/dt of its inputs
+//   advance(p, m, in)     what m becomes if `in` is accepted; pure
+//   update(p, s, in)      what s becomes after a sampling instant: the block is sampled, State holds sampled states,
+//   and
+//                         Params ends with period and offset (BlockSpec::sampled). A sampled block without State says
+//                         `static constexpr bool is_sampled = true`.
+// With modes, every function may take a Mode as last argument (output, derivative), and the block has
+//   guard(p, s, in, Mode) -> T        positive while the mode may stay; or guard(p, in, Mode), guard(p, s, in, rate,
+//   Mode) next(p, s, in, Mode) -> Mode      the mode that follows; same arguments as guard, all double reset(p, s, in,
+//   Mode before, Mode after) -> State<T>   optional: states at the beginning of the mode `after` initial_mode(p) ->
+//   Mode           optional
+// Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance, update, guard,
+//   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, next_corner, pace,
+//   reach_back, check (on View<double>).
 #pragma once
 
 #include <concepts>
@@ -25,6 +36,12 @@ template <class T>
 struct Time {
   T t{};
   double branch = 0;  ///< decides which smooth piece applies
+};
+
+/// Which branch of its law a block follows; changes at events only.
+struct Mode {
+  int is = 0;
+  friend bool operator==(Mode, Mode) = default;
 };
 
 struct Nothing {};
@@ -98,26 +115,58 @@ concept Sized = requires(const Shape& s) {
   { B::sizes(s) } -> std::same_as<Sizes>;
 };
 
-template <class B>
+template <class B, class T = double>
 struct Forms {
-  using D = Types<B, double>;
+  using D = Types<B, T>;
   using P = typename D::P;
   using I = typename D::I;
   using S = typename D::S;
   using M = typename D::M;
-  static constexpr bool output_time = requires(P p, Time<double> t) { B::output(p, t); };
-  static constexpr bool output_state = !std::is_empty_v<S> && requires(P p, S s) { B::output(p, s); };
-  static constexpr bool output_in = !std::is_empty_v<I> && requires(P p, I i) { B::output(p, i); };
-  static constexpr bool output_state_in = !std::is_empty_v<S> && requires(P p, S s, I i) { B::output(p, s, i); };
+  static constexpr bool states = !std::is_empty_v<S>;
+  static constexpr bool inputs = !std::is_empty_v<I>;
+  static constexpr bool output_time = requires(P p, Time<T> t) { B::output(p, t); };
+  static constexpr bool output_state = states && requires(P p, S s) { B::output(p, s); };
+  static constexpr bool output_in = inputs && requires(P p, I i) { B::output(p, i); };
+  static constexpr bool output_state_in = states && requires(P p, S s, I i) { B::output(p, s, i); };
   static constexpr bool output_memory = !std::is_empty_v<M> && requires(P p, M m, I i) { B::output(p, m, i); };
-  static constexpr bool derivative = !std::is_empty_v<S> && requires(P p, S s, I i) { B::derivative(p, s, i); };
-  static constexpr bool derivative_rate = !std::is_empty_v<S> && requires(P p, S s, I i) { B::derivative(p, s, i, i); };
+  static constexpr bool output_mode = !states && requires(P p, I i, Mode k) { B::output(p, i, k); };
+  static constexpr bool output_state_mode = states && requires(P p, S s, Mode k) { B::output(p, s, k); };
+  static constexpr bool output_state_in_mode = states && requires(P p, S s, I i, Mode k) { B::output(p, s, i, k); };
+  static constexpr bool derivative = states && requires(P p, S s, I i) { B::derivative(p, s, i); };
+  static constexpr bool derivative_rate = states && requires(P p, S s, I i) { B::derivative(p, s, i, i); };
+  static constexpr bool derivative_mode = states && requires(P p, S s, I i, Mode k) { B::derivative(p, s, i, k); };
+  static constexpr bool derivative_rate_mode = states && requires(P p, S s, I i, Mode k) {
+    B::derivative(p, s, i, i, k);
+  };
+  static constexpr bool update = states && requires(P p, S s, I i) { B::update(p, s, i); };
   static constexpr bool advance = !std::is_empty_v<M> && requires(P p, M m, I i) { B::advance(p, m, i); };
-  static_assert(output_time + output_state + output_in + output_state_in + output_memory == 1,
-                "exactly one of output(p, Time), output(p, s), output(p, in), output(p, s, in), output(p, m, in)");
-  static_assert(derivative + derivative_rate == (std::is_empty_v<S> ? 0 : 1),
-                "a block with State has exactly one of derivative(p, s, in), derivative(p, s, in, rate)");
+  static constexpr bool guard = requires(P p, I i, Mode k) { B::guard(p, i, k); };
+  static constexpr bool guard_state = states && requires(P p, S s, I i, Mode k) { B::guard(p, s, i, k); };
+  static constexpr bool guard_rate = states && requires(P p, S s, I i, Mode k) { B::guard(p, s, i, i, k); };
+  static constexpr bool modes = guard || guard_state || guard_rate;
+  static constexpr bool sampled = update || requires { requires B::is_sampled; };
+  static_assert(output_time + output_state + output_in + output_state_in + output_memory + output_mode +
+                        output_state_mode + output_state_in_mode ==
+                    1,
+                "exactly one of output(p, Time), output(p, s), output(p, in), output(p, s, in), output(p, m, in), or "
+                "with a Mode behind them");
+  static_assert(derivative + derivative_rate + derivative_mode + derivative_rate_mode + update == (states ? 1 : 0),
+                "a block with State has exactly one of derivative(p, s, in), derivative(p, s, in, rate), each maybe "
+                "with a Mode behind it, and update(p, s, in)");
   static_assert(advance == !std::is_empty_v<M>, "a block with Memory has advance(p, m, in), and only such a block");
+  static_assert(guard + guard_state + guard_rate <= 1,
+                "at most one of guard(p, in, Mode), guard(p, s, in, Mode), guard(p, s, in, rate, Mode)");
+};
+
+/// The arguments of a fixed block, loaded from a view.
+template <class B, class T>
+struct Arguments {
+  using Y = Types<B, T>;
+  typename Y::P p;
+  typename Y::S s;
+  typename Y::I in;
+  explicit Arguments(const View<T>& v)
+      : p(load<T>(typename Y::P{}, v.p)), s(load<T>(typename Y::S{}, v.x)), in(load<T>(typename Y::I{}, v.u)) {}
 };
 
 template <class B, class T>
@@ -125,31 +174,47 @@ void fixed_output(const View<T>& v) {
   using F = Forms<B>;
   using Y = Types<B, T>;
   const auto p = load<T>(typename Y::P{}, v.p);
+  [[maybe_unused]] const auto s = [&] { return load<T>(typename Y::S{}, v.x); };
+  [[maybe_unused]] const auto in = [&] { return load<T>(typename Y::I{}, v.u); };
   typename Y::O o{};
   if constexpr (F::output_time)
     o = B::output(p, Time<T>{v.t, v.branch});
   else if constexpr (F::output_state)
-    o = B::output(p, load<T>(typename Y::S{}, v.x));
+    o = B::output(p, s());
   else if constexpr (F::output_in)
-    o = B::output(p, load<T>(typename Y::I{}, v.u));
+    o = B::output(p, in());
   else if constexpr (F::output_state_in)
-    o = B::output(p, load<T>(typename Y::S{}, v.x), load<T>(typename Y::I{}, v.u));
+    o = B::output(p, s(), in());
+  else if constexpr (F::output_memory)
+    o = B::output(p, load<T>(typename Y::M{}, v.m), in());
+  else if constexpr (F::output_mode)
+    o = B::output(p, in(), Mode{v.mode});
+  else if constexpr (F::output_state_mode)
+    o = B::output(p, s(), Mode{v.mode});
   else
-    o = B::output(p, load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u));
+    o = B::output(p, s(), in(), Mode{v.mode});
   store<T>(o, v.out);
 }
 
-template <class B>
-void fixed_derivative(const View<double>& v) {
+template <class B, class T>
+void fixed_derivative(const View<T>& v) {
   using F = Forms<B>;
-  using Y = Types<B, double>;
-  const auto p = load<double>(typename Y::P{}, v.p);
-  const auto s = load<double>(typename Y::S{}, v.x);
-  const auto in = load<double>(typename Y::I{}, v.u);
+  const Arguments<B, T> a(v);
+  [[maybe_unused]] const auto rate = [&] { return load<T>(typename Types<B, T>::I{}, v.du); };
   if constexpr (F::derivative_rate)
-    store<double>(B::derivative(p, s, in, load<double>(typename Y::I{}, v.du)), v.out);
+    store<T>(B::derivative(a.p, a.s, a.in, rate()), v.out);
+  else if constexpr (F::derivative_rate_mode)
+    store<T>(B::derivative(a.p, a.s, a.in, rate(), Mode{v.mode}), v.out);
+  else if constexpr (F::derivative_mode)
+    store<T>(B::derivative(a.p, a.s, a.in, Mode{v.mode}), v.out);
   else
-    store<double>(B::derivative(p, s, in), v.out);
+    store<T>(B::derivative(a.p, a.s, a.in), v.out);
+}
+
+template <class B, class T>
+void fixed_update(const View<T>& v) {
+  const Arguments<B, T> a(v);
+  store<T>(B::update(a.p, a.s, a.in), v.out);
 }
 
 template <class B, class T>
@@ -157,6 +222,74 @@ void fixed_advance(const View<T>& v) {
   using Y = Types<B, T>;
   store<T>(B::advance(load<T>(typename Y::P{}, v.p), load<T>(typename Y::M{}, v.m), load<T>(typename Y::I{}, v.u)),
            v.out);
+}
+
+template <class B, class T>
+void fixed_guard(const View<T>& v) {
+  using F = Forms<B>;
+  const Arguments<B, T> a(v);
+  if constexpr (F::guard_rate)
+    v.out[0] = B::guard(a.p, a.s, a.in, load<T>(typename Types<B, T>::I{}, v.du), Mode{v.mode});
+  else if constexpr (F::guard_state)
+    v.out[0] = B::guard(a.p, a.s, a.in, Mode{v.mode});
+  else
+    v.out[0] = B::guard(a.p, a.in, Mode{v.mode});
+}
+
+template <class B>
+int fixed_next_mode(const View<double>& v) {
+  using F = Forms<B>;
+  const Arguments<B, double> a(v);
+  if constexpr (F::guard_rate)
+    return B::next(a.p, a.s, a.in, load<double>(typename Types<B, double>::I{}, v.du), Mode{v.mode}).is;
+  else if constexpr (F::guard_state)
+    return B::next(a.p, a.s, a.in, Mode{v.mode}).is;
+  else
+    return B::next(a.p, a.in, Mode{v.mode}).is;
+}
+
+template <class B, class T>
+void fixed_reset(const View<T>& v) {
+  const Arguments<B, T> a(v);
+  store<T>(B::reset(a.p, a.s, a.in, Mode{v.mode_before}, Mode{v.mode}), v.out);
+}
+
+template <class B>
+int fixed_initial_mode(const View<double>& v) {
+  return B::initial_mode(load<double>(typename Types<B, double>::P{}, v.p)).is;
+}
+
+/// The functions of a fixed block for the scalar T.
+template <class B, class T>
+void fixed_functions(Functions<T>& f) {
+  using F = Forms<B>;
+  using Y = Types<B, T>;
+  f.output = &fixed_output<B, T>;
+  f.output_rate = &fixed_output<B, DualOf<T>>;
+  if constexpr (F::states && !F::sampled) f.derivative = &fixed_derivative<B, T>;
+  if constexpr (F::update) f.update = &fixed_update<B, T>;
+  if constexpr (F::advance) {
+    f.advance = &fixed_advance<B, T>;
+    f.advance_rate = &fixed_advance<B, DualOf<T>>;
+  }
+  if constexpr (F::modes) f.guard = &fixed_guard<B, T>;
+  if constexpr (requires(typename Y::P p, typename Y::S s, typename Y::I i, Mode k) { B::reset(p, s, i, k, k); })
+    f.reset = &fixed_reset<B, T>;
+}
+
+/// The functions of a sized block for the scalar T.
+template <class B, class T>
+void sized_functions(Functions<T>& f) {
+  f.output = &B::template output<T>;
+  f.output_rate = &B::template output<DualOf<T>>;
+  if constexpr (requires(const View<T>& v) { B::template derivative<T>(v); }) f.derivative = &B::template derivative<T>;
+  if constexpr (requires(const View<T>& v) { B::template update<T>(v); }) f.update = &B::template update<T>;
+  if constexpr (requires(const View<T>& v) { B::template guard<T>(v); }) f.guard = &B::template guard<T>;
+  if constexpr (requires(const View<T>& v) { B::template reset<T>(v); }) f.reset = &B::template reset<T>;
+  if constexpr (requires(const View<T>& v) { B::template advance<T>(v); }) {
+    f.advance = &B::template advance<T>;
+    f.advance_rate = &B::template advance<DualOf<T>>;
+  }
 }
 
 template <class B>
@@ -191,10 +324,10 @@ Sizes fixed_sizes(const Shape&) {
   using Y = Types<B, double>;
   using F = Forms<B>;
   Sizes s;
-  s.states = count<double, typename Y::S>();
+  (F::sampled ? s.sampled_states : s.states) = count<double, typename Y::S>();
   s.memory = count<double, typename Y::M>();
   s.outputs = count<double, typename Y::O>();
-  s.feedthrough = F::output_in || F::output_state_in || F::output_memory;
+  s.feedthrough = F::output_in || F::output_state_in || F::output_memory || F::output_mode || F::output_state_in_mode;
   if constexpr (requires { B::smoothness; }) s.smoothness = B::smoothness;
   return s;
 }
@@ -241,6 +374,12 @@ class BlockSpec : public Declaration {
     in_order(index(member), memory_names.size());
     memory_names.push_back(std::move(key));
   }
+  /// Declares the block's period and offset, the last members of Params.
+  void sampled(double Y::P::*period, double Y::P::*offset) {
+    in_order(index(period), parameters.size());
+    in_order(index(offset), parameters.size() + 1);
+    Declaration::sampled();
+  }
 };
 
 /// The table of functions of a block type. Call it once per block, in the block's .cpp.
@@ -253,14 +392,12 @@ Kernel kernel() {
     B::describe(d);
     k.declaration = std::move(d);
     k.sizes = &B::sizes;
-    k.output = &B::template output<double>;
-    k.output_rate = &B::template output<Dual>;
-    if constexpr (requires(const View<double>& v) { B::derivative(v); }) k.derivative = &B::derivative;
+    sized_functions<B, double>(k);
+    sized_functions<B, Jet>(k.jet);
     if constexpr (requires { B::wants_rate; }) k.derivative_wants_rate = B::wants_rate;
-    if constexpr (requires(const View<double>& v) { B::template advance<double>(v); }) {
-      k.advance = &B::template advance<double>;
-      k.advance_rate = &B::template advance<Dual>;
-    }
+    if constexpr (requires { B::guard_wants_rate; }) k.guard_wants_rate = B::guard_wants_rate;
+    if constexpr (requires(const View<double>& v) { B::next_mode(v); }) k.next_mode = &B::next_mode;
+    if constexpr (requires(const View<double>& v) { B::initial_mode(v); }) k.initial_mode = &B::initial_mode;
     if constexpr (requires(const View<double>& v) { B::prepare(v); }) k.prepare = &B::prepare;
     if constexpr (requires(const View<double>& v) { B::rest(v); }) k.rest = &B::rest;
     if constexpr (requires(const View<double>& v) { B::initial_states(v); }) k.initial_states = &B::initial_states;
@@ -283,15 +420,16 @@ Kernel kernel() {
         static_cast<int>(d.memory_names.size()) != count<double, typename Y::M>())
       throw std::logic_error("block " + d.type + ": every member of its structs must be declared, and nothing else");
     k.sizes = &fixed_sizes<B>;
-    k.output = &fixed_output<B, double>;
-    k.output_rate = &fixed_output<B, Dual>;
-    k.uses_time = Forms<B>::output_time;
-    if constexpr (!std::is_empty_v<typename Y::S>) k.derivative = &fixed_derivative<B>;
-    k.derivative_wants_rate = Forms<B>::derivative_rate;
-    if constexpr (Forms<B>::advance) {
-      k.advance = &fixed_advance<B, double>;
-      k.advance_rate = &fixed_advance<B, Dual>;
-    }
+    using F = Forms<B>;
+    if (F::sampled != d.is_sampled)
+      throw std::logic_error("block " + d.type + ": a block is sampled by its functions and by its declaration");
+    fixed_functions<B, double>(k);
+    fixed_functions<B, Jet>(k.jet);
+    k.uses_time = F::output_time;
+    k.derivative_wants_rate = F::derivative_rate || F::derivative_rate_mode;
+    k.guard_wants_rate = F::guard_rate;
+    if constexpr (F::modes) k.next_mode = &fixed_next_mode<B>;
+    if constexpr (requires(typename Y::P p) { B::initial_mode(p); }) k.initial_mode = &fixed_initial_mode<B>;
     if constexpr (requires(typename Y::P p, typename Y::I i) { B::rest(p, i); }) k.rest = &fixed_rest<B>;
     if constexpr (requires(typename Y::P p) { B::initial(p); }) k.initial_states = &fixed_initial_states<B>;
     if constexpr (requires(typename Y::P p) { B::start(p); }) k.initial_memory = &fixed_initial_memory<B>;

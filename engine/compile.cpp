@@ -31,7 +31,7 @@ void lay_out_block(const GraphBlock& g, Program& program) {
   b.x_begin = program.n_x;
   program.n_x += g.sizes.states;
   b.m_begin = program.n_m;
-  program.n_m += g.sizes.memory;
+  program.n_m += b.memory_count();
   b.u_begin = program.n_u;
   b.n_u = static_cast<int>(g.source.size());
   program.n_u += b.n_u;
@@ -42,7 +42,20 @@ void lay_out_block(const GraphBlock& g, Program& program) {
     program.series.push_back(g.series);
   }
   if (g.sizes.history) b.history_index = program.n_histories++;
-  if (g.sizes.memory > 0) program.memory_blocks.push_back(static_cast<int>(program.blocks.size()));
+  const int index = static_cast<int>(program.blocks.size());
+  if (g.sizes.memory > 0) program.memory_blocks.push_back(index);
+  if (g.kernel->is_sampled()) {
+    b.hit_index = static_cast<int>(program.sampled_blocks.size());
+    program.sampled_blocks.push_back(index);
+  }
+  if (g.kernel->has_modes()) {
+    b.mode_index = static_cast<int>(program.modal_blocks.size());
+    program.modal_blocks.push_back(index);
+  }
+  if (g.kernel->uses_time || g.kernel->declaration.is_series || g.sizes.history) program.time_blocks.push_back(index);
+  b.adjacent = b.source.empty() ? -1 : b.source.front();
+  for (std::size_t i = 1; i < b.source.size(); ++i)
+    if (b.source[i] != b.source[i - 1] + 1) b.adjacent = -1;
   const auto& states = g.kernel->declaration.states;
   for (int i = 0; i < g.sizes.states; ++i) {
     const auto k = static_cast<std::size_t>(i);

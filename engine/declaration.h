@@ -79,8 +79,10 @@ class Declaration {
   std::string group;                      ///< "sources", "math", "continuous", "hysteresis", ...
   std::string place;       ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
   bool is_linear = false;  ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
-  bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate (jump paths, later)
+  bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate: a jump of the input is
+                                     ///< the path of a fast ramp
   bool is_series = false;            ///< driven by a recorded series (parameter "samples")
+  bool is_sampled = false;           ///< runs at offset + k period only, and holds its outputs between
 
   Declaration& name(std::string type_name, std::string what) {
     type = std::move(type_name);
@@ -92,6 +94,13 @@ class Declaration {
   Declaration& remark(std::string text) { return remarks.push_back(std::move(text)), *this; }
   Declaration& linear() { return is_linear = true, *this; }
   Declaration& rate_independent() { return is_rate_independent = true, *this; }
+  /// A sampled block. Adds the parameters "period" and "offset", behind all others.
+  Declaration& sampled() {
+    is_sampled = true;
+    parameter("period", "s", "time from one sampling instant to the next").positive();
+    parameter("offset", "s", "first sampling instant").optional("0 s").not_negative();
+    return *this;
+  }
   Declaration& at(std::string kind_of_place) { return place = std::move(kind_of_place), *this; }
   Declaration& in_group(std::string text) { return group = std::move(text), *this; }
 

@@ -1,106 +1,16 @@
-// Decides how the steps of a program are carried out: gather inputs, call the block, keep its outputs. Pure towards the
-// run; accept() alone changes memory. Allocates nothing.
+// Decides the ways through the steps of a program, for values, derivatives, rates and guards. Pure towards the run;
+// accept() alone changes memory. Allocates nothing.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/program.h"
+#include "engine/steps.h"
 
 namespace hysteron {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-void gather(const BlockInstance& b, Work& work) {
-  double* u = work.u.data() + b.u_begin;
-  for (int i = 0; i < b.n_u; ++i) u[i] = work.y[at(b.source[at(i)])];
-}
-
-View<double> trial_view(const Program& program, const Run& run, Work& work, int block, double t, const double* x) {
-  const BlockInstance& b = program.blocks[at(block)];
-  View<double> v = view_of(program, run, block);
-  v.x = x + b.x_begin;
-  v.t = t;
-  v.u = work.u.data() + b.u_begin;
-  return v;
-}
-
-void value_step(const Program& program, const Run& run, Work& work, int block, double t, const double* x) {
-  const BlockInstance& b = program.blocks[at(block)];
-  if (b.sizes.feedthrough) gather(b, work);
-  View<double> v = trial_view(program, run, work, block, t, x);
-  if (b.sizes.memory > 0) {
-    v.out = work.m.data() + b.m_begin;
-    b.kernel->advance(v);
-    v.m = v.out;
-  }
-  v.out = work.y.data() + b.y_begin;
-  b.kernel->output(v);
-}
-
-void derivative_step(const Program& program, const Run& run, Work& work, int block, double t, const double* x) {
-  const BlockInstance& b = program.blocks[at(block)];
-  gather(b, work);
-  View<double> v = trial_view(program, run, work, block, t, x);
-  if (b.kernel->derivative_wants_rate) {
-    double* du = work.du_buffer.data() + b.u_begin;
-    for (int i = 0; i < b.n_u; ++i) du[i] = work.rate[at(b.source[at(i)])];
-    v.du = du;
-  }
-  v.out = work.dx.data() + b.x_begin;
-  b.kernel->derivative(v);
-}
-
-/// The block's outputs once more, with every argument carrying its rate in time.
-void rate_step(const Program& program, const Run& run, Work& work, int block, double t, const double* x) {
-  const BlockInstance& b = program.blocks[at(block)];
-  const View<double> plain = trial_view(program, run, work, block, t, x);
-  for (int i = 0; i < b.p_at.back(); ++i) work.dual_p[at(i)] = plain.p[i];
-  for (int i = 0; i < b.n_u; ++i) work.dual_u[at(i)] = {work.y[at(b.source[at(i)])], work.rate[at(b.source[at(i)])]};
-  for (int i = 0; i < b.sizes.states; ++i) work.dual_x[at(i)] = {plain.x[i], work.dx[at(b.x_begin + i)]};
-  View<Dual> v;
-  v.p = work.dual_p.data();
-  v.p_at = plain.p_at;
-  v.c = plain.c;
-  v.n_c = plain.n_c;
-  v.x = work.dual_x.data();
-  v.n_x = plain.n_x;
-  v.n_m = plain.n_m;
-  v.u = work.dual_u.data();
-  v.n_u = plain.n_u;
-  v.n_y = plain.n_y;
-  v.t = {t, 1.0};
-  v.branch = plain.branch;
-  v.series = plain.series;
-  v.history = plain.history;
-  if (b.sizes.memory > 0) {
-    for (int i = 0; i < b.sizes.memory; ++i) work.dual_m_committed[at(i)] = plain.m[i];
-    v.m = work.dual_m_committed.data();
-    v.out = work.dual_m.data();
-    b.kernel->advance_rate(v);
-    v.m = work.dual_m.data();
-  }
-  v.out = work.dual_out.data();
-  b.kernel->output_rate(v);
-  for (int i = 0; i < b.sizes.outputs; ++i) work.rate[at(b.y_begin + i)] = work.dual_out[at(i)].rate;
-}
-
-void run_steps(const std::vector<Step>& steps, const Program& program, const Run& run, Work& work, double t,
-               const double* x) {
-  for (const Step& step : steps) {
-    switch (step.order) {
-      case Order::value:
-        value_step(program, run, work, step.block, t, x);
-        break;
-      case Order::rate:
-        rate_step(program, run, work, step.block, t, x);
-        break;
-      case Order::derivative:
-        derivative_step(program, run, work, step.block, t, x);
-        break;
-    }
-  }
-}
+using steps::at;
 
 /// Appends a point to the past of a signal and forgets what no dead time can reach any more.
 void remember(const Program& program, Run& run, Work& work, int block, double t) {
@@ -131,13 +41,16 @@ void remember(const Program& program, Run& run, Work& work, int block, double t)
 
 }  // namespace
 
-Work::Work(const Program& program)
+template <class T>
+WorkOf<T>::WorkOf(const Program& program)
     : y(at(program.n_y)),
-      u(at(program.n_u)),
-      m(at(program.n_m)),
+      rate(at(program.n_y)),
       dx(at(program.n_x)),
-      du_buffer(at(program.n_u)),
-      rate(at(program.n_y)) {
+      m(at(program.n_m)),
+      guard(program.modal_blocks.size()),
+      u(at(program.n_u)),
+      du(at(program.n_u)),
+      views(program.blocks.size()) {
   std::size_t inputs = 0, states = 0, memory = 0, parameters = 0, outputs = 0;
   for (const auto& b : program.blocks) {
     inputs = std::max(inputs, at(b.n_u));
@@ -152,19 +65,58 @@ Work::Work(const Program& program)
   dual_m_committed.resize(memory);
   dual_p.resize(parameters);
   dual_out.resize(outputs);
+  rate_view.p = dual_p.data();
+  rate_view.x = dual_x.data();
+  rate_view.u = dual_u.data();
+  if constexpr (!std::is_same_v<T, double>) {
+    p.resize(at(program.n_p));
+    m_committed.resize(at(program.n_m));
+  }
 }
 
-void evaluate_values(const Program& program, const Run& run, Work& work, double t, const double* x) {
-  run_steps(program.all_values, program, run, work, t, x);
+template <class T>
+void WorkOf<T>::refresh(const Run& run) requires(!std::is_same_v<T, double>) {
+  for (std::size_t i = 0; i < p.size(); ++i) p[i].value = run.p[i];
+  for (std::size_t i = 0; i < m_committed.size(); ++i) m_committed[i].value = run.m[i];
 }
 
-void evaluate_derivatives(const Program& program, const Run& run, Work& work, double t, const double* x) {
-  run_steps(program.derivative_steps, program, run, work, t, x);
+template <class T>
+void evaluate_values(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
+  steps::begin(program, run, work, t);
+  steps::run(program.all_values, program, work, x);
 }
 
-void evaluate_memory_rates(const Program& program, const Run& run, Work& work, double t, const double* x) {
-  run_steps(program.rate_steps, program, run, work, t, x);
+template <class T>
+void evaluate_derivatives(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
+  steps::begin(program, run, work, t);
+  steps::run(program.derivative_steps, program, work, x);
 }
+
+template <class T>
+void evaluate_memory_rates(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
+  steps::begin(program, run, work, t);
+  steps::run(program.rate_steps, program, work, x);
+}
+
+template <class T>
+void evaluate_guards(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
+  steps::begin(program, run, work, t);
+  steps::run(program.all_values, program, work, x);
+  steps::run(program.derivative_steps, program, work, x);
+  steps::run(program.rate_steps, program, work, x);
+  steps::guards(program, work, x);
+}
+
+template struct WorkOf<double>;
+template struct WorkOf<Jet>;
+#define HYSTERON_EVALUATE(T)                                                                        \
+  template void evaluate_values<T>(const Program&, const Run&, WorkOf<T>&, double, const T*);       \
+  template void evaluate_derivatives<T>(const Program&, const Run&, WorkOf<T>&, double, const T*);  \
+  template void evaluate_memory_rates<T>(const Program&, const Run&, WorkOf<T>&, double, const T*); \
+  template void evaluate_guards<T>(const Program&, const Run&, WorkOf<T>&, double, const T*);
+HYSTERON_EVALUATE(double)
+HYSTERON_EVALUATE(Jet)
+#undef HYSTERON_EVALUATE
 
 void accept(const Program& program, Run& run, Work& work, double t, const double* x) {
   if (program.n_histories > 0) {
@@ -174,7 +126,10 @@ void accept(const Program& program, Run& run, Work& work, double t, const double
   evaluate_values(program, run, work, t, x);
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     if (program.blocks[b].history_index >= 0) remember(program, run, work, static_cast<int>(b), t);
-  std::copy(work.m.begin(), work.m.end(), run.m.begin());
+  for (const int block : program.memory_blocks) {
+    const BlockInstance& b = program.blocks[at(block)];
+    std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
+  }
   run.t = t;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/declaration.h"
@@ -22,7 +23,8 @@ struct History {
 };
 
 /// What a block function sees: its own numbers and nothing else. All in SI.
-/// T is double for values, Dual for a value together with its rate in time.
+/// T is double for values, Dual for a value together with its rate in time, Jet for slopes along several directions,
+/// JetDual for the slopes of a rate.
 template <class T>
 struct View {
   const T* p = nullptr;       ///< parameters, one behind the other (text parameters as index of the choice)
@@ -34,11 +36,14 @@ struct View {
   const T* m = nullptr;  ///< memory: committed in advance(), advanced in output()
   int n_m = 0;
   const T* u = nullptr;   ///< inputs
-  const T* du = nullptr;  ///< rates of the inputs (only for derivative() that wants them)
+  const T* du = nullptr;  ///< rates of the inputs (only for functions that want them)
   int n_u = 0;
-  int n_y = 0;        ///< number of outputs
-  T t{};              ///< time [s]
-  double branch = 0;  ///< time that decides which smooth piece of a source applies [s]
+  int n_y = 0;          ///< number of outputs
+  T t{};                ///< time [s]
+  double branch = 0;    ///< time that decides which smooth piece of a source applies [s]
+  int mode = 0;         ///< of a block with modes: the present one (reset: the one that begins)
+  int mode_before = 0;  ///< reset: the mode that ends
+  long hit = 0;         ///< of a sampled block: number of the sampling instant, 0 at the offset
   const Series* series = nullptr;
   const History* history = nullptr;
   T* out = nullptr;  ///< what the function writes: outputs, derivatives, memory, states at rest, constants
@@ -63,35 +68,59 @@ struct Shape {
 
 struct Sizes {
   int states = 0, memory = 0, constants = 0, outputs = 1;
+  int sampled_states = 0;                      ///< of a sampled block: numbers that change at its instants only
   bool feedthrough = true;                     ///< outputs depend on inputs at the same instant
   Smoothness smoothness = Smoothness::smooth;  ///< of a source's own signal
   bool history = false;                        ///< remembers the past of its input (dead time)
   std::string error{};  ///< not empty: these shapes do not go together; says what and what instead
 };
 
-/// A block type: its declaration and its functions. A null pointer means that the block has no such function.
-struct Kernel {
-  using Call = void (*)(const View<double>&);
-  using DualCall = void (*)(const View<Dual>&);
+/// The functions of a block for one scalar T. A null pointer means that the block has no such function.
+template <class T>
+struct Functions {
+  using Call = void (*)(const View<T>&);
+  using RateCall = void (*)(const View<DualOf<T>>&);
 
-  Declaration declaration;
-  Sizes (*sizes)(const Shape&) = nullptr;
   Call output = nullptr;           ///< out: outputs
-  DualCall output_rate = nullptr;  ///< the same with rates
+  RateCall output_rate = nullptr;  ///< the same with rates
   Call derivative = nullptr;       ///< out: dx/dt
+  Call advance = nullptr;          ///< out: what the memory becomes if the inputs are accepted; pure
+  RateCall advance_rate = nullptr;
+  Call update = nullptr;  ///< sampled blocks; x: sampled states, out: those after the instant
+  Call guard = nullptr;   ///< blocks with modes; out: one number, positive while the mode may stay
+  Call reset = nullptr;   ///< blocks with modes; out: states at the beginning of `mode`, which follows `mode_before`
+};
+
+/// A block type: its declaration and its functions.
+struct Kernel : Functions<double> {
+  Declaration declaration;
+  Functions<Jet> jet;  ///< the same with slopes
+  Sizes (*sizes)(const Shape&) = nullptr;
   bool derivative_wants_rate = false;
-  Call advance = nullptr;  ///< out: what the memory becomes if the inputs are accepted; pure
-  DualCall advance_rate = nullptr;
+  bool guard_wants_rate = false;
   Call prepare = nullptr;         ///< out: constants from parameters
   Call rest = nullptr;            ///< out: states in equilibrium for constant inputs
-  Call initial_states = nullptr;  ///< out: states at the start where nothing else is said (parameters only)
+  Call initial_states = nullptr;  ///< out: states at the start where nothing else is said (parameters only); of a
+                                  ///< sampled block: its sampled states
   Call initial_memory = nullptr;  ///< out: memory before the first input (parameters only)
+  int (*initial_mode)(const View<double>&) = nullptr;    ///< mode to try first (parameters only); absent: 0
+  int (*next_mode)(const View<double>&) = nullptr;       ///< which mode follows `mode`, whose guard is not positive
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
   double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure
+
+  bool has_modes() const { return guard != nullptr; }
+  bool is_sampled() const { return declaration.is_sampled; }
+  template <class T>
+  const Functions<T>& functions() const {
+    if constexpr (std::is_same_v<T, double>)
+      return *this;
+    else
+      return jet;
+  }
 };
 
 /// The block types that diagrams can name.

@@ -6,7 +6,8 @@
 //   derivative(b) <- value(sources), and rate(sources) if the derivative wants the rate
 //   rate(b)       <- value(b), rate(sources) if b feeds through, derivative(b) if b has states
 // Tarjan's algorithm on this graph gives the schedule and every loop, loops among rates included. A loop is, for now,
-// an error that prints its path block by block. So is a jump into a law that is driven by a rate.
+// an error that prints its path block by block. Between its instants a sampled block holds what it put out: there it is
+// a source. At its instants its inputs feed through, so values have a second order for these.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,13 +34,16 @@ class Scheduler {
     check_input_jumps();
     for (int b = 0; b < n_; ++b) {
       need(value(b));
-      if (block(b).sizes.states > 0) need(derivative(b));
+      if (stateful(b)) need(derivative(b));
+      if (block(b).kernel->guard_wants_rate)
+        for (const int s : block(b).source) need(rate(source_block(s)));
     }
     tarjan();
     problems_.throw_if_any();
     wish_rates();
     tarjan();  // a wished rate is left out where it would close a loop
     write_steps();
+    order_hits();
   }
 
  private:
@@ -50,13 +54,16 @@ class Scheduler {
   int block_of(int node) const { return node % n_; }
   int source_block(int signal) const { return graph_.signals[static_cast<std::size_t>(signal)].block; }
   bool stateful(int b) const { return block(b).sizes.states > 0; }
+  bool sampled(int b) const { return block(b).kernel->is_sampled(); }
+  /// Do the outputs depend on the inputs at the same instant: at sampling instants (hits_), or between.
+  bool feeds_through(int b) const { return block(b).sizes.feedthrough && (hits_ || !sampled(b)); }
 
   // --- smoothness ---------------------------------------------------------------------------------------------------
 
   std::vector<Smoothness> own_smoothness() const {
     std::vector<Smoothness> list;
     for (const auto& b : graph_.blocks) {
-      const bool held = b.series && b.series->between == Between::hold;
+      const bool held = (b.series && b.series->between == Between::hold) || b.kernel->is_sampled();
       list.push_back(held ? Smoothness::jumps : b.sizes.smoothness);
     }
     return list;
@@ -67,7 +74,7 @@ class Scheduler {
     for (bool changed = true; changed;) {
       changed = false;
       for (int b = 0; b < n_; ++b) {
-        if (!block(b).sizes.feedthrough && !block(b).sizes.history) continue;
+        if (!feeds_through(b) && !block(b).sizes.history) continue;
         for (const int s : block(b).source) {
           const auto from = smooth[static_cast<std::size_t>(source_block(s))];
           if (from > smooth[static_cast<std::size_t>(b)]) {
@@ -81,11 +88,11 @@ class Scheduler {
 
   void check_rates() {
     for (int b = 0; b < n_; ++b) {
-      if (!block(b).kernel->derivative_wants_rate) continue;
+      if (!wants_rate(b)) continue;
       for (const int s : block(b).source) {
         const auto smooth = smoothness_[static_cast<std::size_t>(source_block(s))];
         const std::string from = graph_.signals[static_cast<std::size_t>(s)].path;
-        if (smooth == Smoothness::jumps)
+        if (smooth == Smoothness::jumps && !follows_jumps(b))
           problems_.add(
               "jump_into_rate", block(b).origin,
               fmt::format("{} \"{}\" is driven by the rate of its input, but \"{}\" jumps (it comes from {})",
@@ -102,6 +109,10 @@ class Scheduler {
     }
   }
 
+  bool wants_rate(int b) const { return block(b).kernel->derivative_wants_rate || block(b).kernel->guard_wants_rate; }
+  /// A rate-independent law could follow a jump as the path of a fast ramp; nobody walks that path yet.
+  bool follows_jumps(int) const { return false; }
+
   std::string origin_of(int signal, Smoothness kind) const {
     const auto own = own_smoothness();
     std::vector<bool> seen(static_cast<std::size_t>(n_), false);
@@ -110,7 +121,7 @@ class Scheduler {
       seen[static_cast<std::size_t>(b)] = true;
       if (own[static_cast<std::size_t>(b)] == kind)
         return fmt::format("{} \"{}\"", block(b).kernel->declaration.type, block(b).path);
-      if (!block(b).sizes.feedthrough && !block(b).sizes.history) return "";
+      if (!feeds_through(b) && !block(b).sizes.history) return "";
       for (const int s : block(b).source)
         if (auto found = search(source_block(s)); !found.empty()) return found;
       return "";
@@ -126,7 +137,7 @@ class Scheduler {
       spread(smooth);
       std::string reached;
       for (int b = 0; b < n_ && reached.empty(); ++b)
-        if (block(b).kernel->derivative_wants_rate)
+        if (wants_rate(b) && !follows_jumps(b))
           for (const int s : block(b).source)
             if (smooth[static_cast<std::size_t>(source_block(s))] != Smoothness::smooth) reached = block(b).path;
       program_.input_jump_reaches.push_back(reached);
@@ -141,11 +152,11 @@ class Scheduler {
     const int b = block_of(node);
     auto& edges = edges_[static_cast<std::size_t>(node)];
     if (node < n_) {
-      if (block(b).sizes.feedthrough)
+      if (feeds_through(b))
         for (const int s : block(b).source) edges.push_back(value(source_block(s)));
     } else if (node < 2 * n_) {
       edges.push_back(value(b));
-      if (block(b).sizes.feedthrough)
+      if (feeds_through(b))
         for (const int s : block(b).source) edges.push_back(rate(source_block(s)));
       if (stateful(b)) edges.push_back(derivative(b));
     } else {
@@ -254,11 +265,15 @@ class Scheduler {
       if (node >= n_) text += node < 2 * n_ ? " (rate)" : " (derivative)";
       rates = rates || node >= n_;
     }
+    const bool at_hits = hits_;
     problems_.add(
         "algebraic_loop", block(block_of(path.front())).origin,
-        fmt::format("these blocks need each other's {} at the same instant: {}", rates ? "rate" : "value", text),
-        "put a block with a state into the loop (a lag, the amplifier's or sensor's dynamics), or use an inverse in "
-        "closed form");
+        fmt::format("these blocks need each other's {} at the same {}instant: {}", rates ? "rate" : "value",
+                    at_hits ? "sampling " : "", text),
+        at_hits
+            ? "put a unit delay into the loop (a delay_line of one sample), as the computation takes time in any case"
+            : "put a block with a state into the loop (a lag, the amplifier's or sensor's dynamics), or use an "
+              "inverse in closed form");
   }
 
   // --- steps --------------------------------------------------------------------------------------------------------
@@ -309,6 +324,21 @@ class Scheduler {
       program_.signals[s].smoothness = smoothness_[static_cast<std::size_t>(graph_.signals[s].block)];
   }
 
+  /// The order of values at sampling instants, in which inputs of sampled blocks feed through. What is a loop there is
+  /// none between the instants, and has no meaning: every block in it would have to be the first.
+  void order_hits() {
+    program_.hit_values = program_.all_values;
+    if (program_.sampled_blocks.empty()) return;
+    hits_ = true;
+    demanded_.clear();
+    for (auto& edges : edges_) edges.clear();
+    needed_.assign(needed_.size(), false);
+    for (int b = 0; b < n_; ++b) need(value(b));
+    tarjan();
+    problems_.throw_if_any();
+    program_.hit_values = steps(needed_);
+  }
+
   /// Rates that were needed and neither stand in a loop themselves nor hang on one.
   std::vector<bool> usable_rates() const {
     std::vector<bool> usable(static_cast<std::size_t>(3 * n_), false);
@@ -328,6 +358,7 @@ class Scheduler {
   std::vector<Smoothness> smoothness_;
   std::vector<int> order_;
   Problems problems_;
+  bool hits_ = false;  // ordering for sampling instants
 };
 
 }  // namespace

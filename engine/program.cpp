@@ -105,6 +105,7 @@ void reset(const Program& program, Run& run) {
   run.x = program.state_initial;
   std::fill(run.m.begin(), run.m.end(), 0.0);
   std::fill(run.direction.begin(), run.direction.end(), static_cast<signed char>(0));
+  std::fill(run.hits.begin(), run.hits.end(), 0L);
   for (auto& h : run.histories) h = History{};
   for (std::size_t i = 0; i < program.blocks.size(); ++i) {
     const BlockInstance& b = program.blocks[i];
@@ -113,6 +114,12 @@ void reset(const Program& program, Run& run) {
       v.out = run.x.data() + b.x_begin;
       b.kernel->initial_states(v);
     }
+    if (b.kernel->initial_states && b.sizes.sampled_states > 0) {
+      v.out = run.m.data() + b.m_begin;
+      b.kernel->initial_states(v);
+    }
+    if (b.mode_index >= 0)
+      run.mode[static_cast<std::size_t>(b.mode_index)] = b.kernel->initial_mode ? b.kernel->initial_mode(v) : 0;
     if (b.kernel->initial_memory && b.sizes.memory > 0) {
       v.out = run.m.data() + b.m_begin;
       b.kernel->initial_memory(v);
@@ -127,6 +134,8 @@ Run start(const Program& program) {
   run.m.assign(static_cast<std::size_t>(program.n_m), 0.0);
   run.x.assign(static_cast<std::size_t>(program.n_x), 0.0);
   run.direction.assign(program.memory_blocks.size(), 0);
+  run.mode.assign(program.modal_blocks.size(), 0);
+  run.hits.assign(program.sampled_blocks.size(), 0);
   run.series = program.series;
   run.histories.resize(static_cast<std::size_t>(program.n_histories));
   prepare(program, run);

@@ -2,10 +2,12 @@
 // value). Does not integrate: see simulate.h (CVODE) and advance.h (row by row, exactly).
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/diagram.h"
@@ -29,6 +31,13 @@ struct BlockInstance {
   std::vector<int> source{};  ///< per input: index of the signal that it reads
   int series_index = -1;      ///< into Run::series (recorded inputs and inputs of the diagram)
   int history_index = -1;     ///< into Run::histories
+  int mode_index = -1;        ///< into Run::mode
+  int hit_index = -1;         ///< into Run::hits (sampled blocks)
+  int adjacent = -1;          ///< first of the signals that it reads where these stand side by side in Work::y, else -1
+
+  /// Numbers in the memory arena: memory, or of a sampled block its sampled states and then its held outputs.
+  int memory_count() const { return sizes.memory + sizes.sampled_states + (kernel->is_sampled() ? sizes.outputs : 0); }
+  int held_begin() const { return m_begin + sizes.sampled_states; }
 };
 
 /// A signal: one output port of one block.
@@ -84,7 +93,11 @@ struct Program {
   std::vector<int> record_signals;    ///< what `record` names
   std::vector<SeriesPointer> series;  ///< per Run::series: the compiled one (null for inputs of the diagram)
   int n_histories = 0;
-  std::vector<int> memory_blocks;  ///< blocks that have memory, in program order
+  std::vector<int> memory_blocks;   ///< blocks that have memory, in program order
+  std::vector<int> sampled_blocks;  ///< blocks that run at their instants only
+  std::vector<int> modal_blocks;    ///< blocks with modes
+  std::vector<int> time_blocks;     ///< blocks whose functions see time, a series or a history
+  std::vector<Step> hit_values;     ///< every value in an order that is right at sampling instants too
   Ordered<std::vector<std::string>> places;
   SimulateSettings simulate;
   std::string title;
@@ -110,6 +123,8 @@ struct Run {
   double branch = 0;
   std::vector<double> x, p, c, m;
   std::vector<signed char> direction;  ///< per memory block: committed direction of its input (-1, 0, 1)
+  std::vector<int> mode;               ///< per block with modes
+  std::vector<long> hits;              ///< per sampled block: sampling instants so far
   std::vector<SeriesPointer> series;
   std::vector<History> histories;
 };
@@ -129,21 +144,47 @@ void prepare(const Program& program, Run& run, int block);
 void reset(const Program& program, Run& run);
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series);
 
-/// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing.
-struct Work {
-  explicit Work(const Program& program);
-  std::vector<double> y, u, m, dx, du_buffer;
-  std::vector<double> rate;  ///< per signal
-  std::vector<Dual> dual_u, dual_x, dual_m, dual_p, dual_out, dual_m_committed;
-};
+/// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing. T = double, or Jet for
+/// slopes.
+template <class T>
+struct WorkOf {
+  explicit WorkOf(const Program& program);
+  std::vector<T> y;      ///< per signal: its value
+  std::vector<T> rate;   ///< per signal: its rate [1/s], where it was asked for
+  std::vector<T> dx;     ///< per state
+  std::vector<T> m;      ///< trial memory
+  std::vector<T> guard;  ///< per block with modes: positive while its mode may stay
+  /// Only for T = Jet: the numbers of the run with their slopes. refresh() copies the values, slopes stay as they were
+  /// set (zero at first).
+  std::vector<T> p, m_committed;
+  void refresh(const Run& run) requires(!std::is_same_v<T, double>);
 
-/// Values of all signals at (t, x) with trial memory: work.y. Pure towards `run`.
-void evaluate_values(const Program& program, const Run& run, Work& work, double t, const double* x);
+  // Scratch of the steps; meaningless outside.
+  std::vector<T> u, du;
+  std::vector<View<T>> views;
+  View<DualOf<T>> rate_view;
+  std::vector<DualOf<T>> dual_u, dual_x, dual_m, dual_p, dual_out, dual_m_committed;
+  std::array<const void*, 4> bound_to{};
+};
+using Work = WorkOf<double>;
+using JetWork = WorkOf<Jet>;
+
+// Evaluations are pure towards `run`. x: one number per state [SI].
+
+/// Values of all signals at (t, x) with trial memory: work.y.
+template <class T>
+void evaluate_values(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x);
 /// dx/dt, with the values and rates that it needs: work.dx.
-void evaluate_derivatives(const Program& program, const Run& run, Work& work, double t, const double* x);
+template <class T>
+void evaluate_derivatives(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x);
 /// Rates of the inputs of memory blocks (work.rate), after evaluate_derivatives at the same point.
-void evaluate_memory_rates(const Program& program, const Run& run, Work& work, double t, const double* x);
-/// Commits memory and histories at an accepted point: the only function that changes them. Evaluates values first.
+template <class T>
+void evaluate_memory_rates(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x);
+/// Guards of all blocks with modes: work.guard. Evaluates derivatives, rates and values first.
+template <class T>
+void evaluate_guards(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x);
+/// Commits memory and histories at an accepted point: the only function that changes them, but for what sampled blocks
+/// hold (events.h). Evaluates values first.
 void accept(const Program& program, Run& run, Work& work, double t, const double* x);
 
 /// View of one block's committed numbers; inputs are gathered into `inputs`.

@@ -1,0 +1,170 @@
+// Decides how one step of a program is carried out for one scalar: gather inputs, call the block, keep its outputs.
+// Pure towards the run, allocates nothing. Internal to the engine; the ways through the steps are in evaluate.cpp.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/program.h"
+
+namespace hysteron::steps {
+
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Points the views at the numbers of `run`. A run keeps its arrays, so this is done once per run and work.
+template <class T>
+void bind(const Program& program, const Run& run, WorkOf<T>& work) {
+  for (std::size_t i = 0; i < program.blocks.size(); ++i) {
+    const BlockInstance& b = program.blocks[i];
+    View<T>& v = work.views[i];
+    if constexpr (std::is_same_v<T, double>) {
+      v.p = run.p.data() + b.p_begin;
+      v.m = run.m.data() + b.m_begin;
+    } else {
+      v.p = work.p.data() + b.p_begin;
+      v.m = work.m_committed.data() + b.m_begin;
+    }
+    v.p_at = b.p_at.data();
+    v.c = run.c.data() + b.c_begin;
+    v.n_c = b.sizes.constants;
+    v.n_x = b.sizes.states;
+    v.n_m = b.sizes.memory;
+    v.n_u = b.n_u;
+    v.n_y = b.sizes.outputs;
+    v.u = b.adjacent >= 0 ? work.y.data() + b.adjacent : work.u.data() + b.u_begin;
+    v.du = b.adjacent >= 0 ? work.rate.data() + b.adjacent : work.du.data() + b.u_begin;
+    v.history = b.history_index < 0 ? nullptr : &run.histories[at(b.history_index)];
+  }
+}
+
+/// Before the steps of one evaluation: what depends on the run, on the time and on the present modes.
+template <class T>
+void begin(const Program& program, const Run& run, WorkOf<T>& work, double t) {
+  const std::array<const void*, 4> arrays{run.p.data(), run.c.data(), run.m.data(), run.histories.data()};
+  if (work.bound_to != arrays) {
+    bind(program, run, work);
+    work.bound_to = arrays;
+  }
+  for (const int block : program.time_blocks) {
+    View<T>& v = work.views[at(block)];
+    v.t = t;
+    v.branch = run.branch;
+    if (const int series = program.blocks[at(block)].series_index; series >= 0) v.series = run.series[at(series)].get();
+  }
+  for (const int block : program.modal_blocks)
+    work.views[at(block)].mode = run.mode[at(program.blocks[at(block)].mode_index)];
+}
+
+template <class T>
+void gather(const BlockInstance& b, const std::vector<T>& from, T* to) {
+  if (b.adjacent >= 0) return;
+  for (int i = 0; i < b.n_u; ++i) to[i] = from[at(b.source[at(i)])];
+}
+
+template <class T>
+void value(const Program& program, WorkOf<T>& work, int block, const T* x) {
+  const BlockInstance& b = program.blocks[at(block)];
+  View<T>& v = work.views[at(block)];
+  if (b.hit_index >= 0) {  // holds its outputs between its instants
+    std::copy_n(v.m + b.sizes.sampled_states, b.sizes.outputs, work.y.data() + b.y_begin);
+    return;
+  }
+  const Functions<T>& call = b.kernel->template functions<T>();
+  if (b.sizes.feedthrough) gather(b, work.y, work.u.data() + b.u_begin);
+  v.x = x + b.x_begin;
+  if (b.sizes.memory > 0) {
+    const T* committed = v.m;
+    v.out = work.m.data() + b.m_begin;
+    call.advance(v);
+    v.m = v.out;
+    v.out = work.y.data() + b.y_begin;
+    call.output(v);
+    v.m = committed;
+    return;
+  }
+  v.out = work.y.data() + b.y_begin;
+  call.output(v);
+}
+
+template <class T>
+void derivative(const Program& program, WorkOf<T>& work, int block, const T* x) {
+  const BlockInstance& b = program.blocks[at(block)];
+  View<T>& v = work.views[at(block)];
+  gather(b, work.y, work.u.data() + b.u_begin);
+  if (b.kernel->derivative_wants_rate) gather(b, work.rate, work.du.data() + b.u_begin);
+  v.x = x + b.x_begin;
+  v.out = work.dx.data() + b.x_begin;
+  b.kernel->template functions<T>().derivative(v);
+}
+
+/// The block's outputs once more, with every argument carrying its rate in time.
+template <class T>
+void rate(const Program& program, WorkOf<T>& work, int block, const T* x) {
+  const BlockInstance& b = program.blocks[at(block)];
+  if (b.hit_index >= 0) {
+    std::fill_n(work.rate.data() + b.y_begin, b.sizes.outputs, T(0.0));
+    return;
+  }
+  const Functions<T>& call = b.kernel->template functions<T>();
+  const View<T>& plain = work.views[at(block)];
+  const T* states = x + b.x_begin;
+  for (int i = 0; i < b.p_at.back(); ++i) work.dual_p[at(i)] = plain.p[i];
+  for (int i = 0; i < b.n_u; ++i) work.dual_u[at(i)] = {work.y[at(b.source[at(i)])], work.rate[at(b.source[at(i)])]};
+  for (int i = 0; i < b.sizes.states; ++i) work.dual_x[at(i)] = {states[i], work.dx[at(b.x_begin + i)]};
+  View<DualOf<T>>& v = work.rate_view;
+  v.p_at = plain.p_at;
+  v.c = plain.c;
+  v.n_c = plain.n_c;
+  v.n_x = plain.n_x;
+  v.n_m = plain.n_m;
+  v.n_u = plain.n_u;
+  v.n_y = plain.n_y;
+  v.t = {plain.t, T(1.0)};
+  v.branch = plain.branch;
+  v.mode = plain.mode;
+  v.series = plain.series;
+  v.history = plain.history;
+  if (b.sizes.memory > 0) {
+    for (int i = 0; i < b.sizes.memory; ++i) work.dual_m_committed[at(i)] = plain.m[i];
+    v.m = work.dual_m_committed.data();
+    v.out = work.dual_m.data();
+    call.advance_rate(v);
+    v.m = work.dual_m.data();
+  }
+  v.out = work.dual_out.data();
+  call.output_rate(v);
+  for (int i = 0; i < b.sizes.outputs; ++i) work.rate[at(b.y_begin + i)] = work.dual_out[at(i)].rate;
+}
+
+template <class T>
+void run(const std::vector<Step>& steps, const Program& program, WorkOf<T>& work, const T* x) {
+  for (const Step& step : steps) {
+    switch (step.order) {
+      case Order::value:
+        value(program, work, step.block, x);
+        break;
+      case Order::rate:
+        rate(program, work, step.block, x);
+        break;
+      case Order::derivative:
+        derivative(program, work, step.block, x);
+        break;
+    }
+  }
+}
+
+/// Guards of all blocks with modes, from values and rates that are there.
+template <class T>
+void guards(const Program& program, WorkOf<T>& work, const T* x) {
+  for (std::size_t i = 0; i < program.modal_blocks.size(); ++i) {
+    const int block = program.modal_blocks[i];
+    const BlockInstance& b = program.blocks[at(block)];
+    View<T>& v = work.views[at(block)];
+    gather(b, work.y, work.u.data() + b.u_begin);
+    if (b.kernel->guard_wants_rate) gather(b, work.rate, work.du.data() + b.u_begin);
+    v.x = x + b.x_begin;
+    v.out = work.guard.data() + i;
+    b.kernel->template functions<T>().guard(v);
+  }
+}
+
+}  // namespace hysteron::steps
