@@ -32,6 +32,13 @@ T follow_one_sided(const T& threshold, const T& before, const T& u) {
   return max(u - threshold, min(u, before));
 }
 
+/// Backlash: the driven side behind a joint of total gap `gap`, the two-sided play of half of it. The driven side keeps
+/// its place while the joint is loose (friction holds it). Source: Nordin, Gutman, Automatica 38 (2002) 1633-1649.
+template <class T>
+T backlash(const T& gap, const T& before, const T& u) {
+  return follow(T{gap / T{2}}, before, u);
+}
+
 enum class Sides { two, one };
 
 template <class T>

@@ -1,0 +1,70 @@
+// Decides a mass with dry friction that truly sticks: three modes, their motion, when each may stay, what follows.
+// Does not locate the transitions and knows no presliding.
+#pragma once
+
+#include <cmath>
+
+namespace hysteron::friction {
+
+enum Mode { stick, slide_up, slide_down };
+
+template <class T>
+struct Params {
+  T mass{1};               ///< [kg]
+  T damping{0};            ///< [N s/m]  viscous
+  T stiffness{0};          ///< [N/m]    spring to the ground
+  T coulomb{0};            ///< [N]      dry friction of fast sliding
+  T breakaway{0};          ///< [N]      force at which sticking ends, at least coulomb
+  T stribeck_velocity{0};  ///< [m/s]    over which breakaway falls to coulomb; 0 = at once
+  T rest_speed{1e-9};      ///< [m/s]    a slower motion against the sliding direction counts as none; positive
+};
+
+/// Dry friction while sliding: F_c + (F_b - F_c) exp(-(v/v_s)^2) [N], without its sign.
+/// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138 (Gaussian Stribeck curve).
+template <class T>
+T sliding_force(const Params<T>& p, const T& velocity) {
+  using std::exp;
+  if (!(p.stribeck_velocity > T{0})) return p.coulomb;
+  const T ratio = velocity / p.stribeck_velocity;
+  return p.coulomb + (p.breakaway - p.coulomb) * exp(-(ratio * ratio));
+}
+
+/// Force on a mass at rest, before friction: F - k x [N].
+template <class T>
+T pull(const Params<T>& p, const T& position, const T& force) {
+  return force - p.stiffness * position;
+}
+
+/// dv/dt: m v' = F - k x - d v -/+ sliding_force on slide_up/slide_down, 0 while it sticks (where v = 0). [m/s^2]
+template <class T>
+T acceleration(const Params<T>& p, Mode mode, const T& position, const T& velocity, const T& force) {
+  if (mode == stick) return T{0};
+  const T dry = sliding_force(p, velocity);
+  return (pull(p, position, force) - p.damping * velocity - (mode == slide_up ? dry : T{-dry})) / p.mass;
+}
+
+/// Positive = the mode may stay: reserve of the holding force [N] while it sticks, speed [m/s] while it slides. Sliding
+/// ends a little behind v = 0, so that it may begin at v = 0.
+template <class T>
+T guard(const Params<T>& p, Mode mode, const T& position, const T& velocity, const T& force) {
+  using std::abs;
+  if (mode == stick) return p.breakaway - abs(pull(p, position, force));
+  return (mode == slide_up ? velocity : T{-velocity}) + p.rest_speed;
+}
+
+/// The mode of a mass that is at rest: it slides where the pull reaches the breakaway force, else it sticks. This is
+/// what follows any mode whose guard is not positive; its velocity is then zero.
+template <class T>
+Mode at_rest(const Params<T>& p, const T& position, const T& force) {
+  const T f = pull(p, position, force);
+  if (f >= p.breakaway) return slide_up;
+  return f <= -p.breakaway ? slide_down : stick;
+}
+
+template <class T>
+Mode start(const Params<T>& p, const T& position, const T& velocity, const T& force) {
+  if (velocity > T{0}) return slide_up;
+  return velocity < T{0} ? slide_down : at_rest(p, position, force);
+}
+
+}  // namespace hysteron::friction

@@ -1,0 +1,80 @@
+// Decides the level of a tank with an outlet and a brim: open, full, or pumped empty. Does not locate the transitions.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron::tank {
+
+enum Mode { open, full, empty };
+enum class Outlet { linear, square_root };
+
+/// How far a level passes brim or bottom before it counts [m]: open may then begin exactly there.
+inline constexpr double film = 1e-9;
+
+template <class T>
+struct Params {
+  T area{1};    ///< [m^2]
+  T outlet{0};  ///< [m^2/s] times level, or [m^2.5/s] times root of level
+  T height{1};  ///< [m] brim; may be infinite
+};
+
+/// Flow through the outlet [m^3/s] at a level [m]: c h (a long narrow pipe) or c sqrt(h) (an orifice); none at h <= 0.
+/// Source: Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465 (four tanks).
+template <class T>
+T outflow(Outlet law, const Params<T>& p, const T& level) {
+  using std::sqrt;
+  if (!(level > T{0})) return T{0};
+  return law == Outlet::linear ? T{p.outlet * level} : T{p.outlet * sqrt(level)};
+}
+
+/// Inflow less outflow [m^3/s].
+template <class T>
+T net(Outlet law, const Params<T>& p, const T& level, const T& inflow) {
+  return inflow - outflow(law, p, level);
+}
+
+/// dh/dt [m/s]: net/area where open; full and empty hold their level.
+template <class T>
+T rate(Outlet law, const Params<T>& p, Mode mode, const T& level, const T& inflow) {
+  return mode == open ? T{net(law, p, level, inflow) / p.area} : T{0};
+}
+
+/// What runs over the brim [m^3/s].
+template <class T>
+T overflow(Outlet law, const Params<T>& p, Mode mode, const T& inflow) {
+  return mode == full ? net(law, p, p.height, inflow) : T{0};
+}
+
+/// Positive = the mode may stay: room to brim or bottom [m] where open, surplus [m^3/s] while full, demand of an
+/// outside pump [m^3/s] while empty.
+template <class T>
+T guard(Outlet law, const Params<T>& p, Mode mode, const T& level, const T& inflow) {
+  using std::min;
+  if (mode == full) return net(law, p, p.height, inflow);
+  if (mode == empty) return -inflow;
+  return min(T{p.height - level}, level) + T{film};
+}
+
+/// Mode at a level: full at the brim with a surplus, empty at the bottom with a demand, else open. It is what follows
+/// a mode whose guard is not positive; the level is then held_level.
+template <class T>
+Mode next(Outlet law, const Params<T>& p, const T& level, const T& inflow) {
+  if (level >= p.height && net(law, p, p.height, inflow) > T{0}) return full;
+  return level <= T{0} && inflow < T{0} ? empty : open;
+}
+template <class T>
+T held_level(const Params<T>& p, const T& level) {
+  using std::max;
+  using std::min;
+  return max(T{0}, min(p.height, level));
+}
+
+/// Level [m] at which in- and outflow balance, at most the brim; not a number without an outlet.
+inline double rest(Outlet law, const Params<double>& p, double inflow) {
+  if (inflow <= 0) return 0;
+  const double ratio = inflow / p.outlet;
+  return std::min(p.height, law == Outlet::linear ? ratio : ratio * ratio);
+}
+
+}  // namespace hysteron::tank
