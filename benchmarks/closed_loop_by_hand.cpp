@@ -1,6 +1,6 @@
 // The closed loop of W1 as somebody writes it who knows CVODE and has one problem to solve.
 // States: y, y'/w, y''/w^2, y'''/w^3 of the plant, the controller's integral xi [um s], the hysteretic part z [um].
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>

@@ -14,7 +14,7 @@
 #include <cmath>
 
 #include "engine/corners.h"
-#include "engine/cvode.h"
+#include "engine/integrator.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
@@ -37,7 +37,7 @@ class Simulation {
   Traces operator()();
 
  private:
-  std::unique_ptr<Cvode> make_solver();
+  std::unique_ptr<Integrator> make_solver();
   bool derivative(double t, const double* x, double* dx);
   void indicate(double t, const double* x, double* g);
   void record(double t, const double* x);
@@ -57,7 +57,7 @@ class Simulation {
   Corners corners_;
   NominalSizes sizes_;
   Reversals reversals_;
-  std::unique_ptr<Cvode> solver_;
+  std::unique_ptr<Integrator> solver_;
   Traces traces_;
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
   std::size_t next_instant_ = 0;
@@ -91,7 +91,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   solver_ = make_solver();
 }
 
-std::unique_ptr<Cvode> Simulation::make_solver() {
+std::unique_ptr<Integrator> Simulation::make_solver() {
   OdeSystem system;
   system.states = static_cast<int>(x_.size());
   system.roots = options_.reversal_events ? reversals_.count() : 0;
@@ -100,7 +100,7 @@ std::unique_ptr<Cvode> Simulation::make_solver() {
   system.state_name = [this](int i) {
     return program_.n_x == 0 ? std::string("(no state)") : program_.state_names[static_cast<std::size_t>(i)];
   };
-  CvodeOptions options;
+  IntegratorOptions options;
   options.formula = options_.method == Method::adams ? Formula::adams : Formula::bdf;
   options.relative_tolerance = options_.relative_tolerance;
   const double span = until_ - t_;
@@ -109,7 +109,7 @@ std::unique_ptr<Cvode> Simulation::make_solver() {
   std::vector<double> absolute(x_.size(), 1.0);
   for (std::size_t i = 0; i < sizes_.states.size(); ++i)
     absolute[i] = options_.absolute_tolerance * options_.relative_tolerance * sizes_.states[i];
-  return std::make_unique<Cvode>(std::move(system), options, absolute);
+  return std::make_unique<Integrator>(std::move(system), options, absolute);
 }
 
 bool Simulation::derivative(double t, const double* x, double* dx) {
@@ -209,7 +209,7 @@ void Simulation::take_step(double stop) {
   record_inside(from, solver_->t());
   t_ = solver_->t();
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
-  if (outcome == Cvode::Outcome::root) return turn_back();
+  if (outcome == Integrator::Outcome::root) return turn_back();
   commit();
   if (reversals_.open(run_)) follow_directions();
 }
