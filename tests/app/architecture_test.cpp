@@ -20,7 +20,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"fit", {"engine", "io"}},
     {"discover", {"engine", "io", "fit"}},
     {"report", {"io", "engine"}},  // engine: units and errors, through io's own headers
-    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report"}},
+    {"draw", {"engine"}},
+    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw"}},
 };
 
 bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }

@@ -44,6 +44,29 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_EQ(folder_.entries(), before);
 }
 
+TEST_F(Verbs, DrawWritesOneSvgFileWithTheBlocksOfTheDiagram) {
+  folder_.write("sine.json", sine);
+  const Outcome outcome = hysteron(folder_.path(), {"draw", "sine.json", "--set", "drive.amplitude=1.5 V"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "wrote sine.svg\n");
+  const std::string svg = folder_.read("sine.svg");
+  EXPECT_TRUE(svg.starts_with("<svg "));
+  for (const char* part : {"data-block=\"drive\"", "data-block=\"double\"", "amplitude 1.5 V", "frequency 5 Hz"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  ASSERT_EQ(hysteron(folder_.path(), {"draw", "sine.json", "-o", "again.svg", "--set", "drive.amplitude=1.5 V"}).code,
+            0);
+  EXPECT_EQ(folder_.read("again.svg"), svg);
+}
+
+TEST_F(Verbs, DrawWithoutGraphvizWritesNothingAndSaysHowToGetIt) {
+  folder_.write("sine.json", sine);
+  const Outcome outcome =
+      process::shell(folder_.path(), "program=$(command -v hysteron); PATH=/nowhere; \"$program\" draw sine.json");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("apt install graphviz"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(folder_.has("sine.svg"));
+}
+
 TEST_F(Verbs, RunRecordsSignalsInTheirUnitsAtExactlyTheInstantsAskedFor) {
   folder_.write("sine.json", sine);
   const Outcome outcome = hysteron(folder_.path(), {"run", "sine.json", "--set", "drive.amplitude=1 V"});

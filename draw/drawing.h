@@ -1,0 +1,23 @@
+// Decides what one gets who asks for the picture of a diagram: an SVG in which a control engineer recognizes it.
+// Does not compile diagrams, nor read or write files.
+#pragma once
+
+#include <string>
+
+#include "engine/kernel.h"
+#include "engine/program.h"
+
+namespace hysteron {
+
+struct DrawOptions {
+  int depth = 0;  ///< how many levels of nested diagrams are opened; 0 = each is one box
+};
+
+/// The picture as an SVG document that needs no other file. The same diagram gives the same text.
+/// `program`: the diagram compiled; it lends the units of the signals.
+/// Throws Error "unknown_block", "unknown_signal" for a diagram that does not compile, and "no_graphviz" where the
+/// program dot, which orders the blocks, cannot be run.
+std::string diagram_svg(const Diagram& diagram, const Program& program, const Registry& registry,
+                        const DrawOptions& options = {});
+
+}  // namespace hysteron

@@ -1,0 +1,121 @@
+#include "draw/pictogram.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace hysteron::draw {
+namespace {
+
+template <class Law>
+Curve sampled(double from, double to, int pieces, const Law& law) {
+  Curve curve;
+  for (int i = 0; i <= pieces; ++i) {
+    const double x = from + (to - from) * i / pieces;
+    curve.emplace_back(x, law(x));
+  }
+  return curve;
+}
+
+/// A hysteresis loop, rising branch to the right of the falling one.
+std::vector<Curve> loop() {
+  const auto rising = [](double x) { return 0.95 * std::tanh(2.4 * (x - 0.28)) / std::tanh(2.4 * 0.72); };
+  const auto falling = [&](double x) { return -rising(-x); };
+  const auto bent = [](double y) { return std::fmax(-0.95, std::fmin(0.95, y)); };
+  return {sampled(-1, 1, 24, [&](double x) { return bent(rising(x)); }),
+          sampled(-1, 1, 24, [&](double x) { return bent(falling(x)); })};
+}
+
+Curve wave(double periods) {
+  return sampled(-1, 1, static_cast<int>(24 * periods),
+                 [=](double x) { return 0.8 * std::sin(std::numbers::pi * periods * (x + 1)); });
+}
+
+/// A jagged line that is the same everywhere.
+Curve noise() {
+  const double levels[] = {0.1, -0.5, 0.7, -0.2, 0.4, -0.8, 0.2, 0.9, -0.4, 0.5, -0.7, 0.3, -0.1, 0.6, -0.6, 0.0};
+  Curve curve;
+  for (int i = 0; i < 16; ++i) curve.emplace_back(-1 + 2.0 * i / 15, levels[i]);
+  return curve;
+}
+
+/// A staircase from (-1, ...) with these levels.
+Curve stairs(const std::vector<double>& levels) {
+  Curve curve;
+  const auto n = static_cast<double>(levels.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    curve.emplace_back(-1 + 2 * static_cast<double>(i) / n, levels[i]);
+    curve.emplace_back(-1 + 2 * static_cast<double>(i + 1) / n, levels[i]);
+  }
+  return curve;
+}
+
+std::map<std::string, Pictogram> make_all() {
+  std::map<std::string, Pictogram> all;
+  const auto over_time = [](std::vector<Curve> curves) { return Pictogram{false, true, std::move(curves), {}}; };
+  const auto characteristic = [](std::vector<Curve> curves) { return Pictogram{true, false, std::move(curves), {}}; };
+
+  all["sine"] = over_time({wave(1)});
+  all["constant"] = over_time({{{-1, 0.5}, {1, 0.5}}});
+  all["triangle"] = over_time({{{-1, 0}, {-0.75, 0.8}, {-0.25, -0.8}, {0.25, 0.8}, {0.75, -0.8}, {1, 0}}});
+  all["step"] = over_time({{{-1, -0.6}, {-0.3, -0.6}, {-0.3, 0.7}, {1, 0.7}}});
+  all["staircase"] = over_time({stairs({-0.8, -0.3, 0.2, 0.7, 0.1, -0.5})});
+  all["square"] = over_time({stairs({0.7, -0.7, 0.7, -0.7})});
+  all["ramp"] = over_time({{{-1, -0.7}, {-0.5, -0.7}, {1, 0.8}}});
+  all["chirp"] = over_time({sampled(-1, 1, 96, [](double x) { return 0.8 * std::sin(2.2 * (x + 1) * (x + 1.6)); })});
+  all["multisine"] = over_time({sampled(-1, 1, 60, [](double x) {
+    return 0.4 * (std::sin(3.1 * (x + 1)) + 0.7 * std::sin(7.7 * (x + 1) + 1) + 0.5 * std::sin(15 * (x + 1)));
+  })});
+  all["recorded"] = over_time({sampled(-1, 1, 40, [](double x) {
+    return 0.55 * std::sin(2.6 * x + 0.4) + 0.2 * std::sin(9 * x) + 0.1 * std::sin(23 * x);
+  })});
+  all["noise"] = over_time({noise()});
+  all["step_response"] =
+      over_time({{{-1, -0.8}, {-0.7, -0.8}, {-0.7, 0.1}},
+                 sampled(-0.7, 1, 24, [](double x) { return 0.8 - 0.7 * std::exp(-2 * (x + 0.7)); })});
+  all["sampled"] = over_time({stairs({-0.7, -0.2, 0.4, 0.75, 0.6, 0.1})});
+
+  all["saturation"] = characteristic({{{-1, -0.75}, {-0.45, -0.75}, {0.45, 0.75}, {1, 0.75}}});
+  all["dead_zone"] = characteristic({{{-1, -0.8}, {-0.35, 0}, {0.35, 0}, {1, 0.8}}});
+  all["play"] = {true,
+                 false,
+                 {{{-0.9, -0.8}, {0.2, -0.8}, {0.9, 0.8}, {-0.2, 0.8}, {-0.9, -0.8}}},
+                 {{{{0.44, -0.26}, {0.62, 0.16}}, 1}, {{{-0.44, 0.26}, {-0.62, -0.16}}, 1}}};
+  all["relay"] = {true,
+                  false,
+                  {{{-1, -0.75}, {0.4, -0.75}, {0.4, 0.75}, {1, 0.75}}, {{-0.4, -0.75}, {-0.4, 0.75}, {0.4, 0.75}}},
+                  {{{{0.4, -0.2}, {0.4, 0.25}}, 1}, {{{-0.4, 0.2}, {-0.4, -0.25}}, 1}}};
+  all["hysteresis"] = {true, false, loop(), {}};
+  all["hysteresis_inverse"] = {true, false, {}, {}};
+  for (Curve curve : loop()) {
+    for (auto& [x, y] : curve) std::swap(x, y);
+    all["hysteresis_inverse"].curves.push_back(std::move(curve));
+  }
+  all["quantizer"] = characteristic({{{-1, -0.8},
+                                      {-0.7, -0.8},
+                                      {-0.7, -0.4},
+                                      {-0.25, -0.4},
+                                      {-0.25, 0},
+                                      {0.25, 0},
+                                      {0.25, 0.4},
+                                      {0.7, 0.4},
+                                      {0.7, 0.8},
+                                      {1, 0.8}}});
+  all["friction"] = characteristic({{{-1, -0.75}, {-0.5, -0.5}, {0, -0.8}, {0, 0.8}, {0.5, 0.5}, {1, 0.75}}});
+  all["hard_stop"] = characteristic({{{-0.7, -1}, {-0.6, 0}, {0.6, 0}, {0.7, 1}}});
+  all["rate_limiter"] = over_time({{{-1, -0.7}, {-0.6, -0.7}, {-0.6, 0.7}, {1, 0.7}}, {{-0.6, -0.7}, {0.5, 0.7}}});
+  all["calibration"] = characteristic({{{-1, -0.45}, {1, 0.95}}});
+  all["straight"] = characteristic({{{-1, -0.8}, {1, 0.8}}});
+  all["table"] = characteristic({{{-1, -0.9}, {-0.5, -0.2}, {0.2, 0.1}, {0.6, 0.7}, {1, 0.85}}});
+  return all;
+}
+
+}  // namespace
+
+const Pictogram* find_pictogram(const std::string& name) {
+  static const std::map<std::string, Pictogram> all = make_all();
+  const auto found = all.find(name);
+  return found == all.end() ? nullptr : &found->second;
+}
+
+}  // namespace hysteron::draw

@@ -1,0 +1,257 @@
+#include "draw/symbol.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "draw/pictogram.h"
+
+namespace hysteron::draw {
+namespace {
+
+/// Types whose pictogram has another name than they, and whether the type must be told beside it.
+struct Look {
+  const char* picture;
+  bool note = false;
+};
+
+const Look* find_look(const std::string& type) {
+  static const std::map<std::string, Look> all{
+      {"sine", {"sine"}},
+      {"triangle", {"triangle"}},
+      {"step", {"step"}},
+      {"staircase", {"staircase"}},
+      {"square", {"square"}},
+      {"ramp", {"ramp"}},
+      {"chirp", {"chirp"}},
+      {"multisine", {"multisine"}},
+      {"recorded", {"recorded"}},
+      {"noise", {"noise"}},
+      {"sampled_noise", {"noise", true}},
+      {"sensor_noise", {"noise", true}},
+      {"saturation", {"saturation"}},
+      {"current_limit", {"saturation", true}},
+      {"dead_zone", {"dead_zone"}},
+      {"play", {"play"}},
+      {"backlash", {"play", true}},
+      {"relay", {"relay"}},
+      {"prandtl_ishlinskii", {"hysteresis", true}},
+      {"prandtl_ishlinskii_inverse", {"hysteresis_inverse", true}},
+      {"bouc_wen", {"hysteresis", true}},
+      {"bouc_wen_inverse", {"hysteresis_inverse", true}},
+      {"bouc_wen_compensator", {"hysteresis_inverse", true}},
+      {"jiles_atherton", {"hysteresis", true}},
+      {"jiles_atherton_inverse", {"hysteresis_inverse", true}},
+      {"preisach", {"hysteresis", true}},
+      {"duhem", {"hysteresis", true}},
+      {"quantizer", {"quantizer"}},
+      {"coulomb_friction", {"friction", true}},
+      {"stribeck_friction", {"friction", true}},
+      {"friction", {"friction", true}},
+      {"hard_stop", {"hard_stop", true}},
+      {"rate_limiter", {"rate_limiter", true}},
+      {"calibration", {"calibration"}},
+      {"creep", {"step_response", true}},
+      {"table", {"table"}},
+      {"lookup_table", {"table", true}},
+      {"hold", {"sampled", true}},
+      {"sampler", {"sampled", true}},
+  };
+  const auto found = all.find(type);
+  return found == all.end() ? nullptr : &found->second;
+}
+
+std::string power(const std::string& variable, std::size_t exponent) {
+  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (exponent == 0) return "";
+  if (exponent == 1) return variable;
+  std::string text = variable;
+  for (const char c : std::to_string(exponent)) text += digits[c - '0'];
+  return text;
+}
+
+/// "0.5 s² + s + 1" from the coefficients, highest power first.
+std::string polynomial(const std::vector<double>& coefficients, const std::string& variable) {
+  std::string text;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const double c = coefficients[i];
+    if (c == 0 && coefficients.size() > 1) continue;
+    const std::string s = power(variable, coefficients.size() - 1 - i);
+    const std::string size = std::abs(c) == 1 && !s.empty() ? "" : fmt::format("{:.4g}", std::abs(c));
+    text += text.empty() ? (c < 0 ? "−" : "") : (c < 0 ? " − " : " + ");
+    text += size + (size.empty() || s.empty() ? "" : " ") + s;
+  }
+  return text.empty() ? "0" : text;
+}
+
+double ports_height(int n_in, int n_out) { return port_distance * std::max({n_in, n_out, 1}) + 8; }
+
+/// Wide and high enough for what stands in it.
+Symbol sized(Symbol s, int n_in, int n_out) {
+  double wide = 0;
+  for (const auto& line : s.text) wide = std::max(wide, text_width(line, 12));
+  s.width = std::max({s.width, std::ceil(wide) + 18, std::ceil(text_width(s.note, 9)) + 10});
+  const double lines = 15 * static_cast<double>(s.text.size()) + (s.fraction ? 16 : 14);
+  s.height = std::max({s.height, s.text.empty() ? 0 : lines, ports_height(n_in, n_out)});
+  if (s.outline == Outline::box && std::max(n_in, n_out) > 1) s.port_names = true;
+  return s;
+}
+
+Symbol fraction(const std::string& over, const std::string& under) {
+  Symbol s;
+  s.text = {over, under};
+  s.fraction = true;
+  return s;
+}
+
+Symbol formula(const std::string& text) {
+  Symbol s;
+  s.text = {text};
+  return s;
+}
+
+Symbol picture(const std::string& name, const std::string& note) {
+  Symbol s;
+  s.picture = name;
+  s.note = note;
+  s.width = 64;
+  s.height = note.empty() ? 44 : 54;
+  return s;
+}
+
+Symbol sum(const Values& values, int n_in) {
+  Symbol s;
+  s.signs = values.text("signs");
+  s.signs.resize(static_cast<std::size_t>(n_in), '+');
+  s.shown = {"signs"};
+  if (n_in <= 3) {
+    s.outline = Outline::circle;
+    s.width = s.height = 2 * sum_radius;
+  } else {
+    make_sum_box(s, n_in);
+  }
+  return s;
+}
+
+Symbol product(int n_in) {
+  Symbol s;
+  s.text = {"×"};
+  s.width = 36;
+  s.height = std::max(36.0, ports_height(n_in, 1));
+  return s;
+}
+
+Symbol gain(const Values& values) {
+  Symbol s;
+  s.outline = Outline::triangle;
+  s.text = {values.text("gain")};
+  s.shown = {"gain"};
+  // The text stands in the thick part of the triangle: two thirds of its width at half of its height.
+  s.width = std::max(52.0, std::ceil(1.55 * text_width(s.text[0], 11)) + 14);
+  s.height = std::min(64.0, std::max(44.0, 0.75 * s.width));
+  return s;
+}
+
+Symbol lag(const Values& values) {
+  const auto times = values.numbers("times");
+  if (times.size() > 3) return fraction("1", fmt::format("(T₁s + 1) … ({} poles)", times.size()));
+  static const char* const index[] = {"₁", "₂", "₃"};
+  if (times.size() <= 1) return fraction("1", "T s + 1");
+  std::string under;
+  for (std::size_t i = 0; i < times.size(); ++i) under += fmt::format("(T{}s + 1)", index[i]);
+  return fraction("1", under);
+}
+
+/// The polynomials with their numbers where they fit, else with their degrees.
+Symbol transfer_function(const Values& values, const std::string& variable) {
+  const auto num = values.numbers("num");
+  const auto den = values.numbers("den");
+  const std::string over = polynomial(num, variable);
+  const std::string under = polynomial(den, variable);
+  if (!num.empty() && !den.empty() && text_width(over, 12) < 150 && text_width(under, 12) < 150) {
+    Symbol s = fraction(over, under);
+    s.shown = {"num", "den"};
+    return s;
+  }
+  const auto short_form = [&](const char* name, std::size_t n) {
+    return n < 2 ? std::string(name) : fmt::format("{}₀{} + …", name, power(variable, n - 1));
+  };
+  return fraction(short_form("b", num.size()), short_form("a", den.size()));
+}
+
+}  // namespace
+
+double text_width(const std::string& text, double size) {
+  double width = 0;
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xC0) == 0x80) continue;  // continuation bytes of UTF-8
+    if (std::string_view("ijl.,:;|!'()[] tfr/").find(c) != std::string_view::npos)
+      width += 0.38;
+    else if (std::string_view("mwMW").find(c) != std::string_view::npos)
+      width += 0.9;
+    else
+      width += c >= 'A' && c <= 'Z' ? 0.7 : 0.6;
+  }
+  return width * size;
+}
+
+void make_sum_box(Symbol& sum, int n_in) {
+  sum.outline = Outline::box;
+  sum.text = {"Σ"};
+  sum.width = 46;
+  sum.height = ports_height(n_in, 1);
+}
+
+Symbol text_symbol(const std::vector<std::string>& lines, int n_in, int n_out) {
+  Symbol s;
+  s.text = lines;
+  return sized(s, n_in, n_out);
+}
+
+Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in, int n_out) {
+  const std::string& type = declaration.type;
+  if (type == "sum") return sum(values, n_in);
+  if (type == "product") return product(n_in);
+  if (type == "gain") return gain(values);
+  Symbol s;
+  if (type == "integrator") {
+    s = fraction("1", "s");
+  } else if (type == "pass") {
+    s = formula("1");
+    s.width = 36;
+  } else if (type == "constant") {
+    s = formula(values.text("value"));
+    s.shown = {"value"};
+  } else if (type == "lag") {
+    s = lag(values);
+  } else if (type == "second_order") {
+    s = fraction("ω₀²", "s² + 2Dω₀s + ω₀²");
+  } else if (type == "transfer_function") {
+    s = transfer_function(values, "s");
+  } else if (type == "discrete_transfer_function") {
+    s = transfer_function(values, "z");
+  } else if (type == "state_space") {
+    s = text_symbol({"ẋ = A x + B u", "y = C x + D u"}, n_in, n_out);
+  } else if (type == "matrix_gain") {
+    s = formula("K u");
+  } else if (type == "pi_controller") {
+    s = formula("kp + ki/s");
+  } else if (type == "pid_controller") {
+    s = formula("kp + ki/s + kd s");
+  } else if (type == "discrete_pi" || type == "discrete_pid") {
+    s = picture("sampled", type == "discrete_pi" ? "PI" : "PID");
+  } else if (type == "dead_time") {
+    s = formula("e⁻ˢᵀ");
+  } else if (type == "delay_line" || type == "delay" || type == "unit_delay") {
+    s = formula("z⁻ⁿ");
+  } else if (const Look* look = find_look(type)) {
+    s = picture(look->picture, look->note ? type : "");
+  } else {
+    s = formula(type);  // recognized by its name
+  }
+  return sized(std::move(s), n_in, n_out);
+}
+
+}  // namespace hysteron::draw
