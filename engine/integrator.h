@@ -1,7 +1,7 @@
 // Decides how the adaptive integrators are driven: one step at a time, stop times, falling roots, dense output,
 // restarts, sensitivities, and what their failures say. Does not know diagrams: it sees sizes, functions and names for
-// its messages. Behind it stand CVODES (integrator_cvodes.cpp) and ARKODE (integrator_arkode.cpp); nothing else
-// includes SUNDIALS.
+// its messages. Behind it stand CVODES (integrator_cvodes.cpp) and ARKODE (integrator_arkode.cpp), whose headers no
+// file outside integrator*, vector_operations and dense_solver sees.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ struct OdeSystem {
   /// if parameters > 0; returns false where one is not finite.
   std::function<bool(double t, const double* x, const double* const* s, double* const* ds)> sensitivity_derivative{};
   /// Usual sizes of the parameters [SI], for the error weights of their sensitivities: dx/dp is held to the tolerance
-  /// of x over the size of p. Empty = all 1.
+  /// of x over the size of p. Empty = all 1; zero counts as 1.
   std::vector<double> parameter_sizes{};
 };
 
