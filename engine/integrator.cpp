@@ -30,7 +30,9 @@ void expect(const void* made, const char* call) {
 }
 
 double InitialValueProblem::parameter_size(int k) const {
-  return system.parameter_sizes.empty() ? 1.0 : system.parameter_sizes[static_cast<std::size_t>(k)];
+  if (system.parameter_sizes.empty()) return 1.0;
+  const double size = std::abs(system.parameter_sizes[static_cast<std::size_t>(k)]);
+  return size > 0 ? size : 1.0;
 }
 
 Vector InitialValueProblem::view(double* data, sunindextype length) const {

@@ -3,7 +3,8 @@
 //   - interpolation is of order three, or evaluates dx/dt anew for every output: here three evaluations make a
 //     polynomial of degree five for a whole step, and only if somebody asks inside it;
 //   - roots would be those of that interpolation;
-//   - restart forgets the stop time or estimates a first step: here the step goes on that the last error suggests;
+//   - restart forgets the stop time or estimates a first step: here the errors of the last step and of
+//     the first one behind the last restart say what to try;
 //   - refusal of a smaller step where dx/dt is not finite ends the run: here such a stage is made to fail the error
 //     test.
 // Sensitivities are further states: they stand behind x in one vector.
@@ -35,6 +36,7 @@ using ArkodeMemory = std::unique_ptr<void, DestroyWith<&free_arkode>>;
 /// good enough for degree five (Shampine, Math. Comput. 46 (1986) 135-150).
 struct Dense {
   bool ready = false;
+  bool refused = false;  // no slopes inside the step: degree three has to do
   double t0 = 0, h = 0;
   Vector y0, y1, f0, fa, fb, f1;  // slopes per second at theta = 0, 1/3, 2/3, 1
 
@@ -61,6 +63,10 @@ struct Dense {
             .at_a = 3.375 * s4 - 7.5 * s3 + 4.5 * s2 + 101.25 * w,
             .at_b = -3.375 * s4 + 6 * s3 - 2.25 * s2 + 101.25 * w,
             .at_1 = 1.125 * s4 - 1.5 * s3 + 0.5 * s2 + 33.75 * w};
+  }
+  Weights at(double t) const {
+    const double s = (t - t0) / h;
+    return refused ? cubic(s) : quintic(s);
   }
   void value(const Weights& w, sunindextype begin, sunindextype end, double* into) const {
     const double *a = NV_DATA_S(y0), *b = NV_DATA_S(y1), *k0 = NV_DATA_S(f0), *ka = NV_DATA_S(fa), *kb = NV_DATA_S(fb),
@@ -94,7 +100,7 @@ class ArkodeStepper : public Stepper {
   bool falls(const std::vector<double>& g) const;
   int locate(Step& done);
   void restart(double t);
-  void propose(bool cut);
+  void learn_step();
   sunindextype size() const { return static_cast<sunindextype>(p_.values.size()); }
 
   InitialValueProblem& p_;
@@ -107,7 +113,9 @@ class ArkodeStepper : public Stepper {
   std::vector<double> g_before_, g_after_, g_trial_;
   std::vector<char> fired_;
   double began_ = 0, reached_ = 0;  // the last step of ARKODE; a root may have cut it
-  double proposal_ = 0;             // first step after a restart [s]
+  double longest_last_ = 0;         // what the last step could have been [s]
+  double longest_first_ = 0;        // what the first one behind the last restart could have been [s]
+  bool first_ = true;               // nothing known yet of the first one
   bool g_known_ = false, at_root_ = false;
   long sensitivity_evaluations_ = 0, dense_evaluations_ = 0;
   ArkodeMemory arkode_;  // last: goes first
@@ -167,19 +175,25 @@ void ArkodeStepper::start(double t) {
 
 void ArkodeStepper::restart(double t) {
   expect(ERKStepReset(arkode_.get(), t, all_.get()), "ERKStepReset");
-  expect(ERKStepSetInitStep(arkode_.get(), proposal_), "ERKStepSetInitStep");
+  expect(ERKStepSetInitStep(arkode_.get(), std::min(longest_last_, longest_first_)), "ERKStepSetInitStep");
   began_ = reached_ = t;
   dense_.ready = g_known_ = at_root_ = false;
+  first_ = true;
 }
 
-/// What a restart tries first: the step that the last error would have made the next. ARKODE forgets it where a stop is
-/// near; a step that a stop cut says little if it was short.
-void ArkodeStepper::propose(bool cut) {
+/// What the error of the step just done says of the longest one: ARKODE forgets its own answer where a stop is near.
+/// Of a step that a stop made very short, or that began the run, it only says "far more".
+void ArkodeStepper::learn_step() {
   ERKStepGetErrWeights(arkode_.get(), weights_.get());
   ERKStepGetEstLocalErrors(arkode_.get(), errors_.get());
   const double error = std::max(N_VWrmsNorm(errors_.get(), weights_.get()), 1e-10);
-  const double next = (reached_ - began_) * std::min(safety * std::pow(error, -0.2), largest_growth);
-  proposal_ = cut ? std::max(proposal_, next) : next;
+  const double growth = safety * std::pow(error, -0.2);
+  const bool far_more = growth >= largest_growth;
+  const double longest = (reached_ - began_) * std::min(growth, largest_growth);
+  longest_last_ = far_more ? std::max(longest_last_, longest) : longest;
+  if (!first_) return;
+  longest_first_ = far_more ? std::max(longest_first_, longest) : longest;
+  first_ = far_more;
 }
 
 Stepper::Step ArkodeStepper::step(double stop) {
@@ -201,7 +215,7 @@ Stepper::Step ArkodeStepper::step(double stop) {
   began_ = reached_;
   reached_ = done.t;
   if (done.flag == ARK_TSTOP_RETURN) done.outcome = Integrator::Outcome::stop;
-  propose(done.outcome == Integrator::Outcome::stop);
+  learn_step();
   if (!g_before_.empty()) done.flag = locate(done);
   return done;
 }
@@ -240,7 +254,7 @@ int ArkodeStepper::locate(Step& done) {
       if (g_before_[i] > 0 && g_after_[i] <= 0) t = std::min(t, a + (b - a) * g_a[i] / (g_a[i] - g_after_[i]));
     // A secant that hits the root from one side leaves the bracket long: aim a little past it.
     t = halve ? (a + b) / 2 : std::clamp(t + enough / 4, a + enough / 2, b - enough / 2);
-    dense_.value(Dense::quintic((t - dense_.t0) / dense_.h), 0, size(), trial_.data());
+    dense_.value(dense_.at(t), 0, size(), trial_.data());
     if (const int flag = indicators(t, trial_.data(), g_trial_); flag < 0) return flag;
     const double before = b - a;
     if (falls(g_trial_)) {
@@ -253,7 +267,7 @@ int ArkodeStepper::locate(Step& done) {
     halve = b - a > before / 2;
   }
   for (std::size_t i = 0; i < fired_.size(); ++i) fired_[i] = g_before_[i] > 0 && g_after_[i] <= 0;
-  if (b < end) dense_.value(Dense::quintic((b - dense_.t0) / dense_.h), 0, size(), p_.values.data());
+  if (b < end) dense_.value(dense_.at(b), 0, size(), p_.values.data());
   std::swap(g_before_, g_after_);
   reached_ = done.t = b;
   done.outcome = Integrator::Outcome::root;
@@ -278,19 +292,19 @@ int ArkodeStepper::make_dense() {
   N_VConst(0, d.fa.get());
   N_VConst(0, d.fb.get());
   const double a = 1.0 / 3, b = 2.0 / 3;
-  if (const int flag = evaluate_at(a, Dense::cubic(a), d.fa); flag != 0) return flag;
-  if (const int flag = evaluate_at(b, Dense::quartic(b), d.fb); flag != 0) return flag;
-  // Needs the old fa; only afterwards may it be replaced.
-  if (const int flag = evaluate_at(a, Dense::quartic(a), d.fa); flag != 0) return flag;
+  int flag = evaluate_at(a, Dense::cubic(a), d.fa);
+  if (flag == 0) flag = evaluate_at(b, Dense::quartic(b), d.fb);
+  if (flag == 0) flag = evaluate_at(a, Dense::quartic(a), d.fa);  // replaces the slope that the quartic came from
+  if (flag < 0) return flag;
+  d.refused = flag > 0;
   d.ready = true;
   return 0;
 }
 
 int ArkodeStepper::interpolate(double t, int column, double* into) {
   if (const int flag = make_dense(); flag != 0) return flag;
-  const double s = (t - dense_.t0) / dense_.h;
   const auto begin = sunindextype{column} * p_.states();
-  dense_.value(Dense::quintic(s), begin, begin + p_.states(), into);
+  dense_.value(dense_.at(t), begin, begin + p_.states(), into);
   return 0;
 }
 

@@ -367,6 +367,45 @@ TEST(RungeKutta, ASampleOfAControllerCostsOneStep) {
   EXPECT_EQ(solver.counters().evaluations - before, 90 * 7);
 }
 
+TEST(RungeKutta, BehindEachJumpItTriesWhatWorkedBehindTheLast) {
+  // x' = u - x, u turned every 3 s: the steps grow towards the end of each sample, where little happens any more.
+  double u = 1;
+  OdeSystem s;
+  s.derivative = [&u](double, const double* x, double* dx) {
+    dx[0] = u - x[0];
+    return true;
+  };
+  Integrator solver(s, {.formula = Formula::runge_kutta, .relative_tolerance = 1e-6}, std::array{1e-6});
+  solver.start(0, std::array{0.0});
+  double exact = 0;
+  for (int k = 1; k <= 50; ++k) {
+    u = -u;
+    exact = u + (exact - u) * std::exp(-3.0);
+    while (solver.t() < 3 * k) solver.step(3 * k);
+    EXPECT_NEAR(solver.x()[0], exact, 1e-5) << "ten tolerances";
+    solver.start(3 * k, solver.x());
+  }
+  EXPECT_LT(solver.counters().rejected, 10) << "of fifty that the last step of each sample would have cost";
+}
+
+TEST(RungeKutta, WithoutSlopesInsideAStepItsEndsHaveToDo) {
+  // The stages stand at 0, 0.2, 0.3, 0.8, 8/9 and 1 of the step, dense output looks between.
+  OdeSystem s;
+  s.derivative = [](double t, const double*, double* dx) {
+    dx[0] = 3 * t * t;  // x = t^3: of degree three
+    return t < 1 || t > 2 || t < 1.31 || t > 1.79;
+  };
+  Integrator solver(s, {.formula = Formula::runge_kutta, .relative_tolerance = 1}, std::array{1e9});
+  solver.start(-30, std::array{-27000.0});
+  while (solver.t() < 1) solver.step(1);
+  solver.step(2);  // as long as it may be: nothing here is an error of 1e9
+  ASSERT_EQ(solver.t(), 2);
+  ASSERT_EQ(solver.previous_t(), 1);
+  std::array<double, 1> x{};
+  solver.interpolate(1.5, x);
+  EXPECT_NEAR(x[0], 1.5 * 1.5 * 1.5, 1e-10);  // rounding at 27000
+}
+
 // x_i' = (x_(i-1) - x_i)/tau, x_(-1) = 1: x_(n-1)(t) = 1 - exp(-t/tau) sum_(k<n) (t/tau)^k/k!.
 constexpr double tau = 0.05;
 OdeSystem chain_of_lags(int n) {
@@ -580,6 +619,29 @@ TEST_P(EachFormula, SensitivitiesOfAnOscillatorToItsFrequencyGrow) {
   EXPECT_NEAR(solver.x()[0], std::cos(2 * w), 1e-6);
   EXPECT_NEAR(solver.sensitivities()[0], -2 * std::sin(2 * w), 1e-5);  // tenfold: it is itself up to ten
   EXPECT_NEAR(solver.sensitivities()[1], -std::sin(2 * w) - 2 * w * std::cos(2 * w), 1e-5);
+}
+
+TEST_P(EachFormula, SensitivitiesOfAChainToItsTimeConstantFollowTheClosedForm) {
+  // With BDF by the sparse solver. x_(n-1) = F(t/tau) with F'(s) = s^(n-1) exp(-s)/(n-1)!, so dx/dtau = -t/tau^2 F'.
+  constexpr int n = 20;
+  auto system = chain_with_sparse_jacobian(n);
+  system.parameters = 1;
+  system.parameter_sizes = {tau};
+  system.sensitivity_derivative = [](double, const double* x, const double* const* s, double* const* ds) {
+    for (int i = 0; i < n; ++i) {
+      const double rate = ((i == 0 ? 1.0 : x[i - 1]) - x[i]) / tau;
+      ds[0][i] = ((i == 0 ? 0.0 : s[0][i - 1]) - s[0][i]) / tau - rate / tau;
+    }
+    return true;
+  };
+  Integrator solver(system, {.formula = GetParam(), .relative_tolerance = 1e-8}, std::vector<double>(n, 1e-10));
+  solver.start(0, std::vector<double>(n, 0.0));
+  for (const double stop : {0.5, 1.0, 1.5}) {
+    while (solver.t() < stop) solver.step(stop);
+    const double s = stop / tau;
+    const double slope = std::exp((n - 1) * std::log(s) - s - std::lgamma(n));
+    EXPECT_NEAR(solver.sensitivities()[n - 1] * tau, -s * slope, 1e-5);  // up to two: thousand tolerances
+  }
 }
 
 TEST_P(EachFormula, ARestartTakesBothStatesAndSensitivities) {
