@@ -70,7 +70,10 @@ std::string conditions(const ParameterDeclaration& p) {
 }
 
 std::string kind_column(const ParameterDeclaration& p) {
-  const std::string kind = p.kind == ParameterKind::list ? "list" : p.kind == ParameterKind::text ? "text" : "number";
+  const std::string kind = p.kind == ParameterKind::list     ? "list"
+                           : p.kind == ParameterKind::text   ? "text"
+                           : p.kind == ParameterKind::matrix ? "matrix"
+                                                             : "number";
   if (!p.default_text) return kind + ", required";
   return kind + ", default " + (p.default_text->empty() ? "\"\"" : *p.default_text);
 }
@@ -78,6 +81,7 @@ std::string kind_column(const ParameterDeclaration& p) {
 std::string example_value(const ParameterDeclaration& p) {
   const bool plain = p.unit.empty() || p.unit.find('$') != std::string::npos;
   const std::string one = plain ? "1" : fmt::format("\"1 {}\"", p.unit);
+  if (p.kind == ParameterKind::matrix) return "[[1, 0], [0, 1]]";
   if (p.kind == ParameterKind::list) return plain ? "[1]" : fmt::format("[{}]", one);
   return p.kind == ParameterKind::text ? fmt::format("\"{}\"", p.choices.empty() ? "..." : p.choices.front()) : one;
 }
@@ -101,7 +105,9 @@ void print_ports(const std::string& title, const std::vector<PortDeclaration>& p
   if (ports.empty()) return;
   Rows rows;
   for (const auto& p : ports)
-    rows.push_back({p.name, unit_column(p.unit), p.meaning + (p.variadic ? " (any number of wires)" : "")});
+    rows.push_back({p.name + (p.variadic && title == "outputs" ? "0, " + p.name + "1, ..." : ""), unit_column(p.unit),
+                    p.meaning + (p.variadic && title == "inputs" ? " (any number of wires)" : "") +
+                        (p.is_vector ? " (any length)" : "")});
   fmt::print("\n{}\n{}", title, table_text({}, rows));
 }
 
@@ -121,6 +127,10 @@ void print_one(const Declaration& d) {
     for (const auto& s : d.states) rows.push_back({s.name, unit_column(s.unit), s.meaning});
     fmt::print("\nstates\n{}", table_text({}, rows));
   }
+  if (d.is_elementwise)
+    fmt::print(
+        "\nOn vectors it works element by element, with the same parameters for all; single numbers go to every "
+        "element.\n");
   if (!d.remarks.empty()) {
     fmt::print("\nremarks\n");
     for (const auto& remark : d.remarks) fmt::print("{}", wrapped(remark, 2));
@@ -130,7 +140,9 @@ void print_one(const Declaration& d) {
   const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
   if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
       std::any_of(d.outputs.begin(), d.outputs.end(), variable))
-    fmt::print("\n$a, $b stand for units that come from the wires and from the units written at the parameters.\n");
+    fmt::print(
+        "\n$a, $b stand for units that come from the wires and from the units written at the parameters; $a[i] for "
+        "that of each element.\n");
 }
 
 int blocks(const Arguments& arguments) {

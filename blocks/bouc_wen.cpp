@@ -5,6 +5,7 @@ namespace hysteron::blocks {
 void BoucWen::describe(BlockSpec<BoucWen>& spec) {
   spec.name("bouc_wen", "Bouc-Wen hysteresis, driven by the rate of its input")
       .in_group("hysteresis")
+      .elementwise()
       .rate_independent()
       .at("core");
   spec.law("y = d_p u - z, dz/dt = alpha u' - (beta |u'| z + gamma u' |z|) |z/scale|^(exponent - 1)")

@@ -3,7 +3,11 @@
 namespace hysteron::blocks {
 
 void Creep::describe(Declaration& d) {
-  d.name("creep", "slow continuation of a move (Kelvin-Voigt chain)").in_group("continuous").linear().at("core");
+  d.name("creep", "slow continuation of a move (Kelvin-Voigt chain)")
+      .in_group("continuous")
+      .elementwise()
+      .linear()
+      .at("core");
   d.law("y = u + sum amounts[k] x_k, times[k] dx_k/dt = u - x_k")
       .from("Croft, Shed, Devasia, J. Dyn. Sys. Meas. Control 123 (2001) 35-43");
   d.remark(

@@ -3,7 +3,7 @@
 namespace hysteron::blocks {
 
 void DeadTime::describe(Declaration& d) {
-  d.name("dead_time", "its input, delayed without change of shape").in_group("continuous").at("command");
+  d.name("dead_time", "its input, delayed without change of shape").in_group("continuous").elementwise().at("command");
   d.law("y(t) = u(t - delay); before the start the input is taken to have been at rest").from("definition");
   d.remark(
       "A delay shorter than the solver's step is continued from the last accepted point, straight on: first order "

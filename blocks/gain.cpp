@@ -3,7 +3,12 @@
 namespace hysteron::blocks {
 
 void Gain::describe(BlockSpec<Gain>& spec) {
-  spec.name("gain", "multiplies by a constant").in_group("math").linear().law("y = gain u").from("definition");
+  spec.name("gain", "multiplies by a constant")
+      .in_group("math")
+      .elementwise()
+      .linear()
+      .law("y = gain u")
+      .from("definition");
   spec.remark("A gain of zero still counts as a connection.");
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "$b", "the multiple");
@@ -11,14 +16,19 @@ void Gain::describe(BlockSpec<Gain>& spec) {
 }
 
 void Pass::describe(BlockSpec<Pass>& spec) {
-  spec.name("pass", "hands its input on unchanged").in_group("math").linear().law("y = u").from("definition");
+  spec.name("pass", "hands its input on unchanged")
+      .in_group("math")
+      .elementwise()
+      .linear()
+      .law("y = u")
+      .from("definition");
   spec.remark("The neutral candidate of a choice: it stands where an effect is switched off.");
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "$a", "the same signal");
 }
 
 void Calibration::describe(BlockSpec<Calibration>& spec) {
-  spec.name("calibration", "gain and offset, as of a sensor").in_group("math").linear().at("measured");
+  spec.name("calibration", "gain and offset, as of a sensor").in_group("math").elementwise().linear().at("measured");
   spec.law("y = gain u + offset").from("definition");
   spec.remark("A plain gain keeps the unit of the signal; with a unit (\"0.1 um/V\") it converts.");
   spec.input(&In<double>::u, "u", "$a", "the true signal");

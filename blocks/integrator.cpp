@@ -3,7 +3,7 @@
 namespace hysteron::blocks {
 
 void Integrator::describe(BlockSpec<Integrator>& spec) {
-  spec.name("integrator", "integral of its input over time").in_group("continuous").linear();
+  spec.name("integrator", "integral of its input over time").in_group("continuous").elementwise().linear();
   spec.law("dy/dt = u, y(0) = initial").from("definition");
   spec.remark("It has no equilibrium of its own: where a simulation starts at rest it keeps its initial value.");
   spec.input(&In<double>::u, "u", "$a", "what is integrated");

@@ -3,7 +3,10 @@
 namespace hysteron::blocks {
 
 void PiController::describe(BlockSpec<PiController>& spec) {
-  spec.name("pi_controller", "proportional-integral controller, continuous").in_group("continuous").linear();
+  spec.name("pi_controller", "proportional-integral controller, continuous")
+      .in_group("continuous")
+      .elementwise()
+      .linear();
   spec.law("y = kp u + x, dx/dt = ki u, x(0) = initial").from("thesis Eq. 2.48 with K_d = 0");
   spec.remark("The input is the control error: reference minus measured, from a sum with \"signs\": \"+-\".");
   spec.input(&In<double>::u, "u", "$a", "control error");

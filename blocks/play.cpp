@@ -3,7 +3,10 @@
 namespace hysteron::blocks {
 
 void Play::describe(BlockSpec<Play>& spec) {
-  spec.name("play", "play operator: follows its input with a dead zone").in_group("hysteresis").at("core");
+  spec.name("play", "play operator: follows its input with a dead zone")
+      .in_group("hysteresis")
+      .elementwise()
+      .at("core");
   spec.law("two: y = max(u - radius, min(u + radius, y before)); one: y = max(u - radius, min(u, y before))")
       .from("thesis Eqs. 2.3, 2.4; Brokate, Sprekels, Hysteresis and Phase Transitions (1996), chapter 2");
   spec.remark("The one-sided operator is the two-sided one of half the radius behind u - radius/2.");

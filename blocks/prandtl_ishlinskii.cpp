@@ -5,6 +5,7 @@ namespace hysteron::blocks {
 void PrandtlIshlinskii::describe(Declaration& d) {
   d.name("prandtl_ishlinskii", "rate-independent hysteresis: weighted sum of play operators")
       .in_group("hysteresis")
+      .elementwise()
       .at("core");
   d.law(
        "y = sum weights[i] w_i; one: w_i = max(u - thresholds[i], min(u, w_i before)); two: with min(u + "

@@ -8,6 +8,7 @@
 #include "blocks/gain.h"
 #include "blocks/integrator.h"
 #include "blocks/lag.h"
+#include "blocks/matrix_gain.h"
 #include "blocks/multisine.h"
 #include "blocks/pi_controller.h"
 #include "blocks/play.h"
@@ -18,10 +19,12 @@
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
 #include "blocks/staircase.h"
+#include "blocks/state_space.h"
 #include "blocks/step.h"
 #include "blocks/sum.h"
 #include "blocks/transfer_function.h"
 #include "blocks/triangle.h"
+#include "blocks/vectors.h"
 
 namespace hysteron {
 
@@ -44,8 +47,14 @@ Registry all_blocks() {
   r.add(blocks::saturation_block());
   r.add(blocks::calibration_block());
 
+  r.add(blocks::mux_block());
+  r.add(blocks::demux_block());
+  r.add(blocks::select_block());
+  r.add(blocks::matrix_gain_block());
+
   r.add(blocks::integrator_block());
   r.add(blocks::transfer_function_block());
+  r.add(blocks::state_space_block());
   r.add(blocks::pi_controller_block());
   r.add(blocks::lag_block());
   r.add(blocks::creep_block());

@@ -7,7 +7,7 @@
 namespace hysteron::blocks {
 
 void Saturation::describe(BlockSpec<Saturation>& spec) {
-  spec.name("saturation", "hard limit").in_group("math").at("command");
+  spec.name("saturation", "hard limit").in_group("math").elementwise().at("command");
   spec.law("y = max(lower, min(upper, u))").from("definition");
   spec.remark("Where there is no limit on one side, write \"-inf V\" or \"inf V\" in the unit of the signal.");
   spec.input(&In<double>::u, "u", "$a", "the signal");

@@ -5,7 +5,7 @@
 namespace hysteron::blocks {
 
 void Sum::describe(Declaration& d) {
-  d.name("sum", "adds and subtracts signals").in_group("math").linear();
+  d.name("sum", "adds and subtracts signals").in_group("math").elementwise().linear();
   d.law("y = +- u_1 +- u_2 ...").from("definition");
   d.remark("All signals must have one unit. \"signs\": \"+-\" subtracts the second wire; without it all are added.");
   d.inputs_any("in", "$a", "the signals, in the order of the signs");

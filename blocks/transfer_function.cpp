@@ -8,7 +8,7 @@
 namespace hysteron::blocks {
 
 void TransferFunction::describe(Declaration& d) {
-  d.name("transfer_function", "ratio of two polynomials in s").in_group("continuous").linear();
+  d.name("transfer_function", "ratio of two polynomials in s").in_group("continuous").elementwise().linear();
   d.law("Y(s) = gain num(s)/den(s) U(s)")
       .from("balanced companion form: Parlett, Reinsch, Numer. Math. 13 (1969) 293-304");
   d.remark(

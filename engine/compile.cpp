@@ -73,6 +73,13 @@ Unit unit_of(const ResolvedNumber& number, const ParameterDeclaration& p) {
   return Unit{};
 }
 
+/// "" of a number, "[2]" of a list, "[0][2]" of a matrix.
+std::string index_of(const ResolvedParameter& parameter, std::size_t k) {
+  const auto columns = static_cast<std::size_t>(parameter.columns);
+  if (columns > 0) return fmt::format("[{}][{}]", k / columns, k % columns);
+  return parameter.list ? fmt::format("[{}]", k) : "";
+}
+
 class ParameterTable {
  public:
   ParameterTable(const Graph& graph, Program& program) : graph_(graph), program_(program) {}
@@ -81,7 +88,8 @@ class ParameterTable {
     for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
       const auto& declaration = graph_.blocks[b].kernel->declaration;
       for (std::size_t i = 0; i < declaration.parameters.size(); ++i)
-        if (declaration.parameters[i].kind != ParameterKind::text) add(static_cast<int>(b), static_cast<int>(i));
+        if (declaration.parameters[i].kind != ParameterKind::text && !declaration.parameters[i].is_structural)
+          add(static_cast<int>(b), static_cast<int>(i));
     }
     apply_bounds();
   }
@@ -94,8 +102,8 @@ class ParameterTable {
     const auto& resolved = block.parameters[static_cast<std::size_t>(i)];
     for (std::size_t k = 0; k < resolved.numbers.size(); ++k) {
       const auto& number = resolved.numbers[k];
-      const std::string index = resolved.list ? fmt::format("[{}]", k) : "";
-      const std::string own = block.path + "." + p.name + index;
+      const std::string index = index_of(resolved, k);
+      const std::string own = block.owner + "." + p.name + index;
       const std::string path = number.parameter.empty() ? own : number.parameter + index;
       const int slot = instance.p_begin + instance.p_at[static_cast<std::size_t>(i)] + static_cast<int>(k);
       const auto found = program_.parameter_names.find(path);

@@ -14,16 +14,21 @@ namespace hysteron {
 /// A unit expression: a unit ("V", "um/s", "" = dimensionless), a unit variable ("$a"), or products and quotients of
 /// both
 /// ("$b/$a", "$a*s"). Variables are found per block from wires and from the units written at its parameters.
+/// At a vector port "$a" is one unit for all elements and "$a[i]" one per element; in a matrix "$b[row]/$a[column]"
+/// speaks of the unit of each row and column.
 using UnitExpression = std::string;
 
 struct PortDeclaration {
   std::string name;
   UnitExpression unit;
   std::string meaning;
-  bool variadic = false;  ///< takes any number of wires, at least one
+  bool variadic = false;   ///< input: takes any number of wires, at least one; output "y": any number of y0, y1, ...
+  bool is_vector = false;  ///< carries any number of elements; Sizes says how many
+
+  PortDeclaration& vector() { return is_vector = true, *this; }
 };
 
-enum class ParameterKind { number, list, text };
+enum class ParameterKind { number, list, text, matrix };
 
 struct ParameterDeclaration {
   std::string name;
@@ -41,6 +46,7 @@ struct ParameterDeclaration {
   bool is_difference = false;    ///< a temperature here is a difference (0.01 degC = 0.01 K)
   bool is_increasing = false;    ///< a list that must be strictly increasing
   std::string same_length_as{};  ///< a list that must be as long as that other list
+  bool is_structural = false;    ///< whole numbers that fix ports and lengths: read once, no parameter of a run
 
   ParameterDeclaration& optional(std::string text) { return default_text = std::move(text), *this; }
   ParameterDeclaration& linear() { return is_linear = true, *this; }
@@ -49,6 +55,7 @@ struct ParameterDeclaration {
   ParameterDeclaration& positive() { return minimum = 0, exclusive_minimum = true, *this; }
   ParameterDeclaration& not_negative() { return minimum = 0, *this; }
   ParameterDeclaration& increasing() { return is_increasing = true, *this; }
+  ParameterDeclaration& structural() { return is_structural = true, *this; }
   ParameterDeclaration& as_long_as(std::string other) { return same_length_as = std::move(other), *this; }
 };
 
@@ -83,6 +90,7 @@ class Declaration {
                                      ///< the path of a fast ramp
   bool is_series = false;            ///< driven by a recorded series (parameter "samples")
   bool is_sampled = false;           ///< runs at offset + k period only, and holds its outputs between
+  bool is_elementwise = false;       ///< on vectors: one such block per element, with the same parameters
 
   Declaration& name(std::string type_name, std::string what) {
     type = std::move(type_name);
@@ -93,6 +101,7 @@ class Declaration {
   Declaration& from(std::string text) { return source = std::move(text), *this; }
   Declaration& remark(std::string text) { return remarks.push_back(std::move(text)), *this; }
   Declaration& linear() { return is_linear = true, *this; }
+  Declaration& elementwise() { return is_elementwise = true, *this; }
   Declaration& rate_independent() { return is_rate_independent = true, *this; }
   /// A sampled block. Adds the parameters "period" and "offset", behind all others.
   Declaration& sampled() {
@@ -113,6 +122,10 @@ class Declaration {
   PortDeclaration& output(std::string port, UnitExpression unit, std::string meaning) {
     return outputs.push_back({std::move(port), std::move(unit), std::move(meaning)}), outputs.back();
   }
+  /// Any number of outputs: "y" makes y0, y1, ... (as many as Sizes::output_lengths has).
+  PortDeclaration& outputs_any(std::string port, UnitExpression unit, std::string meaning) {
+    return outputs.push_back({std::move(port), std::move(unit), std::move(meaning), true}), outputs.back();
+  }
   ParameterDeclaration& parameter(std::string key, UnitExpression unit, std::string meaning,
                                   ParameterKind kind = ParameterKind::number) {
     ParameterDeclaration p;
@@ -124,6 +137,9 @@ class Declaration {
   }
   ParameterDeclaration& list(std::string key, UnitExpression unit, std::string meaning) {
     return parameter(std::move(key), std::move(unit), std::move(meaning), ParameterKind::list);
+  }
+  ParameterDeclaration& matrix(std::string key, UnitExpression unit, std::string meaning) {
+    return parameter(std::move(key), std::move(unit), std::move(meaning), ParameterKind::matrix);
   }
   ParameterDeclaration& text(std::string key, std::vector<std::string> choices, std::string meaning) {
     auto& p = parameter(std::move(key), "", std::move(meaning), ParameterKind::text);
@@ -143,6 +159,8 @@ class Declaration {
   std::vector<std::string> parameter_names() const;
   std::vector<std::string> input_names() const;
   std::vector<std::string> output_names() const;
+  /// Has a port that carries vectors: Sizes then tells lengths.
+  bool has_vector_ports() const;
 };
 
 }  // namespace hysteron

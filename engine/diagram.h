@@ -29,15 +29,22 @@ struct Reference {
 
 using NumberList = std::vector<Number>;
 
+/// Rows of numbers, all of one length.
+struct NumberMatrix {
+  std::vector<NumberList> rows;
+  bool operator==(const NumberMatrix&) const = default;
+};
+
 /// What a parameter of a block was given.
 struct Value {
-  std::variant<Number, NumberList, std::string, Reference, SeriesPointer> content;
+  std::variant<Number, NumberList, std::string, Reference, SeriesPointer, NumberMatrix> content;
   std::string origin{};  ///< where it was written: "stage.json#/blocks/a/gain", "--set", ... ("" = from C++)
 
   Value() = default;
   Value(double number) : content(Number{number, {}}) {}  // NOLINT: implicit on purpose, so that C++ diagrams read well
   Value(Number number) : content(std::move(number)) {}   // NOLINT
   Value(NumberList list) : content(std::move(list)) {}   // NOLINT
+  Value(NumberMatrix matrix) : content(std::move(matrix)) {}     // NOLINT
   Value(Reference reference) : content(std::move(reference)) {}  // NOLINT
   Value(SeriesPointer series) : content(std::move(series)) {}    // NOLINT
   /// "5 Hz" is a number with a unit, "$kp" a reference, anything else text.
@@ -92,7 +99,7 @@ class Ordered {
 /// Where a block takes one input from. `port` is empty where the inputs are listed by position.
 struct Wire {
   std::string port;
-  std::string from;  ///< "block", "block.port", or the name of an input of the diagram
+  std::string from;  ///< "block", "block.port", the name of an input of the diagram, or an element: "block.port[1]"
 };
 
 struct Diagram;
@@ -125,6 +132,7 @@ struct DiagramParameter {
 struct DiagramInput {
   std::string unit{};
   std::string remark{};
+  int length = 0;  ///< elements; 0 = not stated: what its readers need, else one. Longer ones bind as u[0], u[1], ...
 };
 
 /// Solver and recording settings, as written; numbers in s unless they carry a unit.

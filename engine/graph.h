@@ -21,8 +21,9 @@ struct ResolvedNumber {
 };
 
 struct ResolvedParameter {
-  std::vector<ResolvedNumber> numbers;  ///< one, or the elements of a list, or the characters of a text
+  std::vector<ResolvedNumber> numbers;  ///< one, or the elements of a list or matrix (row by row), or characters
   bool list = false;
+  int columns = 0;  ///< of a matrix
 };
 
 /// A diagram inside a diagram, while names are looked up.
@@ -39,17 +40,25 @@ struct GraphParameter {  ///< a parameter of some diagram scope
   bool used = false;
 };
 
-/// The flat diagram: leaf blocks with values and wires.
+/// Place of one number in the vector that its port carries.
+struct PortElement {
+  int port = 0;      ///< index of the declared port
+  int element = -1;  ///< -1: the port is no vector
+};
+
+/// The flat diagram: leaf blocks with values and wires, every wire one number.
 struct GraphBlock {
   std::string path, origin;
+  std::string owner;  ///< whose parameters these are: the path without the index of an element
   const Kernel* kernel = nullptr;
   Shape shape;
   Sizes sizes;
   std::vector<ResolvedParameter> parameters;  ///< per declared parameter
   SeriesPointer series;
-  bool unit_known = false;  ///< recorded: its signal has the unit of the column
-  std::vector<int> source;  ///< per input port (variadic ports: per wire): signal
-  std::vector<int> port;    ///< per input: index of the declared port
+  bool unit_known = false;          ///< recorded: its signal has the unit of the column
+  std::vector<int> source;          ///< per input number: signal
+  std::vector<PortElement> input;   ///< per input number
+  std::vector<PortElement> output;  ///< per output number
   int first_signal = 0;
 };
 
@@ -68,7 +77,7 @@ std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node
                                                   const std::string& origin, std::vector<GraphParameter>& parameters,
                                                   Problems& problems);
 
-/// graph.cpp: choices, nested diagrams, wires.
+/// graph.cpp: choices, nested diagrams, wires (wired.h), lengths, and every vector taken apart into numbers.
 Graph build_graph(const Diagram& diagram, const Registry& registry);
 
 /// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.

@@ -59,11 +59,18 @@ struct View {
 /// What fixes the counts of a block: lengths of lists, choices of texts, number of wires; never a parameter's value.
 struct Shape {
   const Declaration* declaration = nullptr;
-  std::vector<int> list_lengths;  ///< per declared parameter (1 for a number)
-  std::vector<int> text_choices;  ///< per declared parameter (0 for no text)
-  int inputs = 0;
+  std::vector<int> list_lengths;                 ///< per declared parameter (1 for a number)
+  std::vector<int> text_choices;                 ///< per declared parameter (0 for no text)
+  int inputs = 0;                                ///< wires
+  std::vector<int> columns{};                    ///< per declared parameter: columns of a matrix, else 0
+  std::vector<std::vector<double>> structure{};  ///< per declared parameter: structural numbers, characters of texts
+  std::vector<int> input_lengths{};              ///< per wire (blocks with vector ports)
   int length(const std::string& parameter) const;
   const std::string& text(const std::string& parameter) const;
+  int rows_of(const std::string& matrix) const;
+  int columns_of(const std::string& matrix) const;
+  std::vector<int> whole_numbers(const std::string& structural) const;
+  std::string free_text(const std::string& parameter) const;
 };
 
 struct Sizes {
@@ -73,6 +80,14 @@ struct Sizes {
   Smoothness smoothness = Smoothness::smooth;  ///< of a source's own signal
   bool history = false;                        ///< remembers the past of its input (dead time)
   std::string error{};  ///< not empty: these shapes do not go together; says what and what instead
+
+  // Blocks with vector ports only. `outputs` then counts all elements of all output ports.
+  std::vector<int> input_lengths{};   ///< per wire: the length that it must have (0 = any)
+  std::vector<int> shortest{};        ///< per wire: the length that it must have at least (empty = any)
+  std::vector<int> output_lengths{};  ///< per output port
+  std::string lengths_from{};         ///< what fixed them: "its matrix has 2 rows and 3 columns"
+  std::vector<int> route{};           ///< not empty: a mere rewiring; which input element each output element hands on
+  std::vector<UnitExpression> input_units{}, output_units{};  ///< per element, in place of the declared units
 };
 
 /// The functions of a block for one scalar T. A null pointer means that the block has no such function.

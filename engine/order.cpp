@@ -314,7 +314,7 @@ class Scheduler {
     for (int b = 0; b < n_; ++b)
       if (usable[static_cast<std::size_t>(rate(b))]) {
         rates.push_back(rate(b));
-        for (std::size_t o = 0; o < block(b).kernel->declaration.outputs.size(); ++o)
+        for (std::size_t o = 0; o < block(b).output.size(); ++o)
           program_.has_rate[static_cast<std::size_t>(block(b).first_signal) + o] = true;
       }
     auto wanted = closure(rates, all);

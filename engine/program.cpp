@@ -10,11 +10,8 @@ int Program::find_signal(const std::string& path) const {
   for (std::size_t s = 0; s < signals.size(); ++s)
     if (signals[s].path == path) return static_cast<int>(s);
   // "block.port" also where the block has one output, and the names of the diagram's outputs.
-  for (std::size_t s = 0; s < signals.size(); ++s) {
-    const auto& b = blocks[static_cast<std::size_t>(signals[s].block)];
-    const auto port = s - static_cast<std::size_t>(b.y_begin);
-    if (b.path + "." + b.kernel->declaration.outputs[port].name == path) return static_cast<int>(s);
-  }
+  for (std::size_t s = 0; s < signals.size(); ++s)
+    if (signals[s].port_path == path) return static_cast<int>(s);
   for (std::size_t i = 0; i < output_names.size(); ++i)
     if (output_names[i] == path) return output_signals[i];
   return -1;

@@ -42,7 +42,8 @@ struct BlockInstance {
 
 /// A signal: one output port of one block.
 struct SignalInfo {
-  std::string path;  ///< "stage.displacement", or "stage" where the block has one output
+  std::string path;         ///< "stage.displacement", or "stage" where the block has one output
+  std::string port_path{};  ///< the same with its port: "stage.y" also where the block has one output
   int block = -1;
   Dimension dimension{};
   Smoothness smoothness = Smoothness::smooth;

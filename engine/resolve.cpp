@@ -52,8 +52,10 @@ class Resolver {
     if (given == nullptr) given = node_.parameters_from_file.find(p.name);
     if (given != nullptr) return from_value(p, *given, "", 0);
     ResolvedParameter result;
-    result.list = p.kind == ParameterKind::list;
+    result.list = p.kind == ParameterKind::list || p.kind == ParameterKind::matrix;
     if (p.kind == ParameterKind::text && p.choices.empty()) return result;  // free text: empty by default
+    if (p.kind == ParameterKind::list || p.kind == ParameterKind::matrix)
+      if (p.default_text && p.default_text->empty()) return result;  // none by default
     if (!p.default_text) {
       problems_.add("missing_parameter", place(p.name),
                     fmt::format("{} needs a parameter \"{}\": {}", declaration_.type, p.name, p.meaning),
@@ -71,6 +73,7 @@ class Resolver {
     result.list = p.kind == ParameterKind::list;
     if (const auto* reference = std::get_if<Reference>(&value.content)) return from_reference(p, *reference, depth);
     if (p.kind == ParameterKind::text) return from_text(p, value);
+    if (p.kind == ParameterKind::matrix) return from_matrix(p, value, name);
     if (const auto* number = std::get_if<Number>(&value.content)) {
       if (p.kind == ParameterKind::list) result.list = true;
       result.numbers.push_back(resolve(p, *number, name, value.origin));
@@ -83,15 +86,44 @@ class Resolver {
                       "give at least one number");
       return result;
     }
-    const auto* text = std::get_if<std::string>(&value.content);
     problems_.add("wrong_type", place(p.name),
                   fmt::format("\"{}\" of {} is {}, found {}", p.name, declaration_.type,
-                              p.kind == ParameterKind::list ? "a list of numbers" : "a number",
-                              text != nullptr ? fmt::format("the text \"{}\"", *text) : std::string("a list")),
+                              p.kind == ParameterKind::list ? "a list of numbers" : "a number", kind_of(value)),
                   p.kind == ParameterKind::list ? "write e.g. [1, 2] or [\"1 V\", \"2 V\"]"
                                                 : "write a number, or a number with a unit such as \"5 Hz\"");
     result.numbers.push_back({});
     return result;
+  }
+
+  ResolvedParameter from_matrix(const ParameterDeclaration& p, const Value& value, const std::string& name) {
+    ResolvedParameter result;
+    result.list = true;
+    const auto* matrix = std::get_if<NumberMatrix>(&value.content);
+    if (matrix == nullptr || matrix->rows.empty() || matrix->rows.front().empty()) {
+      problems_.add("wrong_type", place(p.name),
+                    fmt::format("\"{}\" of {} is a matrix, found {}", p.name, declaration_.type, kind_of(value)),
+                    "write its rows: [[1, 2, 3], [4, 5, 6]]; a single row is [[1, 2, 3]]");
+      return result;
+    }
+    const std::size_t columns = matrix->rows.front().size();
+    result.columns = static_cast<int>(columns);
+    for (std::size_t r = 0; r < matrix->rows.size(); ++r) {
+      const auto& row = matrix->rows[r];
+      if (row.size() != columns)
+        problems_.add(
+            "bad_value", place(p.name),
+            fmt::format("row {} of \"{}\" has {} numbers, the first has {}", r + 1, p.name, row.size(), columns),
+            "give all rows the same length");
+      for (std::size_t c = 0; c < columns; ++c)
+        result.numbers.push_back(c < row.size() ? resolve(p, row[c], name, value.origin) : ResolvedNumber{});
+    }
+    return result;
+  }
+
+  static std::string kind_of(const Value& value) {
+    if (const auto* text = std::get_if<std::string>(&value.content)) return fmt::format("the text \"{}\"", *text);
+    if (std::holds_alternative<Number>(value.content)) return "a number";
+    return std::holds_alternative<NumberMatrix>(value.content) ? "an empty matrix" : "a list";
   }
 
   ResolvedParameter from_text(const ParameterDeclaration& p, const Value& value) {
@@ -201,6 +233,10 @@ class Resolver {
       return n;
     }
     check_range(p, n.si);
+    if (p.is_structural && (n.si != std::floor(n.si) || std::abs(n.si) > 1e6))
+      problems_.add("bad_value", place(p.name),
+                    fmt::format("\"{}\" of {} holds {}, which is no whole number", p.name, declaration_.type, n.si),
+                    "write whole numbers");
     return n;
   }
 

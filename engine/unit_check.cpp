@@ -42,6 +42,13 @@ Expression parse_expression(const std::string& text) {
   return e;
 }
 
+/// "$a[i]" with the place of the element put in: "$a[2]".
+std::string of_element(std::string text, const char* index, int element) {
+  for (auto at = text.find(index); at != std::string::npos; at = text.find(index))
+    text.replace(at, std::char_traits<char>::length(index), fmt::format("[{}]", element));
+  return text;
+}
+
 Dimension to_power(const Dimension& d, int n) {
   Dimension r;
   for (int i = 0; i < std::abs(n); ++i) r = n > 0 ? r * d : r / d;
@@ -107,30 +114,47 @@ class UnitCheck {
     changed_ = true;
   }
 
+  /// The block's own unit for this element, or the one declared for the port.
+  static std::string unit_at(const std::vector<UnitExpression>& own, std::size_t i, const UnitExpression& declared,
+                             int element) {
+    if (i < own.size()) return own[i];
+    return element < 0 ? declared : of_element(declared, "[i]", element);
+  }
+
   template <class Visit>
   void each_constraint(std::size_t b, Visit visit) {
     const GraphBlock& block = graph_.blocks[b];
     const Declaration& d = block.kernel->declaration;
     if (d.type == "input") return;
     for (std::size_t i = 0; i < block.source.size(); ++i) {
-      const auto& port = d.inputs[static_cast<std::size_t>(block.port[i])];
+      const auto [p, element] = block.input[i];
+      const auto& port = d.inputs[static_cast<std::size_t>(p)];
       const auto s = static_cast<std::size_t>(block.source[i]);
-      visit(port.unit, signals_[s], fmt::format("input {} (from {})", port.name, graph_.signals[s].path),
-            block.source[i], true);
+      visit(unit_at(block.sizes.input_units, i, port.unit, element), signals_[s],
+            fmt::format("input {} (from {})", port.name, graph_.signals[s].path), block.source[i], true);
     }
     for (std::size_t i = 0; i < d.parameters.size(); ++i) {
       if (d.parameters[i].unit.find('$') == std::string::npos || d.parameters[i].kind == ParameterKind::text) continue;
-      for (const auto& number : block.parameters[i].numbers) {
+      const int columns = block.parameters[i].columns;
+      for (std::size_t k = 0; k < block.parameters[i].numbers.size(); ++k) {
+        const auto& number = block.parameters[i].numbers[k];
         if (!number.has_unit && number.si == 0) continue;  // zero fits any unit
-        visit(d.parameters[i].unit, Known(number.dimension.value_or(Dimension{})),
+        std::string unit = d.parameters[i].unit;
+        if (columns > 0)
+          unit = of_element(of_element(std::move(unit), "[row]", static_cast<int>(k) / columns), "[column]",
+                            static_cast<int>(k) % columns);
+        visit(unit, Known(number.dimension.value_or(Dimension{})),
               fmt::format("parameter {} ({})", d.parameters[i].name,
                           number.has_unit ? "in " + number.unit.text : "without a unit"),
               -1, true);
       }
     }
-    for (std::size_t i = 0; i < d.outputs.size(); ++i) {
+    for (std::size_t i = 0; i < block.output.size(); ++i) {
+      const auto [p, element] = block.output[i];
+      const auto& port = d.outputs[static_cast<std::size_t>(p)];
       const int s = block.first_signal + static_cast<int>(i);
-      visit(d.outputs[i].unit, signals_[static_cast<std::size_t>(s)], fmt::format("output {}", d.outputs[i].name), s,
+      visit(unit_at(block.sizes.output_units, i, port.unit, element), signals_[static_cast<std::size_t>(s)],
+            element < 0 ? fmt::format("output {}", port.name) : fmt::format("output {}[{}]", port.name, element), s,
             false);
     }
   }
@@ -196,6 +220,9 @@ class UnitCheck {
       for (const auto& parameter : block.parameters)
         for (const auto& number : parameter.numbers)
           if (number.has_unit) note(number.unit);
+    for (const auto& block : graph_.blocks)
+      for (const auto* units : {&block.sizes.input_units, &block.sizes.output_units})
+        for (const auto& unit : *units) note(parse_unit(unit));
     for (const auto& block : graph_.blocks)  // "um/V" also shows lengths in um
       for (const auto& parameter : block.parameters)
         for (const auto& number : parameter.numbers)

@@ -295,7 +295,9 @@ void Fitting::write_estimates() {
 
 /// "core.weights" of "core.weights[2]", "" for what is no element of a list.
 std::string list_of(const std::string& path) {
-  return path.empty() || path.back() != ']' ? std::string{} : path.substr(0, path.rfind('['));
+  return path.empty() || path.back() != ']'
+             ? std::string{}
+             : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
 }
 
 void Fitting::find_intervals() {

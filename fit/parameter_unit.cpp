@@ -17,6 +17,7 @@ std::map<std::string, Unit> variables_of(const Program& program, const BlockInst
     units[expression] = s.unit.dimension == s.dimension && s.unit.offset == 0 ? s.unit : si_unit(s.dimension);
   };
   const auto& d = block.kernel->declaration;
+  if (d.has_vector_ports()) return units;  // each element has its own: SI will do
   for (std::size_t i = 0; i < d.inputs.size() && i < block.source.size(); ++i) note(d.inputs[i].unit, block.source[i]);
   for (std::size_t i = 0; i < d.outputs.size(); ++i) note(d.outputs[i].unit, block.y_begin + static_cast<int>(i));
   return units;

@@ -17,19 +17,33 @@ double shown(const Unit& unit, bool difference, double si) {
   return difference ? unit.difference_from_si(si) : unit.from_si(si);
 }
 
-/// Splits "core.weights[2]" into "core.weights" and 2 (-1 without an index).
-std::pair<std::string, int> without_index(const std::string& path) {
-  if (path.empty() || path.back() != ']') return {path, -1};
+/// Place of a number in a list (column) or a matrix.
+struct Index {
+  int row = -1, column = -1;  ///< -1: none
+};
+
+/// Splits "core.weights[2]" and "coupling.matrix[0][1]" into name and index.
+std::pair<std::string, Index> without_index(const std::string& path) {
+  if (path.empty() || path.back() != ']') return {path, {}};
   const auto open = path.rfind('[');
-  return {path.substr(0, open), std::atoi(path.c_str() + open + 1)};
+  Index index{-1, std::atoi(path.c_str() + open + 1)};
+  if (open == 0 || path[open - 1] != ']') return {path.substr(0, open), index};
+  const auto first = path.rfind('[', open - 1);
+  index.row = std::atoi(path.c_str() + first + 1);
+  return {path.substr(0, first), index};
 }
 
 /// Puts a number into a value, keeping the unit that was written there.
-void put(Value& value, int index, double number, const Unit& unit, bool worked_out) {
+void put(Value& value, Index index, double number, const Unit& unit, bool worked_out) {
   Number* old = std::get_if<Number>(&value.content);
-  if (auto* list = std::get_if<NumberList>(&value.content); list != nullptr && index >= 0) {
-    if (static_cast<std::size_t>(index) >= list->size()) return;
-    old = &(*list)[static_cast<std::size_t>(index)];
+  auto* list = std::get_if<NumberList>(&value.content);
+  if (auto* matrix = std::get_if<NumberMatrix>(&value.content); matrix != nullptr && index.row >= 0) {
+    if (static_cast<std::size_t>(index.row) >= matrix->rows.size()) return;
+    list = &matrix->rows[static_cast<std::size_t>(index.row)];
+  }
+  if (list != nullptr && index.column >= 0) {
+    if (static_cast<std::size_t>(index.column) >= list->size()) return;
+    old = &(*list)[static_cast<std::size_t>(index.column)];
   }
   if (old == nullptr) {
     value = Value(Number{});
@@ -62,7 +76,7 @@ class Writer {
   }
 
  private:
-  void put_here(Value& value, int index) const { put(value, index, number_, unit_, info_.unit.text.empty()); }
+  void put_here(Value& value, Index index) const { put(value, index, number_, unit_, info_.unit.text.empty()); }
 
   [[noreturn]] void lost() const {
     fail("unknown_parameter", info_.path, fmt::format("the diagram has no place for \"{}\"", info_.path),
@@ -76,7 +90,7 @@ class Writer {
     return node;
   }
 
-  void write_at(Node& node, const std::string& parameter, int index) const {
+  void write_at(Node& node, const std::string& parameter, Index index) const {
     if (node.parameters.find(parameter) == nullptr)
       if (const Value* from_file = node.parameters_from_file.find(parameter))
         node.parameters[parameter] = *from_file;  // the set keeps its own value, this block gets another
@@ -152,20 +166,29 @@ std::string knowledge(const ParameterEstimate& e) {
   return fmt::format("{}: 95 % within {} .. {} {}", e.path, shown(e, *e.low95, 6), shown(e, *e.high95, 6), e.unit.text);
 }
 
-/// All elements of a list, those that were not fitted as they stand in the program: a block takes it only as a whole.
+/// All elements of a list or matrix, those that were not fitted as they stand in the program: a block takes it only as
+/// a whole.
 Json list_value(const std::string& name, const std::vector<ParameterEstimate>& estimates, const Program& program,
                 std::string& remark, std::string& unit) {
   Json values = Json::array();
   Json stds = Json::array();
   for (const auto& info : program.parameters) {
-    if (without_index(info.path).first != name) continue;
+    const auto [own_name, index] = without_index(info.path);
+    if (own_name != name) continue;
     const ParameterEstimate* fitted = nullptr;
     for (const auto& e : estimates)
       if (e.path == info.path) fitted = &e;
     const Unit own = parameter_unit(program, info);
     unit = own.text;
-    values.push_back(rounded(shown(own, info.difference, fitted != nullptr ? fitted->used : info.value), 8));
-    stds.push_back(fitted != nullptr && fitted->sigma ? Json(rounded(own.difference_from_si(*fitted->sigma), 4))
+    const auto row = static_cast<std::size_t>(std::max(index.row, 0));
+    if (index.row >= 0 && values.size() <= row) {
+      values.push_back(Json::array());
+      stds.push_back(Json::array());
+    }
+    (index.row >= 0 ? values[row] : values)
+        .push_back(rounded(shown(own, info.difference, fitted != nullptr ? fitted->used : info.value), 8));
+    (index.row >= 0 ? stds[row] : stds)
+        .push_back(fitted != nullptr && fitted->sigma ? Json(rounded(own.difference_from_si(*fitted->sigma), 4))
                                                       : Json());
     if (fitted == nullptr) continue;
     if (const auto known = knowledge(*fitted); !known.empty()) remark += (remark.empty() ? "" : "; ") + known;
@@ -201,7 +224,7 @@ std::string parameter_file_text(const FitResult& result, const Program& program,
     if (file.contains(key)) continue;
     std::string remark, unit = e.unit.text;
     Json one;
-    if (index >= 0) {
+    if (index.column >= 0) {
       one = list_value(name, result.estimates, program, remark, unit);
     } else if (e.value) {  // what the data do not determine has no value
       one = {{"value", shown(e, *e.value, 8)}, {"unit", unit}};

@@ -164,7 +164,10 @@ class Reader {
   void column(const std::string& heading) {
     CsvColumn column;
     const auto open = heading.rfind('[');
-    const bool has_unit = open != heading.npos && heading.back() == ']';
+    // "tilt[1]" is an element of a vector, "tilt[1] [V]" one with a unit.
+    const bool is_index = open != heading.npos && open > 0 && heading[open - 1] != ' ' && open + 2 < heading.size() &&
+                          heading.find_first_not_of("0123456789", open + 1) == heading.size() - 1;
+    const bool has_unit = open != heading.npos && heading.back() == ']' && !is_index;
     column.name = trimmed(std::string_view(heading).substr(0, has_unit ? open : heading.npos));
     if (column.name.empty()) {
       const bool other_separator = heading.find_first_of(";\t") != heading.npos;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -110,8 +111,19 @@ class DiagramReader {
 
   void input(const std::string& name, const JsonPlace& place) {
     if (!check_name(place, name, "an input") || !place.expect_object("{\"unit\": \"V\"}")) return;
-    place.only({"unit", "remark"});
-    diagram_.inputs[name] = {text_member(place, "unit"), text_member(place, "remark")};
+    place.only({"unit", "length", "remark"});
+    diagram_.inputs[name] = {text_member(place, "unit"), text_member(place, "remark"), length_member(place)};
+  }
+
+  /// How many elements an input carries; 0 where it is not stated.
+  static int length_member(const JsonPlace& place) {
+    const auto length = place.find("length");
+    const auto number = length ? length->number() : std::nullopt;
+    if (!number) return 0;
+    if (*number >= 1 && *number <= 10'000 && *number == std::floor(*number)) return static_cast<int>(*number);
+    length->add("bad_value", fmt::format("a signal cannot have {} elements", *number),
+                "write a whole number, 1 or more");
+    return 0;
   }
 
   /// A block, or a candidate of a choice (which has no inputs of its own and is no choice again).

@@ -30,11 +30,13 @@ Json parameter_schema(const ParameterDeclaration& p) {
   const std::string description = parameter_description(p);
   if (p.kind == ParameterKind::text) return p.choices.empty() ? text(description) : choice_of(description, p.choices);
   if (p.kind == ParameterKind::number) return quantity(description, true);
-  return {{"description", description}, {"allOf", Json::array({{{"$ref", "#/definitions/list"}}})}};
+  const char* kind = p.kind == ParameterKind::matrix ? "#/definitions/matrix" : "#/definitions/list";
+  return {{"description", description}, {"allOf", Json::array({{{"$ref", kind}}})}};
 }
 
 std::string port_text(const PortDeclaration& port) {
-  return fmt::format("{} [{}]: {}{}", port.name, port.unit, port.meaning, port.variadic ? " (any number)" : "");
+  return fmt::format("{} [{}]: {}{}{}", port.name, port.unit, port.meaning, port.variadic ? " (any number)" : "",
+                     port.is_vector ? " (of any length)" : "");
 }
 
 std::string type_description(const Declaration& d) {
@@ -42,6 +44,7 @@ std::string type_description(const Declaration& d) {
   if (!d.equation.empty()) description += "\nLaw: " + d.equation;
   for (const auto& port : d.inputs) description += "\nInput " + port_text(port);
   for (const auto& port : d.outputs) description += "\nOutput " + port_text(port);
+  if (d.is_elementwise) description += "\nOn vectors it works element by element.";
   for (const auto& remark : d.remarks) description += "\n" + remark;
   if (!d.source.empty()) description += "\nSource: " + d.source;
   return description;
@@ -90,7 +93,7 @@ std::vector<std::string> type_names(const Registry& registry) {
 }
 
 Json wires() {
-  const Json one = text("a signal: block, block.port, or an input of the diagram");
+  const Json one = text("a signal: block, block.port, or an input of the diagram; with [0] one element of it");
   const Json some{{"anyOf", Json::array({one, list_of("several signals", one)})}};
   return {{"description", "where the inputs come from: one signal, a list in the order of the ports, or port: signal"},
           {"anyOf", Json::array({one,
@@ -165,6 +168,13 @@ void add_definitions(Json& definitions, const Registry& registry) {
                                                 std::move(with_unit),
                                                 {{"type", "string"}, {"pattern", R"(^\$[a-z][a-z0-9_]*$)"}},
                                                 {{"type", "number"}}})}};
+  const Json row = list_of("a row", element);
+  Json plain_rows = list_of("rows of numbers", list_of("a row", {{"type", "number"}}));
+  Json rows_with_unit = object("rows of numbers that share a unit",
+                               {{"value", std::move(plain_rows)}, {"unit", {{"type", "string"}}}}, {"value"});
+  definitions["matrix"] = {{"anyOf", Json::array({list_of("rows of numbers, each perhaps with its unit", row),
+                                                  std::move(rows_with_unit),
+                                                  {{"type", "string"}, {"pattern", R"(^\$[a-z][a-z0-9_]*$)"}}})}};
   definitions["wires"] = wires();
   // "from" alone may be a parameter of a type (chirp).
   const Json from_without_type{{"required", {"from"}}, {"not", {{"required", {"type"}}}}};
@@ -193,7 +203,12 @@ std::string diagram_schema(const Registry& registry) {
   properties["parameters"] = named("numbers to which blocks refer by \"$name\"", diagram_parameter());
   properties["inputs"] =
       named("signals from outside; they bind by name to measured columns",
-            object("an input", {{"unit", text("its unit")}, {"remark", text("what a reader should know")}}));
+            object("an input", {{"unit", text("its unit")},
+                                {"length",
+                                 {{"type", "integer"},
+                                  {"minimum", 1},
+                                  {"description", "how many numbers it carries; they bind as u[0], u[1], ..."}}},
+                                {"remark", text("what a reader should know")}}));
   properties["blocks"] = named("the blocks, in reading order", {{"$ref", "#/definitions/block"}});
   properties["outputs"] = named("signals that are compared with measured columns of the same name", text("a signal"));
   properties["record"] = {

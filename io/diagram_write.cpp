@@ -126,6 +126,7 @@ class DiagramWriter {
     Members list;
     for (const auto& [name, input] : d_.inputs) {
       Members m{{"unit", json_quoted(input.unit)}};
+      if (input.length > 0) m.emplace_back("length", std::to_string(input.length));
       if (!input.remark.empty()) m.emplace_back("remark", json_quoted(input.remark));
       list.emplace_back(name, one_line(m));
     }

@@ -48,6 +48,32 @@ std::optional<NumberList> read_list(const JsonPlace& place, const std::optional<
   return list.size() == elements.size() ? std::optional(list) : std::nullopt;
 }
 
+/// [[1, 2], [3, 4]].
+std::optional<NumberMatrix> read_matrix(const JsonPlace& place, const std::optional<std::string>& unit) {
+  NumberMatrix matrix;
+  for (const auto& row : place.elements()) {
+    if (!row.is_array()) {
+      row.add_wrong_type("a row such as [1, 2], as the first one is");
+      return {};
+    }
+    auto list = read_list(row, unit);
+    if (!list) return {};
+    matrix.rows.push_back(std::move(*list));
+  }
+  return matrix;
+}
+
+/// [1, 2] or [[1, 2], [3, 4]].
+std::optional<Value> read_array(const JsonPlace& place, const std::optional<std::string>& unit) {
+  const auto elements = place.elements();
+  if (!elements.empty() && elements.front().is_array()) {
+    auto matrix = read_matrix(place, unit);
+    return matrix ? std::optional(Value(std::move(*matrix))) : std::nullopt;
+  }
+  auto list = read_list(place, unit);
+  return list ? std::optional(Value(std::move(*list))) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Number> read_number(const JsonPlace& place) {
@@ -79,13 +105,13 @@ std::optional<Value> read_value(const JsonPlace& place, const std::string& origi
   } else if (place.is_text()) {
     value = Value(*place.text());
   } else if (place.is_array()) {
-    if (auto list = read_list(place, {})) value = Value(std::move(*list));
+    value = read_array(place, {});
   } else if (place.is_object()) {
     place.only(object_keys(also));
     const auto unit = read_unit(place);
     if (const auto inner = place.need("value", "write {\"value\": 5, \"unit\": \"Hz\"}")) {
       if (inner->is_array()) {
-        if (auto list = read_list(*inner, unit)) value = Value(std::move(*list));
+        value = read_array(*inner, unit);
       } else if (!unit && inner->is_text()) {
         value = Value(*inner->text());
       } else if (const auto number = inner->number()) {
@@ -139,11 +165,28 @@ std::string list_text(const NumberList& list) {
   return unit_once ? fmt::format("{{\"value\": {}, \"unit\": {}}}", text, json_quoted(*list.front().unit)) : text;
 }
 
+/// Rows as lists; the unit once if all elements share one.
+std::string matrix_text(const NumberMatrix& matrix) {
+  const auto unit = matrix.rows.empty() || matrix.rows[0].empty() ? std::nullopt : matrix.rows[0][0].unit;
+  bool unit_once = unit.has_value();
+  for (const auto& row : matrix.rows)
+    for (const auto& n : row) unit_once = unit_once && n.unit == unit;
+  std::vector<std::string> rows;
+  for (const auto& row : matrix.rows) {
+    std::vector<std::string> elements;
+    for (const auto& n : row) elements.push_back(unit_once ? number_text(n.value) : value_text(n));
+    rows.push_back(fmt::format("[{}]", fmt::join(elements, ", ")));
+  }
+  const std::string text = fmt::format("[{}]", fmt::join(rows, ", "));
+  return unit_once ? fmt::format("{{\"value\": {}, \"unit\": {}}}", text, json_quoted(*unit)) : text;
+}
+
 }  // namespace
 
 std::string value_text(const Value& value) {
   if (const auto* number = std::get_if<Number>(&value.content)) return value_text(*number);
   if (const auto* list = std::get_if<NumberList>(&value.content)) return list_text(*list);
+  if (const auto* matrix = std::get_if<NumberMatrix>(&value.content)) return matrix_text(*matrix);
   if (const auto* text = std::get_if<std::string>(&value.content)) return json_quoted(*text);
   if (const auto* reference = std::get_if<Reference>(&value.content)) return json_quoted("$" + reference->name);
   fail("not_writable", value.origin, "recorded samples cannot stand in a diagram file",

@@ -40,7 +40,8 @@ inline Numbers rates(const Duals& d) {
   return r;
 }
 
-/// One block with its numbers. Text parameters are given as the index of the choice, free texts as character codes.
+/// One block with its numbers. Text parameters are given as the index of the choice, free texts as character codes, the
+/// columns of a matrix "m" as "m columns". Blocks with vector ports get one wire, `inputs` elements long.
 class Bench {
  public:
   using Values = std::map<std::string, Numbers>;
@@ -55,6 +56,8 @@ class Bench {
         own = given->second;
       else if (q.kind == ParameterKind::text)
         own = q.choices.empty() ? Numbers{} : Numbers{0};
+      else if (q.default_text && q.default_text->empty())
+        own = {};
       else if (q.default_text)
         own = {std::strtod(q.default_text->c_str(), nullptr)};  // every default is zero or plain
       else
@@ -63,10 +66,19 @@ class Bench {
       p_at.push_back(static_cast<int>(p.size()));
       shape.list_lengths.push_back(static_cast<int>(own.size()));
       shape.text_choices.push_back(q.kind == ParameterKind::text && !own.empty() ? static_cast<int>(own[0]) : 0);
+      const auto columns = values.find(q.name + " columns");
+      shape.columns.push_back(columns == values.end() ? 0 : static_cast<int>(columns->second[0]));
+      shape.structure.push_back(own);
     }
     for (const auto& [name, numbers] : values)
-      if (d.parameter_index(name) < 0) throw std::logic_error(type + " has no parameter " + name);
+      if (d.parameter_index(name.substr(0, name.find(' '))) < 0)
+        throw std::logic_error(type + " has no parameter " + name);
     shape.inputs = inputs < 0 ? static_cast<int>(d.inputs.size()) : inputs;
+    n_u = shape.inputs;
+    if (d.has_vector_ports()) {
+      shape.input_lengths = {n_u};
+      shape.inputs = 1;
+    }
     sizes = kernel.sizes(shape);
     if (sizes.error.empty()) prepare();
   }
@@ -136,6 +148,7 @@ class Bench {
   Sizes sizes;
   Numbers p, c;
   std::vector<int> p_at;
+  int n_u = 0;  ///< input numbers
   const Series* series = nullptr;
   const History* history = nullptr;
 
@@ -153,7 +166,7 @@ class Bench {
     v.m = m.data();
     v.n_m = sizes.memory;
     v.u = u.data();
-    v.n_u = shape.inputs;
+    v.n_u = n_u;
     v.n_y = sizes.outputs;
     v.t = t;
     v.branch = branch;
@@ -199,11 +212,36 @@ inline std::vector<Sample> samples() {
       {"sum", {{"signs", {'+', '-', '+'}}}, 3},
       {"product", {}},
       {"pass", {}},
+      {"mux", {}, 3},
+      {"demux", {{"lengths", {2, 1}}}, 3},
+      {"select", {{"indices", {2, 0}}}, 3},
+      {"matrix_gain", {{"matrix", {1, -2, 0.5, 0, 3, 1}}, {"matrix columns", {3}}}, 3},
       {"saturation", {{"lower", {-1}}, {"upper", {1.4}}}},
       {"calibration", {{"gain", {1.1}}, {"offset", {0.3}}}},
       {"integrator", {{"initial", {0.6}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 3}}, {"den", {0.5, 2, 8}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 0.2, 3}}, {"den", {0.5, 2, 8}}}},
+      {"state_space",
+       {{"a", {0, 1, -8, -2}},
+        {"a columns", {2}},
+        {"b", {0, 1, 8, 0.5}},
+        {"b columns", {2}},
+        {"c", {1, 0, 0.5, 2, 1, 1}},
+        {"c columns", {2}},
+        {"initial", {0.3, -0.2}}},
+       2},
+      {"state_space",
+       {{"a", {-2}},
+        {"a columns", {1}},
+        {"b", {1, -3}},
+        {"b columns", {2}},
+        {"c", {4}},
+        {"c columns", {1}},
+        {"d", {0.5, 1}},
+        {"d columns", {2}},
+        {"input_unit", {'m', 'V'}},
+        {"output_unit", {'u', 'm'}}},
+       2},
       {"pi_controller", {{"kp", {1.2}}, {"ki", {3}}, {"initial", {0.1}}}},
       {"lag", {{"times", {0.3}}}},
       {"lag", {{"times", {0.3, 0.7}}}},

@@ -47,7 +47,7 @@ TEST_P(Linear, BlocksThatSaySoAreAffineInStatesAndInputs) {
   };
   const auto mix = [](double l, double r) { return 0.3 * l + 0.7 * r; };
   for (std::uint64_t trial = 0; trial < 20; ++trial) {
-    const Numbers u1 = draw(4 * trial, b.shape.inputs), u2 = draw(4 * trial + 1, b.shape.inputs);
+    const Numbers u1 = draw(4 * trial, b.n_u), u2 = draw(4 * trial + 1, b.n_u);
     const Numbers x1 = draw(4 * trial + 2, b.sizes.states), x2 = draw(4 * trial + 3, b.sizes.states);
     Numbers u, x;
     for (std::size_t i = 0; i < u1.size(); ++i) u.push_back(mix(u1[i], u2[i]));
@@ -72,7 +72,7 @@ TEST_P(LinearParameters, ResponseIsAffineInTheParametersThatAreDeclaredLinear) {
       middle[p.name][k] = 0.3 * own[k] + 0.7 * second[p.name][k];
     }
   }
-  const auto u = input_sequence(plain.shape.inputs, 1);
+  const auto u = input_sequence(plain.n_u, 1);
   combine(
       bench_of(first).response(u, 0.01), bench_of(second).response(u, 0.01), bench_of(middle).response(u, 0.01),
       [](double l, double r) { return 0.3 * l + 0.7 * r; }, "response");
@@ -89,7 +89,7 @@ TEST_P(Offsets, ChangeTheResponseByWhatNoInputChanges) {
                            plain.p.begin() + plain.p_at[static_cast<std::size_t>(i) + 1]);
     for (double& x : more[p.name]) x += 0.8;
     const Bench shifted = bench_of(more);
-    const auto one = input_sequence(plain.shape.inputs, 1), two = input_sequence(plain.shape.inputs, 2);
+    const auto one = input_sequence(plain.n_u, 1), two = input_sequence(plain.n_u, 2);
     const Numbers a0 = plain.response(one, 0.01), a1 = shifted.response(one, 0.01);
     const Numbers b0 = plain.response(two, 0.01), b1 = shifted.response(two, 0.01);
     for (std::size_t k = 0; k < a0.size(); ++k) EXPECT_NEAR(a1[k] - a0[k], b1[k] - b0[k], 1e-12) << p.name;

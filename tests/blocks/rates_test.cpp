@@ -32,7 +32,7 @@ TEST_P(EverySample, CarriesTheExactRateOfItsOutput) {
   ASSERT_EQ(b.sizes.error, "");
   const History history{{0, 0.1, 0.4, 0.9}, {0, 1, 0.5, 2}, {3, -1, 2, 1}, 0, 0};
   b.history = &history;
-  const auto nu = static_cast<std::size_t>(b.shape.inputs), nx = static_cast<std::size_t>(b.sizes.states);
+  const auto nu = static_cast<std::size_t>(b.n_u), nx = static_cast<std::size_t>(b.sizes.states);
   const Numbers m = b.initial_memory();
   const double h = 1e-6;
   for (std::uint64_t trial = 0; trial < 50; ++trial) {

@@ -104,6 +104,8 @@ TEST(DiagramSchema, EveryBlockTypeIsKnownWithItsRequiredParameters) {
         block[p.name] = p.choices.empty() ? "x" : p.choices.front();
       else if (p.kind == ParameterKind::list)
         block[p.name] = Json::array({1, "2 V"});
+      else if (p.kind == ParameterKind::matrix)
+        block[p.name] = Json::array({Json::array({1, "2 V"}), Json::array({0, 3})});
       else
         block[p.name] = "1 V";
     }
