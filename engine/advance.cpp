@@ -78,6 +78,8 @@ std::string why_not_block(const BlockInstance& b) {
   const auto& type = b.kernel->declaration.type;
   if (b.kernel->uses_time && !b.kernel->declaration.is_series && !b.sizes.history)
     return fmt::format("source {} \"{}\" is a function of time, not a recording", type, b.path);
+  if (b.kernel->is_sampled()) return fmt::format("{} \"{}\" is sampled", type, b.path);
+  if (b.kernel->has_modes()) return fmt::format("{} \"{}\" changes its mode at events", type, b.path);
   if (b.sizes.smoothness == Smoothness::no_rate) return fmt::format("{} \"{}\" draws random numbers", type, b.path);
   if (b.sizes.states > 0 && !b.kernel->declaration.is_linear)
     return fmt::format("{} \"{}\" has nonlinear states", type, b.path);

@@ -118,6 +118,13 @@ HYSTERON_EVALUATE(double)
 HYSTERON_EVALUATE(Jet)
 #undef HYSTERON_EVALUATE
 
+void commit_memory(const Program& program, Run& run, const Work& work) {
+  for (const int block : program.memory_blocks) {
+    const BlockInstance& b = program.blocks[at(block)];
+    std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
+  }
+}
+
 void accept(const Program& program, Run& run, Work& work, double t, const double* x) {
   if (program.n_histories > 0) {
     evaluate_derivatives(program, run, work, t, x);
@@ -126,10 +133,7 @@ void accept(const Program& program, Run& run, Work& work, double t, const double
   evaluate_values(program, run, work, t, x);
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     if (program.blocks[b].history_index >= 0) remember(program, run, work, static_cast<int>(b), t);
-  for (const int block : program.memory_blocks) {
-    const BlockInstance& b = program.blocks[at(block)];
-    std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
-  }
+  commit_memory(program, run, work);
   run.t = t;
 }
 

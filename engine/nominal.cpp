@@ -81,7 +81,8 @@ std::vector<double> Sizer::output_at(int b, const std::vector<double>& x, const 
   view.t = t;
   view.branch = branch;
   view.u = u.data();
-  view.x = x.data();
+  const std::vector<double> sampled(static_cast<std::size_t>(info.sizes.sampled_states));
+  view.x = info.hit_index < 0 ? x.data() : sampled.data();
   std::vector<double> memory(static_cast<std::size_t>(info.sizes.memory)),
       y(static_cast<std::size_t>(info.sizes.outputs));
   if (info.kernel->advance != nullptr) {

@@ -110,8 +110,8 @@ class Scheduler {
   }
 
   bool wants_rate(int b) const { return block(b).kernel->derivative_wants_rate || block(b).kernel->guard_wants_rate; }
-  /// A rate-independent law could follow a jump as the path of a fast ramp; nobody walks that path yet.
-  bool follows_jumps(int) const { return false; }
+  /// A rate-independent law follows a jump as the path of a fast ramp (path.h).
+  bool follows_jumps(int b) const { return block(b).kernel->declaration.is_rate_independent; }
 
   std::string origin_of(int signal, Smoothness kind) const {
     const auto own = own_smoothness();

@@ -145,6 +145,16 @@ void prepare(const Program& program, Run& run, int block);
 void reset(const Program& program, Run& run);
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series);
 
+/// A point of the path that a jump follows (path.h): the outputs of jumping blocks lie between, rates are d/ds, and
+/// only rate-independent states move.
+struct PathPoint {
+  double s = 0;  ///< 0 ... 1
+  const double* from = nullptr;
+  const double* to = nullptr;                       ///< per signal, of jumping blocks only
+  const unsigned char* jumping = nullptr;           ///< per block
+  const unsigned char* rate_independent = nullptr;  ///< per block: its states move along the path
+};
+
 /// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing. T = double, or Jet for
 /// slopes.
 template <class T>
@@ -159,6 +169,9 @@ struct WorkOf {
   /// set (zero at first).
   std::vector<T> p, m_committed;
   void refresh(const Run& run) requires(!std::is_same_v<T, double>);
+
+  const PathPoint* path = nullptr;     ///< set while a jump is followed
+  const unsigned char* due = nullptr;  ///< set at a sampling instant: per sampled block, does it run now
 
   // Scratch of the steps; meaningless outside.
   std::vector<T> u, du;
@@ -187,6 +200,9 @@ void evaluate_guards(const Program& program, const Run& run, WorkOf<T>& work, do
 /// Commits memory and histories at an accepted point: the only function that changes them, but for what sampled blocks
 /// hold (events.h). Evaluates values first.
 void accept(const Program& program, Run& run, Work& work, double t, const double* x);
+
+/// Commits the trial memory of the last evaluation of values.
+void commit_memory(const Program& program, Run& run, const Work& work);
 
 /// View of one block's committed numbers; inputs are gathered into `inputs`.
 View<double> view_of(const Program& program, const Run& run, int block);

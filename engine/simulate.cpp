@@ -1,10 +1,12 @@
-// The loop of ENGINE 5, as far as there are no sampled blocks and modes. At every accepted point, in this order:
+// The loop of ENGINE 5. At every accepted point, in this order:
 //   1. outputs are taken on [t_old, t_new) from the step's own interpolation, with the memory as it was during the
 //   step;
 //   2. the memory is accepted, still with the formulas of the piece that ends here;
-//   3. at a corner the formulas of the next piece apply: the memory follows a jump, directions turn where rates did;
-//   4. the integrator starts again only if dx/dt jumped by more than the tolerance sees, or a reversal fired.
-// An instant at a corner is therefore taken after it: outputs are continuous from the right.
+//   3. what is due at the instant happens (events.h): corners of the sources, sampled blocks, changes of mode;
+//   directions of memory turn where rates did;
+//   4. the integrator starts again only if states were changed, dx/dt jumped by more than the tolerance sees, or an
+//   event was located.
+// An instant at an event is therefore taken after it: outputs are continuous from the right.
 #include "engine/simulate.h"
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include <cmath>
 
 #include "engine/corners.h"
+#include "engine/events.h"
 #include "engine/integrator.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
@@ -30,6 +33,14 @@ constexpr long crawl_steps = 200'000;
 constexpr double crawl_share = 1e-4;
 constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
 
+/// Absolute tolerance per state [SI]; never empty.
+std::vector<double> tolerances(const NominalSizes& sizes, const SimulateOptions& options) {
+  std::vector<double> absolute(std::max<std::size_t>(1, sizes.states.size()), 1.0);
+  for (std::size_t i = 0; i < sizes.states.size(); ++i)
+    absolute[i] = options.absolute_tolerance * options.relative_tolerance * sizes.states[i];
+  return absolute;
+}
+
 class Simulation {
  public:
   Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
@@ -38,13 +49,15 @@ class Simulation {
 
  private:
   std::unique_ptr<Integrator> make_solver();
+  int reversals() const { return options_.reversal_events ? reversals_.count() : 0; }
   bool derivative(double t, const double* x, double* dx);
   void indicate(double t, const double* x, double* g);
   void record(double t, const double* x);
   void record_inside(double from, double to);
   void take_step(double stop);
-  void pass_corner();
-  void turn_back();
+  void pass_instant();
+  void pass_root();
+  void check_guards();
   void follow_directions();
   void commit();
   void check_pace();
@@ -54,8 +67,9 @@ class Simulation {
   Run run_;
   const SimulateOptions& options_;
   Work work_;
-  Corners corners_;
   NominalSizes sizes_;
+  std::vector<double> tolerance_;  // absolute, per state
+  Events events_;
   Reversals reversals_;
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
@@ -74,14 +88,16 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       run_(std::move(run)),
       options_(options),
       work_(program),
-      corners_(program, run_, options.begin),
       sizes_(nominal_sizes(program, run_)),
+      tolerance_(tolerances(sizes_, options)),
+      events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
+              tolerance_),
       reversals_(program, sizes_, options.relative_tolerance),
       t_(options.begin),
       until_(std::max(options.begin, instants.back())),
       milestone_(t_) {
   run_.t = t_;
-  run_.branch = corners_.branch();
+  run_.branch = events_.branch();
   x_ = run_.x;
   if (x_.empty()) x_.push_back(0.0);
   before_ = after_ = interpolated_ = bad_x_ = x_;
@@ -94,7 +110,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
 std::unique_ptr<Integrator> Simulation::make_solver() {
   OdeSystem system;
   system.states = static_cast<int>(x_.size());
-  system.roots = options_.reversal_events ? reversals_.count() : 0;
+  system.roots = reversals() + events_.guards();
   system.derivative = [this](double t, const double* x, double* dx) { return derivative(t, x, dx); };
   system.indicators = [this](double t, const double* x, double* g) { indicate(t, x, g); };
   system.state_name = [this](int i) {
@@ -106,10 +122,7 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
   const double span = until_ - t_;
   const double longest = options_.max_step > 0 ? options_.max_step : longest_step(program_, run_, span);
   options.max_step = std::isfinite(longest) ? longest : 0.0;
-  std::vector<double> absolute(x_.size(), 1.0);
-  for (std::size_t i = 0; i < sizes_.states.size(); ++i)
-    absolute[i] = options_.absolute_tolerance * options_.relative_tolerance * sizes_.states[i];
-  return std::make_unique<Integrator>(std::move(system), options, absolute);
+  return std::make_unique<Integrator>(std::move(system), options, tolerance_);
 }
 
 bool Simulation::derivative(double t, const double* x, double* dx) {
@@ -134,7 +147,10 @@ bool Simulation::derivative(double t, const double* x, double* dx) {
 void Simulation::indicate(double t, const double* x, double* g) {
   evaluate_derivatives(program_, run_, work_, t, x);
   evaluate_memory_rates(program_, run_, work_, t, x);
-  reversals_.indicate(run_, work_, g);
+  if (reversals() > 0) reversals_.indicate(run_, work_, g);
+  if (events_.guards() == 0) return;
+  evaluate_guards(program_, run_, work_, t, x);
+  std::copy(work_.guard.begin(), work_.guard.end(), g + reversals());
 }
 
 void Simulation::record(double t, const double* x) {
@@ -167,27 +183,46 @@ void Simulation::follow_directions() {
   traces_.statistics.reversals += reversals_.follow(run_, work_);
 }
 
-void Simulation::pass_corner() {
+/// A known instant: corners, samples. What is due there happens; the integrator starts again if it must.
+void Simulation::pass_instant() {
   const bool states = program_.n_x > 0;
   if (states) derivative(t_, x_.data(), before_.data());
-  corners_.pass(t_);
-  run_.branch = corners_.branch();
+  const bool moved = events_.pass(run_, work_, t_, x_);
   commit();
   if (reversals_.count() > 0) follow_directions();
   if (!states || solver_->counters().steps == 0) return;
-  derivative(t_, x_.data(), after_.data());
-  const double step = solver_->next_step();
-  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
-  if (!(solver_->weighted_norm(after_) <= noticed_jump)) solver_->start(t_, x_);
+  if (!moved) {
+    derivative(t_, x_.data(), after_.data());
+    const double step = solver_->next_step();
+    for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
+    if (solver_->weighted_norm(after_) <= noticed_jump) return;
+  }
+  solver_->start(t_, x_);
 }
 
-void Simulation::turn_back() {
-  std::vector<int> fired;
-  for (int i = 0; i < reversals_.count(); ++i)
-    if (solver_->fired(i)) fired.push_back(i);
+/// The integrator has located reversals or falling guards.
+void Simulation::pass_root() {
+  std::vector<int> turned, fell;
+  for (int i = 0; i < reversals(); ++i)
+    if (solver_->fired(i)) turned.push_back(i);
+  for (int i = 0; i < events_.guards(); ++i)
+    if (solver_->fired(reversals() + i)) fell.push_back(i);
   commit();
-  for (const int i : fired) reversals_.turn(run_, i);
-  traces_.statistics.reversals += static_cast<long>(fired.size());
+  for (const int i : turned) reversals_.turn(run_, i);
+  traces_.statistics.reversals += static_cast<long>(turned.size());
+  if (events_.settle(run_, work_, t_, x_, fell)) {
+    commit();
+    if (reversals_.count() > 0) follow_directions();
+  }
+  solver_->start(t_, x_);
+}
+
+/// A guard may have fallen and risen within rounding of a step's end, unseen by the integrator.
+void Simulation::check_guards() {
+  if (events_.guards() == 0 || !events_.due(run_, work_, t_, x_)) return;
+  if (!events_.settle(run_, work_, t_, x_, {})) return;
+  commit();
+  if (reversals_.count() > 0) follow_directions();
   solver_->start(t_, x_);
 }
 
@@ -209,22 +244,24 @@ void Simulation::take_step(double stop) {
   record_inside(from, solver_->t());
   t_ = solver_->t();
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
-  if (outcome == Integrator::Outcome::root) return turn_back();
+  if (outcome == Integrator::Outcome::root) return pass_root();
   commit();
   if (reversals_.open(run_)) follow_directions();
+  check_guards();
 }
 
 Traces Simulation::operator()() {
   const auto& instants = traces_.t;
   try {
+    events_.begin(run_, work_, t_, x_);
     commit();
     if (reversals_.count() > 0) follow_directions();
     solver_->start(t_, x_);
     for (;;) {
-      while (corners_.next() <= t_ + same_instant(t_)) pass_corner();
+      while (events_.next() <= t_ + same_instant(t_)) pass_instant();
       while (next_instant_ < instants.size() && instants[next_instant_] <= t_ + same_instant(t_)) record(t_, x_.data());
       if (next_instant_ == instants.size()) break;
-      take_step(std::min(corners_.next(), until_));
+      take_step(std::min(events_.next(), until_));
     }
   } catch (const Error& error) {
     explain(error);
@@ -237,6 +274,11 @@ Traces Simulation::operator()() {
   s.evaluations = counters.evaluations;
   s.jacobians = counters.jacobians;
   s.restarts = counters.restarts;
+  s.samples = events_.hits();
+  s.paths = events_.paths();
+  for (std::size_t i = 0; i < program_.modal_blocks.size(); ++i)
+    s.mode_changes.emplace_back(program_.blocks[static_cast<std::size_t>(program_.modal_blocks[i])].path,
+                                events_.changes()[i]);
   return std::move(traces_);
 }
 

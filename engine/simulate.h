@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/program.h"
@@ -32,6 +33,9 @@ struct SimulateOptions {
 struct Statistics {
   std::string method;
   long steps = 0, rejected = 0, evaluations = 0, jacobians = 0, reversals = 0, restarts = 0;
+  long samples = 0;                                          ///< runs of sampled blocks
+  long paths = 0;                                            ///< jumps that rate-independent laws followed
+  std::vector<std::pair<std::string, long>> mode_changes{};  ///< per block with modes
   double seconds = 0;
 };
 

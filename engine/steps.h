@@ -60,17 +60,25 @@ void gather(const BlockInstance& b, const std::vector<T>& from, T* to) {
   for (int i = 0; i < b.n_u; ++i) to[i] = from[at(b.source[at(i)])];
 }
 
+/// Outputs of a block that jumps, on the way from old to new.
+template <class T>
+void between(const BlockInstance& b, const PathPoint& path, std::vector<T>& y) {
+  for (int i = b.y_begin; i < b.y_begin + b.sizes.outputs; ++i)
+    y[at(i)] = path.from[i] + path.s * (path.to[i] - path.from[i]);
+}
+
 template <class T>
 void value(const Program& program, WorkOf<T>& work, int block, const T* x) {
   const BlockInstance& b = program.blocks[at(block)];
   View<T>& v = work.views[at(block)];
-  if (b.hit_index >= 0) {  // holds its outputs between its instants
+  if (work.path != nullptr && work.path->jumping[block] != 0) return between(b, *work.path, work.y);
+  if (b.hit_index >= 0 && (work.due == nullptr || work.due[b.hit_index] == 0)) {  // holds its outputs
     std::copy_n(v.m + b.sizes.sampled_states, b.sizes.outputs, work.y.data() + b.y_begin);
     return;
   }
   const Functions<T>& call = b.kernel->template functions<T>();
   if (b.sizes.feedthrough) gather(b, work.y, work.u.data() + b.u_begin);
-  v.x = x + b.x_begin;
+  v.x = b.hit_index < 0 ? x + b.x_begin : v.m;
   if (b.sizes.memory > 0) {
     const T* committed = v.m;
     v.out = work.m.data() + b.m_begin;
@@ -89,6 +97,10 @@ template <class T>
 void derivative(const Program& program, WorkOf<T>& work, int block, const T* x) {
   const BlockInstance& b = program.blocks[at(block)];
   View<T>& v = work.views[at(block)];
+  if (work.path != nullptr && work.path->rate_independent[block] == 0) {
+    std::fill_n(work.dx.data() + b.x_begin, b.sizes.states, T(0.0));
+    return;
+  }
   gather(b, work.y, work.u.data() + b.u_begin);
   if (b.kernel->derivative_wants_rate) gather(b, work.rate, work.du.data() + b.u_begin);
   v.x = x + b.x_begin;
@@ -100,6 +112,11 @@ void derivative(const Program& program, WorkOf<T>& work, int block, const T* x) 
 template <class T>
 void rate(const Program& program, WorkOf<T>& work, int block, const T* x) {
   const BlockInstance& b = program.blocks[at(block)];
+  if (work.path != nullptr && work.path->jumping[block] != 0) {
+    for (int i = b.y_begin; i < b.y_begin + b.sizes.outputs; ++i)
+      work.rate[at(i)] = work.path->to[i] - work.path->from[i];
+    return;
+  }
   if (b.hit_index >= 0) {
     std::fill_n(work.rate.data() + b.y_begin, b.sizes.outputs, T(0.0));
     return;
@@ -118,7 +135,7 @@ void rate(const Program& program, WorkOf<T>& work, int block, const T* x) {
   v.n_m = plain.n_m;
   v.n_u = plain.n_u;
   v.n_y = plain.n_y;
-  v.t = {plain.t, T(1.0)};
+  v.t = {plain.t, T(work.path == nullptr ? 1.0 : 0.0)};
   v.branch = plain.branch;
   v.mode = plain.mode;
   v.series = plain.series;

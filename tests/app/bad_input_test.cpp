@@ -112,12 +112,13 @@ std::vector<Case> cases() {
        closed_loop(
            R"("error": {"type": "sum", "signs": "+-", "in": ["drive", "back"]}, "back": {"type": "gain", "gain": 2, "in": "error"})"),
        "algebraic_loop", "/blocks/", "lag"},
-      {"JumpIntoARateDrivenLaw", check, "diagram.json",
-       R"({"format": 1, "title": "step", "blocks": {
-         "drive": {"type": "step", "before": "0 V", "after": "1 V", "time": "0.1 s"},
-         "core": {"type": "bouc_wen", "alpha": "0.6187 um/V", "beta": "0.2418 1/V", "gamma": "0.0237 1/V", "d_p": "1.6126 um/V", "in": "drive"}},
+      {"RateOfNoiseAtALaw", check, "diagram.json",
+       R"({"format": 1, "title": "noise", "blocks": {
+         "drive": {"type": "sine", "amplitude": "1 V", "frequency": "1 Hz"},
+         "noisy": {"type": "sensor_noise", "rms": "0.1 V", "period": "1 ms", "seed": 1, "in": "drive"},
+         "core": {"type": "bouc_wen", "alpha": "0.6187 um/V", "beta": "0.2418 1/V", "gamma": "0.0237 1/V", "d_p": "1.6126 um/V", "in": "noisy"}},
          "record": ["core"], "simulate": {"until": "1 s"}})",
-       "jump_into_rate", "core", "lag"},
+       "rate_of_nondifferentiable", "core", "lag"},
 
       // Choices and settings from the command line
       {"UnknownSetting", {"check", "diagram.json", "--set", "gian=2"}, "", "", "unknown_parameter", "gian", "gain"},

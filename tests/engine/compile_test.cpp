@@ -157,35 +157,6 @@ TEST(Compile, AllProblemsOfAStageAreReportedTogether) {
   EXPECT_EQ(problems_of(d).size(), 2U);
 }
 
-TEST(Compile, AJumpIntoARateDrivenLawIsAnErrorThatNamesTheSourceAndTheCure) {
-  Diagram d;
-  d.blocks["drive"] = node("step", {}, {{"before", "0 V"}, {"after", "1 V"}, {"time", "1 s"}});
-  d.blocks["amplifier"] = node("gain", {"drive"}, {{"gain", 10.0}});
-  d.blocks["hysteresis"] =
-      node("bouc_wen", {"amplifier"},
-           {{"alpha", "0.6 um/V"}, {"beta", "0.2 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6 um/V"}});
-  d.record = {"hysteresis"};
-  const auto problems = problems_of(d);
-  ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0].code, "jump_into_rate");
-  EXPECT_NE(problems[0].what.find("step \"drive\""), std::string::npos) << problems[0].what;
-  EXPECT_NE(problems[0].cure.find("lag"), std::string::npos);
-  d.blocks["amplifier"] = node("lag", {"drive"}, {{"times", numbers({1e-3})}});
-  EXPECT_TRUE(problems_of(d).empty()) << "a lag in between is the cure";
-}
-
-TEST(Compile, AHeldInputIntoARateDrivenLawIsRefusedWhenItIsBound) {
-  Diagram d;
-  d.inputs["u"] = {"V", ""};
-  d.blocks["hysteresis"] =
-      node("bouc_wen", {"u"}, {{"alpha", "0.6 um/V"}, {"beta", "0.2 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6 um/V"}});
-  d.outputs["y"] = "hysteresis";
-  const auto program = compile(d, registry());
-  hysteron::Run run = start(*program);
-  EXPECT_NO_THROW(bind_input(*program, run, "u", series({0, 1}, {0, 1})));
-  EXPECT_THROW(bind_input(*program, run, "u", series({0, 1}, {0, 1}, Between::hold)), Error);
-}
-
 TEST(Compile, AFeedbackLoopThroughAStateIsNoLoopEvenWhereAnotherBlockWantsItsRate) {
   // ENGINE section 3: the hysteresis is driven by the stage's position, whose rate is known from the stage's states.
   Diagram d;

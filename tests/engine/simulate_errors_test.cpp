@@ -87,14 +87,6 @@ TEST(SimulateErrors, AStateThatChattersIsNamedInsteadOfTakingForEver) {
   EXPECT_FALSE(p.cure.empty());
 }
 
-TEST(SimulateErrors, AJumpIntoALawThatIsDrivenByARateDoesNotCompile) {
-  const auto p = problem_of([] {
-    compiled(diagram({{"u", block("step", {{"after", "1 V"}})}, {"y", thesis_bouc_wen("u")}}, {"y"}));
-  });
-  EXPECT_EQ(p.code, "jump_into_rate");
-  EXPECT_FALSE(p.cure.empty());
-}
-
 TEST(SimulateErrors, AnInputThatNothingDrivesIsNamed) {
   const auto program =
       compiled(diagram({{"y", block("lag", {{"times", list({1}, "s")}}, {"u"})}}, {"y"}, {{"u", "V"}}));
