@@ -138,10 +138,10 @@ struct DiagramInput {
 /// Solver and recording settings, as written; numbers in s unless they carry a unit.
 struct SimulateSettings {
   std::optional<Number> until{}, every{};
-  std::optional<std::string> method{};  ///< "auto", "exact", "bdf", "adams"
+  std::optional<std::string> method{};  ///< one of method_names()
   std::optional<double> relative_tolerance{},
       absolute_tolerance{};  ///< absolute: in units of each state's nominal size
-  std::optional<Number> max_step{};
+  std::optional<Number> max_step{}, step{};  ///< step: of the methods with fixed steps
 };
 
 struct Diagram {

@@ -17,6 +17,7 @@
 
 #include "engine/corners.h"
 #include "engine/events.h"
+#include "engine/fixed_step.h"
 #include "engine/integrator.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
@@ -33,12 +34,10 @@ constexpr long crawl_steps = 200'000;
 constexpr double crawl_share = 1e-4;
 constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
 
-/// Absolute tolerance per state [SI]; never empty.
-std::vector<double> tolerances(const NominalSizes& sizes, const SimulateOptions& options) {
-  std::vector<double> absolute(std::max<std::size_t>(1, sizes.states.size()), 1.0);
-  for (std::size_t i = 0; i < sizes.states.size(); ++i)
-    absolute[i] = options.absolute_tolerance * options.relative_tolerance * sizes.states[i];
-  return absolute;
+Formula formula_of(Method method) {
+  return method == Method::adams         ? Formula::adams
+         : method == Method::runge_kutta ? Formula::runge_kutta
+                                         : Formula::bdf;
 }
 
 class Simulation {
@@ -89,7 +88,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       options_(options),
       work_(program),
       sizes_(nominal_sizes(program, run_)),
-      tolerance_(tolerances(sizes_, options)),
+      tolerance_(absolute_tolerances(sizes_, options)),
       events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
               tolerance_),
       reversals_(program, sizes_, options.relative_tolerance),
@@ -117,7 +116,7 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
     return program_.n_x == 0 ? std::string("(no state)") : program_.state_names[static_cast<std::size_t>(i)];
   };
   IntegratorOptions options;
-  options.formula = options_.method == Method::adams ? Formula::adams : Formula::bdf;
+  options.formula = formula_of(options_.method);
   options.relative_tolerance = options_.relative_tolerance;
   const double span = until_ - t_;
   const double longest = options_.max_step > 0 ? options_.max_step : longest_step(program_, run_, span);
@@ -268,17 +267,13 @@ Traces Simulation::operator()() {
   }
   const auto counters = solver_->counters();
   auto& s = traces_.statistics;
-  s.method = options_.method == Method::adams ? "adams" : "bdf";
+  s.method = method_name(options_.method == Method::automatic ? Method::bdf : options_.method);
   s.steps = counters.steps;
   s.rejected = counters.rejected;
   s.evaluations = counters.evaluations;
   s.jacobians = counters.jacobians;
   s.restarts = counters.restarts;
-  s.samples = events_.hits();
-  s.paths = events_.paths();
-  for (std::size_t i = 0; i < program_.modal_blocks.size(); ++i)
-    s.mode_changes.emplace_back(program_.blocks[static_cast<std::size_t>(program_.modal_blocks[i])].path,
-                                events_.changes()[i]);
+  tell_events(program_, events_, s);
   return std::move(traces_);
 }
 
@@ -306,6 +301,21 @@ void Simulation::explain(const Error& error) {
 }
 
 }  // namespace
+
+std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options) {
+  std::vector<double> absolute(std::max<std::size_t>(1, sizes.states.size()), 1.0);
+  for (std::size_t i = 0; i < sizes.states.size(); ++i)
+    absolute[i] = options.absolute_tolerance * options.relative_tolerance * sizes.states[i];
+  return absolute;
+}
+
+void tell_events(const Program& program, const Events& events, Statistics& s) {
+  s.samples = events.hits();
+  s.paths = events.paths();
+  for (std::size_t i = 0; i < program.modal_blocks.size(); ++i)
+    s.mode_changes.emplace_back(program.blocks[static_cast<std::size_t>(program.modal_blocks[i])].path,
+                                events.changes()[i]);
+}
 
 void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x) {
   evaluate_derivatives(program, run, work, t, x);
@@ -361,7 +371,10 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
     traces = simulate_exactly(program, run, options, std::move(instants), signals);
   } else {
     if (options.at_rest) settle_at_rest(program, run, options.begin);
-    traces = Simulation(program, std::move(run), options, std::move(instants), signals)();
+    if (options.method == Method::euler || options.method == Method::rk4)
+      traces = simulate_in_fixed_steps(program, std::move(run), options, std::move(instants), signals);
+    else
+      traces = Simulation(program, std::move(run), options, std::move(instants), signals)();
   }
   traces.statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return traces;

@@ -10,11 +10,18 @@
 namespace hysteron {
 
 enum class Method {
-  automatic,  ///< exact where the diagram allows it, else bdf
-  exact,      ///< row by row (advance.h)
-  bdf,
-  adams
+  automatic,    ///< exact where the diagram allows it, else bdf
+  exact,        ///< row by row (advance.h)
+  bdf,          ///< variable order and step, implicit: for stiff diagrams
+  adams,        ///< variable order and step, for smooth diagrams that are not stiff
+  runge_kutta,  ///< order five, explicit: restarts cost little, so for sampled inputs and many events
+  euler,        ///< fixed steps (fixed_step.h)
+  rk4
 };
+
+/// The names of the methods in files, in the order of Method.
+const std::vector<std::string>& method_names();
+const std::string& method_name(Method method);
 
 struct SimulateOptions {
   double begin = 0;                ///< [s]
@@ -26,6 +33,7 @@ struct SimulateOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
   double max_step = 0;               ///< [s]; 0 = worked out from the sources
+  double step = 0;                   ///< [s] of the methods with fixed steps
   bool reversal_events = true;       ///< off only to measure what they bring
   bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
 };

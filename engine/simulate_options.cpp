@@ -47,24 +47,29 @@ double change(const std::vector<std::vector<double>>& a, const std::vector<std::
 
 }  // namespace
 
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names{"auto", "exact", "bdf", "adams", "runge_kutta", "euler", "rk4"};
+  return names;
+}
+const std::string& method_name(Method method) { return method_names()[static_cast<std::size_t>(method)]; }
+
 SimulateOptions simulate_options(const Program& program, SimulateOptions options) {
   const auto& given = program.simulate;
   Problems problems;
   if (given.until) options.until = seconds(*given.until, "until", problems);
   if (given.every) options.every = seconds(*given.every, "every", problems);
+  if (given.step) options.step = seconds(*given.step, "solver/step", problems);
   if (given.max_step) options.max_step = seconds(*given.max_step, "solver/max_step", problems);
   if (given.relative_tolerance) options.relative_tolerance = *given.relative_tolerance;
   if (given.absolute_tolerance) options.absolute_tolerance = *given.absolute_tolerance;
   if (given.method) {
-    const std::vector<std::pair<std::string, Method>> methods{
-        {"auto", Method::automatic}, {"exact", Method::exact}, {"bdf", Method::bdf}, {"adams", Method::adams}};
-    const auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.first == *given.method; });
-    if (found == methods.end())
+    const auto& names = method_names();
+    const auto found = std::find(names.begin(), names.end(), *given.method);
+    if (found == names.end())
       problems.add("bad_value", "/simulate/solver/method", fmt::format("there is no method \"{}\"", *given.method),
-                   did_you_mean(*given.method, {"auto", "exact", "bdf", "adams"}));
+                   did_you_mean(*given.method, names));
     else
-      options.method = found->second;
+      options.method = static_cast<Method>(found - names.begin());
   }
   problems.throw_if_any();
   return options;

@@ -1,12 +1,20 @@
 // Decides how options become instants and checks, and when a simulation is handed to the exact advance.
-// Internal to simulate.cpp and simulate_options.cpp.
+// Internal to the ways of simulating.
 #pragma once
 
 #include <vector>
 
+#include "engine/events.h"
+#include "engine/nominal.h"
 #include "engine/simulate.h"
 
 namespace hysteron {
+
+/// Absolute tolerance per state [SI]; never empty.
+std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options);
+
+/// Counts of events for the statistics.
+void tell_events(const Program& program, const Events& events, Statistics& statistics);
 
 /// The output times: as given, or begin, begin + every ... until. Throws Error "bad_value" for options that make no
 /// sense.

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "io/diagram_file.h"
+#include "engine/simulate.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
 #include "io/recording_file.h"
@@ -312,10 +313,10 @@ class DiagramReader {
     s.every = number_at(*place, "every");
     const auto solver = place->find("solver");
     if (!solver || !solver->expect_object("{\"method\": \"bdf\", \"relative_tolerance\": 1e-8}")) return;
-    solver->only({"method", "relative_tolerance", "absolute_tolerance", "max_step"});
+    solver->only({"method", "relative_tolerance", "absolute_tolerance", "max_step", "step"});
     if (const auto method = solver->find("method")) {
       s.method = method->text();
-      const std::vector<std::string> known{"auto", "exact", "bdf", "adams"};
+      const auto& known = method_names();
       if (s.method && std::find(known.begin(), known.end(), *s.method) == known.end())
         method->add("bad_value", fmt::format("there is no method {}", json_quoted(*s.method)),
                     did_you_mean(*s.method, known));
@@ -323,6 +324,7 @@ class DiagramReader {
     s.relative_tolerance = tolerance(*solver, "relative_tolerance");
     s.absolute_tolerance = tolerance(*solver, "absolute_tolerance");
     s.max_step = number_at(*solver, "max_step");
+    s.step = number_at(*solver, "step");
   }
 
   static std::optional<double> tolerance(const JsonPlace& solver, const char* key) {

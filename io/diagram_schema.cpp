@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/simulate.h"
 #include "io/diagram_file.h"
 #include "io/schema_parts.h"
 
@@ -140,10 +141,11 @@ Json diagram_parameter() {
 Json simulate() {
   Json solver = object(
       "how it is integrated",
-      {{"method", choice_of("auto: exact where the diagram allows it, else bdf", {"auto", "exact", "bdf", "adams"})},
+      {{"method", choice_of("auto: exact where the diagram allows it, else bdf; bdf for stiff diagrams, adams for smooth ones, runge_kutta where restarts are frequent; euler and rk4 take fixed steps", method_names())},
        {"relative_tolerance", number("error per step, relative")},
        {"absolute_tolerance", number("as a multiple of each state's nominal size")},
-       {"max_step", quantity("longest step [s]", false)}});
+       {"max_step", quantity("longest step [s]", false)},
+       {"step", quantity("step of euler and rk4 [s]", false)}});
   solver["properties"]["relative_tolerance"]["exclusiveMinimum"] = 0;
   solver["properties"]["absolute_tolerance"]["exclusiveMinimum"] = 0;
   return object("how long, how often, how exactly", {{"until", quantity("end [s]", false)},

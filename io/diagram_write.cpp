@@ -224,6 +224,7 @@ class DiagramWriter {
     if (s.method) solver.emplace_back("method", json_quoted(*s.method));
     if (s.relative_tolerance) solver.emplace_back("relative_tolerance", number_text(*s.relative_tolerance));
     if (s.absolute_tolerance) solver.emplace_back("absolute_tolerance", number_text(*s.absolute_tolerance));
+    if (s.step) solver.emplace_back("step", value_text(*s.step));
     if (s.max_step) solver.emplace_back("max_step", value_text(*s.max_step));
     if (!solver.empty()) m.emplace_back("solver", one_line(solver));
     return m;
