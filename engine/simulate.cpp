@@ -19,6 +19,7 @@
 #include "engine/events.h"
 #include "engine/fixed_step.h"
 #include "engine/integrator.h"
+#include "engine/jacobian.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
@@ -35,9 +36,7 @@ constexpr double crawl_share = 1e-4;
 constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
 
 Formula formula_of(Method method) {
-  return method == Method::adams         ? Formula::adams
-         : method == Method::runge_kutta ? Formula::runge_kutta
-                                         : Formula::bdf;
+  return method == Method::adams ? Formula::adams : method == Method::runge_kutta ? Formula::runge_kutta : Formula::bdf;
 }
 
 class Simulation {
@@ -70,6 +69,7 @@ class Simulation {
   std::vector<double> tolerance_;  // absolute, per state
   Events events_;
   Reversals reversals_;
+  std::unique_ptr<Jacobian> jacobian_;  // before the solver, which calls it
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
@@ -115,6 +115,11 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
   system.state_name = [this](int i) {
     return program_.n_x == 0 ? std::string("(no state)") : program_.state_names[static_cast<std::size_t>(i)];
   };
+  if (program_.n_x > 0 && formula_of(options_.method) == Formula::bdf && options_.exact_jacobian) {
+    jacobian_ = std::make_unique<Jacobian>(program_);
+    system.pattern = jacobian_->pattern();
+    system.jacobian = [this](double t, const double* x, double* entries) { return (*jacobian_)(run_, t, x, entries); };
+  }
   IntegratorOptions options;
   options.formula = formula_of(options_.method);
   options.relative_tolerance = options_.relative_tolerance;

@@ -34,6 +34,7 @@ struct SimulateOptions {
   double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
   double max_step = 0;               ///< [s]; 0 = worked out from the sources
   double step = 0;                   ///< [s] of the methods with fixed steps
+  bool exact_jacobian = true;        ///< off: bdf takes differences, as a cross-check
   bool reversal_events = true;       ///< off only to measure what they bring
   bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
 };
