@@ -315,6 +315,9 @@ double ArkodeStepper::next_step() const {
 }
 
 bool ArkodeStepper::local_errors(N_Vector weights, N_Vector errors) const {
+  long attempts = 0;
+  ERKStepGetNumStepAttempts(arkode_.get(), &attempts);
+  if (attempts == 0) return false;
   if (ERKStepGetErrWeights(arkode_.get(), weights_.get()) != ARK_SUCCESS) return false;
   if (ERKStepGetEstLocalErrors(arkode_.get(), errors_.get()) != ARK_SUCCESS) return false;
   std::copy_n(NV_DATA_S(weights_), p_.states(), NV_DATA_S(weights));

@@ -283,7 +283,8 @@ int CvodesStepper::order() const {
 }
 
 bool CvodesStepper::local_errors(N_Vector weights, N_Vector errors) const {
-  return CVodeGetErrWeights(cvodes_.get(), weights) == CV_SUCCESS &&
+  const auto c = counters();
+  return c.steps + c.rejected > 0 && CVodeGetErrWeights(cvodes_.get(), weights) == CV_SUCCESS &&
          CVodeGetEstLocalErrors(cvodes_.get(), errors) == CV_SUCCESS;
 }
 

@@ -97,7 +97,7 @@ class Stepper {
   virtual int interpolate(double t, int column, double* into) = 0;
   virtual double next_step() const = 0;
   virtual int order() const = 0;
-  /// Weights and estimated local errors of the states in the last step tried; false = there is none.
+  /// Weights and estimated local errors of the states in the last step tried; false = none has been.
   virtual bool local_errors(N_Vector weights, N_Vector errors) const = 0;
   /// Everything but restarts and the evaluations of indicators, since construction.
   virtual Integrator::Counters counters() const = 0;

@@ -9,7 +9,7 @@
 #include <utility>
 
 // Chosen once, when the program is loaded. Sanitizers instrument that choice before they can run.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define HYSTERON_WIDE [[gnu::target_clones("avx2", "default")]]
 #else
 #define HYSTERON_WIDE

@@ -234,6 +234,31 @@ TEST_P(EachFormula, AnErrorInTheDerivativeComesBackWithWhereItHappened) {
   }
 }
 
+TEST_P(EachFormula, AnErrorInTheFirstEvaluationHasNoStepToTellOf) {
+  auto system = oscillator(1);
+  system.derivative = [](double, const double*, double*) -> bool {
+    fail_numerics("loop_unsolved", "stage/gain", "the loop has no solution", "insert a lag");
+  };
+  Integrator solver(system, {.formula = GetParam()}, tight);
+  solver.start(0, std::array{1.0, 0.0});
+  try {
+    solver.step(1);
+    FAIL() << "the error was lost";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "loop_unsolved");
+    EXPECT_NE(e.problems.front().what.find("t = 0 s"), std::string::npos) << e.what();
+    EXPECT_EQ(e.problems.front().what.find("tolerances"), std::string::npos) << e.what();
+  }
+}
+
+TEST_P(EachFormula, MayBeStartedAgainBeforeAnyStep) {
+  Integrator solver(oscillator(1), {.formula = GetParam(), .relative_tolerance = 1e-9}, tight);
+  solver.start(-5, std::array{0.0, 7.0});
+  solver.start(0, std::array{1.0, 0.0});
+  while (solver.t() < 1) solver.step(1);
+  EXPECT_NEAR(solver.x()[0], std::cos(1.0), 1e-6);
+}
+
 TEST_P(EachFormula, ForeignExceptionsPassUnchanged) {
   auto system = oscillator(1);
   system.roots = 1;
