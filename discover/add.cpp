@@ -49,6 +49,8 @@ Spot spot_before(const Wiring& w, const std::string& at) {
 std::string unused_name(const Diagram& diagram, std::string name) {
   std::replace(name.begin(), name.end(), '.', '_');
   std::replace(name.begin(), name.end(), '/', '_');
+  std::replace(name.begin(), name.end(), '[', '_');
+  std::erase(name, ']');
   const auto taken = [&](const std::string& n) {
     return diagram.blocks.find(n) != nullptr || diagram.inputs.find(n) != nullptr;
   };

@@ -156,7 +156,10 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
       free_zero = true;
 
   std::vector<int> signals;
-  for (const auto& p : places) signals.push_back(program->signal(p.wire));
+  for (const auto& p : places) {
+    const int first = program->find_signal(p.wire + "[0]");  // of a vector the first element speaks for all
+    signals.push_back(first >= 0 ? first : program->signal(p.wire));
+  }
   const std::size_t n = signals.size();
   signals.insert(signals.end(), program->input_signals.begin(), program->input_signals.end());
   std::vector<std::vector<std::vector<double>>> rows;  // [train recording][signal][row]

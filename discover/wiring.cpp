@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/port_names.h"
+
 namespace hysteron {
 namespace {
 
@@ -33,7 +35,7 @@ std::vector<std::string> Wiring::outputs_of(const std::string& block) const {
   if (node->nested)
     ports = node->nested->outputs.names();
   else if (const Kernel* k = registry_.find(node->type))
-    ports = k->declaration.output_names();
+    ports = output_names(k->declaration, *node);
   if (ports.size() == 1) return {block};
   for (auto& port : ports) port = block + "." + port;
   return ports;
@@ -41,6 +43,10 @@ std::vector<std::string> Wiring::outputs_of(const std::string& block) const {
 
 std::string Wiring::signal(const std::string& text) const {
   if (text.find('/') != std::string::npos) return text;
+  if (const auto open = text.find('['); open != std::string::npos) {  // one element of a signal
+    const std::string whole = signal(text.substr(0, open));
+    return whole.empty() ? "" : whole + text.substr(open);
+  }
   const auto dot = text.find('.');
   const std::string head = text.substr(0, dot);
   if (is_input(head)) return dot == std::string::npos ? head : "";
@@ -49,14 +55,14 @@ std::string Wiring::signal(const std::string& text) const {
     if (dot == std::string::npos) return head;
     const Node* node = body(head);
     const auto ports =
-        node->nested ? node->nested->outputs.names() : registry_.find(node->type)->declaration.output_names();
+        node->nested ? node->nested->outputs.names() : output_names(registry_.find(node->type)->declaration, *node);
     return ports.front() == text.substr(dot + 1) ? head : "";
   }
   return std::find(made.begin(), made.end(), text) != made.end() ? text : "";
 }
 
 std::string Wiring::source(const std::string& signal) const {
-  const std::string head = signal.substr(0, signal.find_first_of("./"));
+  const std::string head = signal.substr(0, signal.find_first_of("./["));
   return is_input(head) ? "" : head;
 }
 
@@ -150,10 +156,16 @@ bool Wiring::reaches_output(const std::string& from) const {
     const std::string s = open.back();
     open.pop_back();
     if (!seen.insert(s).second) continue;
-    for (const auto& reader : readers(s)) {
-      if (reader.block.empty()) return true;
-      for (auto& next : outputs_of(reader.block)) open.push_back(std::move(next));
-    }
+    const auto reads = [&](const std::string& wire) {  // the signal, an element of it, or the vector that it is of
+      const std::string read = signal(wire);
+      return read.substr(0, read.find('[')) == s.substr(0, s.find('['));
+    };
+    for (const auto& [name, wire] : diagram_.outputs)
+      if (reads(wire)) return true;
+    for (const auto& [name, node] : diagram_.blocks)
+      for (const auto& wire : node.in)
+        if (reads(wire.from))
+          for (auto& next : outputs_of(name)) open.push_back(std::move(next));
   }
   return false;
 }

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "engine/port_names.h"
+
 namespace hysteron::draw {
 namespace {
 
@@ -120,7 +122,7 @@ class Maker {
     const Declaration& declaration = kernel->declaration;
     item.type = body.type;
     for (const auto& [port, wire] : ports_of(declaration, wires_of(node, body))) item.in.push_back(port);
-    item.out = declaration.output_names();
+    item.out = output_names(declaration, body);
     for (const auto& port : item.out) item.out_units.push_back(unit_of(item, port));
     const Values values = values_of(body, declaration, around);
     item.symbol = symbol_of(declaration, values, static_cast<int>(item.in.size()), static_cast<int>(item.out.size()));

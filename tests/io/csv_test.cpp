@@ -32,6 +32,20 @@ TEST(Csv, ReadsNamesUnitsAndNumbersAsWritten) {
   EXPECT_EQ(table.lines, (Lines{2, 3}));
 }
 
+TEST(Csv, AnElementOfAVectorIsANameAndNoUnit) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("x.csv", "t [s],tilt[0],tilt[1] [urad],a [1]\n0,1,2,3\n");
+  const CsvTable table = read_csv(file);
+  ASSERT_EQ(table.columns.size(), 4U);
+  EXPECT_EQ(table.columns[1].name, "tilt[0]");
+  EXPECT_TRUE(table.columns[1].unit.dimension.none());
+  EXPECT_EQ(table.columns[2].name, "tilt[1]");
+  EXPECT_EQ(table.columns[2].unit.text, "urad");
+  EXPECT_EQ(table.columns[3].name, "a");
+  write_csv(folder.path("y.csv"), table);
+  EXPECT_EQ(read_csv(folder.path("y.csv")).columns[1].name, "tilt[0]");
+}
+
 TEST(Csv, CommentsBlankLinesCarriageReturnsAndAByteOrderMarkDoNotMatter) {
   const auto table =
       read_text("\xEF\xBB\xBF# recorded in May\r\n\r\nt [s] , y [um]\r\n# first row\r\n 0 ,\t1\r\n\r\n1,2");

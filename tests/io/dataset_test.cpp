@@ -227,6 +227,18 @@ TEST(Binding, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(code_of_binding(data, program_with({{"u", "V"}}, {})), "missing_output outputs");
 }
 
+TEST(Binding, TheElementsOfAVectorBindToColumnsOfTheirOwn) {
+  const TemporaryFolder folder;
+  const auto program = program_with({{"u[0]", "V"}, {"u[1]", "V"}}, {{"y", "um"}});
+  const auto data = [&](const std::string& header) {
+    std::string text = header + "\n";
+    for (int i = 0; i < 10; ++i) text += std::to_string(i) + ",1,2,3\n";
+    return read_dataset(folder.write("a.csv", text));
+  };
+  EXPECT_EQ(code_of_binding(data("t [s],u[0] [V],u[1] [mV],y [um]"), program), "fits");
+  EXPECT_EQ(code_of_binding(data("t [s],u[0] [V],u [V],y [um]"), program), "missing_column u[1]");
+}
+
 TEST(Binding, HertzIsNotTakenForRadiansPerSecondNorForOneOverSeconds) {
   const TemporaryFolder folder;
   const auto data = read_dataset(

@@ -199,6 +199,35 @@ TEST(DiagramFile, LongBlocksAreWrappedUnderTheirFirstKey) {
   EXPECT_NE(text.find(",\n          \"weights\": {"), text.npos) << text;
 }
 
+TEST(DiagramFile, MatricesAndLengthsAreReadAndWrittenBack) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("d.json", R"({"format": 1,
+    "inputs": {"u": {"unit": "V", "length": 2}},
+    "blocks": {"y": {"type": "matrix_gain", "in": "u", "matrix": [["1 um/V", 0], [0.5, "2 urad/V"]]},
+               "z": {"type": "matrix_gain", "in": "u[1]", "matrix": {"value": [[1], [2]], "unit": "um/V"}}},
+    "outputs": {"y": "y", "z": "z[1]"}})");
+  const Diagram first = read_diagram(file);
+  EXPECT_EQ(first.inputs.find("u")->length, 2);
+  const NumberMatrix expected{{{{1, "um/V"}, {0, {}}}, {{0.5, {}}, {2, "urad/V"}}}};
+  EXPECT_EQ(std::get<NumberMatrix>(first.blocks.find("y")->parameters.find("matrix")->content), expected);
+  write_diagram(folder.path("again.json"), first);
+  const Diagram again = read_diagram(folder.path("again.json"));
+  EXPECT_EQ(diagram_text(again), diagram_text(first));
+  EXPECT_EQ(again.inputs.find("u")->length, 2);
+  for (const char* block : {"y", "z"})
+    EXPECT_EQ(std::get<NumberMatrix>(again.blocks.find(block)->parameters.find("matrix")->content),
+              std::get<NumberMatrix>(first.blocks.find(block)->parameters.find("matrix")->content));
+}
+
+TEST(DiagramFile, TheTipTiltStageOfTheProjectIsThreeStacksOfOneKind) {
+  const Diagram d = read_diagram(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/stages/tip_tilt.json");
+  const auto program = compile(d, all_blocks());
+  EXPECT_EQ(program->record_signals.size(), 9U);
+  EXPECT_EQ(program->find_parameter("stacks.weights[1]")->slots.size(), 3U);
+  EXPECT_EQ(program->signals[static_cast<std::size_t>(program->signal("pose[0]"))].unit.text, "urad");
+  EXPECT_EQ(program->signals[static_cast<std::size_t>(program->signal("pose[2]"))].unit.text, "um");
+}
+
 TEST(DiagramFile, AParameterCalledFromIsNoChoice) {
   const TemporaryFolder folder;
   const Diagram d =
