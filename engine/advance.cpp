@@ -3,10 +3,10 @@
 // Blocks fall into sources (recorded inputs, constants), linear blocks, and nonlinear ones without states (static
 // blocks, memory, dead time). The nonlinear depth of a block is the largest number of nonlinear blocks on a path to it.
 // Linear blocks of one depth that are wired together are one linear system (LinearPart): between them no nonlinear
-// block can stand, so cascades and loops of linear blocks are exact. A row is one pass over the depths: the linear
-// systems step with their inputs moving linearly, then the nonlinear blocks of that depth follow. A signal behind a
-// nonlinear block is taken as linear between substeps, which is the only approximation; the caller doubles the substeps
-// until nothing changes.
+// block can stand, so cascades and loops of linear blocks, algebraic ones too, are exact. A row is one pass over the
+// depths: the linear systems step with their inputs moving linearly, then the nonlinear blocks of that depth follow. A
+// signal behind a nonlinear block is taken as linear between substeps, which is the only approximation; the caller
+// doubles the substeps until nothing changes.
 #include "engine/advance.h"
 
 #include <fmt/format.h>
@@ -91,8 +91,12 @@ std::string why_not_block(const BlockInstance& b) {
 std::string why_not_exact(const Program& program) {
   for (const auto& b : program.blocks)
     if (auto why = why_not_block(b); !why.empty()) return why;
+  const auto reads_itself = [&](int block) {
+    const auto& sources = program.blocks[at(block)].source;
+    return std::any_of(sources.begin(), sources.end(), [&](int s) { return program.signals[at(s)].block == block; });
+  };
   for (const auto& component : components(program))
-    if (component.size() > 1)
+    if (component.size() > 1 || reads_itself(component.front()))
       for (const int b : component)
         if (!is_linear(program.blocks[at(b)]))
           return fmt::format("{} \"{}\" is nonlinear and stands in a feedback loop",
@@ -166,8 +170,8 @@ struct Advance::Plan {
 
   std::vector<int> blocks_in_value_order() const {
     std::vector<int> order;
-    for (const Step& step : program->all_values)
-      if (needed[at(step.block)]) order.push_back(step.block);
+    for (const int b : program->value_order)
+      if (needed[at(b)]) order.push_back(b);
     return order;
   }
 

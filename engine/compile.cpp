@@ -161,7 +161,42 @@ class ParameterTable {
   Program& program_;
 };
 
+LoopWishes loop_wishes(const SimulateSettings& settings, const Program& program) {
+  LoopWishes wishes;
+  Problems problems;
+  if (settings.loops && *settings.loops != "solve" && *settings.loops != "error")
+    problems.add("bad_value", "/simulate/loops", fmt::format("loops cannot be \"{}\"", *settings.loops),
+                 did_you_mean(*settings.loops, {"solve", "error"}));
+  wishes.forbidden = settings.loops && *settings.loops == "error";
+  for (const auto& [path, number] : settings.guess) {
+    const std::string place = place_of_guess(path);
+    const int signal = program.find_signal(path);
+    if (signal < 0) {
+      std::vector<std::string> names;
+      for (const auto& s : program.signals) names.push_back(s.path);
+      problems.add("unknown_signal", place, fmt::format("there is no signal \"{}\"", path), did_you_mean(path, names));
+      continue;
+    }
+    const Dimension& dimension = program.signals[static_cast<std::size_t>(signal)].dimension;
+    const Unit unit = number.unit ? parse_unit(*number.unit, place) : Unit{};
+    if (number.value != 0 && dimension_factor(unit.dimension, dimension) == 0)
+      problems.add(
+          "wrong_unit", place,
+          fmt::format("{} {} is no value of \"{}\", which is in {}", number.value, unit.text, path, to_text(dimension)),
+          "write the unit of the signal behind the number");
+    wishes.guesses.emplace_back(signal, number.unit ? unit.to_si(number.value) : number.value);
+  }
+  problems.throw_if_any();
+  return wishes;
+}
+
 }  // namespace
+
+std::string place_of_guess(const std::string& signal) {
+  std::string place = "/simulate/guess/";
+  for (const char c : signal) place += c == '/' ? "~1" : std::string(1, c);
+  return place;
+}
 
 ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
   Graph graph = build_graph(diagram, registry);
@@ -170,7 +205,7 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
   program->signals = graph.signals;
   program->n_y = static_cast<int>(graph.signals.size());
   for (const auto& block : graph.blocks) lay_out_block(block, *program);
-  order_steps(graph, *program);
+  order_steps(graph, loop_wishes(diagram.simulate, *program), *program);
   ParameterTable(graph, *program).run();
   for (std::size_t i = 0; i < graph.inputs.size(); ++i) {
     program->input_names.push_back(graph.inputs[i].first);

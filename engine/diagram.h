@@ -140,8 +140,10 @@ struct SimulateSettings {
   std::optional<Number> until{}, every{};
   std::optional<std::string> method{};  ///< one of method_names()
   std::optional<double> relative_tolerance{},
-      absolute_tolerance{};  ///< absolute: in units of each state's nominal size
+      absolute_tolerance{};                  ///< absolute: in units of each state's nominal size
   std::optional<Number> max_step{}, step{};  ///< step: of the methods with fixed steps
+  std::optional<std::string> loops{};        ///< what an algebraic loop is: "solve" (solved, the default), or "error"
+  Ordered<Number> guess{};                   ///< signal -> where the search for the loop that it stands in begins
 };
 
 struct Diagram {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/loops.h"
 #include "engine/program.h"
 #include "engine/steps.h"
 
@@ -39,10 +40,16 @@ void remember(const Program& program, Run& run, Work& work, int block, double t)
   h.first = 0;
 }
 
+/// Where a loop was not solved nothing may look like a result: a saturation behind it would make numbers of its NaN.
+template <class T>
+void spoil_if_unsolved(const WorkOf<T>& work, std::vector<T>& results) {
+  if (work.unsolved >= 0) std::fill(results.begin(), results.end(), T(std::numeric_limits<double>::quiet_NaN()));
+}
+
 }  // namespace
 
 template <class T>
-WorkOf<T>::WorkOf(const Program& program)
+WorkOf<T>::WorkOf(const Program& program, bool with_loops)
     : y(at(program.n_y)),
       rate(at(program.n_y)),
       dx(at(program.n_x)),
@@ -72,7 +79,15 @@ WorkOf<T>::WorkOf(const Program& program)
     p.resize(at(program.n_p));
     m_committed.resize(at(program.n_m));
   }
+  if (with_loops && !program.loops.empty()) loops = std::make_unique<LoopSolver>(program);
 }
+
+template <class T>
+WorkOf<T>::~WorkOf() = default;
+template <class T>
+WorkOf<T>::WorkOf(WorkOf&&) noexcept = default;
+template <class T>
+WorkOf<T>& WorkOf<T>::operator=(WorkOf&&) noexcept = default;
 
 template <class T>
 void WorkOf<T>::refresh(const Run& run) requires(!std::is_same_v<T, double>) {
@@ -84,12 +99,14 @@ template <class T>
 void evaluate_values(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
   steps::begin(program, run, work, t);
   steps::run(program.all_values, program, work, x);
+  spoil_if_unsolved(work, work.y);
 }
 
 template <class T>
 void evaluate_derivatives(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x) {
   steps::begin(program, run, work, t);
   steps::run(program.derivative_steps, program, work, x);
+  spoil_if_unsolved(work, work.dx);
 }
 
 template <class T>
@@ -105,6 +122,7 @@ void evaluate_guards(const Program& program, const Run& run, WorkOf<T>& work, do
   steps::run(program.derivative_steps, program, work, x);
   steps::run(program.rate_steps, program, work, x);
   steps::guards(program, work, x);
+  spoil_if_unsolved(work, work.guard);
 }
 
 template struct WorkOf<double>;
@@ -119,6 +137,7 @@ HYSTERON_EVALUATE(Jet)
 #undef HYSTERON_EVALUATE
 
 void commit_memory(const Program& program, Run& run, const Work& work) {
+  keep_loops(program, run, work, true);
   for (const int block : program.memory_blocks) {
     const BlockInstance& b = program.blocks[at(block)];
     std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
@@ -126,11 +145,15 @@ void commit_memory(const Program& program, Run& run, const Work& work) {
 }
 
 void accept(const Program& program, Run& run, Work& work, double t, const double* x) {
-  if (program.n_histories > 0) {
+  if (program.n_histories > 0 || program.has_rate_loops()) {
     evaluate_derivatives(program, run, work, t, x);
+    throw_if_unsolved(program, work, t);
     evaluate_memory_rates(program, run, work, t, x);
+    throw_if_unsolved(program, work, t);
+    keep_loops(program, run, work, false);
   }
   evaluate_values(program, run, work, t, x);
+  throw_if_unsolved(program, work, t);
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     if (program.blocks[b].history_index >= 0) remember(program, run, work, static_cast<int>(b), t);
   commit_memory(program, run, work);

@@ -76,6 +76,7 @@ void Events::sample(Run& run, Work& work, double t, const std::vector<double>& x
   steps::begin(program_, run, work, t);
   work.due = due_.data();
   steps::run(program_.hit_values, program_, work, x.data());
+  throw_if_unsolved(program_, work, t);
   work.due = nullptr;
   sampled_.assign(run.m.begin(), run.m.end());
   for (const int i : due) {
@@ -96,6 +97,7 @@ void Events::sample(Run& run, Work& work, double t, const std::vector<double>& x
 
 bool Events::due(const Run& run, Work& work, double t, const std::vector<double>& x) const {
   evaluate_guards(program_, run, work, t, x.data());
+  throw_if_unsolved(program_, work, t);
   return std::any_of(work.guard.begin(), work.guard.end(), [](double g) { return g <= 0; });
 }
 
@@ -104,6 +106,7 @@ bool Events::settle(Run& run, Work& work, double t, std::vector<double>& x, std:
   bool changed = false;
   for (int round = 0;; ++round) {
     evaluate_guards(program_, run, work, t, x.data());
+    throw_if_unsolved(program_, work, t);
     before_ = work.y;
     std::vector<int> due;
     for (int i = 0; i < guards(); ++i)

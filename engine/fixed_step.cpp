@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/events.h"
+#include "engine/loops.h"
 #include "engine/nominal.h"
 #include "engine/simulate_parts.h"
 
@@ -57,6 +58,7 @@ class FixedSteps {
   void derivative(double t, const std::vector<double>& x, std::vector<double>& k) {
     ++traces_.statistics.evaluations;
     evaluate_derivatives(program_, run_, work_, t, x.data());
+    throw_if_unsolved(program_, work_, t);
     std::copy(work_.dx.begin(), work_.dx.end(), k.begin());
   }
   void move(double h, const std::vector<double>& k) {
@@ -115,7 +117,7 @@ class FixedSteps {
     ++next_;
   }
   void commit() {
-    if (program_.n_m > 0 || program_.n_histories > 0) accept(program_, run_, work_, t_, x_.data());
+    if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
     run_.t = t_;
   }
   void tell() {

@@ -83,7 +83,16 @@ Graph build_graph(const Diagram& diagram, const Registry& registry);
 /// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.
 void check_units(Graph& graph);
 
+/// What the diagram says of its algebraic loops.
+struct LoopWishes {
+  bool forbidden = false;
+  std::vector<std::pair<int, double>> guesses{};  ///< signal, where a loop through it starts [SI]
+  std::vector<int> guessed_signals() const;
+};
+/// Where a guess stands, as a JSON pointer; signals inside nested diagrams have a "/" in their names.
+std::string place_of_guess(const std::string& signal);
+
 /// order.cpp: smoothness, needed rates, loops, steps.
-void order_steps(const Graph& graph, Program& program);
+void order_steps(const Graph& graph, const LoopWishes& wishes, Program& program);
 
 }  // namespace hysteron

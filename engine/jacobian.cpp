@@ -38,6 +38,11 @@ class Dependence {
 
  private:
   bool follow(const Step& step) {
+    if (step.order == Order::loop) {  // what one of them depends on, all do after some passes
+      bool changed = false;
+      for (const Step& inner : program_.loops[at(step.block)].steps) changed |= follow(inner);
+      return changed;
+    }
     const BlockInstance& b = program_.blocks[at(step.block)];
     bool changed = false;
     const auto from_sources = [&](Set& set, const std::vector<Set>& of) {
@@ -60,6 +65,8 @@ class Dependence {
         changed |= add(derivative_[at(step.block)], own);
         from_sources(derivative_[at(step.block)], value_);
         if (b.kernel->derivative_wants_rate) from_sources(derivative_[at(step.block)], rate_);
+        break;
+      case Order::loop:
         break;
     }
     return changed;

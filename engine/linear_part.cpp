@@ -1,19 +1,19 @@
 #include "engine/linear_part.h"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "engine/loop_plan.h"
 
 namespace hysteron {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The matrices of one block, read off its functions at unit vectors; the last column is its constant part.
-struct BlockMatrices {
-  Eigen::MatrixXd derivative, output;  ///< rows over [x, u, 1]
-};
+using BlockMatrices = LinearPart::BlockMatrices;
 
 BlockMatrices read_block(const Program& program, const Run& run, int block) {
   const BlockInstance& b = program.blocks[at(block)];
@@ -58,12 +58,58 @@ LinearPart::LinearPart(const Program& program, std::vector<int> blocks, std::vec
       if (!inside[at(program.signals[at(s)].block)] && std::find(inputs_.begin(), inputs_.end(), s) == inputs_.end())
         inputs_.push_back(s);
   }
+  for (const auto& loop : program.loops)
+    for (const int b : loop.blocks) has_loop_ = has_loop_ || (loop.of_values() && inside[at(b)]);
   x_ = Eigen::VectorXd::Zero(n_);
   next_ = x_;
   w_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(inputs_.size()) + 1);
   w_[w_.size() - 1] = 1;
   w_before_ = w_;
   y_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(outputs_.size()));
+}
+
+/// All signals of the group at once, where some of them need each other at the same instant: rows = K rows + L, K what
+/// the inputs from inside feed through, L what states, inputs from outside and constants give.
+void LinearPart::solve_loops(const Program& program, const std::vector<BlockMatrices>& matrices,
+                             std::vector<Eigen::RowVectorXd>& rows) const {
+  const Eigen::Index columns = n_ + w_.size();
+  std::vector<Eigen::Index> place(program.signals.size(), -1);
+  Eigen::Index count = 0;
+  for (const int block : blocks_)
+    for (int o = 0; o < program.blocks[at(block)].sizes.outputs; ++o)
+      place[at(program.blocks[at(block)].y_begin + o)] = count++;
+  Eigen::MatrixXd k = Eigen::MatrixXd::Identity(count, count), l = Eigen::MatrixXd::Zero(count, columns);
+  for (std::size_t m = 0; m < blocks_.size(); ++m) {
+    const BlockInstance& b = program.blocks[at(blocks_[m])];
+    const auto& output = matrices[m].output;
+    for (int o = 0; o < b.sizes.outputs; ++o) {
+      const auto row = place[at(b.y_begin + o)];
+      for (int i = 0; i < b.sizes.states; ++i) l(row, first_state_[m] + i) += output(o, i);
+      l(row, columns - 1) += output(o, b.sizes.states + b.n_u);
+      if (!b.sizes.feedthrough) continue;
+      for (int i = 0; i < b.n_u; ++i) {
+        const double gain = output(o, b.sizes.states + i);
+        const auto from = place[at(b.source[at(i)])];
+        if (from >= 0)
+          k(row, from) -= gain;
+        else
+          l.row(row) += gain * rows[at(b.source[at(i)])];
+      }
+    }
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(k);
+  if (!lu.isInvertible()) {
+    for (const auto& loop : program.loops)
+      if (std::find(blocks_.begin(), blocks_.end(), loop.blocks.front()) != blocks_.end())
+        fail_numerics("loop_unsolved", program.blocks[at(loop.path.front().block)].path,
+                      "the algebraic loop has gain one, so that it has no solution, or any number is one: " +
+                          to_text(program, loop.path),
+                      "correct the gains around the loop, put a block with a state into it (a lag: the amplifier's or "
+                      "the sensor's dynamics), or use an explicit inverse block instead of the loop");
+  }
+  const Eigen::MatrixXd solved = lu.solve(l);
+  for (std::size_t s = 0; s < place.size(); ++s)
+    if (place[s] >= 0) rows[s] = solved.row(place[s]);
 }
 
 void LinearPart::bind(const Program& program, const Run& run) {
@@ -88,12 +134,16 @@ void LinearPart::bind(const Program& program, const Run& run) {
     r[columns - 1] += matrix(row, b.sizes.states + b.n_u);
     return r;
   };
-  for (const bool feedthrough : {false, true})
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      const BlockInstance& b = program.blocks[at(blocks_[k])];
-      if (b.sizes.feedthrough != feedthrough) continue;
-      for (int o = 0; o < b.sizes.outputs; ++o) rows[at(b.y_begin + o)] = local(matrices[k].output, o, k, feedthrough);
-    }
+  if (has_loop_)
+    solve_loops(program, matrices, rows);
+  else
+    for (const bool feedthrough : {false, true})
+      for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        const BlockInstance& b = program.blocks[at(blocks_[k])];
+        if (b.sizes.feedthrough != feedthrough) continue;
+        for (int o = 0; o < b.sizes.outputs; ++o)
+          rows[at(b.y_begin + o)] = local(matrices[k].output, o, k, feedthrough);
+      }
   Eigen::MatrixXd dynamics(n_, columns);
   for (std::size_t k = 0; k < blocks_.size(); ++k)
     for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)

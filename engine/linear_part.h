@@ -12,13 +12,19 @@ namespace hysteron {
 
 class LinearPart {
  public:
+  /// The matrices of one block, read off its functions at unit vectors; the last column is its constant part.
+  struct BlockMatrices {
+    Eigen::MatrixXd derivative, output;  ///< rows over [x, u, 1]
+  };
+
   /// `blocks` in value order; `outputs`: signals of these blocks that somebody outside reads.
   LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs);
 
   const std::vector<int>& input_signals() const { return inputs_; }
   bool has_states() const { return n_ > 0; }
 
-  /// Builds the matrices for the parameters of a run; keeps the exponentials where A and B have not changed.
+  /// Builds the matrices for the parameters of a run; keeps the exponentials where A and B have not changed. Throws
+  /// Error(Fault::numerics) "loop_unsolved" if blocks without states feed each other with gain one.
   void bind(const Program& program, const Run& run);
   /// States as in the run, or in equilibrium for the present inputs (what has no equilibrium of its own stays).
   void start(const Program& program, const Run& run, const std::vector<double>& y, bool at_rest);
@@ -33,12 +39,15 @@ class LinearPart {
     Eigen::MatrixXd state, input, ramp;
   };
   const Step& step_matrices(double h);
+  void solve_loops(const Program& program, const std::vector<BlockMatrices>& matrices,
+                   std::vector<Eigen::RowVectorXd>& rows) const;
   void take_inputs(const std::vector<double>& y);
   void write_outputs(std::vector<double>& y) const;
 
   std::vector<int> blocks_, inputs_, outputs_;
   std::vector<int> first_state_;   ///< per block
   int n_ = 0;                      ///< states
+  bool has_loop_ = false;          ///< some of the blocks need each other's outputs at the same instant
   Eigen::MatrixXd a_, b_, c_, d_;  ///< B and D carry the constant part as a last column (its input is 1)
   Eigen::VectorXd x_, next_, w_, w_before_, y_;
   std::vector<Step> cache_;

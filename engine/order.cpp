@@ -5,27 +5,32 @@
 //   value(b)      <- value(sources)           if b feeds through
 //   derivative(b) <- value(sources), and rate(sources) if the derivative wants the rate
 //   rate(b)       <- value(b), rate(sources) if b feeds through, derivative(b) if b has states
-// Tarjan's algorithm on this graph gives the schedule and every loop, loops among rates included. A loop is, for now,
-// an error that prints its path block by block. Between its instants a sampled block holds what it put out: there it is
-// a source. At its instants its inputs feed through, so values have a second order for these.
+// Tarjan's algorithm on this graph gives the schedule and every loop, loops among rates included. A loop becomes one
+// step that solves it (loop_plan.h, loops.h), unless the diagram forbids loops: then it is an error that prints its
+// path block by block. Between its instants a sampled block holds what it put out: there it is a source. At its
+// instants its inputs feed through, so values have a second order for these.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "engine/graph.h"
+#include "engine/loop_plan.h"
 
 namespace hysteron {
 namespace {
 
 class Scheduler {
  public:
-  Scheduler(const Graph& graph, Program& program)
+  Scheduler(const Graph& graph, const LoopWishes& wishes, Program& program)
       : graph_(graph),
+        wishes_(wishes),
         program_(program),
         n_(static_cast<int>(graph.blocks.size())),
         edges_(static_cast<std::size_t>(3 * n_)),
-        needed_(static_cast<std::size_t>(3 * n_), false) {}
+        needed_(static_cast<std::size_t>(3 * n_), false),
+        loop_of_(static_cast<std::size_t>(3 * n_), -1) {}
 
   void run() {
     smoothness_ = own_smoothness();
@@ -38,10 +43,10 @@ class Scheduler {
       if (block(b).kernel->guard_wants_rate)
         for (const int s : block(b).source) need(rate(source_block(s)));
     }
+    demanded_ = needed_;
+    wish_rates();
     tarjan();
     problems_.throw_if_any();
-    wish_rates();
-    tarjan();  // a wished rate is left out where it would close a loop
     write_steps();
     order_hits();
   }
@@ -171,7 +176,6 @@ class Scheduler {
   /// Memory and dead time wish the rate of their inputs (to locate reversals, to remember slopes); they run without it
   /// too.
   void wish_rates() {
-    demanded_ = needed_;
     for (int b = 0; b < n_; ++b)
       if (block(b).sizes.memory > 0 || block(b).sizes.history)
         for (const int s : block(b).source)
@@ -183,7 +187,6 @@ class Scheduler {
 
   void tarjan() {
     order_.clear();
-    in_loop_.assign(static_cast<std::size_t>(3 * n_), false);
     std::vector<int> index(static_cast<std::size_t>(3 * n_), -1), low(index), stack;
     std::vector<bool> on_stack(static_cast<std::size_t>(3 * n_), false);
     int counter = 0;
@@ -230,50 +233,46 @@ class Scheduler {
       component.push_back(node);
     }
     const auto& self = edges_[static_cast<std::size_t>(root)];
-    const bool loop = component.size() > 1 || std::find(self.begin(), self.end(), root) != self.end();
-    if (loop) {
-      for (const int node : component) in_loop_[static_cast<std::size_t>(node)] = true;
-      if (demanded_.empty()) report_loop(component);
-    }
+    if (component.size() > 1 || std::find(self.begin(), self.end(), root) != self.end()) add_loop(component);
     order_.insert(order_.end(), component.begin(), component.end());
   }
 
-  void report_loop(const std::vector<int>& component) {
-    // Follow edges inside the component until a node repeats, then print that cycle in the direction of the signals.
-    std::vector<int> path{component.back()};
-    const auto inside = [&](int node) {
-      return std::find(component.begin(), component.end(), node) != component.end();
-    };
-    for (;;) {
-      int next = -1;
-      for (const int to : edges_[static_cast<std::size_t>(path.back())])
-        if (inside(to)) next = to;
-      const auto seen = std::find(path.begin(), path.end(), next);
-      if (seen != path.end()) {
-        path.erase(path.begin(), seen);
-        break;
-      }
-      path.push_back(next);
+  Step step_of(int node) const {
+    return {node < n_ ? Order::value : node < 2 * n_ ? Order::rate : Order::derivative, block_of(node)};
+  }
+
+  void add_loop(const std::vector<int>& component) {
+    std::vector<Step> members;
+    std::vector<std::vector<int>> needs;
+    std::map<int, int> index;
+    for (const int node : component) index.emplace(node, static_cast<int>(index.size()));
+    bool through_sampled = false;
+    for (const int node : component) {
+      members.push_back(step_of(node));
+      through_sampled = through_sampled || sampled(block_of(node));
+      needs.emplace_back();
+      for (const int to : edges_[static_cast<std::size_t>(node)])
+        if (const auto inside = index.find(to); inside != index.end()) needs.back().push_back(inside->second);
     }
-    std::reverse(path.begin(), path.end());
-    path.push_back(path.front());
-    std::string text;
-    bool rates = false;
-    for (const int node : path) {
-      if (!text.empty()) text += " -> ";
-      text += block(block_of(node)).path;
-      if (node >= n_) text += node < 2 * n_ ? " (rate)" : " (derivative)";
-      rates = rates || node >= n_;
-    }
-    const bool at_hits = hits_;
+    if (hits_ ? through_sampled : wishes_.forbidden) return report_loop(members, needs);
+    if (hits_) return;  // the same as between the instants
+    Loop loop = plan_loop(program_, members, needs, wishes_.guessed_signals());
+    loop.needed = demanded_[static_cast<std::size_t>(component.front())];
+    for (const int node : component) loop_of_[static_cast<std::size_t>(node)] = static_cast<int>(program_.loops.size());
+    program_.loops.push_back(std::move(loop));
+  }
+
+  void report_loop(const std::vector<Step>& members, const std::vector<std::vector<int>>& needs) {
+    const auto path = path_around(members, needs, static_cast<int>(members.size()) - 1);
     problems_.add(
-        "algebraic_loop", block(block_of(path.front())).origin,
-        fmt::format("these blocks need each other's {} at the same {}instant: {}", rates ? "rate" : "value",
-                    at_hits ? "sampling " : "", text),
-        at_hits
+        "algebraic_loop", block(path.front().block).origin,
+        fmt::format("these blocks need each other's {} at the same {}instant: {}",
+                    path.front().order == Order::value ? "value" : "rate", hits_ ? "sampling " : "",
+                    to_text(program_, path)),
+        hits_
             ? "put a unit delay into the loop (a delay_line of one sample), as the computation takes time in any case"
-            : "put a block with a state into the loop (a lag, the amplifier's or sensor's dynamics), or use an "
-              "inverse in closed form");
+            : "allow it (\"simulate\": {\"loops\": \"solve\"}); or put a block with a state into the loop (a lag, the "
+              "amplifier's or sensor's dynamics), or use an inverse in closed form");
   }
 
   // --- steps --------------------------------------------------------------------------------------------------------
@@ -291,12 +290,59 @@ class Scheduler {
     return in;
   }
 
+  /// The wanted nodes in order; the nodes of a loop, which stand together, become one step.
   std::vector<Step> steps(const std::vector<bool>& wanted) const {
     std::vector<Step> list;
-    for (const int node : order_)
-      if (wanted[static_cast<std::size_t>(node)])
-        list.push_back({node < n_ ? Order::value : node < 2 * n_ ? Order::rate : Order::derivative, block_of(node)});
+    for (const int node : order_) {
+      if (!wanted[static_cast<std::size_t>(node)]) continue;
+      const int loop = loop_of_[static_cast<std::size_t>(node)];
+      if (loop < 0)
+        list.push_back(step_of(node));
+      else if (list.empty() || list.back().order != Order::loop || list.back().block != loop)
+        list.push_back({Order::loop, loop});
+    }
     return list;
+  }
+
+  /// Every block in the order of its value.
+  std::vector<int> blocks_in_order() const {
+    std::vector<int> list;
+    for (const Step& step : program_.all_values) {
+      if (step.order != Order::loop) {
+        list.push_back(step.block);
+        continue;
+      }
+      for (const Step& inner : program_.loops[static_cast<std::size_t>(step.block)].steps) list.push_back(inner.block);
+    }
+    return list;
+  }
+
+  /// Where the loops find their numbers in Run::warm, and where they begin.
+  void place_warm_starts() {
+    std::vector<bool> used(wishes_.guesses.size(), false);
+    for (Loop& loop : program_.loops) {
+      loop.warm_begin = static_cast<int>(program_.guess.size());
+      for (const Slot& tear : loop.tears) {
+        program_.guess.push_back(0.0);
+        for (std::size_t i = 0; i < used.size(); ++i) {
+          if (tear.order != Order::value || wishes_.guesses[i].first != tear.index) continue;
+          program_.guess.back() = wishes_.guesses[i].second;
+          used[i] = true;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (used[i]) continue;
+      const std::string& path = program_.signals[static_cast<std::size_t>(wishes_.guesses[i].first)].path;
+      std::string torn;
+      for (const Loop& loop : program_.loops)
+        if (loop.of_values()) torn += (torn.empty() ? "" : "; ") + to_text(program_, loop.path);
+      problems_.add(
+          "unused_guess", place_of_guess(path),
+          fmt::format("\"{}\" is not solved for: it stands in no algebraic loop", path),
+          torn.empty() ? "take the guess out: the diagram has no algebraic loop" : "guess a signal of a loop: " + torn);
+    }
+    problems_.throw_if_any();
   }
 
   void write_steps() {
@@ -309,10 +355,11 @@ class Scheduler {
     const auto for_derivatives = closure(derivatives, all);
     program_.derivative_steps = steps(for_derivatives);
     program_.all_values = steps(closure(values, all));
+    program_.value_order = blocks_in_order();
+    place_warm_starts();
     program_.has_rate.assign(graph_.signals.size(), false);
-    const auto usable = usable_rates();
     for (int b = 0; b < n_; ++b)
-      if (usable[static_cast<std::size_t>(rate(b))]) {
+      if (needed_[static_cast<std::size_t>(rate(b))]) {
         rates.push_back(rate(b));
         for (std::size_t o = 0; o < block(b).output.size(); ++o)
           program_.has_rate[static_cast<std::size_t>(block(b).first_signal) + o] = true;
@@ -330,7 +377,6 @@ class Scheduler {
     program_.hit_values = program_.all_values;
     if (program_.sampled_blocks.empty()) return;
     hits_ = true;
-    demanded_.clear();
     for (auto& edges : edges_) edges.clear();
     needed_.assign(needed_.size(), false);
     for (int b = 0; b < n_; ++b) need(value(b));
@@ -339,22 +385,13 @@ class Scheduler {
     program_.hit_values = steps(needed_);
   }
 
-  /// Rates that were needed and neither stand in a loop themselves nor hang on one.
-  std::vector<bool> usable_rates() const {
-    std::vector<bool> usable(static_cast<std::size_t>(3 * n_), false);
-    for (const int node : order_) {  // dependencies come first
-      bool ok = !in_loop_[static_cast<std::size_t>(node)];
-      for (const int to : edges_[static_cast<std::size_t>(node)]) ok = ok && usable[static_cast<std::size_t>(to)];
-      usable[static_cast<std::size_t>(node)] = ok;
-    }
-    return usable;
-  }
-
   const Graph& graph_;
+  const LoopWishes& wishes_;
   Program& program_;
   int n_;
   std::vector<std::vector<int>> edges_;
-  std::vector<bool> needed_, demanded_, in_loop_;
+  std::vector<bool> needed_, demanded_;  // needed: demanded, or wished
+  std::vector<int> loop_of_;             // per node: index into Program::loops, -1 = in none
   std::vector<Smoothness> smoothness_;
   std::vector<int> order_;
   Problems problems_;
@@ -363,6 +400,14 @@ class Scheduler {
 
 }  // namespace
 
-void order_steps(const Graph& graph, Program& program) { Scheduler(graph, program).run(); }
+std::vector<int> LoopWishes::guessed_signals() const {
+  std::vector<int> signals;
+  for (const auto& [signal, value] : guesses) signals.push_back(signal);
+  return signals;
+}
+
+void order_steps(const Graph& graph, const LoopWishes& wishes, Program& program) {
+  Scheduler(graph, wishes, program).run();
+}
 
 }  // namespace hysteron

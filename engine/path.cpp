@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/loops.h"
+
 namespace hysteron {
 namespace {
 
@@ -107,6 +109,7 @@ bool JumpPath::follow(Run& run, Work& work, double t, std::vector<double>& x, co
 void JumpPath::commit(Run& run, Work& work, double t, const std::vector<double>& x, double s) {
   point_.s = s;
   evaluate_values(program_, run, work, t, x.data());
+  throw_if_unsolved(program_, work, t);
   commit_memory(program_, run, work);
 }
 

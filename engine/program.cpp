@@ -4,7 +4,16 @@
 
 #include <algorithm>
 
+#include "engine/loops.h"
+#include "engine/simulate.h"
+
 namespace hysteron {
+
+bool Program::has_rate_loops() const {
+  return std::any_of(loops.begin(), loops.end(), [](const Loop& loop) { return loop.needed && !loop.of_values(); });
+}
+
+bool Program::remembers() const { return n_m > 0 || n_histories > 0 || !loops.empty(); }
 
 int Program::find_signal(const std::string& path) const {
   for (std::size_t s = 0; s < signals.size(); ++s)
@@ -100,6 +109,7 @@ void prepare(const Program& program, Run& run) {
 
 void reset(const Program& program, Run& run) {
   run.x = program.state_initial;
+  run.warm = program.guess;
   std::fill(run.m.begin(), run.m.end(), 0.0);
   std::fill(run.direction.begin(), run.direction.end(), static_cast<signed char>(0));
   std::fill(run.hits.begin(), run.hits.end(), 0L);
@@ -135,8 +145,11 @@ Run start(const Program& program) {
   run.hits.assign(program.sampled_blocks.size(), 0);
   run.series = program.series;
   run.histories.resize(static_cast<std::size_t>(program.n_histories));
+  run.loop_absolute.assign(program.guess.size(), 0.0);
   prepare(program, run);
   reset(program, run);
+  const SimulateOptions defaults;
+  set_loop_accuracy(program, run, defaults.relative_tolerance, defaults.absolute_tolerance);
   return run;
 }
 

@@ -64,11 +64,30 @@ struct ParameterInfo {
   std::string origin{};  ///< where the value was written
 };
 
-enum class Order { value, rate, derivative };
+enum class Order { value, rate, derivative, loop };
 
 struct Step {
   Order order = Order::value;
-  int block = 0;
+  int block = 0;  ///< of a loop: index into Program::loops
+};
+
+/// One number of an evaluation: Work::y (value of a signal), Work::rate (its rate) or Work::dx (derivative of a state).
+struct Slot {
+  Order order = Order::value;
+  int index = 0;
+};
+
+/// Blocks that need each other at the same instant, solved together (loops.h). Either all of values, or of rates and
+/// derivatives.
+struct Loop {
+  std::vector<Slot> tears;    ///< the numbers that are solved for
+  std::vector<Step> steps;    ///< make the tears anew from the tears; blocks that are torn come last
+  std::vector<Slot> outside;  ///< what the steps read and do not make
+  std::vector<int> blocks;    ///< every block in it, once
+  std::vector<Step> path;     ///< once around, from the first tear in the direction of the signals
+  int warm_begin = 0;         ///< of the tears in Run::warm
+  bool needed = true;         ///< false: of rates that memory merely wishes, to see reversals
+  bool of_values() const { return tears.front().order == Order::value; }
 };
 
 struct Program {
@@ -99,10 +118,15 @@ struct Program {
   std::vector<int> modal_blocks;    ///< blocks with modes
   std::vector<int> time_blocks;     ///< blocks whose functions see time, a series or a history
   std::vector<Step> hit_values;     ///< every value in an order that is right at sampling instants too
+  std::vector<int> value_order;     ///< every block, in the order of all_values with the loops written out
+  std::vector<Loop> loops;
+  std::vector<double> guess;  ///< [SI] per number of Run::warm: where the loops start from at first
   Ordered<std::vector<std::string>> places;
   SimulateSettings simulate;
   std::string title;
 
+  bool has_rate_loops() const;                     ///< some rates need each other
+  bool remembers() const;                          ///< accept() has something to keep
   int signal(const std::string& path) const;       ///< throws Error "unknown_signal" with the nearest name
   int find_signal(const std::string& path) const;  ///< -1 if there is none
   const ParameterInfo* find_parameter(const std::string& path) const;
@@ -126,6 +150,9 @@ struct Run {
   std::vector<signed char> direction;  ///< per memory block: committed direction of its input (-1, 0, 1)
   std::vector<int> mode;               ///< per block with modes
   std::vector<long> hits;              ///< per sampled block: sampling instants so far
+  std::vector<double> warm;            ///< per tear of the loops: as solved at the last accepted point
+  double loop_relative = 0;            ///< loops are solved until the error is below loop_relative * |tear| +
+  std::vector<double> loop_absolute;   ///< loop_absolute, per tear; see set_loop_accuracy()
   std::vector<SeriesPointer> series;
   std::vector<History> histories;
 };
@@ -155,11 +182,18 @@ struct PathPoint {
   const unsigned char* rate_independent = nullptr;  ///< per block: its states move along the path
 };
 
+struct LoopSolver;
+
 /// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing. T = double, or Jet for
 /// slopes.
 template <class T>
 struct WorkOf {
-  explicit WorkOf(const Program& program);
+  explicit WorkOf(const Program& program) : WorkOf(program, true) {}
+  WorkOf(const Program& program, bool with_loops);
+  ~WorkOf();
+  WorkOf(WorkOf&&) noexcept;
+  WorkOf& operator=(WorkOf&&) noexcept;
+
   std::vector<T> y;      ///< per signal: its value
   std::vector<T> rate;   ///< per signal: its rate [1/s], where it was asked for
   std::vector<T> dx;     ///< per state
@@ -172,8 +206,11 @@ struct WorkOf {
 
   const PathPoint* path = nullptr;     ///< set while a jump is followed
   const unsigned char* due = nullptr;  ///< set at a sampling instant: per sampled block, does it run now
+  /// The first loop that the last evaluation could not solve; -1 if there is none. What was to be computed is then NaN.
+  int unsolved = -1;
 
   // Scratch of the steps; meaningless outside.
+  std::unique_ptr<LoopSolver> loops;  // null if the program has none
   std::vector<T> u, du;
   std::vector<View<T>> views;
   View<DualOf<T>> rate_view;
@@ -197,11 +234,11 @@ void evaluate_memory_rates(const Program& program, const Run& run, WorkOf<T>& wo
 /// Guards of all blocks with modes: work.guard. Evaluates derivatives, rates and values first.
 template <class T>
 void evaluate_guards(const Program& program, const Run& run, WorkOf<T>& work, double t, const T* x);
-/// Commits memory and histories at an accepted point: the only function that changes them, but for what sampled blocks
-/// hold (events.h). Evaluates values first.
+/// Commits memory, histories and where loops start from at an accepted point: the only function that changes them, but
+/// for what sampled blocks hold (events.h). Evaluates values first. Throws Error "loop_unsolved".
 void accept(const Program& program, Run& run, Work& work, double t, const double* x);
 
-/// Commits the trial memory of the last evaluation of values.
+/// Commits the trial memory of the last evaluation of values, and where its loops stand.
 void commit_memory(const Program& program, Run& run, const Work& work);
 
 /// View of one block's committed numbers; inputs are gathered into `inputs`.

@@ -3,8 +3,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/corners.h"
+#include "engine/loops.h"
 #include "engine/nominal.h"
 #include "engine/simulate.h"
 
@@ -33,6 +35,7 @@ class RestProblem {
     for (auto& history : trial_.histories) history = History{{}, {}, {}, 0, history.before};
     trial_.t = t;
     trial_.branch = Corners(program, run, t).branch();
+    set_loop_accuracy(program, trial_, reached, 1.0);
     const auto sizes = nominal_sizes(program, trial_);
     rate_of_size_one_ = sizes.time_scale > 0 ? 1 / sizes.time_scale : 1.0;
     size_.resize(program.n_x + static_cast<long>(trial_.histories.size()));
@@ -56,6 +59,7 @@ class RestProblem {
   Eigen::VectorXd residual(const Eigen::VectorXd& z) {
     put(z);
     evaluate_values(program_, trial_, work_, t_, z.data());
+    if (work_.unsolved >= 0) return Eigen::VectorXd::Constant(z.size(), std::numeric_limits<double>::quiet_NaN());
     Eigen::VectorXd r = Eigen::VectorXd::Zero(z.size());
     for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) {
       const auto& block = program_.blocks[static_cast<std::size_t>(b)];
@@ -99,10 +103,19 @@ class RestProblem {
   Eigen::VectorXd unit_rate() const { return size_ * rate_of_size_one_; }
   const Eigen::VectorXd& size() const { return size_; }
 
+  /// Says so if the loops of the diagram cannot be solved at z.
+  void check_loops(const Eigen::VectorXd& z) {
+    put(z);
+    evaluate_values(program_, trial_, work_, t_, z.data());
+    throw_if_unsolved(program_, work_, t_);
+  }
+
   void finish(const Eigen::VectorXd& z, Run& run) {
     put(z);
     trial_.x.assign(z.data(), z.data() + program_.n_x);
     accept(program_, trial_, work_, t_, z.data());
+    trial_.loop_relative = run.loop_relative;
+    trial_.loop_absolute = run.loop_absolute;
     run = std::move(trial_);
   }
 
@@ -182,6 +195,7 @@ void settle_at_rest(const Program& program, Run& run, double t) {
     }
     if (!better) break;
   }
+  if (!relative.allFinite()) problem.check_loops(z);
   if (!relative.allFinite() || (z.size() > 0 && relative.lpNorm<Eigen::Infinity>() > good_enough))
     no_rest(program, t, rate, relative);
   problem.finish(z, run);

@@ -20,6 +20,7 @@
 #include "engine/fixed_step.h"
 #include "engine/integrator.h"
 #include "engine/jacobian.h"
+#include "engine/loops.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
@@ -176,7 +177,7 @@ void Simulation::record_inside(double from, double to) {
 }
 
 void Simulation::commit() {
-  if (program_.n_m > 0 || program_.n_histories > 0) accept(program_, run_, work_, t_, x_.data());
+  if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
   run_.t = t_;
 }
 
@@ -287,6 +288,11 @@ void Simulation::explain(const Error& error) {
   const auto& code = error.problems.front().code;
   if (code != "solver_failed" && code != "step_too_small") throw error;
   if (not_finite_) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+  if (std::abs(bad_t_ - t_) <= crawl_share * (until_ - options_.begin)) {
+    // Steps crept up to where a loop has no solution: the last evaluation was still this side of it.
+    evaluate_derivatives(program_, run_, work_, bad_t_, bad_x_.data());
+    throw_if_unsolved(program_, work_, bad_t_);
+  }
   std::size_t worst = 0;
   double largest = 0;
   for (std::size_t i = 0; i < sizes_.states.size(); ++i) {
@@ -324,7 +330,9 @@ void tell_events(const Program& program, const Events& events, Statistics& s) {
 
 void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x) {
   evaluate_derivatives(program, run, work, t, x);
+  throw_if_unsolved(program, work, t);
   evaluate_values(program, run, work, t, x);
+  throw_if_unsolved(program, work, t);
   const auto bad = [](const std::vector<double>& v, int begin, int count) {
     for (int i = begin; i < begin + count; ++i)
       if (!std::isfinite(v[static_cast<std::size_t>(i)])) return i;
@@ -352,8 +360,8 @@ void not_finite(const Program& program, const Run& run, Work& work, double t, co
                     "of the loop around it",
                     block.path));
   };
-  for (const auto& step : program.all_values) {
-    const auto& block = program.blocks[static_cast<std::size_t>(step.block)];
+  for (const int b : program.value_order) {
+    const auto& block = program.blocks[static_cast<std::size_t>(b)];
     if (const int s = bad(work.y, block.y_begin, block.sizes.outputs); s >= 0)
       tell(block, program.signals[static_cast<std::size_t>(s)].path, work.y[static_cast<std::size_t>(s)]);
   }
@@ -369,6 +377,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   const auto begin = std::chrono::steady_clock::now();
   auto instants = output_instants(options);
   check_inputs(program, run);
+  set_loop_accuracy(program, run, options.relative_tolerance, options.absolute_tolerance);
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
   Traces traces;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/loops.h"
 #include "engine/program.h"
 
 namespace hysteron::steps {
@@ -52,6 +53,12 @@ void begin(const Program& program, const Run& run, WorkOf<T>& work, double t) {
   }
   for (const int block : program.modal_blocks)
     work.views[at(block)].mode = run.mode[at(program.blocks[at(block)].mode_index)];
+  work.unsolved = -1;
+  if (work.loops) {
+    work.loops->run = &run;
+    work.loops->jets.path = work.path;
+    begin(program, run, work.loops->jets, t);
+  }
 }
 
 template <class T>
@@ -164,6 +171,9 @@ void run(const std::vector<Step>& steps, const Program& program, WorkOf<T>& work
         break;
       case Order::derivative:
         derivative(program, work, step.block, x);
+        break;
+      case Order::loop:
+        solve_loop(program, work, step.block, x);
         break;
     }
   }

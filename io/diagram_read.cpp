@@ -307,10 +307,14 @@ class DiagramReader {
   void simulate(const JsonPlace& root) {
     const auto place = root.find("simulate");
     if (!place || !place->expect_object("{\"until\": \"1 s\", \"every\": \"1 ms\"}")) return;
-    place->only({"until", "every", "solver"});
+    place->only({"until", "every", "solver", "loops", "guess"});
     auto& s = diagram_.simulate;
     s.until = number_at(*place, "until");
     s.every = number_at(*place, "every");
+    if (const auto loops = place->find("loops")) s.loops = loops->text();
+    for_members(*place, "guess", "{\"error\": \"1 um\"}", [&](const std::string& signal, const JsonPlace& value) {
+      if (const auto number = read_number(value)) s.guess[signal] = *number;
+    });
     const auto solver = place->find("solver");
     if (!solver || !solver->expect_object("{\"method\": \"bdf\", \"relative_tolerance\": 1e-8}")) return;
     solver->only({"method", "relative_tolerance", "absolute_tolerance", "max_step", "step"});

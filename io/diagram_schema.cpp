@@ -148,9 +148,16 @@ Json simulate() {
        {"step", quantity("step of euler and rk4 [s]", false)}});
   solver["properties"]["relative_tolerance"]["exclusiveMinimum"] = 0;
   solver["properties"]["absolute_tolerance"]["exclusiveMinimum"] = 0;
-  return object("how long, how often, how exactly", {{"until", quantity("end [s]", false)},
-                                                     {"every", quantity("output step [s]", false)},
-                                                     {"solver", std::move(solver)}});
+  return object("how long, how often, how exactly",
+                {{"until", quantity("end [s]", false)},
+                 {"every", quantity("output step [s]", false)},
+                 {"solver", std::move(solver)},
+                 {"loops", choice_of("what an algebraic loop is: something to solve (the default), or an error",
+                                     {"solve", "error"})},
+                 {"guess",
+                  {{"type", "object"},
+                   {"description", "signals of algebraic loops, where the search for their solution begins"},
+                   {"additionalProperties", quantity("value of the signal", false)}}}});
 }
 
 Json places() {

@@ -49,7 +49,7 @@ std::string closed_loop(const std::string& loop) {
     "drive": {"type": "step", "before": 0, "after": 1, "time": "0.1 s"},
     )" + loop +
          R"(},
-    "record": ["error"], "simulate": {"until": "1 s"}})";
+    "record": ["error"], "simulate": {"until": "1 s", "loops": "error"}})";
 }
 
 const std::vector<std::string> check{"check", "diagram.json"};

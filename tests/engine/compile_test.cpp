@@ -134,8 +134,11 @@ TEST(Compile, EveryProblemHasItsCodeItsPlaceAndACure) {
          d.blocks["sum"] = node("sum", {"stage", "back"});
          d.blocks["back"] = node("gain", {"sum"}, {{"gain", 0.5}});
          d.outputs["y"] = "sum";
+         d.simulate.loops = "error";
        },
        "algebraic_loop", "/blocks/", "sum -> back"},
+      {"no such way with loops", [](Diagram& d) { d.simulate.loops = "sovle"; }, "bad_value", "/simulate/loops",
+       "\"solve\""},
   };
   for (const auto& c : cases) {
     Diagram d = valid();

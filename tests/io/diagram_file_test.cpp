@@ -186,6 +186,16 @@ TEST(DiagramFile, TheTextHasOneBlockPerLineInTheOrderOfTheFormat) {
 )json");
 }
 
+TEST(DiagramFile, WhatIsSaidOfAlgebraicLoopsIsReadAndWritten) {
+  const TemporaryFolder folder;
+  const std::string settings = R"("simulate": {"loops": "solve", "guess": {"error": "1 um", "stage/sum": 2.5}})";
+  const Diagram d = read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {}, )" + settings + "}"));
+  EXPECT_EQ(d.simulate.loops, "solve");
+  EXPECT_EQ(*d.simulate.guess.find("error"), (Number{1, "um"}));
+  EXPECT_EQ(*d.simulate.guess.find("stage/sum"), (Number{2.5, {}}));
+  EXPECT_NE(diagram_text(d).find(settings), std::string::npos) << diagram_text(d);
+}
+
 TEST(DiagramFile, LongBlocksAreWrappedUnderTheirFirstKey) {
   Diagram d;
   Node& node = d.blocks["a"];

@@ -75,7 +75,8 @@ const char* good_diagram = R"json({
     "lab": {"type": "recorded", "file": "lab.csv", "column": "u", "between_samples": "hold"}
   },
   "outputs": {"y": "y.displacement"}, "record": ["reference", "error"], "places": {"command": "u", "measured": ["y", "set"]},
-  "simulate": {"until": "1 s", "every": 0.001, "solver": {"method": "bdf", "relative_tolerance": 1e-8, "absolute_tolerance": 0.01, "max_step": "1 ms"}}
+  "simulate": {"until": "1 s", "every": 0.001, "solver": {"method": "bdf", "relative_tolerance": 1e-8, "absolute_tolerance": 0.01, "max_step": "1 ms"},
+               "loops": "solve", "guess": {"error": "1 um", "y/inner.out[0]": 2}}
 })json";
 
 TEST(DiagramSchema, AcceptsEveryPartOfTheFormat) { EXPECT_EQ(diagrams().refuses(good_diagram), ""); }
