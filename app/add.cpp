@@ -54,7 +54,7 @@ int add(const Arguments& arguments) {
   }
   const Added added =
       add_effect(diagram, registry(), effect, arguments.text("--at"), circumstances ? &*circumstances : nullptr);
-  compile(added.diagram, registry());  // what is written must run
+  refuse_new_loop(*program, *compile(added.diagram, registry()), added.at);  // what is written must run
 
   fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(added.diagram)));
   if (!arguments.quiet())

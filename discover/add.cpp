@@ -8,6 +8,7 @@
 
 #include "discover/wiring.h"
 #include "engine/error.h"
+#include "engine/loop_plan.h"
 
 namespace hysteron {
 namespace {
@@ -259,6 +260,18 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
   if (at.empty())
     added.remarks.push_back(fmt::format("put at {} ({}); name another place with --at", place.at, place.kind));
   return added;
+}
+
+void refuse_new_loop(const Program& before, const Program& after, const std::string& at) {
+  const auto loops = [](const Program& p) {
+    return std::count_if(p.loops.begin(), p.loops.end(), [](const Loop& loop) { return loop.needed; });
+  };
+  if (loops(after) <= loops(before)) return;
+  std::string ways;
+  for (const auto& loop : after.loops)
+    if (loop.needed) ways += (ways.empty() ? "" : "; ") + to_text(after, loop.path);
+  fail("closes_loop", at, fmt::format("the effect would close an algebraic loop there: {}", ways),
+       "put it at another place, or a block with a state into the loop (a lag: the amplifier's or sensor's dynamics)");
 }
 
 std::vector<std::pair<std::string, std::string>> effects_in(const Diagram& diagram) {

@@ -10,6 +10,7 @@
 #include "discover/places.h"
 #include "engine/diagram.h"
 #include "engine/kernel.h"
+#include "engine/program.h"
 
 namespace hysteron {
 
@@ -38,6 +39,10 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
 /// enter), with start values for `circumstances`; without data these are placeholders and a remark says so.
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
                  const Circumstances* circumstances = nullptr);
+
+/// Throws Error "closes_loop" if the program with an effect at `at` has an algebraic loop more than the one before: it
+/// would be solved, but that is another diagram than the one that was asked about.
+void refuse_new_loop(const Program& before, const Program& after, const std::string& at);
 
 /// Takes out the choice `name` ("drive_creep"), or the only choice with this effect id ("creep"). Undoes add_effect
 /// exactly. Throws Error "unknown_effect" naming the effects that are there, or "ambiguous_effect".

@@ -173,6 +173,12 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   c.diagram = c.change.diagram;
   c.standing.push_back({&effect, law, place, c.change.name, effect.moves_zero ? at.zeros : std::vector<std::string>{}});
   const int fresh = static_cast<int>(c.standing.size()) - 1;
+  try {
+    if (before.program) refuse_new_loop(*before.program, *compile(c.diagram, *shop.registry), place.at);
+  } catch (const Error& e) {
+    c.error = e.what();
+    return c;
+  }
   return guarded(shop, std::move(c), effort, fresh, before.parameters);
 }
 

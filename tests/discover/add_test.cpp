@@ -188,5 +188,34 @@ TEST_F(AddedEffect, AddedTwiceIsAmbiguousByIdAndClearByName) {
   EXPECT_EQ(diagram_text(remove_effect(two.diagram, two.name)), diagram_text(one.diagram));
 }
 
+TEST_F(AddedEffect, IsRefusedWhereItClosesALoopThatTheDiagramDidNotHave) {
+  const auto with_gain = [&](const char* reads) {
+    Diagram d = stage();
+    d.blocks["error"] = node("sum", {{"", "u"}, {"", reads}});
+    d.blocks["drive"].in = {{"", "error"}};
+    d.blocks["slow"] = node("lag", {{"", "sensor"}});
+    d.blocks["slow"].parameters["times"] = Value(NumberList{Number{1, "s"}});
+    d.blocks["late"] = node("gain", {{"", "slow"}});
+    d.blocks["late"].parameters["gain"] = Value("0.1 V/um");
+    d.blocks["early"] = node("gain", {{"", "sensor"}});
+    d.blocks["early"].parameters["gain"] = Value("0.1 V/um");
+    d.outputs["late"] = "late";
+    d.outputs["early"] = "early";
+    return compile(d, registry);
+  };
+  const auto before = with_gain("late"), after = with_gain("early");
+  EXPECT_NO_THROW(refuse_new_loop(*before, *before, "drive"));
+  EXPECT_NO_THROW(refuse_new_loop(*after, *after, "drive")) << "a loop of the user's own is no obstacle";
+  try {
+    refuse_new_loop(*before, *after, "drive");
+    FAIL() << "a new loop was accepted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "closes_loop");
+    EXPECT_EQ(e.problems.front().path, "drive");
+    EXPECT_NE(e.problems.front().what.find("error -> drive -> actuator -> sensor -> early -> error"), std::string::npos)
+        << e.problems.front().what;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
