@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
              "/inputs/u", 2},
         Case{"UnknownPlace", "{\"format\": 1, \"blocks\": {}, \"places\": {\n\"comand\": \"a\"}}", "unknown_key",
              "/places/comand", 2},
-        Case{"UnknownMethod", "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"solver\": {\n\"method\": \"euler\"}}}",
+        Case{"UnknownMethod", "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"solver\": {\n\"method\": \"heun\"}}}",
              "bad_value", "/simulate/solver/method", 2},
         Case{"ToleranceOfZero",
              "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"solver\": {\n\"relative_tolerance\": 0}}}", "bad_value",
