@@ -12,6 +12,7 @@
 #include "engine/advance.h"
 #include "models/play.h"
 #include "tests/engine/allocations.h"
+#include "tests/engine/event_blocks.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {
@@ -246,6 +247,42 @@ TEST(Loops, TheBoucWenCompensatorOfFigure2_8InvertsTheActuator) {
   auto z = by_hand(p, p.d_p, 1, traces.t, cosine_rate);
   for (auto& v : z) v = -v;
   EXPECT_LT(distance(trace(traces, 2), z), 1e-6);
+}
+
+TEST(Loops, AJumpIntoALoopOfRatesIsTheFastRamp) {
+  // The same loop behind a step of 3 V: rate independent, so z is that of any monotone way from 0 to 3 V.
+  const BoucWenNumbers p;
+  const double k = 0.7;
+  const auto program = compiled(diagram({{"r", block("step", {{"after", "3 V"}, {"time", "0.1 s"}})},
+                                         {"u", block("sum", {{"signs", "+-"}}, {"r", "scaled"})},
+                                         {"y", bouc_wen(p, p.d_p, "u")},
+                                         {"scaled", block("gain", {{"gain", k}}, {"y"})}},
+                                        {"u", "y"}));
+  SimulateOptions options{.until = 0.2, .method = Method::bdf, .relative_tolerance = 1e-8};
+  const auto traces = simulate(*program, start(*program), options);
+  const double z = by_hand(p, 1 + k * p.d_p, k, grid(0, 0.05, 100), cosine_rate).back();  // a quarter period: 3 V
+  EXPECT_NEAR(p.d_p * trace(traces, 0).back() - trace(traces, 1).back(), z, 1e-7);
+}
+
+TEST(Loops, ALoopInASampledDiagramIsSolvedAtEveryInstant) {
+  // e = 1 V - 2 e - s between and at the instants, s_{k+1} = s_k + 0.3 e_k: e_k = (1 - s_k) / 3.
+  const auto program = compile(diagram({{"r", block("constant", {{"value", "1 V"}})},
+                                        {"e", block("sum", {{"signs", "+--"}}, {"r", "twice", "s"})},
+                                        {"twice", block("gain", {{"gain", 2.0}}, {"e"})},
+                                        {"s", block("test_accumulator", {{"gain", 0.3}, {"period", "0.1 s"}}, {"e"})},
+                                        {"seen", block("test_sampler", {{"period", "0.1 s"}}, {"e"})}},
+                                       {"e", "s", "seen"}),
+                               test::registry_with_events());
+  ASSERT_EQ(program->loops.size(), 1U);
+  const auto traces = simulate(*program, start(*program), {.until = 1.95, .every = 0.05, .method = Method::bdf});
+  const double step = 0.3 / 3;
+  for (std::size_t i = 0; i < traces.t.size(); ++i) {
+    // 1 - s shrinks by 1 - 0.1 a period. At an instant the accumulator still shows what it held.
+    const double lack = std::pow(1 - step, static_cast<double>(i / 2));
+    EXPECT_NEAR(trace(traces, 1)[i], 1 - lack, 1e-13) << i;
+    EXPECT_NEAR(trace(traces, 0)[i], lack / 3, 1e-13) << i;
+    EXPECT_NEAR(trace(traces, 2)[i], lack / 3, 1e-13) << i;
+  }
 }
 
 // --- promises

@@ -144,7 +144,7 @@ TEST(DiagramSchema, RefusesWhatTheReaderRefuses) {
       "{\"format\": 1, \"blocks\": {}, \"parameters\": {\"k\": {\"value\": 1, \"free\": 1}}}",
       "{\"format\": 1, \"blocks\": {}, \"inputs\": {\"u\": \"V\"}}",
       "{\"format\": 1, \"blocks\": {}, \"places\": {\"comand\": \"a\"}}",
-      "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"solver\": {\"method\": \"euler\"}}}",
+      "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"solver\": {\"method\": \"heun\"}}}",
       "{\"format\": 1, \"blocks\": {}, \"simulate\": {\"until\": \"soon\"}}",
   };
   const TemporaryFolder folder;
