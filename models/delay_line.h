@@ -1,4 +1,4 @@
-// Decides a delay by a whole number of samples: a ring of past values. Does not decide when samples come.
+// Decides a delay by a whole number of samples: a line of past values. Does not decide when samples come.
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,17 @@
 
 namespace hysteron::delay_line {
 
-/// The ring of a delay of n samples holds u_(k-n) ... u_(k-1); `at` is the place of the oldest. n = 0: no delay.
+/// The line of a delay of n samples holds u_(k-n) ... u_(k-1), the oldest first. n = 0: no delay.
 template <class T>
-T output(std::span<const T> ring, std::size_t at, const T& u) {
-  return ring.empty() ? u : ring[at];
+T output(std::span<const T> line, const T& u) {
+  return line.empty() ? u : line[0];
 }
 
-/// Puts u_k in the place of the oldest value and returns the place of what is then the oldest.
+/// The line behind the instant at which u_k came. `after` may be the line itself.
 template <class T>
-std::size_t push(std::span<T> ring, std::size_t at, const T& u) {
-  if (ring.empty()) return 0;
-  ring[at] = u;
-  return at + 1 == ring.size() ? 0 : at + 1;
+void push(std::span<const T> line, const T& u, T* after) {
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) after[i] = line[i + 1];
+  if (!line.empty()) after[line.size() - 1] = u;
 }
 
 }  // namespace hysteron::delay_line

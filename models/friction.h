@@ -52,19 +52,20 @@ T guard(const Params<T>& p, Mode mode, const T& position, const T& velocity, con
   return (mode == slide_up ? velocity : T{-velocity}) + p.rest_speed;
 }
 
-/// The mode of a mass that is at rest: it slides where the pull reaches the breakaway force, else it sticks. This is
-/// what follows any mode whose guard is not positive; its velocity is then zero.
+/// What follows a mode whose guard is not positive, never the mode itself; the velocity is then zero. A mass that stuck
+/// slides where it is pulled; one that slid turns where the pull reaches the breakaway force, else it sticks.
 template <class T>
-Mode at_rest(const Params<T>& p, const T& position, const T& force) {
+Mode next(const Params<T>& p, Mode mode, const T& position, const T& force) {
   const T f = pull(p, position, force);
-  if (f >= p.breakaway) return slide_up;
-  return f <= -p.breakaway ? slide_down : stick;
+  if (mode == stick) return f < T{0} ? slide_down : slide_up;
+  if (mode == slide_up) return f <= -p.breakaway ? slide_down : stick;
+  return f >= p.breakaway ? slide_up : stick;
 }
 
+/// Mode to begin with at a velocity; whether a resting mass sticks is then for guard and next to say.
 template <class T>
-Mode start(const Params<T>& p, const T& position, const T& velocity, const T& force) {
-  if (velocity > T{0}) return slide_up;
-  return velocity < T{0} ? slide_down : at_rest(p, position, force);
+Mode start(const T& velocity) {
+  return velocity > T{0} ? slide_up : velocity < T{0} ? slide_down : stick;
 }
 
 }  // namespace hysteron::friction

@@ -43,6 +43,19 @@ void inverse_weights(std::span<const T> weights, T* inverse) {
   }
 }
 
+/// sum c'_j w'_j over the advanced operators of the inverse; weights are those of the model.
+template <class T>
+T inverse_output(std::span<const T> weights, std::span<const T> operators) {
+  T u{0}, slope{0}, compliance{0};
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    slope += weights[j];
+    const T next = T{1} / slope;
+    u += (next - compliance) * operators[j];
+    compliance = next;
+  }
+  return u;
+}
+
 /// w'_j = m_j w_j + sum_{i>j} c_i w_i: memory of the inverse that belongs to memory w of the model, in the unit of y.
 /// The memory must be nested: |w_i - w_(i+1)| <= r_(i+1) - r_i, for one-sided operators also w_i >= w_(i+1); any
 /// memory that an input has left is. Source: Kuhnen as above (the thesis gives none).

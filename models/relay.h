@@ -19,16 +19,8 @@ T guard(const Params<T>& p, Mode mode, const T& u) {
   return mode == on ? u - p.off_at : p.on_at - u;
 }
 
-template <class T>
-Mode next(const Params<T>& p, Mode mode, const T& u) {
-  return guard(p, mode, u) > T{0} ? mode : mode == on ? off : on;
-}
-
-/// Mode at the start: on where the input is at on_at or above; between the levels the relay has not switched yet.
-template <class T>
-Mode start(const Params<T>& p, const T& u) {
-  return u >= p.on_at ? on : off;
-}
+/// What follows a mode whose guard is not positive.
+inline Mode next(Mode mode) { return mode == on ? off : on; }
 
 template <class T>
 T output(const Params<T>& p, Mode mode) {

@@ -14,18 +14,21 @@ inline constexpr double film = 1e-9;
 
 template <class T>
 struct Params {
-  T area{1};    ///< [m^2]
-  T outlet{0};  ///< [m^2/s] times level, or [m^2.5/s] times root of level
-  T height{1};  ///< [m] brim; may be infinite
+  T area{1};       ///< [m^2]
+  T outlet{0};     ///< [m^3/s] flow through the outlet at the reference level
+  T reference{1};  ///< [m]
+  T height{1};     ///< [m] brim; may be infinite
 };
 
-/// Flow through the outlet [m^3/s] at a level [m]: c h (a long narrow pipe) or c sqrt(h) (an orifice); none at h <= 0.
+/// Flow through the outlet [m^3/s] at a level [m]: q_r h/h_r (a long narrow pipe) or q_r sqrt(h/h_r) (an orifice); none
+/// at h <= 0.
 /// Source: Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465 (four tanks).
 template <class T>
 T outflow(Outlet law, const Params<T>& p, const T& level) {
   using std::sqrt;
   if (!(level > T{0})) return T{0};
-  return law == Outlet::linear ? T{p.outlet * level} : T{p.outlet * sqrt(level)};
+  const T share = level / p.reference;
+  return p.outlet * (law == Outlet::linear ? share : T{sqrt(share)});
 }
 
 /// Inflow less outflow [m^3/s].
@@ -56,12 +59,11 @@ T guard(Outlet law, const Params<T>& p, Mode mode, const T& level, const T& infl
   return min(T{p.height - level}, level) + T{film};
 }
 
-/// Mode at a level: full at the brim with a surplus, empty at the bottom with a demand, else open. It is what follows
-/// a mode whose guard is not positive; the level is then held_level.
+/// What follows a mode whose guard is not positive, never the mode itself; the level is then held_level.
 template <class T>
-Mode next(Outlet law, const Params<T>& p, const T& level, const T& inflow) {
-  if (level >= p.height && net(law, p, p.height, inflow) > T{0}) return full;
-  return level <= T{0} && inflow < T{0} ? empty : open;
+Mode next(Mode mode, const T& level) {
+  if (mode != open) return open;
+  return level > T{0} ? full : empty;
 }
 template <class T>
 T held_level(const Params<T>& p, const T& level) {
@@ -74,7 +76,7 @@ T held_level(const Params<T>& p, const T& level) {
 inline double rest(Outlet law, const Params<double>& p, double inflow) {
   if (inflow <= 0) return 0;
   const double ratio = inflow / p.outlet;
-  return std::min(p.height, law == Outlet::linear ? ratio : ratio * ratio);
+  return std::min(p.height, p.reference * (law == Outlet::linear ? ratio : ratio * ratio));
 }
 
 }  // namespace hysteron::tank

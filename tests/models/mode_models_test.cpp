@@ -23,12 +23,11 @@ TEST(RelayModel, SwitchesOnAtOneLevelAndOffAtTheOther) {
   const relay::Params<double> p{.on_at = 1, .off_at = -0.5, .on_value = 7, .off_value = -7};
   const double u[] = {0, 0.99, 1.0, 0, -0.49, -0.5, 0.5, 2};
   const double expected[] = {-7, -7, 7, 7, 7, -7, -7, 7};
-  auto mode = relay::start(p, 0.0);
+  auto mode = relay::off;
   for (int k = 0; k < 8; ++k) {
-    mode = relay::next(p, mode, u[k]);
+    if (relay::guard(p, mode, u[k]) <= 0) mode = relay::next(mode);
     EXPECT_EQ(relay::output(p, mode), expected[k]) << "input " << k;
   }
-  EXPECT_EQ(relay::start(p, 1.0), relay::on);
 }
 
 TEST(BacklashModel, DrivenSideRestsWhileTheGapIsCrossed) {
@@ -49,10 +48,10 @@ Walk sliding(const friction::Params<double>& p, std::function<double(double)> fo
   };
   s.guard = [=](int m, double t, const Numbers& n) { return friction::guard(p, mode(m), n[0], n[1], force(t)); };
   s.land = [=](int& m, double t, Numbers& n) {
-    m = friction::at_rest(p, n[0], force(t));
+    m = friction::next(p, mode(m), n[0], force(t));
     n[1] = 0;
   };
-  return {s, 1e-3, 0, friction::start(p, x, v, force(0)), {x, v}};
+  return {s, 1e-3, 0, friction::start(v), {x, v}};
 }
 
 TEST(FrictionModel, SlidingMassStopsAfterTheClosedFormWayAndStays) {
@@ -108,6 +107,7 @@ TEST(FrictionModel, WithoutFrictionTheMassNeverSticks) {
   EXPECT_NEAR(walk.x[0], std::cos(10.0), 1e-8);
   EXPECT_NEAR(walk.x[1], -10 * std::sin(10.0), 1e-7);
   for (const auto& e : walk.events) EXPECT_NE(e.after, friction::stick);
+  EXPECT_EQ(walk.events.size(), 4u);  // begins to slide, turns at pi/10, 2 pi/10, 3 pi/10
 }
 
 TEST(FrictionModel, ForceExactlyAtBreakawaySettles) {
@@ -157,14 +157,17 @@ TEST(HardStopModel, MassLeavesItsStopWhenTheForceTurns) {
   EXPECT_NEAR(walk.x[0], 0.5 - 1.0 / 6, 1e-12);
 }
 
-TEST(HardStopModel, ImpactTurnsTheVelocityOnceHoweverOftenItIsAsked) {
-  const hard_stop::Params<double> p{.restitution = 0.7};
-  const auto first = hard_stop::land(p, hard_stop::free, -1.0, -2.0, 0.0);
-  EXPECT_EQ(first.velocity, 1.4);
-  const auto second = hard_stop::land(p, first.mode, first.position, first.velocity, 0.0);
-  EXPECT_EQ(second.velocity, 1.4);
-  EXPECT_EQ(second.position, -1);
-  EXPECT_GT(hard_stop::guard(p, second.mode, second.position, 0.0), 0);
+TEST(HardStopModel, EveryEventIsAChangeToAModeThatMayStay) {
+  const hard_stop::Params<double> p{.restitution = 0.7, .rest_speed = 0.1};
+  for (const auto mode : {hard_stop::free, hard_stop::free_again, hard_stop::at_lower, hard_stop::at_upper})
+    for (const double v : {2.0, 0.05, 0.0, -1.0})
+      for (const double force : {3.0, 0.0, -3.0}) {
+        const double x = 1 + hard_stop::depth;
+        if (hard_stop::guard(p, mode, x, force) > 0) continue;
+        const auto landing = hard_stop::land(p, mode, x, v, force);
+        EXPECT_NE(landing.mode, mode);
+        EXPECT_GT(hard_stop::guard(p, landing.mode, landing.position, force), 0) << mode << " " << v << " " << force;
+      }
 }
 
 TEST(HardStopModel, EnergyOfAnElasticImpactIsKept) {
@@ -237,8 +240,8 @@ Walk filled(tank::Outlet law, const tank::Params<double>& p, std::function<doubl
   modes::System s;
   s.rate = [=](int m, double t, const Numbers& n) { return Numbers{tank::rate(law, p, mode(m), n[0], inflow(t))}; };
   s.guard = [=](int m, double t, const Numbers& n) { return tank::guard(law, p, mode(m), n[0], inflow(t)); };
-  s.land = [=](int& m, double t, Numbers& n) {
-    m = tank::next(law, p, n[0], inflow(t));
+  s.land = [=](int& m, double, Numbers& n) {
+    m = tank::next(mode(m), n[0]);
     n[0] = tank::held_level(p, n[0]);
   };
   return {s, 1e-2, 0, tank::open, {level}};
@@ -282,8 +285,12 @@ TEST(TankModel, WaterOverTheBrimIsLost) {
 
 TEST(TankModel, FullTankWithAnOutletLosesOnlyTheSurplus) {
   const tank::Params<double> p{.area = 1, .outlet = 0.5, .height = 4};
-  EXPECT_EQ(tank::overflow(tank::Outlet::square_root, p, tank::full, 3.0), 2);  // 3 - 0.5 sqrt(4)
-  EXPECT_EQ(tank::overflow(tank::Outlet::linear, p, tank::full, 3.0), 1);       // 3 - 0.5 4
+  EXPECT_EQ(tank::overflow(tank::Outlet::square_root, p, tank::full, 3.0), 2);               // 3 - 0.5 sqrt(4)
+  EXPECT_EQ(tank::overflow(tank::Outlet::linear, p, tank::full, 3.0), 1);                    // 3 - 0.5 4
+  const tank::Params<double> measured{.area = 1, .outlet = 1, .reference = 4, .height = 9};  // 1 = 0.5 sqrt(4)
+  EXPECT_EQ(tank::outflow(tank::Outlet::square_root, measured, 1.0), 0.5);
+  EXPECT_EQ(tank::outflow(tank::Outlet::linear, measured, 1.0), 0.25);
+  EXPECT_EQ(tank::rest(tank::Outlet::square_root, measured, 1.5), 9);
   EXPECT_EQ(tank::rest(tank::Outlet::square_root, p, 0.5), 1);
   EXPECT_EQ(tank::rest(tank::Outlet::linear, p, 0.5), 1);
   EXPECT_EQ(tank::rest(tank::Outlet::square_root, p, 9.0), 4);

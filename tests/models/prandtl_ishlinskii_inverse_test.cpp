@@ -98,6 +98,14 @@ TEST(PrandtlIshlinskiiInverse, MemoryLeftOutIsAnErrorAsLargeAsTheThesisWarns) {
   EXPECT_GT(furthest, 0.1);
 }
 
+TEST(PrandtlIshlinskiiInverse, OutputFromTheModelsWeightsIsTheSumOverTheInverseOnes) {
+  const Model inverse = inverse_of({Sides::one, thresholds(), weights, Numbers(10, 0.0)});
+  Numbers w;
+  for (std::uint64_t j = 0; j < 10; ++j) w.push_back(random::normal(4, 0, j));
+  EXPECT_NEAR(prandtl_ishlinskii::inverse_output<double>(weights, w), prandtl_ishlinskii::output<double>(inverse.c, w),
+              1e-14);
+}
+
 TEST(PrandtlIshlinskiiInverse, SlopesThatStopRisingAreCounted) {
   EXPECT_EQ(prandtl_ishlinskii::rising_slopes<double>(weights), 10u);
   EXPECT_EQ(prandtl_ishlinskii::rising_slopes<double>(Numbers{1, -0.5, -0.6, 3}), 2u);

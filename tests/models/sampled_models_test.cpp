@@ -20,11 +20,13 @@ using sampled_pid::Rule;
 
 struct Filter {
   Numbers b, a;
-  Numbers w = Numbers(discrete_filter::states(b.size(), a.size()), 0.0);
+  std::size_t delay = 0;
+  Numbers w = Numbers(discrete_filter::states(b.size() + delay, a.size()), 0.0);
+  discrete_filter::Coefficients<double> coefficients() const { return {b, a, delay}; }
   double operator()(double u) {
-    const double y = discrete_filter::output<double>(b, a, w, u);
+    const double y = discrete_filter::output<double>(coefficients(), w, u);
     Numbers after(w.size());
-    discrete_filter::update<double>(b, a, w, u, after.data());
+    discrete_filter::update<double>(coefficients(), w, u, after.data());
     w = after;
     return y;
   }
@@ -48,6 +50,20 @@ TEST(DiscreteFilterModel, OutputIsTheDifferenceEquation) {
   }
 }
 
+TEST(DiscreteFilterModel, DelayIsTheSameAnswerLater) {
+  for (const std::size_t delay : {1u, 3u}) {
+    Filter now{{1, -0.3, 0.2}, {2, -0.5, 0.1, 0.05}}, late{now.b, now.a, delay}, padded{Numbers(delay, 0.0), now.a};
+    padded.b.insert(padded.b.end(), now.b.begin(), now.b.end());
+    padded.w.assign(discrete_filter::states(padded.b.size(), padded.a.size()), 0.0);
+    for (std::uint64_t k = 0; k < 30; ++k) {
+      const double u = random::normal(8, 0, k);
+      ASSERT_EQ(late(u), padded(u));
+    }
+    discrete_filter::rest(late.coefficients(), 3.0, late.w);
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(late(3), 3 * 0.9 / 1.65, 1e-15);
+  }
+}
+
 TEST(DiscreteFilterModel, FirstOrderStepIsAGeometricSeries) {
   Filter filter{{0.1}, {1, -0.9}};
   for (int k = 0; k < 40; ++k) EXPECT_NEAR(filter(1), 1 - std::pow(0.9, k + 1), 1e-15);
@@ -55,10 +71,10 @@ TEST(DiscreteFilterModel, FirstOrderStepIsAGeometricSeries) {
 
 TEST(DiscreteFilterModel, AtRestTheOutputStays) {
   Filter filter{{1, -0.3, 0.2}, {2, -0.5, 0.1, 0.05}};
-  discrete_filter::rest(filter.b, filter.a, 3.0, filter.w);
+  discrete_filter::rest(filter.coefficients(), 3.0, filter.w);
   for (int k = 0; k < 5; ++k) EXPECT_NEAR(filter(3), 3 * 0.9 / 1.65, 1e-15);
   Filter sum{{0, 1}, {1, -1}};
-  discrete_filter::rest(sum.b, sum.a, 1.0, sum.w);
+  discrete_filter::rest(sum.coefficients(), 1.0, sum.w);
   EXPECT_TRUE(std::isnan(sum.w[0]));
 }
 
@@ -175,11 +191,10 @@ TEST(QuantizerModel, ErrorIsAtMostHalfAStepAndLevelsAreKept) {
 
 TEST(DelayLineModel, EachValueComesOutAfterItsCount) {
   for (const std::size_t n : {0u, 1u, 3u}) {
-    Numbers ring(n, -1.0);
-    std::size_t at = 0;
+    Numbers line(n, -1.0);
     for (int k = 0; k < 12; ++k) {
-      EXPECT_EQ(delay_line::output<double>(ring, at, k), k < static_cast<int>(n) ? -1 : k - static_cast<int>(n));
-      at = delay_line::push<double>(ring, at, k);
+      EXPECT_EQ(delay_line::output<double>(line, k), k < static_cast<int>(n) ? -1 : k - static_cast<int>(n));
+      delay_line::push<double>(line, k, line.data());
     }
   }
 }
