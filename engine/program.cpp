@@ -72,7 +72,7 @@ View<double> view_of(const Program& program, const Run& run, int block) {
   v.c = run.c.data() + b.c_begin;
   v.n_c = b.sizes.constants;
   v.x = run.x.data() + b.x_begin;
-  v.n_x = b.sizes.states;
+  v.n_x = b.hit_index < 0 ? b.sizes.states : b.sizes.sampled_states;
   v.m = run.m.data() + b.m_begin;
   v.n_m = b.sizes.memory;
   v.n_u = b.n_u;

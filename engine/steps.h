@@ -27,7 +27,7 @@ void bind(const Program& program, const Run& run, WorkOf<T>& work) {
     v.p_at = b.p_at.data();
     v.c = run.c.data() + b.c_begin;
     v.n_c = b.sizes.constants;
-    v.n_x = b.sizes.states;
+    v.n_x = b.hit_index < 0 ? b.sizes.states : b.sizes.sampled_states;
     v.n_m = b.sizes.memory;
     v.n_u = b.n_u;
     v.n_y = b.sizes.outputs;

@@ -170,13 +170,11 @@ class Builder {
   static Shape shape_of(const Declaration& declaration, const std::vector<ResolvedParameter>& parameters) {
     Shape shape;
     shape.declaration = &declaration;
-    const bool vectors = declaration.has_vector_ports();
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const auto& numbers = parameters[i].numbers;
       const bool text = declaration.parameters[i].kind == ParameterKind::text;
       shape.list_lengths.push_back(static_cast<int>(numbers.size()));
       shape.text_choices.push_back(text && !numbers.empty() ? static_cast<int>(numbers[0].si) : 0);
-      if (!vectors) continue;
       shape.columns.push_back(parameters[i].columns);
       shape.structure.emplace_back();
       if (declaration.parameters[i].is_structural || text)
