@@ -128,9 +128,9 @@ void print_one(const Declaration& d) {
     fmt::print("\nstates\n{}", table_text({}, rows));
   }
   if (d.is_elementwise)
-    fmt::print(
-        "\nOn vectors it works element by element, with the same parameters for all; single numbers go to every "
-        "element.\n");
+    fmt::print("\n{}",
+               wrapped("On vectors it works element by element, with the same parameters for all; single numbers "
+                       "go to every element."));
   if (!d.remarks.empty()) {
     fmt::print("\nremarks\n");
     for (const auto& remark : d.remarks) fmt::print("{}", wrapped(remark, 2));
@@ -140,9 +140,8 @@ void print_one(const Declaration& d) {
   const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
   if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
       std::any_of(d.outputs.begin(), d.outputs.end(), variable))
-    fmt::print(
-        "\n$a, $b stand for units that come from the wires and from the units written at the parameters; $a[i] for "
-        "that of each element.\n");
+    fmt::print("\n{}", wrapped("$a, $b stand for units that come from the wires and from the units written at the "
+                               "parameters; $a[i] for that of each element."));
 }
 
 int blocks(const Arguments& arguments) {

@@ -1,20 +1,33 @@
 #include "blocks/register_all.h"
 
+#include "blocks/backlash.h"
 #include "blocks/bouc_wen.h"
+#include "blocks/bouc_wen_inverse.h"
 #include "blocks/chirp.h"
 #include "blocks/constant.h"
+#include "blocks/converters.h"
 #include "blocks/creep.h"
 #include "blocks/dead_time.h"
+#include "blocks/delay_line.h"
+#include "blocks/discrete_transfer_function.h"
 #include "blocks/gain.h"
 #include "blocks/integrator.h"
+#include "blocks/jiles_atherton.h"
 #include "blocks/lag.h"
+#include "blocks/mass_spring_damper.h"
+#include "blocks/mass_with_friction.h"
+#include "blocks/mass_with_stops.h"
 #include "blocks/matrix_gain.h"
 #include "blocks/multisine.h"
 #include "blocks/pi_controller.h"
 #include "blocks/play.h"
 #include "blocks/prandtl_ishlinskii.h"
+#include "blocks/prandtl_ishlinskii_inverse.h"
 #include "blocks/product.h"
+#include "blocks/rate_limiter.h"
 #include "blocks/recorded.h"
+#include "blocks/relay.h"
+#include "blocks/sampled_pid.h"
 #include "blocks/saturation.h"
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
@@ -22,6 +35,8 @@
 #include "blocks/state_space.h"
 #include "blocks/step.h"
 #include "blocks/sum.h"
+#include "blocks/tank.h"
+#include "blocks/thermal_network.h"
 #include "blocks/transfer_function.h"
 #include "blocks/triangle.h"
 #include "blocks/vectors.h"
@@ -59,10 +74,35 @@ Registry all_blocks() {
   r.add(blocks::lag_block());
   r.add(blocks::creep_block());
   r.add(blocks::dead_time_block());
+  r.add(blocks::rate_limiter_block());
+  r.add(blocks::current_limit_block());
+  r.add(blocks::tank_block());
+  r.add(blocks::thermal_network_block());
 
   r.add(blocks::play_block());
   r.add(blocks::prandtl_ishlinskii_block());
   r.add(blocks::bouc_wen_block());
+  r.add(blocks::jiles_atherton_block());
+  r.add(blocks::relay_block());
+
+  r.add(blocks::prandtl_ishlinskii_inverse_block());
+  r.add(blocks::bouc_wen_inverse_block());
+  r.add(blocks::jiles_atherton_inverse_block());
+
+  r.add(blocks::mass_spring_damper_block());
+  r.add(blocks::mass_on_stiffening_spring_block());
+  r.add(blocks::mass_with_friction_block());
+  r.add(blocks::mass_with_stops_block());
+  r.add(blocks::backlash_block());
+
+  r.add(blocks::sample_hold_block());
+  r.add(blocks::quantizer_block());
+  r.add(blocks::sampled_noise_block());
+  r.add(blocks::delay_line_block());
+  r.add(blocks::discrete_transfer_function_block());
+  r.add(blocks::sampled_pid_block());
+  r.add(blocks::sampled_bouc_wen_inverse_block());
+  r.add(blocks::sampled_jiles_atherton_inverse_block());
 
   r.add(blocks::sensor_noise_block());
   return r;

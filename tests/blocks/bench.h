@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <ostream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 
 #include "blocks/register_all.h"
 #include "engine/kernel.h"
+#include "engine/units.h"
 
 namespace hysteron::bench {
 
@@ -59,7 +59,7 @@ class Bench {
       else if (q.default_text && q.default_text->empty())
         own = {};
       else if (q.default_text)
-        own = {std::strtod(q.default_text->c_str(), nullptr)};  // every default is zero or plain
+        own = {default_of(*q.default_text)};
       else
         throw std::logic_error(type + " needs " + q.name);
       p.insert(p.end(), own.begin(), own.end());
@@ -81,6 +81,14 @@ class Bench {
     }
     sizes = kernel.sizes(shape);
     if (sizes.error.empty()) prepare();
+  }
+
+  /// A default in SI ("10 us").
+  static double default_of(const std::string& text) {
+    double number = 0;
+    std::string unit;
+    if (!split_quantity(text, number, unit)) throw std::logic_error("no quantity: " + text);
+    return unit.empty() ? number : number * parse_unit(unit).scale;
   }
 
   void prepare() {
@@ -115,10 +123,34 @@ class Bench {
     const Duals dp = dual(p);
     return call(kernel.advance_rate, view<Dual>(dp, u, {}, m, Dual{0}, 0), sizes.memory);
   }
+  /// Sampled states behind an instant.
+  Numbers update(const Numbers& u, const Numbers& x) const {
+    return call(kernel.update, view<double>(p, u, x, {}, 0, 0), sizes.sampled_states);
+  }
+  double guard(const Numbers& u, const Numbers& x = {}) const {
+    return call(kernel.guard, view<double>(p, u, x, {}, 0, 0), 1)[0];
+  }
+  /// Lets a mode whose guard is not positive change, with the states, until one may stay. Returns how many changed.
+  int settle(const Numbers& u, Numbers& x) {
+    int changes = 0;
+    for (; guard(u, x) <= 0; ++changes) {
+      if (changes > 10) throw std::logic_error(kernel.declaration.type + ": the modes do not settle");
+      View<double> v = view<double>(p, u, x, {}, 0, 0);
+      const int next = kernel.next_mode(v);
+      if (next == mode) throw std::logic_error(kernel.declaration.type + ": a mode follows itself");
+      v.mode_before = mode;
+      v.mode = mode = next;
+      if (kernel.reset != nullptr) x = call(kernel.reset, v, sizes.states);
+    }
+    return changes;
+  }
+  int initial_mode() const {
+    return kernel.initial_mode == nullptr ? 0 : kernel.initial_mode(view<double>(p, {}, {}, {}, 0, 0));
+  }
   Numbers rest(const Numbers& u) const { return call(kernel.rest, view<double>(p, u, {}, {}, 0, 0), sizes.states); }
   Numbers initial_states() const {
-    if (kernel.initial_states == nullptr) return Numbers(static_cast<std::size_t>(sizes.states), 0);
-    return call(kernel.initial_states, view<double>(p, {}, {}, {}, 0, 0), sizes.states);
+    if (kernel.initial_states == nullptr) return Numbers(static_cast<std::size_t>(states()), 0);
+    return call(kernel.initial_states, view<double>(p, {}, {}, {}, 0, 0), states());
   }
   Numbers initial_memory() const {
     if (kernel.initial_memory == nullptr) return Numbers(static_cast<std::size_t>(sizes.memory), 0);
@@ -127,13 +159,21 @@ class Bench {
   double next_corner(double t) const { return kernel.next_corner(view<double>(p, {}, {}, {}, t, t)); }
   double pace() const { return kernel.pace(view<double>(p, {}, {}, {}, 0, 0)); }
 
-  /// Output of a run by explicit Euler steps, memory committed after each: the response to inputs u[k] per wire.
+  /// Output of a run by explicit Euler steps, memory committed after each, sampled blocks at every step: the response
+  /// to inputs u[k] per wire.
   Numbers response(const std::vector<Numbers>& u, double step) const {
+    Bench run = *this;
+    return run.walk(u, step);
+  }
+  Numbers walk(const std::vector<Numbers>& u, double step) {
     Numbers x = initial_states(), m = initial_memory(), y;
-    Numbers before;
+    mode = initial_mode();
     for (std::size_t k = 0; k < u.size(); ++k) {
+      hit = static_cast<long>(k);
+      if (kernel.has_modes()) settle(u[k], x);
       if (sizes.memory > 0) m = advance(m, u[k]);
       y.push_back(output(static_cast<double>(k) * step, u[k], x, m)[0]);
+      if (sizes.sampled_states > 0) x = update(u[k], x);
       if (sizes.states == 0) continue;
       Numbers du(u[k].size(), 0);
       for (std::size_t i = 0; i < du.size() && k > 0; ++i) du[i] = (u[k][i] - u[k - 1][i]) / step;
@@ -143,7 +183,12 @@ class Bench {
     return y;
   }
 
+  /// Continuous or sampled states.
+  int states() const { return sizes.states + sizes.sampled_states; }
+
   Kernel kernel;
+  int mode = 0;  ///< of a block with modes
+  long hit = 0;  ///< of a sampled block
   Shape shape;
   Sizes sizes;
   Numbers p, c;
@@ -162,7 +207,9 @@ class Bench {
     v.c = c.data();
     v.n_c = sizes.constants;
     v.x = x.data();
-    v.n_x = sizes.states;
+    v.n_x = states();
+    v.mode = mode;
+    v.hit = hit;
     v.m = m.data();
     v.n_m = sizes.memory;
     v.u = u.data();
@@ -255,6 +302,63 @@ inline std::vector<Sample> samples() {
       {"bouc_wen", {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"initial", {0.2}}}},
       {"bouc_wen",
        {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"exponent", {2}}, {"scale", {0.5}}}},
+      {"jiles_atherton", {{"p_s", {56}}, {"a", {48.6}}, {"alpha", {0.25}}, {"k", {3.9}}, {"c", {0.69}}}},
+      {"relay", {{"on_at", {0.5}}, {"off_at", {-0.5}}, {"on_value", {3}}, {"off_value", {-1}}, {"initial", {1}}}},
+      {"backlash", {{"gap", {0.7}}, {"before", {1}}}},
+      {"prandtl_ishlinskii_inverse", {{"thresholds", {0, 0.4, 1.1}}, {"weights", {1, 0.3, 0.2}}, {"before", {-2}}}},
+      {"prandtl_ishlinskii_inverse",
+       {{"thresholds", {0, 0.4, 1.1}}, {"weights", {1, 0.3, -0.2}}, {"sides", {1}}, {"before", {3}}}},
+      {"bouc_wen_inverse", {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"origin", {0.2}}}},
+      {"bouc_wen_inverse",
+       {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"exponent", {2}}, {"scale", {0.5}}}},
+      {"jiles_atherton_inverse",
+       {{"p_s", {56}}, {"a", {48.6}}, {"alpha", {0.25}}, {"k", {3.9}}, {"c", {0.69}}, {"origin", {1.4}}}},
+      {"rate_limiter", {{"rise", {4}}, {"fall", {2}}, {"time", {0.05}}}},
+      {"current_limit", {{"source", {0.4}}, {"sink", {0.2}}, {"capacitance", {0.1}}, {"time", {0.05}}}},
+      {"mass_spring_damper", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"initial_position", {0.3}}}},
+      {"mass_on_stiffening_spring", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"stiffening", {7}}}},
+      {"mass_with_friction",
+       {{"mass", {0.5}},
+        {"stiffness", {3}},
+        {"coulomb", {1}},
+        {"breakaway", {1.5}},
+        {"stribeck_velocity", {0.2}},
+        {"rest_speed", {1e-9}}}},
+      {"mass_with_stops",
+       {{"mass", {0.5}},
+        {"stiffness", {3}},
+        {"lower", {-1}},
+        {"upper", {1}},
+        {"restitution", {0.6}},
+        {"rest_speed", {1e-6}}}},
+      {"tank", {{"area", {2}}, {"outlet", {0.6}}, {"reference", {1}}, {"brim", {4}}, {"initial", {1}}}},
+      {"tank", {{"area", {2}}, {"outlet", {0.6}}, {"reference", {1}}, {"law", {1}}, {"brim", {9}}, {"initial", {1}}}},
+      {"thermal_network",
+       {{"capacities", {4, 3}}, {"to_ambient", {0.2, 0.3}}, {"between", {0.7}}, {"initial", {300, 310}}},
+       3},
+      {"sample_hold", {{"period", {0.1}}}},
+      {"quantizer", {{"bits", {5}}, {"lower", {-3}}, {"upper", {3}}, {"period", {0.1}}}},
+      {"sampled_noise", {{"rms", {0.3}}, {"seed", {11}}, {"period", {0.1}}}},
+      {"delay_line", {{"samples", {3}}, {"before", {0.4}}, {"period", {0.1}}}},
+      {"delay_line", {{"samples", {0}}, {"period", {0.1}}}},
+      {"discrete_transfer_function",
+       {{"gain", {2}}, {"num", {1, -0.3, 0.2}}, {"den", {2, -0.5, 0.1, 0.05}}, {"before", {0.5}}, {"period", {0.1}}}},
+      {"discrete_transfer_function",
+       {{"gain", {2}}, {"num", {1, -0.3}}, {"den", {2, -0.5}}, {"direct", {1}}, {"period", {0.1}}}},
+      {"sampled_pid",
+       {{"kp", {1.2}},
+        {"ki", {3}},
+        {"kd", {0.1}},
+        {"filter", {0.2}},
+        {"lower", {-2}},
+        {"upper", {2}},
+        {"rule", {2}},
+        {"anti_windup", {2}},
+        {"period", {0.1}}}},
+      {"sampled_bouc_wen_inverse",
+       {{"alpha", {0.6}}, {"beta", {0.24}}, {"gamma", {0.02}}, {"d_p", {1.6}}, {"initial", {0.1}}, {"period", {0.1}}}},
+      {"sampled_jiles_atherton_inverse",
+       {{"p_s", {56}}, {"a", {48.6}}, {"alpha", {0.25}}, {"k", {3.9}}, {"c", {0.69}}, {"period", {0.1}}}},
       {"sensor_noise", {{"rms", {0.3}}, {"period", {0.05}}, {"seed", {11}}}}};
 }
 

@@ -48,12 +48,13 @@ TEST_P(Linear, BlocksThatSaySoAreAffineInStatesAndInputs) {
   const auto mix = [](double l, double r) { return 0.3 * l + 0.7 * r; };
   for (std::uint64_t trial = 0; trial < 20; ++trial) {
     const Numbers u1 = draw(4 * trial, b.n_u), u2 = draw(4 * trial + 1, b.n_u);
-    const Numbers x1 = draw(4 * trial + 2, b.sizes.states), x2 = draw(4 * trial + 3, b.sizes.states);
+    const Numbers x1 = draw(4 * trial + 2, b.states()), x2 = draw(4 * trial + 3, b.states());
     Numbers u, x;
     for (std::size_t i = 0; i < u1.size(); ++i) u.push_back(mix(u1[i], u2[i]));
     for (std::size_t i = 0; i < x1.size(); ++i) x.push_back(mix(x1[i], x2[i]));
     combine(b.output(0, u1, x1), b.output(0, u2, x2), b.output(0, u, x), mix, "output");
     if (b.sizes.states > 0) combine(b.derivative(u1, x1), b.derivative(u2, x2), b.derivative(u, x), mix, "derivative");
+    if (b.sizes.sampled_states > 0) combine(b.update(u1, x1), b.update(u2, x2), b.update(u, x), mix, "update");
   }
 }
 
@@ -99,8 +100,8 @@ TEST_P(Offsets, ChangeTheResponseByWhatNoInputChanges) {
 class Rest : public OneSample {};
 TEST_P(Rest, IsWhereNothingMoves) {
   const Bench b = bench_of(GetParam().values);
-  const Numbers x = b.rest({1.7});
-  for (const double rate : b.derivative({1.7}, x)) EXPECT_NEAR(rate, 0, 1e-13);
+  const Numbers u(static_cast<std::size_t>(b.n_u), 1.7), x = b.rest(u);
+  for (const double rate : b.derivative(u, x)) EXPECT_NEAR(rate, 0, 1e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, Linear, testing::ValuesIn(bench::samples_where([](const Bench& b) {

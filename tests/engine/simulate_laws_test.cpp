@@ -27,8 +27,13 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
               {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, -0.2}, "um/V")}, {"sides", "two"}},
               {"u"})},
        {"cascade", block("play", {{"radius", "0.2 um"}}, {"operators"})},
+       {"inverse",
+        block("prandtl_ishlinskii_inverse",
+              {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, -0.2}, "um/V")}, {"sides", "two"}},
+              {"both_sides"})},
+       {"joint", block("backlash", {{"gap", "0.5 V"}}, {"inverse"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"two", "one", "both_sides", "late"}, {{"u", "V"}});
+      {"two", "one", "joint", "late"}, {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;

@@ -1,0 +1,100 @@
+// Decides the blocks "mass_spring_damper" and "mass_on_stiffening_spring". Does not decide their law:
+// models/mass_spring_damper.h.
+#pragma once
+
+#include "engine/block.h"
+#include "models/mass_spring_damper.h"
+
+namespace hysteron::blocks {
+
+template <class T>
+struct ForceIn {
+  T force;
+};
+template <class T>
+struct MotionState {
+  T position, velocity;
+};
+template <class T>
+struct MotionOut {
+  T position, velocity;
+};
+
+struct MassSpringDamper {
+  template <class T>
+  struct Params {
+    T mass, damping, stiffness, initial_position, initial_velocity;
+  };
+  template <class T>
+  using In = ForceIn<T>;
+  template <class T>
+  using State = MotionState<T>;
+  template <class T>
+  using Out = MotionOut<T>;
+  static void describe(BlockSpec<MassSpringDamper>& spec);
+  template <class T>
+  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
+    return {s.position, s.velocity};
+  }
+  template <class T>
+  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
+    const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, T{0}};
+    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, in.force)};
+  }
+  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
+    return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, 0}, in.force), 0};
+  }
+  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
+};
+
+struct MassOnStiffeningSpring {
+  template <class T>
+  struct Params {
+    T mass, damping, stiffness, stiffening, initial_position, initial_velocity;
+  };
+  template <class T>
+  using In = ForceIn<T>;
+  template <class T>
+  using State = MotionState<T>;
+  template <class T>
+  using Out = MotionOut<T>;
+  static void describe(BlockSpec<MassOnStiffeningSpring>& spec);
+  template <class T>
+  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
+    return {s.position, s.velocity};
+  }
+  template <class T>
+  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
+    const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, p.stiffening};
+    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, in.force)};
+  }
+  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
+    return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, p.stiffening}, in.force), 0};
+  }
+  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
+};
+
+/// Ports, states and first parameters that all masses have in common.
+template <class B>
+void describe_motion(BlockSpec<B>& spec) {
+  using P = typename B::template Params<double>;
+  spec.in_group("mechanics");
+  spec.input(&ForceIn<double>::force, "force", "N", "force on the mass");
+  spec.state(&MotionState<double>::position, "position", "m", "position");
+  spec.state(&MotionState<double>::velocity, "velocity", "m/s", "velocity");
+  spec.output(&MotionOut<double>::position, "position", "m", "position");
+  spec.output(&MotionOut<double>::velocity, "velocity", "m/s", "velocity");
+  spec.param(&P::mass, "mass", "kg", "moving mass").positive();
+  spec.param(&P::damping, "damping", "N*s/m", "viscous damping").optional("0").not_negative();
+}
+template <class B>
+void describe_start(BlockSpec<B>& spec) {
+  using P = typename B::template Params<double>;
+  spec.param(&P::initial_position, "initial_position", "m", "position at the start").optional("0");
+  spec.param(&P::initial_velocity, "initial_velocity", "m/s", "velocity at the start").optional("0");
+}
+
+Kernel mass_spring_damper_block();
+Kernel mass_on_stiffening_spring_block();
+
+}  // namespace hysteron::blocks

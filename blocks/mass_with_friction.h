@@ -1,0 +1,58 @@
+// Decides the block "mass_with_friction". Does not decide its law: models/friction.h.
+#pragma once
+
+#include <string>
+
+#include "blocks/mass_spring_damper.h"
+#include "models/friction.h"
+
+namespace hysteron::blocks {
+
+struct MassWithFriction {
+  template <class T>
+  struct Params {
+    T mass, damping, stiffness, coulomb, breakaway, stribeck_velocity, rest_speed, initial_position, initial_velocity;
+  };
+  template <class T>
+  using In = ForceIn<T>;
+  template <class T>
+  using State = MotionState<T>;
+  template <class T>
+  using Out = MotionOut<T>;
+  static void describe(BlockSpec<MassWithFriction>& spec);
+  template <class T>
+  static friction::Params<T> law(const Params<T>& p) {
+    return {p.mass, p.damping, p.stiffness, p.coulomb, p.breakaway, p.stribeck_velocity, p.rest_speed};
+  }
+  template <class T>
+  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
+    return {s.position, s.velocity};
+  }
+  template <class T>
+  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in, Mode mode) {
+    return {s.velocity, friction::acceleration(law(p), friction::Mode(mode.is), s.position, s.velocity, in.force)};
+  }
+  template <class T>
+  static T guard(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in, Mode mode) {
+    return friction::guard(law(p), friction::Mode(mode.is), s.position, s.velocity, in.force);
+  }
+  static Mode next(const Params<double>& p, const MotionState<double>& s, const ForceIn<double>& in, Mode mode) {
+    if (guard(p, s, in, mode) > 0) return mode;
+    return {friction::next(law(p), friction::Mode(mode.is), s.position, in.force)};
+  }
+  template <class T>
+  static MotionState<T> reset(const Params<T>&, const MotionState<T>& s, const ForceIn<T>&, Mode, Mode) {
+    return {s.position, T{0}};
+  }
+  /// Without friction: the middle of where it may stick.
+  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
+    return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, 0}, in.force), 0};
+  }
+  static Mode initial_mode(const Params<double>& p) { return {friction::start(p.initial_velocity)}; }
+  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
+  static std::string check(const Params<double>& p);
+};
+
+Kernel mass_with_friction_block();
+
+}  // namespace hysteron::blocks

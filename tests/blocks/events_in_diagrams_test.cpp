@@ -1,0 +1,226 @@
+// Sampled blocks and blocks with modes in whole diagrams, against closed forms and the sampled loops of the thesis.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/engine/simulate_tools.h"
+#include "tests/models/golden.h"
+
+namespace hysteron {
+namespace {
+
+using tools::block;
+using tools::list;
+
+constexpr double tolerance = 1e-9;
+
+Traces simulated(const Diagram& d, std::vector<double> instants) {
+  const auto program = tools::compiled(d);
+  SimulateOptions options;
+  options.instants = std::move(instants);
+  options.until = options.instants.back();
+  options.method = Method::bdf;
+  options.relative_tolerance = tolerance;
+  return simulate(*program, start(*program), options);
+}
+std::vector<double> grid(double until, int n, double shift = 0) {
+  std::vector<double> t;
+  for (int k = 0; k < n; ++k) t.push_back(until * k / n + shift);
+  return t;
+}
+Node sine(const std::string& unit) {
+  return block("sine",
+               {{"amplitude", "3 " + unit}, {"offset", "3 " + unit}, {"frequency", "5 Hz"}, {"phase", "-90 deg"}});
+}
+
+struct Loop {
+  const char *golden, *kp, *ki;
+  bool step;
+};
+class SampledLoop : public testing::TestWithParam<Loop> {};
+TEST_P(SampledLoop, OfTheThesisIsReproduced) {
+  HYSTERON_NEEDS_GOLDEN(GetParam().golden);
+  const auto trace = golden::read(GetParam().golden);
+  const auto d = tools::diagram(
+      {{"r", GetParam().step ? block("constant", {{"value", "1 um"}}) : sine("um")},
+       {"error", block("sum", {{"signs", "+-"}}, {"r", "y"})},
+       {"u", block("sampled_pid",
+                   {{"kp", std::string(GetParam().kp) + " V/um"},
+                    {"ki", std::string(GetParam().ki) + " V/(um s)"},
+                    {"lower", "-inf V"},
+                    {"upper", "inf V"},
+                    {"period", "0.1 ms"}},
+                   {"error"})},
+       {"y",
+        block("transfer_function",
+              {{"gain", "1 um/V"}, {"num", list({1.377e16})}, {"den", list({1, 2.813e4, 5.403e8, 4.981e12, 1.822e16})}},
+              {"u"})}},
+      {"y"});
+  const Traces traces = simulated(d, trace.at("t [s]"));
+  for (std::size_t k = 0; k < traces.t.size(); ++k)  // what the traces ask of a sampled loop of the same rule
+    ASSERT_NEAR(1e6 * traces.values[0][k], trace.at("y [um]")[k], 1e-8 * (GetParam().step ? 1 : 6)) << "row " << k;
+}
+INSTANTIATE_TEST_SUITE_P(Traces, SampledLoop,
+                         testing::Values(Loop{"loop1_sine_sampled", "1.207", "7009", false},
+                                         Loop{"loop2_sine_sampled", "0.5265", "1521", false},
+                                         Loop{"loop1_step_sampled", "1.207", "7009", true},
+                                         Loop{"loop2_step_sampled", "0.5265", "1521", true}),
+                         [](const auto& made) { return std::string(made.param.golden); });
+
+TEST(EventsInDiagrams, SampledInversesPutTheirActuatorsOnTheReferenceAtEveryInstant) {
+  // The held command jumps; the actuator follows each jump along its path. Half a period later it still lies there.
+  const tools::Parameters ja{
+      {"p_s", "55.9973 um"}, {"a", "48.5843 V"}, {"alpha", "0.2512 V/um"}, {"k", "3.8892 V"}, {"c", 0.6929}};
+  const tools::Parameters bw{
+      {"alpha", "0.6187 um/V"}, {"beta", "0.2418 1/V"}, {"gamma", "0.0237 1/V"}, {"d_p", "1.6126 um/V"}};
+  auto sampled_ja = ja, sampled_bw = bw;
+  for (auto* p : {&sampled_ja, &sampled_bw}) p->emplace_back("period", "1 ms");
+  const auto d = tools::diagram({{"r", sine("um")},
+                                 {"u1", block("sampled_jiles_atherton_inverse", sampled_ja, {"r"})},
+                                 {"y1", block("jiles_atherton", ja, {"u1"})},
+                                 {"u2", block("sampled_bouc_wen_inverse", sampled_bw, {"r"})},
+                                 {"y2", block("bouc_wen", bw, {"u2"})}},
+                                {"y1", "y2"});
+  const Traces traces = simulated(d, grid(0.3, 300, 0.5e-3));
+  for (std::size_t k = 0; k < traces.t.size(); ++k) {
+    const double r = 3 - 3 * std::cos(2 * M_PI * 5 * (traces.t[k] - 0.5e-3));
+    ASSERT_NEAR(1e6 * traces.values[0][k], r, 1e-6) << "Jiles-Atherton, row " << k;
+    ASSERT_NEAR(1e6 * traces.values[1][k], r, 1e-6) << "Bouc-Wen, row " << k;
+  }
+}
+
+TEST(EventsInDiagrams, HoldDelayAndQuantizerGiveTheSamplesOfTheirInstants) {
+  const auto d = tools::diagram(
+      {{"u", block("sine", {{"amplitude", "3 V"}, {"frequency", "1 Hz"}})},
+       {"held", block("sample_hold", {{"period", "10 ms"}, {"offset", "2 ms"}}, {"u"})},
+       {"late", block("delay_line", {{"period", "10 ms"}, {"samples", 3.0}, {"before", "-1 V"}}, {"u"})},
+       {"coarse",
+        block("quantizer", {{"bits", 4.0}, {"lower", "-4 V"}, {"upper", "4 V"}, {"period", "10 ms"}}, {"u"})}},
+      {"held", "late", "coarse"});
+  const Traces traces = simulated(d, grid(1, 100, 5e-3));
+  for (int k = 0; k < 100; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto u = [](double t) { return 3 * std::sin(2 * M_PI * t); };
+    EXPECT_NEAR(traces.values[0][i], u(0.01 * k + 0.002), 1e-12);
+    EXPECT_NEAR(traces.values[1][i], k < 3 ? -1 : u(0.01 * (k - 3)), 1e-12);
+    EXPECT_NEAR(traces.values[2][i], 0.5 * std::floor(u(0.01 * k) / 0.5 + 0.5), 1e-12) << k;
+  }
+}
+
+TEST(EventsInDiagrams, RelayAroundAnIntegratorMakesATriangle) {
+  // Rises with 2 per second to 1, falls with 2 to -1: period 2 s, from 0 upwards.
+  const auto d = tools::diagram(
+      {{"switch",
+        block("relay", {{"on_at", "1 V"}, {"off_at", "-1 V"}, {"on_value", "-2 V/s"}, {"off_value", "2 V/s"}}, {"y"})},
+       {"y", block("integrator", {{"initial", "0 V"}}, {"switch"})}},
+      {"y"});
+  const Traces traces = simulated(d, grid(10, 97));
+  for (std::size_t k = 0; k < traces.t.size(); ++k)
+    EXPECT_NEAR(traces.values[0][k], 2 / M_PI * std::asin(std::sin(M_PI * traces.t[k])), 2e-7) << traces.t[k];
+}
+
+TEST(EventsInDiagrams, FrictionTakesTheSameAmplitudeEachHalfCycleUntilTheMassSticks) {
+  // k = 100 N/m, friction 10 N, 1 kg: turning points 0.95, -0.75, 0.55, -0.35, 0.15, then stuck at 0.05 (5 N < 10 N).
+  const auto d = tools::diagram({{"force", block("constant", {{"value", "0 N"}})},
+                                 {"mass", block("mass_with_friction",
+                                                {{"mass", "1 kg"},
+                                                 {"stiffness", "100 N/m"},
+                                                 {"coulomb", "10 N"},
+                                                 {"breakaway", "10 N"},
+                                                 {"initial_position", "0.95 m"}},
+                                                {"force"})}},
+                                {"mass.position", "mass.velocity"});
+  const double half = M_PI / 10;
+  const Traces traces = simulated(d, {half, 2 * half, 3 * half, 4 * half, 5 * half, 2, 5});
+  const double expected[] = {-0.75, 0.55, -0.35, 0.15, 0.05, 0.05, 0.05};
+  for (std::size_t k = 0; k < 7; ++k)
+    EXPECT_NEAR(traces.values[0][k], expected[k], 2e-7) << k;  // 10 rtol of 1 m for each of 16 radians
+  EXPECT_EQ(traces.values[1][6], 0) << "it truly sticks";
+  EXPECT_EQ(traces.values[0][6], traces.values[0][5]);
+}
+
+TEST(EventsInDiagrams, ForceThatGrowsSlowlyBreaksTheMassAwayAtItsInstant) {
+  // 5 N/s: sticks until 3 N at 0.6 s, then 0.5 v = 2.5 (t^2 - 0.36) - 2 (t - 0.6).
+  const auto d = tools::diagram(
+      {{"rate", block("constant", {{"value", "5 N/s"}})},
+       {"force", block("integrator", {}, {"rate"})},
+       {"mass",
+        block("mass_with_friction", {{"mass", "0.5 kg"}, {"coulomb", "2 N"}, {"breakaway", "3 N"}}, {"force"})}},
+      {"mass.velocity", "mass.position"});
+  const Traces traces = simulated(d, {0.3, 0.59, 0.8, 1});
+  EXPECT_EQ(traces.values[1][1], 0);
+  for (std::size_t k = 2; k < 4; ++k) {
+    const double t = traces.t[k];
+    EXPECT_NEAR(traces.values[0][k], (2.5 * (t * t - 0.36) - 2 * (t - 0.6)) / 0.5, 1e-7);
+  }
+}
+
+TEST(EventsInDiagrams, BouncingMassComesToLieAfterTheSumOfItsBounces) {
+  // 10 N on 1 kg, stop 0.8 m away, restitution 0.5: first impact at 0.4 s with 4 m/s; it lies at 0.4 + 0.8 = 1.2 s.
+  const auto d = tools::diagram(
+      {{"force", block("constant", {{"value", "10 N"}})},
+       {"mass",
+        block("mass_with_stops",
+              {{"mass", "1 kg"}, {"lower", "-1 m"}, {"upper", "0.8 m"}, {"restitution", 0.5}, {"rest_speed", "1 mm/s"}},
+              {"force"})}},
+      {"mass.position", "mass.velocity"});
+  const Traces traces = simulated(d, {0.3, 0.5, 0.9, 1.21, 2});
+  EXPECT_NEAR(traces.values[0][0], 0.45, 1e-8);
+  EXPECT_NEAR(traces.values[0][1], 0.8 - 2 * 0.1 + 5 * 0.01, 1e-8);  // rebound with 2 m/s
+  EXPECT_NEAR(traces.values[0][2], 0.8 - 1 * 0.1 + 5 * 0.01, 1e-8);  // second impact at 0.8 s, rebound with 1 m/s
+  EXPECT_EQ(traces.values[0][3], 0.8);
+  EXPECT_EQ(traces.values[1][4], 0);
+}
+
+TEST(EventsInDiagrams, RateLimiterMakesARampOfAStepAndBreaksNoLoop) {
+  // Step of 3 V at 0.1 s: 4 V/s until the gap is 4 x 0.05 = 0.2 V at 0.8 s, then an exponential.
+  const auto d =
+      tools::diagram({{"u", block("step", {{"before", "0 V"}, {"after", "3 V"}, {"time", "0.1 s"}})},
+                      {"y", block("rate_limiter", {{"rise", "4 V/s"}, {"fall", "2 V/s"}, {"time", "50 ms"}}, {"u"})}},
+                     {"y"});
+  const Traces traces = simulated(d, grid(1.5, 60));
+  for (std::size_t k = 0; k < traces.t.size(); ++k) {
+    const double t = traces.t[k] - 0.1;
+    const double expected = t < 0 ? 0 : t < 0.7 ? 4 * t : 3 - 0.2 * std::exp(-(t - 0.7) / 0.05);
+    EXPECT_NEAR(traces.values[0][k], expected, 1e-7) << traces.t[k];  // the limit is left 1e-6 early: 1e-7 of 0.2
+  }
+}
+
+TEST(EventsInDiagrams, TankSpillsItsSurplusAndKeepsTheBalance) {
+  // Inflow 2 l/s for 3 s into 0.1 m^2 with brim 20 cm (20 l), linear outlet 1 l/s at 20 cm: h = 40 cm (1 - e^(-t/20
+  // s)), full at 20 ln 2 = 13.86 s; then 1 l/s runs over until the inflow stops at 20 s.
+  const auto d = tools::diagram(
+      {{"inflow", block("step", {{"before", "2 l/s"}, {"after", "0 l/s"}, {"time", "20 s"}})},
+       {"tank", block("tank", {{"area", "0.1 m^2"}, {"outlet", "1 l/s"}, {"reference", "20 cm"}, {"brim", "20 cm"}},
+                      {"inflow"})}},
+      {"tank.level", "tank.spilled", "tank.outflow"});
+  const Traces traces = simulated(d, {5, 10, 16, 20, 30});
+  const double full = 20 * std::log(2);
+  EXPECT_NEAR(traces.values[0][0], 0.4 * (1 - std::exp(-0.25)), 1e-8);
+  EXPECT_NEAR(traces.values[0][1], 0.4 * (1 - std::exp(-0.5)), 1e-8);
+  EXPECT_EQ(traces.values[0][2], 0.2);
+  // the film of 1 nm on 0.1 m^2, and 10 rtol of 20 l
+  EXPECT_NEAR(traces.values[1][2], 1e-3 * (16 - full), 3e-10);
+  EXPECT_NEAR(traces.values[1][4], 1e-3 * (20 - full), 3e-10);
+  EXPECT_NEAR(traces.values[0][4], 0.2 * std::exp(-0.5), 1e-8);
+  EXPECT_NEAR(traces.values[2][3], 1e-3, 1e-12);
+}
+
+TEST(EventsInDiagrams, CurrentLimitSlewsTheStaircaseOfAConverter) {
+  // 60 mA into 2 uF: 30 V/ms. A converter at 1 kHz behind a fast ramp makes steps of 20 V: 0.67 ms each.
+  const auto d = tools::diagram(
+      {{"slope", block("constant", {{"value", "20 V/ms"}})},
+       {"ramp", block("integrator", {}, {"slope"})},
+       {"dac", block("sample_hold", {{"period", "1 ms"}}, {"ramp"})},
+       {"y", block("current_limit", {{"source", "60 mA"}, {"sink", "60 mA"}, {"capacitance", "2 uF"}, {"time", "1 us"}},
+                   {"dac"})}},
+      {"y"});
+  const Traces traces = simulated(d, {1.1e-3, 1.5e-3, 1.9e-3, 2.5e-3});
+  EXPECT_NEAR(traces.values[0][0], 3, 1e-6);
+  EXPECT_NEAR(traces.values[0][1], 15, 1e-6);
+  EXPECT_NEAR(traces.values[0][2], 20, 1e-6);
+  EXPECT_NEAR(traces.values[0][3], 35, 1e-6);
+}
+
+}  // namespace
+}  // namespace hysteron
