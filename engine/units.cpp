@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "engine/error.h"
+#include "engine/unit_table.h"
 
 namespace hysteron {
 namespace {
@@ -19,45 +20,90 @@ namespace {
 constexpr std::array<const char*, 9> base_symbols{"m", "kg", "s", "A", "K", "mol", "cd", "rad", "cycle"};
 constexpr std::size_t radian = 7;
 constexpr std::size_t cycle = 8;
+constexpr char degree_definition[] = "(3.14159265358979323846264338327950288/180) rad";
 
 struct UnitFree {
   void operator()(ut_unit* u) const { ut_free(u); }
 };
 using UnitPointer = std::unique_ptr<ut_unit, UnitFree>;
 
-/// The unit table of udunits2 with our additions, and every unit that was read from it. Used under a lock.
+/// A unit that is known before the table is read: what the table says of it.
+struct CommonUnit {
+  const char* symbol;
+  const char* definition;
+};
+
+// As in the table. Only symbols whose combinations with the prefixes below mean the same there (a test tries them all):
+// no "h", since "ph" is a phot there.
+constexpr CommonUnit common_units[] = {
+    {"g", "1e-3 kg"}, {"N", "m.kg/s^2"}, {"Pa", "N/m^2"},        {"J", "N.m"},   {"W", "J/s"},    {"C", "s.A"},
+    {"V", "W/A"},     {"F", "C/V"},      {"S", "A/V"},           {"Wb", "V.s"},  {"T", "Wb/m^2"}, {"H", "Wb/A"},
+    {"min", "60 s"},  {"%", "0.01"},     {"degC", "K @ 273.15"}, {"ohm", "V/A"},
+};
+struct CommonPrefix {
+  const char* symbol;
+  double value;
+};
+constexpr CommonPrefix common_prefixes[] = {{"G", 1e9},  {"M", 1e6},  {"k", 1e3},  {"d", .1},   {"c", .01},
+                                            {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+
+/// A unit table with our additions, and every unit that was read from it. Used under a lock.
 class Table {
  public:
-  Table() {
+  /// All of udunits2's units, which costs milliseconds of parsing XML; or those of a usual diagram, which cost next to
+  /// nothing: the same parser with a short list.
+  explicit Table(bool all) {
     ut_set_error_message_handler(ut_ignore);
-    system_ = ut_read_xml(nullptr);
-    if (system_ == nullptr) throw std::runtime_error("udunits2's unit table cannot be read");
-    cycle_.reset(ut_new_base_unit(system_));
-    const UnitPointer second(ut_get_unit_by_name(system_, "second"));
+    if (all)
+      read_all();
+    else
+      list_common();
+    const UnitPointer second(ut_get_unit_by_symbol(system_, "s"));
     const UnitPointer hertz(ut_divide(cycle_.get(), second.get()));
-    ut_unmap_symbol_to_unit(system_, "Hz", UT_ASCII);
-    ut_unmap_name_to_unit(system_, "hertz", UT_ASCII);
     ut_map_symbol_to_unit("Hz", UT_ASCII, hertz.get());
     ut_map_name_to_unit("hertz", UT_ASCII, hertz.get());
-    if (const UnitPointer degree(ut_parse(system_, "arc_degree", UT_UTF8)); degree)
+    if (const UnitPointer degree(ut_parse(system_, all ? "arc_degree" : degree_definition, UT_UTF8)); degree)
       ut_map_name_to_unit("deg", UT_ASCII, degree.get());
   }
 
-  const Unit& read(const std::string& text, const std::string& path) {
-    if (const auto found = cache_.find(text); found != cache_.end()) return found->second;
+  /// nullptr if the text is no unit of this table.
+  const Unit* find(const std::string& text) {
+    if (const auto found = cache_.find(text); found != cache_.end()) return &found->second;
     Unit unit;
     unit.text = text;
-    if (!text.empty()) parse(text, path, unit);
-    return cache_.emplace(text, unit).first->second;
+    if (!text.empty()) {
+      const UnitPointer parsed(ut_parse(system_, text.c_str(), UT_UTF8));
+      if (!parsed) return nullptr;
+      collect(parsed.get(), unit);
+    }
+    return &cache_.emplace(text, unit).first->second;
   }
 
  private:
-  void parse(const std::string& text, const std::string& path, Unit& unit) {
-    const UnitPointer parsed(ut_parse(system_, text.c_str(), UT_UTF8));
-    if (!parsed)
-      fail("bad_unit", path, fmt::format("\"{}\" is not a unit", text),
-           "write SI or derived units with prefixes, e.g. \"um\", \"V/um\", \"1/s\", \"Hz\", \"deg\", \"degC\"");
-    collect(parsed.get(), unit);
+  void read_all() {
+    system_ = ut_read_xml(nullptr);
+    if (system_ == nullptr) throw std::runtime_error("udunits2's unit table cannot be read");
+    cycle_.reset(ut_new_base_unit(system_));
+    ut_unmap_symbol_to_unit(system_, "Hz", UT_ASCII);
+    ut_unmap_name_to_unit(system_, "hertz", UT_ASCII);
+  }
+
+  void list_common() {
+    system_ = ut_new_system();
+    if (system_ == nullptr) throw std::runtime_error("udunits2 cannot make a unit system");
+    for (std::size_t i = 0; i < radian; ++i) name_base(UnitPointer(ut_new_base_unit(system_)), base_symbols[i]);
+    name_base(UnitPointer(ut_new_dimensionless_unit(system_)), base_symbols[radian]);
+    cycle_.reset(ut_new_base_unit(system_));
+    for (const auto& prefix : common_prefixes) ut_add_symbol_prefix(system_, prefix.symbol, prefix.value);
+    for (const auto& unit : common_units) {
+      const UnitPointer parsed(ut_parse(system_, unit.definition, UT_ASCII));
+      ut_map_symbol_to_unit(unit.symbol, UT_ASCII, parsed.get());
+    }
+  }
+
+  static void name_base(const UnitPointer& unit, const char* symbol) {
+    ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
+    ut_map_unit_to_symbol(unit.get(), symbol, UT_ASCII);
   }
 
   void collect(const ut_unit* parsed, Unit& unit) {
@@ -137,11 +183,38 @@ std::string to_text(const Dimension& d) {
 
 Unit parse_unit(std::string_view text, const std::string& path) {
   static std::mutex mutex;
-  static Table table;
+  static Table common(false);
+  static std::unique_ptr<Table> all;
   const std::lock_guard lock(mutex);
   const auto first = text.find_first_not_of(' ');
   const auto last = text.find_last_not_of(' ');
-  return table.read(first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1)), path);
+  const std::string trimmed(first == std::string_view::npos ? "" : text.substr(first, last - first + 1));
+  if (const Unit* unit = common.find(trimmed)) return *unit;
+  if (!all) all = std::make_unique<Table>(true);
+  if (const Unit* unit = all->find(trimmed)) return *unit;
+  fail("bad_unit", path, fmt::format("\"{}\" is not a unit", trimmed),
+       "write SI or derived units with prefixes, e.g. \"um\", \"V/um\", \"1/s\", \"Hz\", \"deg\", \"degC\"");
+}
+
+Unit parse_unit_in_full_table(std::string_view text) {
+  static std::mutex mutex;
+  static Table all(true);
+  const std::lock_guard lock(mutex);
+  const Unit* unit = all.find(std::string(text));
+  return unit == nullptr ? Unit{"", {}, 0, 0} : *unit;
+}
+
+std::vector<std::string> common_unit_symbols() {
+  std::vector<std::string> list{"Hz", "deg"};
+  for (std::size_t i = 0; i <= radian; ++i) list.emplace_back(base_symbols[i]);
+  for (const auto& unit : common_units) list.emplace_back(unit.symbol);
+  return list;
+}
+
+std::vector<std::string> common_unit_prefixes() {
+  std::vector<std::string> list;
+  for (const auto& prefix : common_prefixes) list.emplace_back(prefix.symbol);
+  return list;
 }
 
 double dimension_factor(const Dimension& from, const Dimension& to) {

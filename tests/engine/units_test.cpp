@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/error.h"
+#include "engine/unit_table.h"
 
 namespace hysteron {
 namespace {
@@ -53,6 +54,41 @@ TEST(Units, ANonsenseUnitNamesItselfAndACure) {
     EXPECT_EQ(e.problems[0].path, "/blocks/a/gain");
     EXPECT_FALSE(e.problems[0].cure.empty());
   }
+}
+
+// Usual units are known without reading udunits2's table; they must mean what they mean there, to the last bit.
+TEST(Units, KnownWithoutTheTableMeanWhatTheTableSays) {
+  std::vector<std::string> texts{
+      "1/s",  "V/um", "um/V",   "V/(um s)", "m.kg/s^2", "kg m2 s-3 A-1", "um^2/Hz", "1/(V um)", "deg/s", "rad/s",
+      "N/um", "mm2",  "V s/um", "10 um",    "degC/W",   "J/(kg K)",      "W/m^2/K", "1",        "%/V",   "h-1"};
+  const auto symbols = common_unit_symbols();
+  auto prefixes = common_unit_prefixes();
+  prefixes.emplace_back("");
+  for (const auto& symbol : symbols)
+    for (const auto& prefix : prefixes)
+      for (const auto& further : prefixes) texts.push_back(further + prefix + symbol);
+  for (const auto& a : symbols)
+    for (const auto& b : symbols) texts.push_back(a + b), texts.push_back(a + "/" + b);
+  int known = 0;
+  for (const auto& text : texts) {
+    const Unit expected = parse_unit_in_full_table(text);
+    if (expected.scale == 0) {
+      EXPECT_THROW(parse_unit(text), Error) << text;
+      continue;
+    }
+    ++known;
+    const Unit unit = parse_unit(text);
+    EXPECT_EQ(unit.scale, expected.scale) << text;
+    EXPECT_EQ(unit.offset, expected.offset) << text;
+    EXPECT_EQ(unit.dimension, expected.dimension) << text;
+  }
+  EXPECT_GT(known, 1000);
+}
+
+TEST(Units, OthersAreReadFromTheTable) {
+  EXPECT_DOUBLE_EQ(parse_unit("inch").to_si(1), 0.0254);
+  EXPECT_DOUBLE_EQ(parse_unit("day").to_si(1), 86400);
+  EXPECT_DOUBLE_EQ(parse_unit("micrometer").to_si(1), 1e-6);
 }
 
 TEST(Units, AQuantityIsSplitIntoNumberAndUnit) {
