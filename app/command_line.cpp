@@ -52,8 +52,10 @@ struct ParsedVerb {
   std::vector<CLI::Option*> parsed;
 };
 
-void add_verb_to(CLI::App& app, ParsedVerb& parsed) {
+/// The options of a verb that nobody asked for are left out: making them all would take longer than a small diagram.
+void add_verb_to(CLI::App& app, ParsedVerb& parsed, bool asked) {
   parsed.app = app.add_subcommand(parsed.verb.name, parsed.verb.summary);
+  if (!asked) return;
   parsed.app->description(parsed.verb.summary);
   parsed.app->footer(parsed.verb.help);
   parsed.verb.options.push_back({"--quiet", "", "print no more than the result", false, false});
@@ -111,7 +113,8 @@ int parse_and_act(const std::vector<std::string>& words) {
   app.get_formatter()->column_width(26);
   app.require_subcommand(0, 1);
   std::deque<ParsedVerb> verbs;
-  for (auto& verb : all_verbs()) add_verb_to(app, verbs.emplace_back(ParsedVerb{verb, nullptr, {}, {}}));
+  for (auto& verb : all_verbs())
+    add_verb_to(app, verbs.emplace_back(ParsedVerb{verb, nullptr, {}, {}}), !words.empty() && words[0] == verb.name);
 
   if (words.empty()) {
     fmt::print("{}", app.help());

@@ -1,4 +1,5 @@
-// Decides how a bounded nonlinear least-squares problem is handed to the library (Ceres). The only file that knows it.
+// Decides how a bounded nonlinear least-squares problem is handed to the library (Ceres), and that the library
+// is loaded when the first problem comes: whoever does not fit does not wait for it.
 #pragma once
 
 #include <functional>
@@ -22,7 +23,8 @@ struct TrustRegionResult {
   std::string message;
 };
 
-/// Levenberg-Marquardt within bounds. A trial that cannot be evaluated shortens the step.
+/// Levenberg-Marquardt within bounds. A trial that cannot be evaluated shortens the step. Thread safe.
+/// Throws Error "no_solver" if the module with the library cannot be loaded.
 TrustRegionResult minimize(const LeastSquares& problem, std::vector<double> start, int max_iterations,
                            double tolerance);
 
