@@ -44,6 +44,27 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() || unit == "1" ? text : text + " " + unit;
 }
 
+/// "[1, 2; 3, 4] V" row by row, or its size.
+std::string matrix_text(const NumberMatrix& matrix, const ParameterDeclaration& declaration) {
+  const std::size_t rows = matrix.rows.size(), columns = rows == 0 ? 0 : matrix.rows[0].size();
+  if (rows * columns > 6) return fmt::format("{} x {} numbers", rows, columns);
+  std::vector<std::string> lines;
+  std::string unit;
+  bool one_unit = true;
+  for (const auto& row : matrix.rows) {
+    std::vector<std::string> numbers;
+    for (const auto& n : row) {
+      numbers.push_back(number(n.value));
+      const std::string of = unit_of(n, declaration);
+      if (unit.empty()) unit = of;
+      one_unit = one_unit && of == unit;
+    }
+    lines.push_back(fmt::format("{}", fmt::join(numbers, ", ")));
+  }
+  if (!one_unit) return fmt::format("{} x {} numbers", rows, columns);
+  return with_unit(fmt::format("[{}]", fmt::join(lines, "; ")), unit);
+}
+
 std::string list_text(const NumberList& list, const ParameterDeclaration& declaration) {
   if (list.empty()) return "[]";
   if (list.size() == 1) return with_unit(number(list.front().value), unit_of(list.front(), declaration));
@@ -99,6 +120,7 @@ Values values_of(const Node& node, const Declaration& declaration, const Surroun
 std::string value_text(const Value& value, const ParameterDeclaration& declaration) {
   if (const auto* n = std::get_if<Number>(&value.content)) return with_unit(number(n->value), unit_of(*n, declaration));
   if (const auto* list = std::get_if<NumberList>(&value.content)) return list_text(*list, declaration);
+  if (const auto* matrix = std::get_if<NumberMatrix>(&value.content)) return matrix_text(*matrix, declaration);
   if (const auto* text = std::get_if<std::string>(&value.content)) return *text;
   if (const auto* reference = std::get_if<Reference>(&value.content)) return "$" + reference->name;
   return "samples";

@@ -95,8 +95,7 @@ class Router {
     return -1;
   }
 
-  // --- how wires enter sums
-  // -------------------------------------------------------------------------------------------
+  // --- how wires enter sums ------------------------------------------------------------------------------------------
 
   /// Feedback comes from below, the wire that is nearest in height from the left, others from above or below.
   void choose_sides() {
@@ -193,8 +192,7 @@ class Router {
     return list.back();
   }
 
-  // --- feedback
-  // ---------------------------------------------------------------------------------------------------------
+  // --- feedback ------------------------------------------------------------------------------------------------------
 
   struct Row {
     int net = 0;
@@ -259,8 +257,7 @@ class Router {
     return bottom;
   }
 
-  // --- tracks
-  // -----------------------------------------------------------------------------------------------------------
+  // --- tracks --------------------------------------------------------------------------------------------------------
 
   /// How often wires cross if `a` is left of `b`.
   static int crossings(const Trunk& a, const Trunk& b) {
@@ -314,8 +311,7 @@ class Router {
           channel[i].x = std::max(channel[i].x, channel[k].x + 1);
   }
 
-  // --- places
-  // -----------------------------------------------------------------------------------------------------------
+  // --- places --------------------------------------------------------------------------------------------------------
 
   double unit_room_behind(const std::vector<Cell>& column) {
     double room = unit_room;
@@ -351,8 +347,7 @@ class Router {
     sheet_.width = x + margin;
   }
 
-  // --- paths
-  // ------------------------------------------------------------------------------------------------------------
+  // --- paths ---------------------------------------------------------------------------------------------------------
 
   const Trunk* find_trunk(int channel, int net) const {
     for (const auto& t : channels_[static_cast<std::size_t>(channel)])

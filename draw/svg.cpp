@@ -96,8 +96,7 @@ void arrow_head(xml_node parent, Point from, Point tip, double length, const cha
           css);
 }
 
-// --- symbols
-// ----------------------------------------------------------------------------------------------------------
+// --- symbols ---------------------------------------------------------------------------------------------------------
 
 /// The pictogram in an area of the box, its middle at (x, y).
 void draw_pictogram(xml_node parent, const Pictogram& picture, double x, double y, double half_width,
@@ -268,8 +267,7 @@ void draw_continuations(xml_node parent, const Sheet& sheet) {
   }
 }
 
-// --- wires
-// --------------------------------------------------------------------------------------------------------------
+// --- wires -----------------------------------------------------------------------------------------------------------
 
 void draw_wire(xml_node parent, const Sheet& sheet, const Wire& wire) {
   xml_node group = add(parent, "g", wire.feedback ? "wire feedback" : "wire");

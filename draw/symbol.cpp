@@ -56,8 +56,14 @@ const Look* find_look(const std::string& type) {
       {"creep", {"step_response", true}},
       {"table", {"table"}},
       {"lookup_table", {"table", true}},
-      {"hold", {"sampled", true}},
-      {"sampler", {"sampled", true}},
+      {"sample_hold", {"sampled", true}},
+      {"sampled_bouc_wen_inverse", {"hysteresis_inverse", true}},
+      {"sampled_jiles_atherton_inverse", {"hysteresis_inverse", true}},
+      {"mass_spring_damper", {"mass", true}},
+      {"mass_on_stiffening_spring", {"mass", true}},
+      {"mass_with_friction", {"mass", true}},
+      {"mass_with_stops", {"mass", true}},
+      {"tank", {"tank", true}},
   };
   const auto found = all.find(type);
   return found == all.end() ? nullptr : &found->second;
@@ -72,13 +78,17 @@ std::string power(const std::string& variable, std::size_t exponent) {
   return text;
 }
 
-/// "0.5 s² + s + 1" from the coefficients, highest power first.
+/// z⁻ⁿ
+std::string delayed(std::size_t n) { return n == 0 ? "" : n == 1 ? "z⁻¹" : power("z⁻", n); }
+
+/// "0.5 s² + s + 1" from the coefficients, highest power first; in z⁻¹ lowest power first.
 std::string polynomial(const std::vector<double>& coefficients, const std::string& variable) {
+  const bool delays = variable == "z⁻";
   std::string text;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     const double c = coefficients[i];
     if (c == 0 && coefficients.size() > 1) continue;
-    const std::string s = power(variable, coefficients.size() - 1 - i);
+    const std::string s = delays ? delayed(i) : power(variable, coefficients.size() - 1 - i);
     const std::string size = std::abs(c) == 1 && !s.empty() ? "" : fmt::format("{:.4g}", std::abs(c));
     text += text.empty() ? (c < 0 ? "−" : "") : (c < 0 ? " − " : " + ");
     text += size + (size.empty() || s.empty() ? "" : " ") + s;
@@ -176,7 +186,9 @@ Symbol transfer_function(const Values& values, const std::string& variable) {
     return s;
   }
   const auto short_form = [&](const char* name, std::size_t n) {
-    return n < 2 ? std::string(name) : fmt::format("{}₀{} + …", name, power(variable, n - 1));
+    if (n < 2) return std::string(name);
+    return variable == "s" ? fmt::format("{}₀{} + …", name, power(variable, n - 1))
+                           : fmt::format("{}₀ + {}₁z⁻¹ + …", name, name);
   };
   return fraction(short_form("b", num.size()), short_form("a", den.size()));
 }
@@ -231,20 +243,25 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
   } else if (type == "transfer_function") {
     s = transfer_function(values, "s");
   } else if (type == "discrete_transfer_function") {
-    s = transfer_function(values, "z");
+    s = transfer_function(values, "z⁻");
   } else if (type == "state_space") {
     s = text_symbol({"ẋ = A x + B u", "y = C x + D u"}, n_in, n_out);
+  } else if (type == "mux" || type == "demux") {
+    s = formula("⋮");
+    s.width = type == "mux" ? 36 : 44;
   } else if (type == "matrix_gain") {
     s = formula("K u");
   } else if (type == "pi_controller") {
     s = formula("kp + ki/s");
   } else if (type == "pid_controller") {
     s = formula("kp + ki/s + kd s");
-  } else if (type == "discrete_pi" || type == "discrete_pid") {
-    s = picture("sampled", type == "discrete_pi" ? "PI" : "PID");
+  } else if (type == "sampled_pid") {
+    s = formula("PID");
+    s.note = "sampled";
+    s.height = 54;
   } else if (type == "dead_time") {
     s = formula("e⁻ˢᵀ");
-  } else if (type == "delay_line" || type == "delay" || type == "unit_delay") {
+  } else if (type == "delay_line") {
     s = formula("z⁻ⁿ");
   } else if (const Look* look = find_look(type)) {
     s = picture(look->picture, look->note ? type : "");
