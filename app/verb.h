@@ -66,6 +66,7 @@ OptionSpec allow();
 Verb new_verb();
 Verb run_verb();
 Verb check_verb();
+Verb explain_verb();
 Verb draw_verb();
 Verb blocks_verb();
 Verb effects_verb();

@@ -1,0 +1,385 @@
+// The verb explain: what the compiler made of a diagram, and how a simulation would go about it.
+// Nothing is simulated.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "app/load.h"
+#include "app/numbers.h"
+#include "app/program_facts.h"
+#include "app/terminal.h"
+#include "app/verb.h"
+#include "engine/corners.h"
+#include "engine/error.h"
+#include "engine/jacobian.h"
+#include "engine/nominal.h"
+#include "engine/simulate.h"
+#include "engine/simulate_parts.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: what does the program make of this diagram - in which order are blocks evaluated, where are\n"
+    "loops, whose rates are computed and for whom, what makes events, which clocks tick, which solver is\n"
+    "chosen and why, and where does the value of each parameter come from.\n\n"
+    "Examples:\n"
+    "  hysteron explain stage.json\n"
+    "  hysteron explain loop.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n\n"
+    "Prints to the terminal; nothing is simulated and nothing is written.\n"
+    "Exit codes: 0 done, 2 the diagram is wrong.";
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const Unit& second() {
+  static const Unit unit = parse_unit("s");
+  return unit;
+}
+
+std::string time_text(double seconds) { return quantity_text(seconds, second(), 6); }
+
+std::string joined(const std::vector<std::string>& list) { return fmt::format("{}", fmt::join(list, ", ")); }
+
+class Explanation {
+ public:
+  Explanation(const Program& program, const Diagram& diagram, std::string file)
+      : program_(program), diagram_(diagram), file_(std::move(file)), run_(start(program)) {}
+
+  void print() const {
+    const auto nonempty = [](const std::string& text) { return text.empty() ? "" : ": " + text; };
+    fmt::print("{}", wrapped(fmt::format("{}{}", file_, nonempty(program_.title))));
+    fmt::print("{}",
+               wrapped(fmt::format("{}, {}, {}, {}", count_text(static_cast<long>(program_.blocks.size()), "block"),
+                                   count_text(static_cast<long>(program_.signals.size()), "signal"),
+                                   count_text(program_.n_x, "continuous state"),
+                                   count_text(static_cast<long>(program_.parameters.size()), "number")),
+                       2));
+    print_choices();
+    print_order();
+    print_loops();
+    print_rates();
+    print_events();
+    print_clocks();
+    print_solver();
+    print_states();
+    print_parameters();
+  }
+
+ private:
+  const BlockInstance& block(int b) const { return program_.blocks[at(b)]; }
+  const std::string& path(int b) const { return block(b).path; }
+  std::vector<std::string> paths(const std::vector<int>& blocks) const {
+    std::vector<std::string> list;
+    for (const int b : blocks) list.push_back(path(b));
+    return list;
+  }
+  const std::string& type(int b) const { return block(b).kernel->declaration.type; }
+
+  static void head(const std::string& title) { fmt::print("\n{}\n", title); }
+  static void say(const std::string& text) { fmt::print("{}", wrapped(text, 2)); }
+
+  void print_choices() const {
+    Rows rows;
+    for (const auto& [name, node] : diagram_.blocks)
+      if (!node.from.empty()) rows.push_back({name, node.choose, "of " + joined(node.from.names())});
+    if (rows.empty()) return;
+    head("choices");
+    fmt::print("{}", table_text({}, rows));
+  }
+
+  // --- order ---------------------------------------------------------------------------------------------------------
+
+  void print_order() const {
+    head("order of evaluation");
+    Rows rows;
+    // Values that dx/dt does not need (what is only recorded) come behind.
+    std::vector<bool> seen(program_.blocks.size(), false);
+    const std::function<void(const Step&, const std::string&)> add = [&](const Step& step, const std::string& when) {
+      if (step.order == Order::loop) {
+        const Loop& loop = program_.loops[at(step.block)];
+        const std::string name = fmt::format("loop {}", step.block + 1);
+        rows.push_back({fmt::format("{}", rows.size() + 1), "solve", name, "", when, "for " + joined(tears_of(loop))});
+        for (const auto& inner : loop.steps) add(inner, "in " + name);
+        return;
+      }
+      const auto& b = block(step.block);
+      std::vector<std::string> reads;
+      for (const int s : b.source) reads.push_back(program_.signals[at(s)].path);
+      rows.push_back({fmt::format("{}", rows.size() + 1), name_of(step.order), b.path, type(step.block), when,
+                      reads.empty() ? "" : "reads " + joined(reads)});
+    };
+    const auto values_in = [&](const Step& step) {
+      if (step.order == Order::loop) return program_.loops[at(step.block)].blocks;
+      return step.order == Order::value ? std::vector<int>{step.block} : std::vector<int>{};
+    };
+    for (const auto& step : program_.derivative_steps) {
+      for (const int b : values_in(step)) seen[at(b)] = true;
+      add(step, "");
+    }
+    for (const auto& step : program_.all_values) {
+      const auto blocks = values_in(step);
+      if (std::any_of(blocks.begin(), blocks.end(), [&](int b) { return !seen[at(b)]; })) add(step, "outputs only");
+    }
+    for (const auto& step : program_.rate_steps) add(step, "events only");
+    fmt::print("{}", table_text({"", "what", "of block", "type", "needed for", ""}, rows));
+  }
+
+  static std::string name_of(Order order) {
+    return order == Order::value ? "value" : order == Order::rate ? "rate" : "dx/dt";
+  }
+
+  /// "drive", "d/dt drive", "dx/dt of stage.x": what a loop is solved for.
+  std::vector<std::string> tears_of(const Loop& loop) const {
+    std::vector<std::string> names;
+    for (const auto& tear : loop.tears)
+      names.push_back(tear.order == Order::derivative
+                          ? "dx/dt of " + program_.state_names[at(tear.index)]
+                          : (tear.order == Order::rate ? "d/dt " : "") + program_.signals[at(tear.index)].path);
+    return names;
+  }
+
+  void print_loops() const {
+    head("loops");
+    const auto around = [](std::vector<std::string> names) {
+      names.push_back(names.front());
+      return fmt::format("{}", fmt::join(names, " -> "));
+    };
+    for (std::size_t i = 0; i < program_.loops.size(); ++i) {
+      const Loop& loop = program_.loops[i];
+      std::vector<int> way;
+      for (const auto& step : loop.path)
+        if (way.empty() || way.back() != step.block) way.push_back(step.block);
+      if (way.size() > 1 && way.front() == way.back()) way.pop_back();
+      say(fmt::format("algebraic loop {} of {}: {}; solved at every evaluation for {}", i + 1,
+                      loop.of_values() ? "values" : "rates", around(paths(way)), joined(tears_of(loop))));
+    }
+    if (program_.loops.empty()) say("algebraic: none; no output depends on itself at the same instant");
+    const auto feedback = feedback_loops(program_);
+    for (const auto& loop : feedback)
+      if (!loop.opened_by.empty())
+        say(fmt::format("feedback: {} ({} with a delay or through a state)", around(paths(loop.blocks)),
+                        joined(paths(loop.opened_by)) +
+                            (loop.opened_by.size() == 1 ? " follows its input" : " follow their inputs")));
+    if (feedback.empty()) say("feedback: none");
+  }
+
+  void print_rates() const {
+    head("rates that are computed (exactly, by the chain rule)");
+    Rows rows;
+    for (const auto& rate : needed_rates(program_))
+      rows.push_back({"d/dt " + program_.signals[at(rate.signal)].path, "for " + joined(rate.asked_by)});
+    if (rows.empty())
+      say("none; nobody asks for one");
+    else
+      fmt::print("{}", table_text({}, rows));
+  }
+
+  // --- events --------------------------------------------------------------------------------------------------------
+
+  void print_events() const {
+    head("events");
+    Rows rows;
+    const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
+      if (!who.empty()) rows.push_back({what, joined(who), how});
+    };
+    std::vector<std::string> corners, late, jumping, noisy, following, modal, turning, silent;
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
+      const auto& one = program_.blocks[b];
+      if (one.n_u == 0 && (one.kernel->next_corner != nullptr || one.kernel->declaration.is_series))
+        corners.push_back(one.path);
+      if (one.sizes.history) late.push_back(one.path);
+      if (one.kernel->has_modes()) modal.push_back(one.path);
+      bool jump = false;
+      for (const int s : one.source) jump |= program_.signals[at(s)].smoothness == Smoothness::jumps;
+      if (jump && (one.kernel->declaration.is_rate_independent || one.sizes.memory > 0)) following.push_back(one.path);
+      if (one.sizes.memory > 0)
+        for (const int s : one.source)
+          (program_.has_rate[at(s)] ? turning : silent).push_back(one.path + " (" + program_.signals[at(s)].path + ")");
+    }
+    for (const auto& signal : program_.signals) {
+      if (signal.smoothness == Smoothness::jumps) jumping.push_back(signal.path);
+      if (signal.smoothness == Smoothness::no_rate) noisy.push_back(signal.path);
+    }
+    add("corners of sources", corners, "known times: the solver stops there");
+    add("dead times", late, "corners come again, later");
+    add("signals that jump", jumping, "");
+    add("followed as paths", following, "a jump is walked as the path of a fast ramp");
+    add("signals without a rate", noisy, "");
+    add("reversals located", turning, "where the input's rate changes its sign (a root)");
+    add("reversals not located", silent, "the input has no rate; exact where it is held");
+    add("modes", modal, "change where the guard falls through zero (a root)");
+    if (rows.empty())
+      say("none; every signal is smooth and no block remembers");
+    else
+      fmt::print("{}", table_text({}, rows));
+  }
+
+  void print_clocks() const {
+    head("clocks");
+    const auto clocks = clock_facts(program_);
+    if (clocks.empty()) return say("none; no block is sampled");
+    Rows rows;
+    for (const auto& clock : clocks)
+      rows.push_back(
+          {"every " + time_text(clock.period), "from " + time_text(clock.offset), joined(paths(clock.blocks))});
+    fmt::print("{}", table_text({}, rows));
+    std::vector<std::string> taken, held;
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b)
+      for (const int s : program_.blocks[b].source) {
+        const auto& from = program_.blocks[at(program_.signals[at(s)].block)];
+        const bool sampled = program_.blocks[b].kernel->is_sampled();
+        auto& list = sampled ? taken : held;
+        const std::string text = program_.signals[at(s)].path + " for " + program_.blocks[b].path;
+        if (sampled != from.kernel->is_sampled() && std::find(list.begin(), list.end(), text) == list.end())
+          list.push_back(text);
+      }
+    if (!taken.empty()) say("continuous signals read at instants: " + joined(taken));
+    if (!held.empty()) say("held between instants: " + joined(held));
+  }
+
+  // --- solver --------------------------------------------------------------------------------------------------------
+
+  bool inputs_unbound() const { return !program_.input_names.empty(); }
+
+  /// "" if the exact advance applies; else what stands in the way.
+  std::string why_not_exactly(SimulateOptions options) const {
+    options.method = Method::exact;
+    try {
+      advances_exactly(program_, options);
+      return "";
+    } catch (const Error& error) {
+      const std::string& what = error.problems.front().what;
+      const auto colon = what.find(": ");
+      return colon == std::string::npos ? what : what.substr(colon + 2);
+    }
+  }
+
+  void print_solver() const {
+    head("solver");
+    const SimulateOptions options = simulate_options(program_);
+    const std::string reason = why_not_exactly(options);
+    const bool exact = reason.empty() && (options.method == Method::automatic || options.method == Method::exact);
+    Rows rows;
+    const bool asked = options.method != Method::automatic;
+    const std::string method = exact ? "exact" : method_name(asked ? options.method : Method::bdf);
+    rows.push_back({"method", method,
+                    asked   ? "as the diagram says"
+                    : exact ? "every source is a recording, everything else static, with memory, or linear"
+                            : "the exact advance does not apply, and the diagram asks for no other"});
+    rows.push_back({"exact row by row", reason.empty() ? "applies" : "does not apply", reason});
+    const double until = options.until;
+    rows.push_back({"until", program_.simulate.until ? time_text(until) : "open",
+                    program_.simulate.until ? from_diagram(true) : "--until, or the recordings of --data"});
+    rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
+                    from_diagram(program_.simulate.every.has_value())});
+    if (!exact) add_integrator_rows(rows, options);
+    fmt::print("{}", table_text({}, rows));
+  }
+
+  static std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }
+
+  void add_integrator_rows(Rows& rows, const SimulateOptions& options) const {
+    const auto& given = program_.simulate;
+    if (options.method == Method::euler || options.method == Method::rk4) {
+      rows.push_back({"step", time_text(options.step), from_diagram(given.step.has_value())});
+      return;
+    }
+    rows.push_back({"relative tolerance", number_text(options.relative_tolerance),
+                    from_diagram(given.relative_tolerance.has_value())});
+    rows.push_back({"absolute tolerance", number_text(options.absolute_tolerance),
+                    from_diagram(given.absolute_tolerance.has_value()) +
+                        "; times the relative one, times the nominal size of each state"});
+    const auto [longest, why] = longest_step_and_why(options);
+    rows.push_back({"longest step", longest, why});
+    const bool implicit = options.method == Method::automatic || options.method == Method::bdf;
+    if (implicit && program_.n_x > 0) {
+      const Jacobian jacobian(program_);
+      rows.push_back({"Jacobian", fmt::format("{} x {}", program_.n_x, program_.n_x),
+                      fmt::format("exact slopes, {}", count_text(jacobian.colours(), "direction"))});
+    }
+  }
+
+  std::pair<std::string, std::string> longest_step_and_why(const SimulateOptions& options) const {
+    if (options.max_step > 0) return {time_text(options.max_step), "as the diagram says"};
+    const double longest = longest_step(program_, run_, options.until - options.begin);
+    if (!std::isfinite(longest)) return {"not limited", "no source reaches a memory, and there is no dead time"};
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
+      const auto& one = program_.blocks[b];
+      if (one.kernel->pace == nullptr || one.series_index >= 0) continue;
+      if (one.kernel->pace(view_of(program_, run_, static_cast<int>(b))) / 4 == longest)
+        return {time_text(longest),
+                fmt::format("a quarter of the shortest period of {}, which reaches a memory", one.path)};
+    }
+    return {time_text(longest), "the shortest dead time"};
+  }
+
+  void print_states() const {
+    if (program_.n_x == 0) return;
+    head("continuous states");
+    Rows rows;
+    const auto sizes = inputs_unbound() ? NominalSizes{} : nominal_sizes(program_, run_);
+    const auto options = simulate_options(program_);
+    for (std::size_t i = 0; i < program_.state_names.size(); ++i) {
+      std::vector<std::string> row{program_.state_names[i], number_text(run_.x[i])};
+      if (i < sizes.states.size()) {
+        row.push_back(number_text(sizes.states[i]));
+        row.push_back(number_text(sizes.states[i] * options.relative_tolerance * options.absolute_tolerance));
+      } else {
+        row.insert(row.end(), {"by the recording", "by the recording"});
+      }
+      rows.push_back(std::move(row));
+    }
+    fmt::print("{}", table_text({"state", "start [SI]", "nominal size [SI]", "absolute tolerance [SI]"}, rows));
+  }
+
+  // --- parameters ----------------------------------------------------------------------------------------------------
+
+  void print_parameters() const {
+    head("parameters");
+    Rows rows;
+    for (const auto& info : program_.parameters) {
+      const std::string value =
+          info.difference ? difference_text(info.value, info.unit, 6) : quantity_text(info.value, info.unit, 6);
+      rows.push_back({info.path, value, origin_text(info.origin) + used_as(info)});
+    }
+    if (rows.empty()) return say("none");
+    fmt::print("{}", table_text({"parameter", "value", "from"}, rows));
+  }
+
+  /// Of a diagram parameter: the places that read it.
+  std::string used_as(const ParameterInfo& info) const {
+    std::vector<std::string> places;
+    const int index = static_cast<int>(&info - program_.parameters.data());
+    for (const auto& [name, i] : program_.parameter_names)
+      if (i == index && name != info.path) places.push_back(name);
+    return (places.empty() ? "" : "; read as " + joined(places)) + (info.free ? "; free for a fit" : "");
+  }
+
+  const Program& program_;
+  const Diagram& diagram_;
+  std::string file_;
+  Run run_;
+};
+
+int explain(const Arguments& arguments) {
+  const Diagram diagram = load_diagram(arguments);
+  const ProgramPointer program = compile_file(diagram);
+  with_lines_of(diagram, [&] { Explanation(*program, diagram, arguments.text("diagram")).print(); });
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb explain_verb() {
+  return {"explain",
+          "what the compiler made of a diagram",
+          help,
+          {options::diagram(), options::set(), options::choose(), options::allow()},
+          explain};
+}
+
+}  // namespace hysteron
