@@ -75,7 +75,7 @@ void SampledBoucWenInverse::describe(BlockSpec<SampledBoucWenInverse>& spec) {
       .elementwise()
       .at("command");
   spec.law("u_k = (y_k + origin + z_k)/d_p, z_k from z_(k-1) along the straight way from y_(k-1) to y_k")
-      .from(std::string(source) + "; Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26");
+      .from(std::string(source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
   spec.remark(
       "Each sample is integrated with controlled error (1e-10 of its way), however large the step. Before the first "
       "instant the wanted displacement is taken to have been zero.");

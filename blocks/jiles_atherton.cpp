@@ -89,7 +89,7 @@ void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse
       .elementwise()
       .at("command");
   spec.law(std::string("u_k = u_(k-1) + integral from y_(k-1) to y_k of dy/F(u, y + origin, d), ") + slope_text)
-      .from(std::string(source) + "; Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26");
+      .from(std::string(source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
       "Each sample is integrated with controlled error (1e-10 of its way), however large the step. Before the first "

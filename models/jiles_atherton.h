@@ -26,23 +26,35 @@ T anhysteretic(const Params<T>& p, const T& field, const T& polarisation) {
   return p.p_s * tanh((field + p.alpha * polarisation) / p.a);
 }
 
-/// Slope dP/dE of the branch with rising (direction = 1) or falling (-1) field.
+/// Slope dP/dE = over/under of the branch with rising (direction d = 1) or falling (-1) field:
 ///
 ///   F = [ (P_an - P)/(k d - alpha/(1-c) (P_an - P)) + R ] / [ 1 - alpha R ],   R = (c P_s/a) sech^2((E + alpha P)/a)
 ///
+/// as one fraction: with q = P_an - P, G = (1-c) k d - alpha q and s = c P_s sech^2,
+/// F = [ (1-c) a q + s G ]/[ G (a - alpha s) ].
 /// The irreversible part is not cut off where it is negative: the parameters of the thesis hold for the law as it
-/// stands. Odd: F(-E, -P, -d) = F(E, P, d). There is no law where either denominator is zero.
+/// stands. Odd: F(-E, -P, -d) = F(E, P, d). There is no law where either bracket below is zero.
 /// Source: thesis Eqs. 2.29 to 2.34, the reversible term by the chain rule (the printed one has a factor alpha too
 /// many); Jiles, Atherton, J. Magn. Magn. Mater. 61 (1986) 48-60; Smith, Ounaies, J. Intell. Mater. Syst. Struct. 11
 /// (2000) 62-79.
 template <class T>
-T slope(const Params<T>& p, const T& field, const T& polarisation, int direction) {
+struct Slope {
+  T over, under;
+};
+template <class T>
+Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisation, int direction) {
   using std::tanh;
   const T h = tanh((field + p.alpha * polarisation) / p.a);
-  const T pull = p.p_s * h - polarisation;
-  const T reversible = p.c * p.p_s / p.a * (T{1} - h * h);
-  const T irreversible = pull / (T(direction) * p.k - p.alpha / (T{1} - p.c) * pull);
-  return (irreversible + reversible) / (T{1} - p.alpha * reversible);
+  const T q = p.p_s * h - polarisation;
+  const T s = p.c * p.p_s * (T{1} - h * h);
+  const T held = T{1} - p.c;
+  const T g = T(direction) * held * p.k - p.alpha * q;
+  return {held * p.a * q + s * g, g * (p.a - p.alpha * s)};
+}
+template <class T>
+T slope(const Params<T>& p, const T& field, const T& polarisation, int direction) {
+  const Slope<T> f = slope_fraction(p, field, polarisation, direction);
+  return f.over / f.under;
 }
 
 /// dP/dt for the rate of the field: F(E, P, sign v) v. Rate independent: scaling v > 0 scales the answer alike.
@@ -58,7 +70,8 @@ T polarisation_rate(const Params<T>& p, const T& polarisation, const T& field, c
 /// Needs F > 0, where the field rises with the polarisation. Source: thesis Eq. 2.35.
 template <class T>
 T field_rate(const Params<T>& p, const T& field, const T& polarisation, const T& polarisation_rate) {
-  return polarisation_rate / slope(p, field, polarisation, polarisation_rate < T{0} ? -1 : 1);
+  const Slope<T> f = slope_fraction(p, field, polarisation, polarisation_rate < T{0} ? -1 : 1);
+  return polarisation_rate * (f.under / f.over);
 }
 
 /// Polarisation after a straight move of the field. Exact to `relative` of its way; not a number where the law ends.
