@@ -249,7 +249,7 @@ class Router {
 
   /// The lowest of all that stands in these columns and in the channels at their sides.
   double bottom_of(int first, int last) const {
-    double bottom = 0;
+    double bottom = -std::numeric_limits<double>::infinity();  // heights are negative as well
     for (int c = first; c <= last; ++c)
       for (const auto& cell : columns_[static_cast<std::size_t>(c)]) bottom = std::max(bottom, cell.y + cell.down);
     for (int c = first; c <= last + 1; ++c)

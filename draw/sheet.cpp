@@ -39,7 +39,8 @@ class Maker {
       at[name] = static_cast<int>(sheet.items.size());
       sheet.items.push_back(port(prefix + name, name, "input", input.remark));
       sheet.items.back().out = {"y"};
-      sheet.items.back().out_units = {input.unit};
+      sheet.items.back().out_lengths = {length_of_path(prefix + name)};
+      sheet.items.back().out_units = {with_length(input.unit, sheet.items.back().out_lengths[0])};
     }
     const auto reached = reached_inside(diagram, outputs);
     for (const auto& [name, node] : diagram.blocks) {
@@ -123,7 +124,7 @@ class Maker {
     item.type = body.type;
     for (const auto& [port, wire] : ports_of(declaration, wires_of(node, body))) item.in.push_back(port);
     item.out = output_names(declaration, body);
-    for (const auto& port : item.out) item.out_units.push_back(unit_of(item, port));
+    for (const auto& port : item.out) tell_signal(item, item.out.size() == 1 ? item.path : item.path + "." + port);
     const Values values = values_of(body, declaration, around);
     item.symbol = symbol_of(declaration, values, static_cast<int>(item.in.size()), static_cast<int>(item.out.size()));
     item.caption = caption_lines(values, item.symbol.shown, lines_of_values);
@@ -140,7 +141,7 @@ class Maker {
     Ordered<std::string> outputs = inner.outputs;
     for (const auto& signal : further) outputs[signal] = signal;
     item.out = outputs.names();
-    for (const auto& [name, signal] : outputs) item.out_units.push_back(unit_of_path(item.path + "/" + signal));
+    for (const auto& [name, signal] : outputs) tell_signal(item, item.path + "/" + signal);
     for (const auto& [name, value] : body.parameters) {
       const ParameterDeclaration plain{.name = name, .unit = "", .meaning = ""};
       item.caption.push_back(name + " " + value_text(resolved(value, around), plain));
@@ -241,15 +242,35 @@ class Maker {
 
   // --- units --------------------------------------------------------------------------------------------------------
 
-  std::string unit_of(const Item& item, const std::string& port) const {
-    return unit_of_path(item.out.size() == 1 ? item.path : item.path + "." + port);
+  /// What the wires of the next output carry.
+  void tell_signal(Item& item, const std::string& path) const {
+    item.out_lengths.push_back(length_of_path(path));
+    item.out_units.push_back(with_length(unit_of_path(path), item.out_lengths.back()));
   }
 
+  /// Elements of a vector stand in the program as "tilt[0]", "tilt[1]" ...
+  int length_of_path(const std::string& path) const {
+    int n = 0;
+    while (program_.find_signal(fmt::format("{}[{}]", path, n)) >= 0) ++n;
+    return std::max(n, 1);
+  }
+
+  /// "" also where the elements of a vector have different units.
   std::string unit_of_path(const std::string& path) const {
-    for (const auto& name : {path, path + "[0]"})
-      if (const int signal = program_.find_signal(name); signal >= 0)
-        return program_.signals[static_cast<std::size_t>(signal)].unit.text;
-    return "";
+    const auto unit = [&](const std::string& name) -> std::string {
+      const int signal = program_.find_signal(name);
+      return signal < 0 ? "" : program_.signals[static_cast<std::size_t>(signal)].unit.text;
+    };
+    if (program_.find_signal(path) >= 0) return unit(path);
+    const std::string first = unit(path + "[0]");
+    for (int k = 1; k < length_of_path(path); ++k)
+      if (unit(fmt::format("{}[{}]", path, k)) != first) return "";
+    return first;
+  }
+
+  static std::string with_length(const std::string& unit, int length) {
+    if (length == 1) return unit;
+    return unit.empty() ? fmt::format("[{}]", length) : fmt::format("{} [{}]", unit, length);
   }
 
   const Program& program_;

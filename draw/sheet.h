@@ -32,7 +32,8 @@ struct Item {
   Symbol symbol;                         ///< how it looks; its size
   std::vector<std::string> caption{};    ///< lines below the name: key values with units
   std::vector<std::string> in{}, out{};  ///< names of the ports, one per wire that can end there
-  std::vector<std::string> out_units{};  ///< "um", per output; "" = dimensionless
+  std::vector<std::string> out_units{};  ///< per output: "um", "" = dimensionless, "um [3]" of a vector
+  std::vector<int> out_lengths{};        ///< per output: elements
   int candidates = 0;                    ///< > 0: the chosen one of so many
   std::string chosen{};                  ///< its name
   std::shared_ptr<Sheet> inside{};       ///< a nested diagram that is open

@@ -28,6 +28,7 @@ text { fill: #1b2733; stroke: none; }
 .mark { fill: #0b62a4; }
 .bar { stroke: #1b2733; stroke-width: 1; }
 .wire path { fill: none; stroke: #1b2733; stroke-width: 1; shape-rendering: crispEdges; }
+.vector path { stroke-width: 2; }
 .wire polygon, .branch { fill: #1b2733; }
 .title { font-size: 15px; font-weight: bold; }
 .name { font-size: 12px; font-weight: bold; }
@@ -186,7 +187,8 @@ void draw_signs(xml_node group, const Item& item) {
 
 void draw_port_names(xml_node group, const Item& item) {
   if (!item.symbol.port_names || !item.symbol.signs.empty()) return;
-  for (std::size_t i = 0; i < item.in.size() && item.in.size() > 1; ++i) {
+  const bool alike = std::set<std::string>(item.in.begin(), item.in.end()).size() <= 1;  // the inputs of a mux
+  for (std::size_t i = 0; i < item.in.size() && !alike; ++i) {
     const Point port = in_port(item, static_cast<int>(i));
     text(group, item.x + 5, item.y + port.y + 3, "start", item.in[i], "small");
   }
@@ -270,8 +272,10 @@ void draw_continuations(xml_node parent, const Sheet& sheet) {
 // --- wires -----------------------------------------------------------------------------------------------------------
 
 void draw_wire(xml_node parent, const Sheet& sheet, const Wire& wire) {
-  xml_node group = add(parent, "g", wire.feedback ? "wire feedback" : "wire");
   const Item& from = sheet.items[static_cast<std::size_t>(wire.from)];
+  const bool is_vector = from.out_lengths[static_cast<std::size_t>(wire.out)] > 1;
+  const std::string css = std::string("wire") + (is_vector ? " vector" : "") + (wire.feedback ? " feedback" : "");
+  xml_node group = add(parent, "g", css.c_str());
   const Item& to = sheet.items[static_cast<std::size_t>(wire.to)];
   group.append_attribute("data-signal") = wire.signal.c_str();
   group.append_attribute("data-from") = from.path.c_str();

@@ -248,6 +248,41 @@ TEST(Drawing, ANestedDiagramIsABoxWithItsPortsUntilItIsOpened) {
   EXPECT_TRUE(find_wire(open, "stage/spring", "stage/force")->feedback);
 }
 
+TEST(Drawing, AVectorIsAThickWireWithItsLength) {
+  Diagram d;
+  for (const char* name : {"a", "b"}) {
+    d.blocks[name] = block("constant");
+    d.blocks[name].parameters["value"] = Value("2 V");
+  }
+  d.blocks["both"] = block("mux", {"a", "b"});
+  d.blocks["twice"] = gain("2", "both");
+  d.blocks["one"] = gain("3", "twice[1]");
+  d.record = {"one"};
+  const Picture p = drawn(d);
+  EXPECT_EQ(faults(p), "");
+  EXPECT_EQ(p.wires.size(), 4U);
+  EXPECT_NE(p.find("both")->texts.find("V [2]"), std::string::npos) << p.find("both")->texts;
+  EXPECT_EQ(p.find("a")->texts.find("["), std::string::npos);
+  const std::string text = svg(d);
+  const auto thick = [&](const std::string& signal) {
+    return text.find("class=\"wire vector\" data-signal=\"" + signal + "\"") != std::string::npos;
+  };
+  EXPECT_TRUE(thick("both"));
+  EXPECT_FALSE(thick("a"));
+}
+
+TEST(Drawing, FeedbackStaysNearTheBlocksThatItPasses) {
+  // Only the caption of the deepest block, a gap and the row lie below the blocks of this loop.
+  Diagram d = loop();
+  d.blocks.erase("compensator");
+  d.blocks["drive"] = sum("+", {"controller"});
+  const Picture p = drawn(d);
+  double row = 0, lowest = 0;
+  for (const auto& place : find_wire(p, "plant", "error")->path) row = std::max(row, place.y);
+  for (const auto& o : p.outlines) lowest = std::max(lowest, o.bottom);
+  EXPECT_LT(row - lowest, 110) << "a caption of six lines is 90 px";
+}
+
 TEST(Drawing, OfTheSameDiagramIsTheSameText) { EXPECT_EQ(svg(nested(), 1), svg(nested(), 1)); }
 
 TEST(Drawing, TextsOfAnyKindStayTexts) {
