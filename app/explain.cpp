@@ -35,12 +35,12 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-const Unit& second() {
-  static const Unit unit = parse_unit("s");
-  return unit;
+/// "0.1 ms": times here come from many files, so none of their units is right for all.
+std::string time_text(double seconds) {
+  const double size = std::abs(seconds);
+  const char* unit = size == 0 || size >= 1 ? "s" : size >= 0.999e-3 ? "ms" : size >= 0.999e-6 ? "us" : "ns";
+  return quantity_text(seconds, parse_unit(unit), 6);
 }
-
-std::string time_text(double seconds) { return quantity_text(seconds, second(), 6); }
 
 std::string joined(const std::vector<std::string>& list) { return fmt::format("{}", fmt::join(list, ", ")); }
 

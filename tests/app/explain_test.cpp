@@ -162,7 +162,7 @@ TEST_F(Explain, TheLongestStepIsAQuarterOfThePeriodThatReachesMemory) {
     "drive": {"type": "sine", "amplitude": "1 V", "frequency": "5 Hz"},
     "core": {"type": "play", "radius": "0.2 V", "in": "drive"}, "end": {"type": "lag", "times": ["2 ms"], "in": "core"}},
     "record": ["end"], "simulate": {"until": "1 s"}})");
-  expect_parts(text, {"longest step 0.05 s a quarter of the shortest period of drive"});
+  expect_parts(text, {"longest step 50 ms a quarter of the shortest period of drive"});
 }
 
 TEST_F(Explain, TellsClocksModesAndWhatIsHeldBetweenInstants) {
@@ -176,7 +176,7 @@ TEST_F(Explain, TellsClocksModesAndWhatIsHeldBetweenInstants) {
     "core":   {"type": "play", "radius": "0.1 V", "in": "fast"}},
     "record": ["faster", "switch", "core"], "simulate": {"until": "1 s"}})");
   expect_parts(text,
-               {"every 0.0001 s from 0 s fast, faster", "every 0.001 s from 0.0005 s slow",
+               {"every 100 us from 0 s fast, faster", "every 1 ms from 500 us slow",
                 "continuous signals read at instants: stage for slow, drive for fast",
                 "held between instants: fast for stage, fast for core", "modes switch", "followed as paths core"});
 }
