@@ -68,6 +68,7 @@ Verb run_verb();
 Verb check_verb();
 Verb explain_verb();
 Verb draw_verb();
+Verb linearize_verb();
 Verb blocks_verb();
 Verb effects_verb();
 Verb compare_verb();

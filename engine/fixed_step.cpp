@@ -51,6 +51,8 @@ class FixedSteps {
       step(std::min(stop, events_.next()));
     }
     tell();
+    run_.x = x_;
+    traces_.end = std::move(run_);
     return std::move(traces_);
   }
 

@@ -1,5 +1,6 @@
 // Decides how a program is advanced with steps of one length, as a controller in real time would: explicit Euler or the
-// classical Runge-Kutta formula of order four. No error control: the step is the user's answer to the question of accuracy.
+// classical Runge-Kutta formula of order four. No error control: the step is the user's answer to the question of
+// accuracy.
 #pragma once
 
 #include <vector>

@@ -280,6 +280,8 @@ Traces Simulation::operator()() {
   s.jacobians = counters.jacobians;
   s.restarts = counters.restarts;
   tell_events(program_, events_, s);
+  if (program_.n_x > 0) run_.x = x_;
+  traces_.end = std::move(run_);
   return std::move(traces_);
 }
 

@@ -1,6 +1,7 @@
 // Decides how a program is integrated in time: CVODE one step at a time, events, dense output, acceptance of memory.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,7 @@ struct Traces {
   std::vector<int> signals;
   std::vector<std::vector<double>> values;  ///< [signal][instant], SI
   Statistics statistics;
+  std::optional<Run> end{};  ///< where the simulation stopped; absent behind the exact advance
 };
 
 /// Simulates a copy of `run` (its inputs bound). Throws Error(Fault::numerics) naming block, time and states where it

@@ -1,0 +1,117 @@
+#include "engine/margins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hysteron {
+namespace {
+
+using std::numbers::pi;
+constexpr int refinements = 80;  // halvings: more than the digits of a double between two points of the grid
+
+/// Where `f` changes its sign between a and b, by bisection on the logarithm.
+double crossing(const std::function<double(double)>& f, double a, double b) {
+  double fa = f(a);
+  const double fb = f(b);
+  if ((fa < 0) == (fb < 0)) return std::abs(fa) < std::abs(fb) ? a : b;  // a point of the grid lies on it, but for rounding
+  for (int i = 0; i < refinements; ++i) {
+    const double middle = std::sqrt(a * b), fm = f(middle);
+    if ((fa < 0) == (fm < 0))
+      a = middle, fa = fm;
+    else
+      b = middle;
+  }
+  return std::sqrt(a * b);
+}
+
+}  // namespace
+
+std::vector<double> frequencies(std::span<const std::complex<double>> poles, double delay, int per_decade) {
+  double low = 0, high = 0;
+  for (const auto& p : poles) {
+    const double size = std::abs(p);
+    if (size == 0) continue;
+    low = low == 0 ? size : std::min(low, size);
+    high = std::max(high, size);
+  }
+  if (delay > 0) {
+    low = low == 0 ? 1 / delay : std::min(low, 1 / delay);
+    high = std::max(high, 1 / delay);
+  }
+  if (low == 0) low = high = 1;
+  // An integrator's pole near zero, made by rounding, would stretch the grid without end.
+  low = std::max(low, high * 1e-9) / 100;
+  high *= 100;
+  std::vector<double> w;
+  const int n = static_cast<int>(std::ceil(std::log10(high / low) * per_decade));
+  for (int i = 0; i <= n; ++i) w.push_back(low * std::pow(high / low, static_cast<double>(i) / n));
+  for (const auto& p : poles) {
+    const double resonance = std::abs(p.imag()), width = std::abs(p.real());
+    if (resonance == 0 || width > 0.2 * resonance) continue;
+    for (int i = -40; i <= 40; ++i) {
+      const double at = resonance + 0.25 * i * width;
+      if (at > low && at < high) w.push_back(at);
+    }
+  }
+  std::sort(w.begin(), w.end());
+  w.erase(std::unique(w.begin(), w.end()), w.end());
+  return w;
+}
+
+Bode bode(const Response& response, std::span<const double> w) {
+  Bode result;
+  double turns = 0;
+  for (const double frequency : w) {
+    const auto value = response(frequency);
+    double phase = std::arg(value) + turns;
+    if (!result.phase.empty()) {
+      const double jump = std::round((result.phase.back() - phase) / (2 * pi)) * 2 * pi;
+      turns += jump;
+      phase += jump;
+    }
+    result.w.push_back(frequency);
+    result.magnitude.push_back(std::abs(value));
+    result.phase.push_back(phase);
+  }
+  return result;
+}
+
+Margins margins(const Response& loop, const Bode& b) {
+  Margins m;
+  const auto size = [&](double w) { return std::abs(loop(w)) - 1; };
+  // Im L changes sign where Re L < 0: the phase passes -180 deg (or an odd multiple).
+  const auto imaginary = [&](double w) { return loop(w).imag(); };
+  for (std::size_t i = 1; i < b.w.size(); ++i) {
+    if ((b.magnitude[i - 1] < 1) != (b.magnitude[i] < 1)) {
+      const double w = crossing(size, b.w[i - 1], b.w[i]);
+      const double margin = std::remainder(std::arg(loop(w)) - pi, 2 * pi);  // -pi ... pi: distance from -180 deg
+      if (!m.phase_margin || std::abs(margin) < std::abs(*m.phase_margin)) {
+        m.phase_margin = margin;
+        m.phase_margin_at = w;
+        m.delay_margin = (margin < 0 ? margin + 2 * pi : margin) / w;
+      }
+    }
+    const bool turns = std::floor((b.phase[i - 1] + pi) / (2 * pi)) != std::floor((b.phase[i] + pi) / (2 * pi));
+    if (turns && std::cos(b.phase[i]) < 0 && std::cos(b.phase[i - 1]) < 0) {
+      const double w = crossing(imaginary, b.w[i - 1], b.w[i]);
+      const double margin = 1 / std::abs(loop(w));
+      if (!m.gain_margin || std::abs(std::log(margin)) < std::abs(std::log(*m.gain_margin))) {
+        m.gain_margin = margin;
+        m.gain_margin_at = w;
+      }
+    }
+  }
+  return m;
+}
+
+std::optional<double> bandwidth(const Response& response, const Bode& b) {
+  if (b.w.empty()) return std::nullopt;
+  const double limit = b.magnitude.front() / std::numbers::sqrt2;
+  for (std::size_t i = 1; i < b.w.size(); ++i)
+    if (b.magnitude[i] < limit)
+      return crossing([&](double w) { return std::abs(response(w)) - limit; }, b.w[i - 1], b.w[i]);
+  return std::nullopt;
+}
+
+}  // namespace hysteron
