@@ -66,6 +66,11 @@ int signal_of(const Arguments& arguments, const char* option, const Program& pro
 }
 
 std::string frequency_text(double w) { return number_text(w / (2 * pi), 4) + " Hz"; }
+std::string time_text(double seconds) {
+  return seconds < 1e-3 ? number_text(seconds * 1e6) + " us"
+         : seconds < 1  ? number_text(seconds * 1e3) + " ms"
+                        : number_text(seconds) + " s";
+}
 double degrees(double radians) { return radians * 180 / pi; }
 
 std::string ratio_unit(const Unit& to, const Unit& from) {
@@ -76,6 +81,7 @@ std::string ratio_unit(const Unit& to, const Unit& from) {
 
 std::string pole_text(std::complex<double> p) {
   const double size = std::abs(p);
+  if (p == 0.0) return "0 (an integrator)";
   if (p.imag() == 0) return fmt::format("{} rad/s", number_text(p.real(), 5));
   return fmt::format("{} +- {}j rad/s ({}, damping {})", number_text(p.real(), 5), number_text(std::abs(p.imag()), 5),
                      frequency_text(size), number_text(-p.real() / size, 3));
@@ -146,7 +152,7 @@ void add_margins(Document& document, Facts& facts, const Response& loop, const B
   if (m.phase_margin) {
     document.sentences.push_back(fmt::format("Phase margin {} deg at {}; a further dead time of {} would take it away.",
                                              number_text(degrees(*m.phase_margin)), frequency_text(m.phase_margin_at),
-                                             quantity_text(m.delay_margin, parse_unit("s"))));
+                                             time_text(m.delay_margin)));
     given.set("phase_margin_deg", degrees(*m.phase_margin));
     given.set("phase_margin_at_hz", m.phase_margin_at / (2 * pi));
     given.set("delay_margin_s", m.delay_margin);
@@ -193,14 +199,19 @@ int linearize_verb_act(const Arguments& arguments) {
     Section first;
     first.title = fmt::format("From {} to {}", from.path, to.path);
     document.sections.push_back(std::move(first));
+    // A pole at zero that the way from input to output sees: |G| falls with the frequency from the start.
+    const bool integrates = std::any_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; }) &&
+                            std::log(b.magnitude[0] / b.magnitude[1]) > 0.5 * std::log(b.w[1] / b.w[0]);
+    const std::string gain = integrates
+                                 ? "without bound at low frequencies"
+                                 : number_text(lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies";
     document.headline =
-        fmt::format("{} to {}{}: gain {} at low frequencies", from.path, to.path,
-                    wanted.open.empty() ? "" : ", loop open", number_text(lowest) + (unit.empty() ? "" : " " + unit));
+        fmt::format("{} to {}{}: gain {}", from.path, to.path, wanted.open.empty() ? "" : ", loop open", gain);
     Facts facts = Facts::object({{"diagram", arguments.text("diagram")},
                                  {"from", from.path},
                                  {"to", to.path},
                                  {"unit", unit},
-                                 {"gain_at_low_frequencies", lowest},
+                                 {"gain_at_low_frequencies", integrates ? std::optional<double>{} : lowest},
                                  {"operating_point_s", run.t},
                                  {"states", model.state_names},
                                  {"a", matrix_facts(model.a, model.states)},
@@ -208,11 +219,17 @@ int linearize_verb_act(const Arguments& arguments) {
                                  {"c", matrix_facts(model.c, model.outputs)},
                                  {"d", matrix_facts(model.d, model.outputs)},
                                  {"dead_times_s", model.delays}});
-    if (const auto width = bandwidth(response, b)) {
+    if (const auto width = integrates ? std::nullopt : bandwidth(response, b)) {
       document.sentences.push_back(fmt::format("Bandwidth (-3 dB) {}.", frequency_text(*width)));
       facts.set("bandwidth_hz", *width / (2 * pi));
     }
-    if (!wanted.open.empty()) add_margins(document, facts, response, b);
+    if (*std::max_element(b.magnitude.begin(), b.magnitude.end()) == 0)
+      document.warnings.push_back(fmt::format(
+          "nothing passes from {} to {} here: a saturation at its limit, a play operator inside its gap or an opened "
+          "loop stands between; --at takes another operating point",
+          from.path, to.path));
+    else if (!wanted.open.empty())
+      add_margins(document, facts, response, b);
     add_poles(document, facts, model);
     if (!model.delays.empty())
       document.warnings.push_back("dead times are in the response and in the margins, not in poles and matrices");

@@ -17,6 +17,8 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 using MapOf = Eigen::Map<const Matrix>;
 using Complex = Eigen::MatrixXcd;
 
+constexpr double zero_pole = 1e-10;  // of the largest entry of A
+
 /// One evaluation of the program in slopes, with signals moved along directions.
 class Slopes {
  public:
@@ -154,6 +156,9 @@ std::vector<std::complex<double>> LinearModel::poles() const {
   const Eigen::MatrixXd matrix = MapOf(a.data(), states, states);
   const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
   std::vector<std::complex<double>> list(values.data(), values.data() + values.size());
+  // Poles at zero come out of the rounding as far from it as the root of it (two integrators in a row).
+  for (auto& p : list)
+    if (std::abs(p) < zero_pole * matrix.cwiseAbs().maxCoeff()) p = 0;
   std::stable_sort(list.begin(), list.end(),
                    [](auto x, auto y) { return x.real() != y.real() ? x.real() > y.real() : x.imag() > y.imag(); });
   return list;

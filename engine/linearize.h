@@ -21,7 +21,8 @@ struct LinearModel {
   std::vector<double> delays;  ///< [s]
   std::vector<double> b_delayed, d_delayed, to_delays, to_delays_from_inputs, between_delays;
 
-  /// Eigenvalues of A [rad/s], by falling real part. With dead times inside a loop these are not all there is.
+  /// Eigenvalues of A [rad/s], by falling real part; exactly 0 where rounding decides. With dead
+  /// times inside a loop these are not all there is.
   std::vector<std::complex<double>> poles() const;
   /// y/u at the angular frequency w [rad/s], outputs by rows. The instant response D is included.
   std::vector<std::complex<double>> response(double w) const;

@@ -44,6 +44,37 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_EQ(folder_.entries(), before);
 }
 
+TEST_F(Verbs, LinearizeTellsPolesBandwidthAndMarginsOfALoop) {
+  // L = 100/s /(1 + s/100): |L| = 1 at w = 78.615 rad/s, where the phase margin is 51.83 deg; closed: w0 = 100 rad/s.
+  folder_.write("servo.json", R"({
+    "format": 1, "title": "Servo", "inputs": {"r": {"unit": "V"}},
+    "blocks": {
+      "error": {"type": "sum", "signs": "+-", "in": ["r", "stage"]},
+      "controller": {"type": "integrator", "in": "error"},
+      "drive": {"type": "gain", "gain": "100 1/s", "in": "controller"},
+      "stage": {"type": "lag", "times": ["10 ms"], "in": "drive"}
+    },
+    "outputs": {"y": "stage"}})");
+  const Outcome open =
+      hysteron(folder_.path(), {"linearize", "servo.json", "--from", "error", "--open", "error", "-o", "open"});
+  ASSERT_EQ(open.code, 0) << open.err;
+  EXPECT_NE(open.out.find("error to stage, loop open: gain without bound at low frequencies"), std::string::npos)
+      << open.out;
+  EXPECT_NE(open.out.find("Phase margin 51.83 deg at 12.51 Hz"), std::string::npos) << open.out;
+  const Outcome closed = hysteron(folder_.path(), {"linearize", "servo.json", "-o", "closed"});
+  ASSERT_EQ(closed.code, 0) << closed.err;
+  EXPECT_NE(closed.out.find("r to stage: gain 1 at low frequencies"), std::string::npos) << closed.out;
+  const json facts = result("closed").at("facts");
+  // w0 = 100 rad/s, damping 0.5: -3 dB where (1 - v^2)^2 + v^2 = 2, v = w/w0
+  EXPECT_NEAR(facts.at("bandwidth_hz").get<double>(), 100 * std::sqrt((1 + std::sqrt(5.0)) / 2) / (2 * M_PI), 1e-3);
+  ASSERT_EQ(facts.at("poles_rad_per_s").size(), 2U);
+  EXPECT_NEAR(facts.at("poles_rad_per_s")[0][0].get<double>(), -50, 1e-9);
+  EXPECT_NEAR(std::abs(facts.at("poles_rad_per_s")[0][1].get<double>()), 50 * std::sqrt(3.0), 1e-9);
+  const Outcome unknown = hysteron(folder_.path(), {"linearize", "servo.json", "--from", "eror"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("error"), std::string::npos) << unknown.err;
+}
+
 TEST_F(Verbs, DrawWritesOneSvgFileWithTheBlocksOfTheDiagram) {
   folder_.write("sine.json", sine);
   const Outcome outcome = hysteron(folder_.path(), {"draw", "sine.json", "--set", "drive.amplitude=1.5 V"});
