@@ -31,44 +31,48 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
 double Events::next() const { return std::min(corners_.next(), clocks_.next()); }
 double Events::branch() const { return corners_.branch(); }
 
+void Events::take(double t, Run& run) {
+  instant_.corner = corners_.next() <= t + same_instant(t);
+  if (instant_.corner) corners_.pass(t);
+  instant_.hits.clear();
+  if (clocks_.next() <= t + same_instant(t)) instant_.hits = clocks_.take(t, run);
+}
+
+bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
+  bool moved = false;
+  evaluate_values(program_, run, work, t, x.data());
+  before_ = work.y;
+  if (instant_.corner) {
+    run.branch = corners_.branch();
+    moved = follow(run, work, t, x, program_.time_blocks);
+  }
+  if (instant_.hits.empty()) return moved;
+  evaluate_values(program_, run, work, t, x.data());
+  before_ = work.y;
+  sample(run, work, t, x, instant_.hits);
+  blocks_.clear();
+  for (const int i : instant_.hits) blocks_.push_back(program_.sampled_blocks[at(i)]);
+  return follow(run, work, t, x, blocks_) || moved;
+}
+
+bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
+  const bool moved = cross(run, work, t, x);
+  hits_ += static_cast<long>(instant_.hits.size());
+  paths_ += moved ? 1 : 0;
+  return settle(run, work, t, x, {}) || moved;
+}
+
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
   starting_ = true;
-  if (clocks_.next() <= t + same_instant(t)) sample(run, work, t, x, clocks_.take(t, run));
-  settle(run, work, t, x, {});
+  pass(run, work, t, x);
   starting_ = false;
 }
 
 bool Events::follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping) {
-  if (starting_) return false;
-  const bool moved = path_.follow(run, work, t, x, before_, jumping);
-  paths_ += moved ? 1 : 0;
-  return moved;
-}
-
-bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
-  bool moved = false;
-  evaluate_values(program_, run, work, t, x.data());
-  before_ = work.y;
-  if (corners_.next() <= t + same_instant(t)) {
-    corners_.pass(t);
-    run.branch = corners_.branch();
-    moved = follow(run, work, t, x, program_.time_blocks);
-  }
-  if (clocks_.next() <= t + same_instant(t)) {
-    evaluate_values(program_, run, work, t, x.data());
-    before_ = work.y;
-    const auto& due = clocks_.take(t, run);
-    sample(run, work, t, x, due);
-    blocks_.clear();
-    for (const int i : due) blocks_.push_back(program_.sampled_blocks[at(i)]);
-    moved |= follow(run, work, t, x, blocks_);
-  }
-  moved |= settle(run, work, t, x, {});
-  return moved;
+  return !starting_ && path_.follow(run, work, t, x, before_, jumping);
 }
 
 void Events::sample(Run& run, Work& work, double t, const std::vector<double>& x, std::span<const int> due) {
-  hits_ += static_cast<long>(due.size());
   for (const int i : due) {
     due_[at(i)] = 1;
     work.views[at(program_.sampled_blocks[at(i)])].hit = run.hits[at(i)];
@@ -107,7 +111,6 @@ bool Events::settle(Run& run, Work& work, double t, std::vector<double>& x, std:
   for (int round = 0;; ++round) {
     evaluate_guards(program_, run, work, t, x.data());
     throw_if_unsolved(program_, work, t);
-    before_ = work.y;
     std::vector<int> due;
     for (int i = 0; i < guards(); ++i)
       if (work.guard[at(i)] <= 0 || (round == 0 && std::find(fired.begin(), fired.end(), i) != fired.end()))
@@ -121,21 +124,19 @@ bool Events::settle(Run& run, Work& work, double t, std::vector<double>& x, std:
                                 t, fmt::join(names, ", ")),
                     "they switch each other to and fro: give one of them hysteresis, or put a lag between them");
     }
-    change_modes(run, work, x, due);
-    follow(run, work, t, x, blocks_);
+    const auto changes = find_changes(run, work, x, due);
+    if (changes.empty()) return changed;
+    if (on_change && !starting_) on_change(changes);
+    paths_ += apply(run, work, t, x, changes) ? 1 : 0;
+    for (const auto& change : changes) ++changes_[at(change.modal)];
     watch_chatter(t);
     changed = true;
   }
 }
 
-/// New modes and states from the old evaluation, then all at once.
-void Events::change_modes(Run& run, Work& work, std::vector<double>& x, std::span<const int> due) {
-  struct Change {
-    int modal, block, mode;
-  };
-  std::vector<Change> list;
-  auto states = x;
-  blocks_.clear();
+std::vector<ModeChange> Events::find_changes(const Run& run, Work& work, const std::vector<double>& x,
+                                             std::span<const int> due) const {
+  std::vector<ModeChange> list;
   for (const int i : due) {
     const int block = program_.modal_blocks[at(i)];
     const BlockInstance& b = program_.blocks[at(block)];
@@ -143,27 +144,39 @@ void Events::change_modes(Run& run, Work& work, std::vector<double>& x, std::spa
     v.x = x.data() + b.x_begin;
     const int before = run.mode[at(i)];
     const int next = b.kernel->next_mode(v);
-    if (next == before) {
-      if (work.guard[at(i)] > 0) continue;  // a root that was none
-      fail_numerics("mode_without_end", b.path,
-                    fmt::format("{} \"{}\" may not stay in mode {} and names no other", b.kernel->declaration.type,
-                                b.path, before),
-                    "check the parameters of the block: two thresholds coincide");
+    if (next != before) {
+      list.push_back({i, block, before, next});
+      continue;
     }
-    if (b.kernel->reset != nullptr) {
-      v.mode_before = before;
-      v.mode = next;
-      v.out = states.data() + b.x_begin;
-      b.kernel->reset(v);
-    }
-    list.push_back({i, block, next});
+    if (work.guard[at(i)] > 0) continue;  // a root that was none
+    fail_numerics(
+        "mode_without_end", b.path,
+        fmt::format("{} \"{}\" may not stay in mode {} and names no other", b.kernel->declaration.type, b.path, before),
+        "check the parameters of the block: two thresholds coincide");
   }
-  for (const auto& change : list) {
-    run.mode[at(change.modal)] = change.mode;
-    ++changes_[at(change.modal)];
+  return list;
+}
+
+/// New states from one evaluation with the old modes, then all at once.
+bool Events::apply(Run& run, Work& work, double t, std::vector<double>& x, std::span<const ModeChange> changes) {
+  evaluate_guards(program_, run, work, t, x.data());
+  before_ = work.y;
+  states_ = x;
+  blocks_.clear();
+  for (const auto& change : changes) {
     blocks_.push_back(change.block);
+    const BlockInstance& b = program_.blocks[at(change.block)];
+    if (b.kernel->reset == nullptr) continue;
+    View<double>& v = work.views[at(change.block)];
+    v.x = x.data() + b.x_begin;
+    v.mode_before = change.before;
+    v.mode = change.after;
+    v.out = states_.data() + b.x_begin;
+    b.kernel->reset(v);
   }
-  x = states;
+  for (const auto& change : changes) run.mode[at(change.modal)] = change.after;
+  x = states_;
+  return follow(run, work, t, x, blocks_);
 }
 
 void Events::watch_chatter(double t) {

@@ -9,7 +9,7 @@
 // formulas), along paths, and behind (by the caller).
 #pragma once
 
-#include <map>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +21,12 @@
 
 namespace hysteron {
 
+/// One block leaves a mode for another.
+struct ModeChange {
+  int modal, block;  ///< place in program.modal_blocks, in program.blocks
+  int before, after;
+};
+
 class Events {
  public:
   /// begin, until [s]: the span of the simulation. Tolerances as of the integration; one absolute tolerance per state.
@@ -31,13 +37,24 @@ class Events {
   double branch() const;  ///< a time inside the present smooth piece of every source [s]
   int guards() const { return static_cast<int>(program_.modal_blocks.size()); }
 
+  /// To be called at a known instant (or the start) before begin(), pass() or cross(): what is due there is taken.
+  void take(double t, Run& run);
   /// At the start: what is due at t; nothing has jumped yet.
   void begin(Run& run, Work& work, double t, std::vector<double>& x);
-  /// At a known instant t, memory committed. Returns true if states changed.
+  /// At a known instant t, memory committed: cross(), then settle(). Returns true if states or modes changed.
   bool pass(Run& run, Work& work, double t, std::vector<double>& x);
+  /// Corners and samples that were taken, for this run or one beside it (twins.h). Returns true if states moved.
+  bool cross(Run& run, Work& work, double t, std::vector<double>& x);
   /// Modes whose guards are not positive; `fired`: guards in whose step the integrator saw a root (may be empty).
   /// Returns true if a mode changed.
   bool settle(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> fired);
+  /// These changes, for this run or one beside it: states are reset, jumps followed. Returns true if a path moved
+  /// states.
+  bool apply(Run& run, Work& work, double t, std::vector<double>& x, std::span<const ModeChange> changes);
+  /// Called before modes change, with everything as it was; may be empty.
+  std::function<void(std::span<const ModeChange>)> on_change{};
+  /// Between these two calls nothing that begins has jumped.
+  void starting(bool yes) { starting_ = yes; }
   /// Is a guard not positive at (t, x)?
   bool due(const Run& run, Work& work, double t, const std::vector<double>& x) const;
 
@@ -49,7 +66,8 @@ class Events {
  private:
   void sample(Run& run, Work& work, double t, const std::vector<double>& x, std::span<const int> due);
   bool follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping);
-  void change_modes(Run& run, Work& work, std::vector<double>& x, std::span<const int> due);
+  std::vector<ModeChange> find_changes(const Run& run, Work& work, const std::vector<double>& x,
+                                       std::span<const int> due) const;
   void watch_chatter(double t);
 
   const Program& program_;
@@ -58,7 +76,12 @@ class Events {
   JumpPath path_;
   double span_;
   bool starting_ = false;
-  std::vector<double> before_, sampled_;
+  struct Instant {
+    bool corner = false;
+    std::vector<int> hits;  // places in program.sampled_blocks
+  };
+  Instant instant_;
+  std::vector<double> before_, sampled_, states_;
   std::vector<unsigned char> due_;
   std::vector<int> blocks_;
   std::vector<long> changes_;

@@ -34,10 +34,12 @@ class FixedSteps {
   }
 
   Traces operator()() {
+    events_.take(t_, run_);
     events_.begin(run_, work_, t_, x_);
     commit();
     for (long grid = 1;;) {
       while (events_.next() <= t_ + same_instant(t_)) {
+        events_.take(t_, run_);
         events_.pass(run_, work_, t_, x_);
         commit();
       }

@@ -14,7 +14,8 @@ constexpr int refinements = 80;  // halvings: more than the digits of a double b
 double crossing(const std::function<double(double)>& f, double a, double b) {
   double fa = f(a);
   const double fb = f(b);
-  if ((fa < 0) == (fb < 0)) return std::abs(fa) < std::abs(fb) ? a : b;  // a point of the grid lies on it, but for rounding
+  if ((fa < 0) == (fb < 0))
+    return std::abs(fa) < std::abs(fb) ? a : b;  // a point of the grid lies on it, but for rounding
   for (int i = 0; i < refinements; ++i) {
     const double middle = std::sqrt(a * b), fm = f(middle);
     if ((fa < 0) == (fm < 0))

@@ -24,6 +24,7 @@
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
+#include "engine/twins.h"
 
 namespace hysteron {
 namespace {
@@ -51,8 +52,11 @@ class Simulation {
   int reversals() const { return options_.reversal_events ? reversals_.count() : 0; }
   bool derivative(double t, const double* x, double* dx);
   void indicate(double t, const double* x, double* g);
-  void record(double t, const double* x);
+  void record(double t, const double* x, bool inside = false);
   void record_inside(double from, double to);
+  void make_twins();
+  void restart() { solver_->start(t_, x_, s_); }
+  void record_slopes(double t, const double* x, std::span<const double> s);
   void take_step(double stop);
   void pass_instant();
   void pass_root();
@@ -71,6 +75,9 @@ class Simulation {
   Events events_;
   Reversals reversals_;
   std::unique_ptr<Jacobian> jacobian_;  // before the solver, which calls it
+  std::unique_ptr<Twins> twins_;        // as well; null if no slopes are asked for
+  std::vector<double> s_, s_inside_;    // dx/dp by columns
+  std::vector<std::vector<double>> slopes_now_;
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
@@ -104,7 +111,25 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   traces_.t = std::move(instants);
   traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
   traces_.signals = std::move(signals);
+  if (!options.slopes_for.empty()) make_twins();
   solver_ = make_solver();
+}
+
+void Simulation::make_twins() {
+  twins_ = std::make_unique<Twins>(program_, run_, options_.slopes_for);
+  s_ = twins_->start(run_, [&](Run& run) {
+    if (options_.at_rest) settle_at_rest(program_, run, options_.begin);
+  });
+  if (s_.empty()) s_.assign(static_cast<std::size_t>(twins_->count()), 0.0);  // of the dummy state
+  s_inside_ = s_;
+  traces_.slopes.assign(
+      static_cast<std::size_t>(twins_->count()),
+      std::vector<std::vector<double>>(traces_.signals.size(), std::vector<double>(traces_.t.size())));
+  events_.on_change = [this](std::span<const ModeChange> changes) {
+    const double step = 1e-3 * (solver_->t() - solver_->previous_t());
+    const double least = 1e-10 * (until_ - options_.begin);
+    twins_->change_modes(events_, run_, t_, x_, s_, changes, std::max(step, least));
+  };
 }
 
 std::unique_ptr<Integrator> Simulation::make_solver() {
@@ -120,6 +145,13 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
     jacobian_ = std::make_unique<Jacobian>(program_);
     system.pattern = jacobian_->pattern();
     system.jacobian = [this](double t, const double* x, double* entries) { return (*jacobian_)(run_, t, x, entries); };
+  }
+  if (twins_ != nullptr) {
+    system.parameters = twins_->count();
+    system.parameter_sizes = twins_->parameter_sizes();
+    system.sensitivity_derivative = [this](double t, const double* x, const double* const* s, double* const* ds) {
+      return twins_->derivative(run_, t, x, s, ds);
+    };
   }
   IntegratorOptions options;
   options.formula = formula_of(options_.method);
@@ -158,25 +190,35 @@ void Simulation::indicate(double t, const double* x, double* g) {
   std::copy(work_.guard.begin(), work_.guard.end(), g + reversals());
 }
 
-void Simulation::record(double t, const double* x) {
+void Simulation::record(double t, const double* x, bool inside) {
   evaluate_values(program_, run_, work_, t, x);
   for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
     const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
     if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x);
     traces_.values[s][next_instant_] = value;
   }
+  if (twins_ != nullptr) record_slopes(t, x, inside ? s_inside_ : s_);
   ++next_instant_;
+}
+
+void Simulation::record_slopes(double t, const double* x, std::span<const double> s) {
+  twins_->outputs(run_, t, {x, static_cast<std::size_t>(program_.n_x)}, s, traces_.signals, slopes_now_);
+  for (std::size_t k = 0; k < slopes_now_.size(); ++k)
+    for (std::size_t i = 0; i < slopes_now_[k].size(); ++i) traces_.slopes[k][i][next_instant_] = slopes_now_[k][i];
 }
 
 void Simulation::record_inside(double from, double to) {
   const auto& instants = traces_.t;
   for (; next_instant_ < instants.size() && instants[next_instant_] < to - same_instant(to);) {
     solver_->interpolate(std::max(instants[next_instant_], from), interpolated_);
-    record(instants[next_instant_], interpolated_.data());
+    if (twins_ != nullptr) solver_->interpolate_sensitivities(std::max(instants[next_instant_], from), s_inside_);
+    record(instants[next_instant_], interpolated_.data(), true);
   }
 }
 
 void Simulation::commit() {
+  if (program_.remembers() && twins_ != nullptr)
+    twins_->accept(run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
   if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
   run_.t = t_;
 }
@@ -192,17 +234,19 @@ void Simulation::follow_directions() {
 void Simulation::pass_instant() {
   const bool states = program_.n_x > 0;
   if (states) derivative(t_, x_.data(), before_.data());
+  events_.take(t_, run_);
+  if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
   const bool moved = events_.pass(run_, work_, t_, x_);
   commit();
   if (reversals_.count() > 0) follow_directions();
   if (!states || solver_->counters().steps == 0) return;
-  if (!moved) {
+  if (!moved && twins_ == nullptr) {
     derivative(t_, x_.data(), after_.data());
     const double step = solver_->next_step();
     for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
     if (solver_->weighted_norm(after_) <= noticed_jump) return;
   }
-  solver_->start(t_, x_);
+  restart();
 }
 
 /// The integrator has located reversals or falling guards.
@@ -219,7 +263,7 @@ void Simulation::pass_root() {
     commit();
     if (reversals_.count() > 0) follow_directions();
   }
-  solver_->start(t_, x_);
+  restart();
 }
 
 /// A guard may have fallen and risen within rounding of a step's end, unseen by the integrator.
@@ -228,7 +272,7 @@ void Simulation::check_guards() {
   if (!events_.settle(run_, work_, t_, x_, {})) return;
   commit();
   if (reversals_.count() > 0) follow_directions();
-  solver_->start(t_, x_);
+  restart();
 }
 
 void Simulation::check_pace() {
@@ -249,6 +293,7 @@ void Simulation::take_step(double stop) {
   record_inside(from, solver_->t());
   t_ = solver_->t();
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
+  if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
   if (outcome == Integrator::Outcome::root) return pass_root();
   commit();
   if (reversals_.open(run_)) follow_directions();
@@ -258,10 +303,14 @@ void Simulation::take_step(double stop) {
 Traces Simulation::operator()() {
   const auto& instants = traces_.t;
   try {
+    events_.take(t_, run_);
+    events_.starting(true);
+    if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+    events_.starting(false);
     events_.begin(run_, work_, t_, x_);
     commit();
     if (reversals_.count() > 0) follow_directions();
-    solver_->start(t_, x_);
+    restart();
     for (;;) {
       while (events_.next() <= t_ + same_instant(t_)) pass_instant();
       while (next_instant_ < instants.size() && instants[next_instant_] <= t_ + same_instant(t_)) record(t_, x_.data());
@@ -383,7 +432,11 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
   Traces traces;
-  if (advances_exactly(program, options)) {
+  if (!options.slopes_for.empty() &&
+      (options.method == Method::exact || options.method == Method::euler || options.method == Method::rk4))
+    fail("bad_value", "/simulate/solver/method", "slopes come with the adaptive methods only",
+         "choose bdf, adams or runge_kutta");
+  if (options.slopes_for.empty() && advances_exactly(program, options)) {
     traces = simulate_exactly(program, run, options, std::move(instants), signals);
   } else {
     if (options.at_rest) settle_at_rest(program, run, options.begin);

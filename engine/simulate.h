@@ -37,6 +37,7 @@ struct SimulateOptions {
   double step = 0;                   ///< [s] of the methods with fixed steps
   bool exact_jacobian = true;        ///< off: bdf takes differences, as a cross-check
   bool reversal_events = true;       ///< off only to measure what they bring
+  std::vector<int> slopes_for{};     ///< parameters (places in program.parameters) whose slopes are wanted
   bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
 };
 
@@ -53,6 +54,8 @@ struct Traces {
   std::vector<double> t;  ///< [s]
   std::vector<int> signals;
   std::vector<std::vector<double>> values;  ///< [signal][instant], SI
+  /// [parameter][signal][instant]: d(signal)/d(parameter), SI, as SimulateOptions::slopes_for asks.
+  std::vector<std::vector<std::vector<double>>> slopes{};
   Statistics statistics;
   std::optional<Run> end{};  ///< where the simulation stopped; absent behind the exact advance
 };
