@@ -107,7 +107,9 @@ ClosedLoop closed_loop_by_hand(double until, double relative_tolerance, double a
   return result;
 }
 
-ClosedLoop closed_loop_reference(double until, int steps_per_row) {
+void closed_loop_derivative(double t, const double* x, double* dx) { derivative(t, x, dx); }
+
+ClosedLoop closed_loop_in_fixed_steps(double until, int steps_per_row) {
   ClosedLoop result;
   std::array<double, n> x{}, k1{}, k2{}, k3{}, k4{}, trial{};
   const auto rows = static_cast<int>(std::lround(until / row));

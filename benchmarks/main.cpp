@@ -22,6 +22,8 @@ class Ratios : public benchmark::ConsoleReporter {
       const auto name = run.run_name.function_name;
       if (!times_.contains(name)) order_.push_back(name);
       times_[name].push_back(run.GetAdjustedCPUTime());  // ns, the registered unit
+      blocks_[name] = run.counters.contains("blocks") ? run.counters.at("blocks").value : 0.0;
+      calls_[name] = run.counters.contains("calls") ? run.counters.at("calls").value : 0.0;
       errors_[name] = run.counters.contains("error") ? run.counters.at("error").value : 0.0;
     }
   }
@@ -33,13 +35,16 @@ class Ratios : public benchmark::ConsoleReporter {
       const auto slash = name.find('/');
       if (name.substr(0, slash) != group) {
         group = name.substr(0, slash);
-        std::printf("\n%-40s %12s %8s %14s %12s\n", group.c_str(), "CPU ms", "ratio", "spread", "error [um]");
+        std::printf("\n%-40s %12s %8s %14s %12s\n", group.c_str(), "CPU ms", "ratio", "spread", "error");
       }
       auto& own = times_[name];
       std::sort(own.begin(), own.end());
       const double base = median(times_[group + "/by hand"]);
       std::printf("  %-38s %12.4g %8.2f %6.2f - %5.2f %12.2g\n", name.substr(slash + 1).c_str(), median(own) / 1e6,
                   median(own) / base, own.front() / base, own.back() / base, errors_[name]);
+      if (blocks_[name] > 0)
+        std::printf("  %38s %12.1f ns per block beyond the arithmetic, %.1f per call\n", "",
+                    (median(own) - base) / blocks_[name], (median(own) - base) / calls_[name]);
     }
   }
 
@@ -51,7 +56,7 @@ class Ratios : public benchmark::ConsoleReporter {
   }
 
   std::map<std::string, std::vector<double>> times_;
-  std::map<std::string, double> errors_;
+  std::map<std::string, double> errors_, blocks_, calls_;
   std::vector<std::string> order_;
 };
 
@@ -68,6 +73,10 @@ int main(int argc, char** argv) {
   int count = static_cast<int>(arguments.size());
   hysteron::benchmarks::register_closed_loop();
   hysteron::benchmarks::register_open_loop();
+  hysteron::benchmarks::register_chains();
+  hysteron::benchmarks::register_creep();
+  hysteron::benchmarks::register_evaluation();
+  hysteron::benchmarks::register_sampled_loop();
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   Ratios ratios;

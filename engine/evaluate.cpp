@@ -46,6 +46,43 @@ void spoil_if_unsolved(const WorkOf<T>& work, std::vector<T>& results) {
   if (work.unsolved >= 0) std::fill(results.begin(), results.end(), T(std::numeric_limits<double>::quiet_NaN()));
 }
 
+bool computes_rates(const Program& program) {
+  const auto any = [](const std::vector<Step>& steps) {
+    return std::any_of(steps.begin(), steps.end(), [](const Step& step) { return step.order == Order::rate; });
+  };
+  return any(program.derivative_steps) || any(program.rate_steps) ||
+         std::any_of(program.loops.begin(), program.loops.end(), [&](const Loop& loop) { return any(loop.steps); });
+}
+
+template <class T>
+void list_calls(const Program& program, WorkOf<T>& work) {
+  std::size_t numbers = 0;
+  for (const auto& b : program.blocks) numbers += b.source.size() + b.p_at.size();
+  work.lists.reserve(numbers);  // pointers into it are kept
+  work.calls.reserve(program.blocks.size());
+  for (const auto& b : program.blocks) {
+    const Functions<T>& functions = b.kernel->template functions<T>();
+    typename WorkOf<T>::Call call;
+    call.output = functions.output;
+    call.derivative = functions.derivative;
+    call.source = work.lists.data() + work.lists.size();
+    work.lists.insert(work.lists.end(), b.source.begin(), b.source.end());
+    work.lists.insert(work.lists.end(), b.p_at.begin(), b.p_at.end());
+    call.inputs = b.adjacent >= 0 ? 0 : b.n_u;
+    call.output_inputs = b.sizes.feedthrough ? call.inputs : 0;
+    call.u_begin = b.u_begin;
+    call.x_begin = b.x_begin;
+    call.y_begin = b.y_begin;
+    call.p_begin = b.p_begin;
+    call.parameters = b.p_at.back();
+    call.plain = b.hit_index < 0 && b.sizes.memory == 0;
+    call.wants_rate = b.kernel->derivative_wants_rate;
+    call.source_only = is_source_of_time(b);
+    work.calls.push_back(call);
+  }
+  for (const int block : program.time_blocks) work.calls[at(block)].timed = true;
+}
+
 }  // namespace
 
 template <class T>
@@ -58,23 +95,23 @@ WorkOf<T>::WorkOf(const Program& program, bool with_loops)
       u(at(program.n_u)),
       du(at(program.n_u)),
       views(program.blocks.size()) {
-  std::size_t inputs = 0, states = 0, memory = 0, parameters = 0, outputs = 0;
+  std::size_t inputs = 0, states = 0, memory = 0, outputs = 0;
   for (const auto& b : program.blocks) {
     inputs = std::max(inputs, at(b.n_u));
     states = std::max(states, at(b.sizes.states));
     memory = std::max(memory, at(b.sizes.memory));
-    parameters = std::max(parameters, at(b.p_at.back()));
     outputs = std::max(outputs, at(b.sizes.outputs));
   }
   dual_u.resize(inputs);
   dual_x.resize(states);
   dual_m.resize(memory);
   dual_m_committed.resize(memory);
-  dual_p.resize(parameters);
   dual_out.resize(outputs);
-  rate_view.p = dual_p.data();
-  rate_view.x = dual_x.data();
-  rate_view.u = dual_u.data();
+  if (computes_rates(program)) {
+    dual_p.resize(at(program.n_p));
+    rate_views.resize(program.blocks.size());
+  }
+  list_calls(program, *this);
   if constexpr (!std::is_same_v<T, double>) {
     p.resize(at(program.n_p));
     m_committed.resize(at(program.n_m));

@@ -63,7 +63,7 @@ class FixedSteps {
     ++traces_.statistics.evaluations;
     evaluate_derivatives(program_, run_, work_, t, x.data());
     throw_if_unsolved(program_, work_, t);
-    std::copy(work_.dx.begin(), work_.dx.end(), k.begin());
+    work_.dx.swap(k);
   }
   void move(double h, const std::vector<double>& k) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = before_[i] + h * k[i];

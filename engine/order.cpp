@@ -345,6 +345,24 @@ class Scheduler {
     problems_.throw_if_any();
   }
 
+  /// Where both the value and the rate of a source are needed, the step of the rate makes both.
+  std::vector<Step> sources_once(std::vector<Step> list) const {
+    std::vector<bool> rated(static_cast<std::size_t>(n_), false), done(static_cast<std::size_t>(n_), false);
+    for (const Step& step : list)
+      if (step.order == Order::rate && is_source_of_time(program_.blocks[static_cast<std::size_t>(step.block)]))
+        rated[static_cast<std::size_t>(step.block)] = true;
+    std::vector<Step> shorter;
+    for (Step step : list) {
+      if (step.order != Order::loop && rated[static_cast<std::size_t>(step.block)]) {
+        if (done[static_cast<std::size_t>(step.block)]) continue;
+        done[static_cast<std::size_t>(step.block)] = true;
+        step.order = Order::rate;
+      }
+      shorter.push_back(step);
+    }
+    return shorter;
+  }
+
   void write_steps() {
     std::vector<int> derivatives, values, rates;
     for (int b = 0; b < n_; ++b) {
@@ -353,7 +371,7 @@ class Scheduler {
     }
     const std::vector<bool> all(static_cast<std::size_t>(3 * n_), true);
     const auto for_derivatives = closure(derivatives, all);
-    program_.derivative_steps = steps(for_derivatives);
+    program_.derivative_steps = sources_once(steps(for_derivatives));
     program_.all_values = steps(closure(values, all));
     program_.value_order = blocks_in_order();
     place_warm_starts();

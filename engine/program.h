@@ -40,6 +40,11 @@ struct BlockInstance {
   int held_begin() const { return m_begin + sizes.sampled_states; }
 };
 
+/// Its outputs are functions of time and parameters alone, whose rates cost no more than their values.
+inline bool is_source_of_time(const BlockInstance& b) {
+  return b.n_u == 0 && b.sizes.states == 0 && b.sizes.memory == 0 && !b.kernel->is_sampled() && !b.kernel->has_modes();
+}
+
 /// A signal: one output port of one block.
 struct SignalInfo {
   std::string path;         ///< "stage.displacement", or "stage" where the block has one output
@@ -218,10 +223,26 @@ struct WorkOf {
   int unsolved = -1;
 
   // Scratch of the steps; meaningless outside.
+  /// What the steps need of a block, in one cache line: with all that a BlockInstance tells, a diagram of thousands of
+  /// blocks would not fit into the caches.
+  struct Call {
+    typename Functions<T>::Call output = nullptr, derivative = nullptr;
+    typename Functions<T>::RateCall output_rate = nullptr;  ///< null: output does, at rates in place of values
+    const int* source = nullptr;                            ///< per input: the signal
+    int inputs = 0;         ///< to be gathered before derivative: none where they stand side by side in y
+    int output_inputs = 0;  ///< the same before output
+    int u_begin = 0, x_begin = 0, y_begin = 0, p_begin = 0, parameters = 0;
+    bool plain = false;        ///< output is a function of parameters, states, inputs and time: no memory, not sampled
+    bool wants_rate = false;   ///< derivative does
+    bool source_only = false;  ///< plain, of time and parameters alone
+    bool timed = false;        ///< sees time, a series or a history
+  };
+  std::vector<Call> calls;
+  std::vector<int> lists;             // of all blocks, side by side: their sources, then their p_at
   std::unique_ptr<LoopSolver> loops;  // null if the program has none
   std::vector<T> u, du;
   std::vector<View<T>> views;
-  View<DualOf<T>> rate_view;
+  std::vector<View<DualOf<T>>> rate_views;  // empty if no step computes rates
   std::vector<DualOf<T>> dual_u, dual_x, dual_m, dual_p, dual_out, dual_m_committed;
   std::array<const void*, 4> bound_to{};
 };

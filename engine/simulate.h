@@ -31,7 +31,7 @@ struct SimulateOptions {
   std::vector<double> instants{};  ///< exactly these output times [s], increasing
   std::vector<int> signals{};      ///< what to record; empty = program.record_signals
   Method method = Method::automatic;
-  double relative_tolerance = 1e-6;
+  double relative_tolerance = 1e-6;  ///< of the results; the integrators hold each step to a quarter of it
   double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
   double max_step = 0;               ///< [s]; 0 = worked out from the sources
   double step = 0;                   ///< [s] of the methods with fixed steps

@@ -1,6 +1,7 @@
 // The rate of every block's output is exact: held against central differences of its values.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/random.h"
@@ -52,6 +53,24 @@ TEST_P(EverySample, CarriesTheExactRateOfItsOutput) {
     EXPECT_NEAR(y.value, value(0), 1e-13 * (1 + std::fabs(y.value)));
     EXPECT_NEAR(y.rate, (value(h) - value(-h)) / (2 * h), allowed * (1 + std::fabs(y.rate)))
         << GetParam().type << " trial " << trial;
+  }
+}
+
+/// The engine asks such blocks for their outputs at the rates of states and inputs, in place of the rates of outputs.
+TEST_P(EverySample, LinearWithoutOffsetsRatesFollowTheLawOfTheValues) {
+  const Bench b(GetParam().type, GetParam().values, GetParam().inputs);
+  const auto& d = b.kernel.declaration;
+  if (!d.is_linear || std::any_of(d.parameters.begin(), d.parameters.end(), [](const auto& p) { return p.is_offset; }))
+    return;
+  const auto nu = static_cast<std::size_t>(b.n_u), nx = static_cast<std::size_t>(b.states());
+  const Numbers at_zero = b.output(0, Numbers(nu, 0.0), Numbers(nx, 0.0));
+  for (std::uint64_t trial = 0; trial < 10; ++trial) {
+    const Numbers u = draw(nu, 4 * trial, 2), du = draw(nu, 4 * trial + 1, 1), x = draw(nx, 4 * trial + 2, 1),
+                  dx = draw(nx, 4 * trial + 3, 1);
+    const Numbers rate = bench::rates(b.output_rate(0, 0, dual(u, du), dual(x, dx), {})), law = b.output(0, du, dx);
+    // A constant part (units with an offset) cancels to its own rounding.
+    for (std::size_t i = 0; i < rate.size(); ++i)
+      EXPECT_NEAR(law[i] - at_zero[i], rate[i], 1e-13 * (1 + std::fabs(rate[i]) + std::fabs(at_zero[i])));
   }
 }
 
