@@ -12,6 +12,7 @@
 //   and
 //                         Params ends with period and offset (BlockSpec::sampled). A sampled block without State says
 //                         `static constexpr bool is_sampled = true`.
+//   update(p, s, in, out) the same from the outputs of this instant, for laws that cost too much to be computed twice
 // With modes, every function may take a Mode as last argument (output, derivative), and the block has
 //   guard(p, s, in, Mode) -> T        positive while the mode may stay; or guard(p, in, Mode), guard(p, s, in, rate,
 //   Mode) next(p, s, in, Mode) -> Mode      the mode that follows; same arguments as guard, all double reset(p, s, in,
@@ -22,6 +23,7 @@
 //   reach_back, check (on View<double>).
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstring>
 #include <stdexcept>
@@ -138,7 +140,8 @@ struct Forms {
   static constexpr bool derivative_rate_mode = states && requires(P p, S s, I i, Mode k) {
     B::derivative(p, s, i, i, k);
   };
-  static constexpr bool update = states && requires(P p, S s, I i) { B::update(p, s, i); };
+  static constexpr bool update_out = states && requires(P p, S s, I i, typename D::O o) { B::update(p, s, i, o); };
+  static constexpr bool update = update_out || (states && requires(P p, S s, I i) { B::update(p, s, i); });
   static constexpr bool advance = !std::is_empty_v<M> && requires(P p, M m, I i) { B::advance(p, m, i); };
   static constexpr bool guard = requires(P p, I i, Mode k) { B::guard(p, i, k); };
   static constexpr bool guard_state = states && requires(P p, S s, I i, Mode k) { B::guard(p, s, i, k); };
@@ -152,7 +155,7 @@ struct Forms {
                 "with a Mode behind them");
   static_assert(derivative + derivative_rate + derivative_mode + derivative_rate_mode + update == (states ? 1 : 0),
                 "a block with State has exactly one of derivative(p, s, in), derivative(p, s, in, rate), each maybe "
-                "with a Mode behind it, and update(p, s, in)");
+                "with a Mode behind it, and update(p, s, in), which may take the outputs too");
   static_assert(advance == !std::is_empty_v<M>, "a block with Memory has advance(p, m, in), and only such a block");
   static_assert(guard + guard_state + guard_rate <= 1,
                 "at most one of guard(p, in, Mode), guard(p, s, in, Mode), guard(p, s, in, rate, Mode)");
@@ -214,7 +217,19 @@ void fixed_derivative(const View<T>& v) {
 template <class B, class T>
 void fixed_update(const View<T>& v) {
   const Arguments<B, T> a(v);
-  store<T>(B::update(a.p, a.s, a.in), v.out);
+  if constexpr (Forms<B>::update_out) {
+    using O = typename Types<B, T>::O;
+    std::array<T, static_cast<std::size_t>(count<T, O>())> own;
+    View<T> with_outputs = v;
+    if (v.y == nullptr) {
+      with_outputs.out = own.data();
+      fixed_output<B, T>(with_outputs);
+      with_outputs.y = own.data();
+    }
+    store<T>(B::update(a.p, a.s, a.in, load<T>(O{}, with_outputs.y)), v.out);
+  } else {
+    store<T>(B::update(a.p, a.s, a.in), v.out);
+  }
 }
 
 template <class B, class T>

@@ -38,12 +38,13 @@ struct View {
   const T* u = nullptr;   ///< inputs
   const T* du = nullptr;  ///< rates of the inputs (only for functions that want them)
   int n_u = 0;
-  int n_y = 0;          ///< number of outputs
-  T t{};                ///< time [s]
-  double branch = 0;    ///< time that decides which smooth piece of a source applies [s]
-  int mode = 0;         ///< of a block with modes: the present one (reset: the one that begins)
-  int mode_before = 0;  ///< reset: the mode that ends
-  long hit = 0;         ///< of a sampled block: number of the sampling instant, 0 at the offset
+  int n_y = 0;           ///< number of outputs
+  T t{};                 ///< time [s]
+  double branch = 0;     ///< time that decides which smooth piece of a source applies [s]
+  int mode = 0;          ///< of a block with modes: the present one (reset: the one that begins)
+  int mode_before = 0;   ///< reset: the mode that ends
+  long hit = 0;          ///< of a sampled block: number of the sampling instant, 0 at the offset
+  const T* y = nullptr;  ///< update: the outputs of this instant, where the caller has them
   const Series* series = nullptr;
   const History* history = nullptr;
   T* out = nullptr;  ///< what the function writes: outputs, derivatives, memory, states at rest, constants
