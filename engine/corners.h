@@ -24,6 +24,7 @@ class Corners {
   double next() const;    ///< first corner behind the present time [s], or infinity
   double branch() const;  ///< a time inside the present smooth piece of every source [s]
   void pass(double t);    ///< the present time is now t; corners up to t (and within rounding) are behind
+  void jumped(double t) { add_echoes(t, 0); }  ///< something else jumped at t: its echoes are corners, too
 
  private:
   using Echo = std::pair<double, int>;  // time, how many dead times it has passed

@@ -23,9 +23,9 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
     : program_(program),
       corners_(program, run, begin),
       clocks_(program, run, begin),
+      sampling_(program),
       path_(program, relative_tolerance, absolute_tolerance),
       span_(until - begin),
-      due_(program.sampled_blocks.size(), 0),
       changes_(program.modal_blocks.size(), 0) {}
 
 double Events::next() const { return std::min(corners_.next(), clocks_.next()); }
@@ -35,7 +35,9 @@ void Events::take(double t, Run& run) {
   instant_.corner = corners_.next() <= t + same_instant(t);
   if (instant_.corner) corners_.pass(t);
   instant_.hits.clear();
-  if (clocks_.next() <= t + same_instant(t)) instant_.hits = clocks_.take(t, run);
+  if (clocks_.next() > t + same_instant(t)) return;
+  instant_.hits = clocks_.take(t, run);
+  corners_.jumped(t);
 }
 
 bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
@@ -49,7 +51,8 @@ bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
   if (instant_.hits.empty()) return moved;
   evaluate_values(program_, run, work, t, x.data());
   before_ = work.y;
-  sample(run, work, t, x, instant_.hits);
+  sampling_(run, work, t, x.data(), instant_.hits, program_.hit_values);
+  if (program_.n_histories > 0) run.branch = corners_.branch();  // its echoes end pieces, too
   blocks_.clear();
   for (const int i : instant_.hits) blocks_.push_back(program_.sampled_blocks[at(i)]);
   return follow(run, work, t, x, blocks_) || moved;
@@ -70,33 +73,6 @@ void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
 
 bool Events::follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping) {
   return !starting_ && path_.follow(run, work, t, x, before_, jumping);
-}
-
-void Events::sample(Run& run, Work& work, double t, const std::vector<double>& x, std::span<const int> due) {
-  for (const int i : due) {
-    due_[at(i)] = 1;
-    work.views[at(program_.sampled_blocks[at(i)])].hit = run.hits[at(i)];
-  }
-  steps::begin(program_, run, work, t);
-  work.due = due_.data();
-  steps::run(program_.hit_values, program_, work, x.data());
-  throw_if_unsolved(program_, work, t);
-  work.due = nullptr;
-  sampled_.assign(run.m.begin(), run.m.end());
-  for (const int i : due) {
-    due_[at(i)] = 0;
-    const int block = program_.sampled_blocks[at(i)];
-    const BlockInstance& b = program_.blocks[at(block)];
-    View<double>& v = work.views[at(block)];
-    if (b.kernel->update != nullptr) {
-      steps::gather(b, work.y, work.u.data() + b.u_begin);
-      v.x = v.m;
-      v.out = sampled_.data() + b.m_begin;
-      b.kernel->update(v);
-    }
-    std::copy_n(work.y.begin() + b.y_begin, b.sizes.outputs, sampled_.begin() + b.held_begin());
-  }
-  std::copy(sampled_.begin(), sampled_.end(), run.m.begin());
 }
 
 bool Events::due(const Run& run, Work& work, double t, const std::vector<double>& x) const {

@@ -18,6 +18,7 @@
 #include "engine/corners.h"
 #include "engine/path.h"
 #include "engine/program.h"
+#include "engine/sampling.h"
 
 namespace hysteron {
 
@@ -64,7 +65,6 @@ class Events {
   long paths() const { return paths_; }
 
  private:
-  void sample(Run& run, Work& work, double t, const std::vector<double>& x, std::span<const int> due);
   bool follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping);
   std::vector<ModeChange> find_changes(const Run& run, Work& work, const std::vector<double>& x,
                                        std::span<const int> due) const;
@@ -73,6 +73,7 @@ class Events {
   const Program& program_;
   Corners corners_;
   Clocks clocks_;
+  Sampling sampling_;
   JumpPath path_;
   double span_;
   bool starting_ = false;
@@ -81,8 +82,7 @@ class Events {
     std::vector<int> hits;  // places in program.sampled_blocks
   };
   Instant instant_;
-  std::vector<double> before_, sampled_, states_;
-  std::vector<unsigned char> due_;
+  std::vector<double> before_, states_;
   std::vector<int> blocks_;
   std::vector<long> changes_;
   std::vector<double> recent_;  // times of the last changes of mode, a ring
