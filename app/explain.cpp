@@ -258,6 +258,12 @@ class Explanation {
     }
   }
 
+  std::string exact_because() const {
+    return program_.sampled_blocks.empty()
+               ? "every source is a recording, everything else static, with memory, or linear"
+               : "between instants only recordings move what is static, with memory, or linear";
+  }
+
   void print_solver() const {
     head("solver");
     const SimulateOptions options = simulate_options(program_);
@@ -268,7 +274,7 @@ class Explanation {
     const std::string method = exact ? "exact" : method_name(asked ? options.method : Method::bdf);
     rows.push_back({"method", method,
                     asked   ? "as the diagram says"
-                    : exact ? "every source is a recording, everything else static, with memory, or linear"
+                    : exact ? exact_because()
                             : "the exact advance does not apply, and the diagram asks for no other"});
     rows.push_back({"exact row by row", reason.empty() ? "applies" : "does not apply", reason});
     const double until = options.until;

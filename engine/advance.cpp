@@ -1,12 +1,16 @@
 // The exact advance, row by row.
 //
-// Blocks fall into sources (recorded inputs, constants), linear blocks, and nonlinear ones without states (static
-// blocks, memory, dead time). The nonlinear depth of a block is the largest number of nonlinear blocks on a path to it.
-// Linear blocks of one depth that are wired together are one linear system (LinearPart): between them no nonlinear
-// block can stand, so cascades and loops of linear blocks, algebraic ones too, are exact. A row is one pass over the
-// depths: the linear systems step with their inputs moving linearly, then the nonlinear blocks of that depth follow. A
-// signal behind a nonlinear block is taken as linear between substeps, which is the only approximation; the caller
-// doubles the substeps until nothing changes.
+// Blocks fall into sources (recorded inputs, constants), sampled blocks (sources that jump at their instants), linear
+// blocks, and nonlinear ones without states (static blocks, memory, dead time). The nonlinear depth of a block is the
+// largest number of nonlinear blocks on a path to it. Linear blocks of one depth that are wired together are one linear
+// system (LinearPart): between them no nonlinear block can stand, so cascades and loops of linear blocks, algebraic
+// ones too, are exact. A row is one pass over the depths: the linear systems step with their inputs moving linearly,
+// then the nonlinear blocks of that depth follow. A signal behind a nonlinear block is taken as linear between
+// substeps, which is the only approximation; the caller doubles the substeps until nothing changes. What stands still
+// between the instants of sampled blocks stands still behind a nonlinear block, too: no substeps.
+//
+// At a point (a row, a sampling instant, an echo of one behind a dead time), in the order of events.h: step up to it;
+// sources jump; sampled blocks that are due run (sampling.h); their jumps reach everything behind them at once.
 #include "engine/advance.h"
 
 #include <fmt/format.h>
@@ -15,134 +19,66 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
+#include "engine/advance_graph.h"
+#include "engine/advance_points.h"
+#include "engine/corners.h"
 #include "engine/linear_part.h"
+#include "engine/path.h"
+#include "engine/sampling.h"
+#include "engine/steps.h"
 
 namespace hysteron {
-namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using steps::at;
 
-bool is_source(const BlockInstance& b) { return b.n_u == 0; }
-bool is_linear(const BlockInstance& b) { return b.kernel->declaration.is_linear && !is_source(b); }
-
-/// Strongly connected components of the blocks over all wires, sources first.
-std::vector<std::vector<int>> components(const Program& program) {
-  const int n = static_cast<int>(program.blocks.size());
-  std::vector<int> index(at(n), -1), low(at(n), 0), stack;
-  std::vector<bool> on_stack(at(n), false);
-  std::vector<std::vector<int>> result;
-  struct Frame {
-    int block;
-    std::size_t next;
-  };
-  int counter = 0;
-  for (int root = 0; root < n; ++root) {
-    if (index[at(root)] >= 0) continue;
-    std::vector<Frame> frames{{root, 0}};
-    while (!frames.empty()) {
-      Frame& f = frames.back();
-      const auto v = at(f.block);
-      if (f.next == 0) {
-        index[v] = low[v] = counter++;
-        stack.push_back(f.block);
-        on_stack[v] = true;
-      }
-      const auto& sources = program.blocks[v].source;
-      if (f.next < sources.size()) {
-        const int to = program.signals[at(sources[f.next++])].block;
-        if (index[at(to)] < 0)
-          frames.push_back({to, 0});
-        else if (on_stack[at(to)])
-          low[v] = std::min(low[v], index[at(to)]);
-        continue;
-      }
-      if (low[v] == index[v]) {
-        result.emplace_back();
-        for (int b = -1; b != f.block;) {
-          b = stack.back();
-          stack.pop_back();
-          on_stack[at(b)] = false;
-          result.back().push_back(b);
-        }
-      }
-      const int done = f.block;
-      frames.pop_back();
-      if (!frames.empty()) low[at(frames.back().block)] = std::min(low[at(frames.back().block)], low[at(done)]);
-    }
-  }
-  return result;
-}
-
-std::string why_not_block(const BlockInstance& b) {
-  const auto& type = b.kernel->declaration.type;
-  if (b.kernel->uses_time && !b.kernel->declaration.is_series && !b.sizes.history)
-    return fmt::format("source {} \"{}\" is a function of time, not a recording", type, b.path);
-  if (b.kernel->is_sampled()) return fmt::format("{} \"{}\" is sampled", type, b.path);
-  if (b.kernel->has_modes()) return fmt::format("{} \"{}\" changes its mode at events", type, b.path);
-  if (b.sizes.smoothness == Smoothness::no_rate) return fmt::format("{} \"{}\" draws random numbers", type, b.path);
-  if (b.sizes.states > 0 && !b.kernel->declaration.is_linear)
-    return fmt::format("{} \"{}\" has nonlinear states", type, b.path);
-  return "";
-}
-
-}  // namespace
-
-std::string why_not_exact(const Program& program) {
-  for (const auto& b : program.blocks)
-    if (auto why = why_not_block(b); !why.empty()) return why;
-  const auto reads_itself = [&](int block) {
-    const auto& sources = program.blocks[at(block)].source;
-    return std::any_of(sources.begin(), sources.end(), [&](int s) { return program.signals[at(s)].block == block; });
-  };
-  for (const auto& component : components(program))
-    if (component.size() > 1 || reads_itself(component.front()))
-      for (const int b : component)
-        if (!is_linear(program.blocks[at(b)]))
-          return fmt::format("{} \"{}\" is nonlinear and stands in a feedback loop",
-                             program.blocks[at(b)].kernel->declaration.type, program.blocks[at(b)].path);
-  return "";
-}
+std::string why_not_exact(const Program& program) { return advance_graph(program).why_not; }
 
 struct Advance::Plan {
   struct Level {
     std::vector<LinearPart> linear;
     std::vector<int> nonlinear;  ///< in value order
+    // Those that a jump of sampled blocks reaches at once.
+    std::vector<int> linear_behind, nonlinear_behind;
   };
 
   ProgramPointer program;
   std::vector<int> signals;
-  std::vector<int> sources;
+  AdvanceGraph graph;
+  std::vector<int> series, constants;            ///< sources
+  std::vector<int> delays;                       ///< dead times that hand jumps of sampled blocks on
+  std::vector<int> momentary, momentary_behind;  ///< in value order; those that read what sampled blocks hold
+  std::vector<int> series_signals, sampled_signals;
   std::vector<Level> levels;
   bool no_substeps_needed = true;
+  bool series_turn = false, sampled_turn = false;  ///< their jumps turn in front of memory: path.h
+  bool needs_states = false;                       ///< sampling evaluates blocks with states
+  long hits = 0;
   // Scratch of a run.
-  std::vector<double> y, inputs, memory_out;
-  std::vector<int> depth;
-  std::vector<bool> needed, curved;
+  Work work;
+  std::vector<double>& y;
+  std::vector<double> x, from, to;
+  std::vector<bool> needed, curved, moves;
 
-  Plan(ProgramPointer p, std::vector<int> wanted) : program(std::move(p)), signals(std::move(wanted)) {
-    if (auto why = why_not_exact(*program); !why.empty())
-      fail("not_exact", why, "this diagram cannot be advanced row by row exactly", "use the method \"bdf\"");
+  Plan(ProgramPointer p, std::vector<int> wanted)
+      : program(std::move(p)), signals(std::move(wanted)), graph(advance_graph(*program)), work(*program), y(work.y) {
+    if (!graph.why_not.empty())
+      fail("not_exact", graph.why_not, "this diagram cannot be advanced row by row exactly", "use the method \"bdf\"");
     find_needed();
-    find_depths();
     build_levels();
     find_curved();
-    y.assign(program->signals.size(), 0.0);
-    std::size_t widest = 1, memory = 1;
-    for (const auto& b : program->blocks) {
-      widest = std::max(widest, at(b.n_u));
-      memory = std::max(memory, at(b.sizes.memory));
-    }
-    inputs.resize(widest);
-    memory_out.resize(memory);
+    find_behind();
+    x.resize(at(program->n_x));
   }
 
   const BlockInstance& block(int b) const { return program->blocks[at(b)]; }
   int block_of(int signal) const { return program->signals[at(signal)].block; }
+  AdvanceRole role(int b) const { return graph.role[at(b)]; }
 
   void find_needed() {
     needed.assign(program->blocks.size(), false);
-    std::vector<int> todo;
+    std::vector<int> todo = program->sampled_blocks;
     for (const int s : signals) todo.push_back(block_of(s));
     while (!todo.empty()) {
       const int b = todo.back();
@@ -150,21 +86,6 @@ struct Advance::Plan {
       if (needed[at(b)]) continue;
       needed[at(b)] = true;
       for (const int s : block(b).source) todo.push_back(block_of(s));
-    }
-  }
-
-  void find_depths() {
-    depth.assign(program->blocks.size(), 0);
-    for (const auto& component : components(*program)) {  // sources first
-      int d = 0;
-      for (const int b : component)
-        for (const int s : block(b).source) {
-          const int from = block_of(s);
-          if (std::find(component.begin(), component.end(), from) != component.end()) continue;
-          const bool behind_nonlinear = !is_linear(block(from)) && !is_source(block(from));
-          d = std::max(d, depth[at(from)] + (behind_nonlinear ? 1 : 0));
-        }
-      for (const int b : component) depth[at(b)] = d;
     }
   }
 
@@ -178,13 +99,37 @@ struct Advance::Plan {
   void build_levels() {
     const auto order = blocks_in_value_order();
     int deepest = 0;
-    for (const int b : order) deepest = std::max(deepest, depth[at(b)]);
+    for (const int b : order) deepest = std::max(deepest, graph.depth[at(b)]);
     levels.resize(at(deepest) + 1);
+    const auto add_signals = [&](int b, std::vector<int>& list) {
+      for (int o = 0; o < block(b).sizes.outputs; ++o) list.push_back(block(b).y_begin + o);
+    };
+    const auto turns = turns_before_memory(*program);
     for (const int b : order) {
-      if (is_source(block(b)))
-        sources.push_back(b);
-      else if (!is_linear(block(b)))
-        levels[at(depth[at(b)])].nonlinear.push_back(b);
+      switch (role(b)) {
+        case AdvanceRole::source:
+          (block(b).series_index >= 0 ? series : constants).push_back(b);
+          if (block(b).series_index < 0) break;
+          add_signals(b, series_signals);
+          series_turn = series_turn || turns[at(b)];
+          break;
+        case AdvanceRole::sampled:
+          add_signals(b, sampled_signals);
+          sampled_turn = sampled_turn || turns[at(b)];
+          break;
+        case AdvanceRole::nonlinear:
+          levels[at(graph.depth[at(b)])].nonlinear.push_back(b);
+          if (!graph.echoes[at(b)]) break;
+          delays.push_back(b);
+          add_signals(b, series_signals);
+          series_turn = series_turn || turns[at(b)];
+          break;
+        case AdvanceRole::momentary:
+          momentary.push_back(b);
+          break;
+        case AdvanceRole::linear:
+          break;
+      }
     }
     for (int d = 0; d <= deepest; ++d) group_linear(d, order);
   }
@@ -197,7 +142,7 @@ struct Advance::Plan {
       while (parent[at(b)] != b) b = parent[at(b)];
       return b;
     };
-    const auto here = [&](int b) { return needed[at(b)] && is_linear(block(b)) && depth[at(b)] == d; };
+    const auto here = [&](int b) { return needed[at(b)] && role(b) == AdvanceRole::linear && graph.depth[at(b)] == d; };
     for (const int b : order)
       if (here(b))
         for (const int s : block(b).source)
@@ -220,124 +165,221 @@ struct Advance::Plan {
       if (inside(block_of(s)) && std::find(outputs.begin(), outputs.end(), s) == outputs.end()) outputs.push_back(s);
     };
     for (const int s : signals) add(s);
+    for (const int s : graph.hit_signals) add(s);
     for (std::size_t b = 0; b < program->blocks.size(); ++b)
       if (needed[b] && !inside(static_cast<int>(b)))
         for (const int s : program->blocks[b].source) add(s);
     return outputs;
   }
 
-  /// A signal is curved between rows if a state or a delay stands before it. Substeps matter where a curved or kinked
-  /// signal drives states, or a curved one drives memory (an extreme inside a row).
+  bool any_source(int b, const std::vector<bool>& marked) const {
+    return std::any_of(block(b).source.begin(), block(b).source.end(), [&](int s) { return marked[at(s)]; });
+  }
+  void mark(int b, std::vector<bool>& marked, bool value) const {
+    for (int o = 0; o < block(b).sizes.outputs; ++o) marked[at(block(b).y_begin + o)] = value;
+  }
+
+  /// A signal moves between points if a recorded input or a state stands before it; it is curved there if a state or a
+  /// delay does. Substeps matter where a curved or kinked signal drives states, or a curved one drives memory (an
+  /// extreme inside a row).
   void find_curved() {
     curved.assign(program->signals.size(), false);
-    std::vector<bool> kinked(program->signals.size(), false);
+    moves = curved;
+    std::vector<bool> kinked = curved;
+    for (const int b : series) mark(b, moves, true);
     for (const auto& level : levels) {
       for (const auto& part : level.linear)
         if (part.has_states())
           for (const int s : part.input_signals())
             if (curved[at(s)] || kinked[at(s)]) no_substeps_needed = false;
-      mark_linear(level, kinked);
+      mark_linear(static_cast<int>(&level - levels.data()), kinked);
       for (const int b : level.nonlinear) {
-        bool any_curved = false;
-        for (const int s : block(b).source) any_curved = any_curved || curved[at(s)];
+        const bool any_curved = any_source(b, curved);
         if (any_curved && (block(b).sizes.memory > 0 || block(b).history_index >= 0)) no_substeps_needed = false;
-        for (int o = 0; o < block(b).sizes.outputs; ++o) {
-          kinked[at(block(b).y_begin + o)] = true;
-          curved[at(block(b).y_begin + o)] = any_curved;
-        }
+        const bool any_moves = any_source(b, moves);
+        mark(b, moves, any_moves);
+        mark(b, kinked, any_moves);
+        mark(b, curved, any_curved);
       }
     }
   }
 
-  void mark_linear(const Level& level, std::vector<bool>& kinked) {
-    const int d = static_cast<int>(&level - levels.data());
+  void mark_linear(int d, std::vector<bool>& kinked) {
     for (const int b : blocks_in_value_order()) {
-      if (!is_linear(block(b)) || depth[at(b)] != d) continue;
-      bool is_curved = block(b).sizes.states > 0, is_kinked = false;
-      for (const int s : block(b).source) {
-        is_curved = is_curved || curved[at(s)];
-        is_kinked = is_kinked || kinked[at(s)];
+      if (role(b) != AdvanceRole::linear || graph.depth[at(b)] != d) continue;
+      const bool has_states = block(b).sizes.states > 0;
+      mark(b, curved, has_states || any_source(b, curved));
+      mark(b, moves, has_states || any_source(b, moves));
+      mark(b, kinked, any_source(b, kinked));
+    }
+  }
+
+  void find_behind() {
+    for (auto& level : levels) {
+      for (std::size_t i = 0; i < level.linear.size(); ++i) {
+        const auto& inputs = level.linear[i].input_signals();
+        if (std::any_of(inputs.begin(), inputs.end(), [&](int s) { return graph.jumps[at(s)]; }))
+          level.linear_behind.push_back(static_cast<int>(i));
       }
-      for (int o = 0; o < block(b).sizes.outputs; ++o) {
-        curved[at(block(b).y_begin + o)] = is_curved;
-        kinked[at(block(b).y_begin + o)] = is_kinked;
-      }
+      for (const int b : level.nonlinear)
+        if (any_source(b, graph.jumps)) level.nonlinear_behind.push_back(b);
+    }
+    for (const int b : momentary)
+      if (any_source(b, graph.jumps)) momentary_behind.push_back(b);
+    for (const Step& step : graph.hit_steps) {
+      if (step.order == Order::loop)
+        for (const int b : program->loops[at(step.block)].blocks) needs_states |= block(b).sizes.states > 0;
+      else
+        needs_states |= block(step.block).sizes.states > 0;
     }
   }
 
   // --- a run --------------------------------------------------------------------------------------------------------
 
-  void evaluate_sources(Run& run, double t, double branch) {
+  /// What depends on the time, before anything is evaluated there.
+  void at_time(Run& run, double t, double branch) {
     run.branch = branch;
-    for (const int b : sources) {
-      const BlockInstance& source = block(b);
-      if (source.series_index >= 0) {
-        const auto& series = run.series[at(source.series_index)];
-        y[at(source.y_begin)] = series->value(t, branch);
-        continue;
-      }
-      View<double> v = view_of(*program, run, b);
-      v.t = t;
-      v.out = y.data() + source.y_begin;
-      source.kernel->output(v);
-    }
+    steps::begin(*program, run, work, t);
+    for (const int b : series) y[at(block(b).y_begin)] = run.series[at(block(b).series_index)]->value(t, branch);
   }
+
+  void evaluate(int b) { steps::value(*program, work, b, x.data()); }
 
   /// Nonlinear blocks follow their inputs; memory is committed at once: every point of the advance is an accepted one.
   void follow(Run& run, int b, double t) {
     const BlockInstance& n = block(b);
-    for (int i = 0; i < n.n_u; ++i) inputs[at(i)] = y[at(n.source[at(i)])];
-    View<double> v = view_of(*program, run, b);
-    v.u = inputs.data();
-    v.t = t;
-    if (n.sizes.memory > 0) {
-      v.out = memory_out.data();
-      n.kernel->advance(v);
-      std::copy_n(memory_out.data(), n.sizes.memory, run.m.data() + n.m_begin);
-    }
     if (n.history_index >= 0) {
       History& h = run.histories[at(n.history_index)];
-      if (h.t.empty()) h.before = inputs[0];
+      const double u = y[at(n.source.front())];
+      if (h.t.empty()) h.before = u;
       h.t.push_back(t);
-      h.u.push_back(inputs[0]);
+      h.u.push_back(u);
       h.rate.push_back(std::numeric_limits<double>::quiet_NaN());
+      if (n.kernel->reach_back) steps::forget(h, t, n.kernel->reach_back(work.views[at(b)]));
     }
-    v.out = y.data() + n.y_begin;
-    n.kernel->output(v);
+    evaluate(b);
+    if (n.sizes.memory > 0) std::copy_n(work.m.begin() + n.m_begin, n.sizes.memory, run.m.begin() + n.m_begin);
   }
 
-  void start(Run& run, double t, double branch, bool at_rest) {
-    evaluate_sources(run, t, branch);
+  /// Before the first instant: a dead time has its input always been, and nothing is remembered yet.
+  void foresee(int b) {
+    if (block(b).history_index >= 0)
+      y[at(block(b).y_begin)] = y[at(block(b).source.front())];
+    else
+      evaluate(b);
+  }
+
+  void start(Run& run, const Points& points, double t, double branch, bool at_rest, Sampling& sampling) {
+    at_time(run, t, branch);
+    for (const int b : constants) evaluate(b);
+    for (const int b : program->sampled_blocks) evaluate(b);  // what they hold
+    const bool instant = !points.due().empty();
     for (auto& level : levels) {
       for (auto& part : level.linear) {
         part.bind(*program, run);
         part.start(*program, run, y, at_rest);
-        part.refresh(y);
       }
-      for (const int b : level.nonlinear) follow(run, b, t);
+      for (const int b : level.nonlinear) instant ? foresee(b) : follow(run, b, t);
     }
-  }
-
-  void step(Run& run, double t, double h, double branch) {
-    evaluate_sources(run, t, branch);
-    for (auto& level : levels) {
-      for (auto& part : level.linear) part.step(h, y);
-      for (const int b : level.nonlinear) follow(run, b, t);
-    }
-  }
-
-  void jump(Run& run, double t, double branch) {
-    evaluate_sources(run, t, branch);
+    for (const int b : momentary) evaluate(b);
+    if (!instant) return;
+    sample(run, points, t, sampling);
     for (auto& level : levels) {
       for (auto& part : level.linear) part.refresh(y);
       for (const int b : level.nonlinear) follow(run, b, t);
     }
+    for (const int b : momentary_behind) evaluate(b);
+  }
+
+  void sample(Run& run, const Points& points, double t, Sampling& sampling) {
+    if (needs_states)
+      for (const auto& level : levels)
+        for (const auto& part : level.linear) part.store(*program, x);
+    hits += static_cast<long>(points.due().size());
+    sampling(run, work, t, x.data(), points.due(), graph.hit_steps);
+    for (const int b : program->sampled_blocks) evaluate(b);
+  }
+
+  void step(Run& run, double t, double h, double branch) {
+    at_time(run, t, branch);
+    const double rounding = rounding_of(t);
+    for (auto& level : levels) {
+      for (auto& part : level.linear) part.step(h, rounding, y);
+      for (const int b : level.nonlinear) follow(run, b, t);
+    }
+  }
+
+  /// Everything behind sources that have jumped; with_delays: dead times, too, whose own outputs may have jumped.
+  void pass_on(Run& run, double t, bool with_delays) {
+    for (auto& level : levels) {
+      for (auto& part : level.linear) part.refresh(y);
+      for (const int b : level.nonlinear)
+        if (with_delays || block(b).history_index < 0) follow(run, b, t);
+    }
+  }
+  void pass_on_samples(Run& run, double t, bool with_delays) {
+    for (auto& level : levels) {
+      for (const int i : level.linear_behind) level.linear[at(i)].refresh(y);
+      for (const int b : level.nonlinear_behind)
+        if (with_delays || block(b).history_index < 0) follow(run, b, t);
+    }
+  }
+
+  /// Memory behind a bend follows the jump of `jumping` from `from` to their present values in pieces, but for the
+  /// last.
+  template <class PassOn>
+  void walk(const std::vector<int>& jumping, PassOn pass) {
+    to.clear();
+    bool any = false;
+    for (std::size_t i = 0; i < jumping.size(); ++i) {
+      to.push_back(y[at(jumping[i])]);
+      any = any || to[i] != from[i];
+    }
+    if (!any) return;
+    for (int k = 1; k < jump_pieces; ++k) {
+      for (std::size_t i = 0; i < jumping.size(); ++i)
+        y[at(jumping[i])] = from[i] + (to[i] - from[i]) * k / jump_pieces;
+      pass();
+    }
+    for (std::size_t i = 0; i < jumping.size(); ++i) y[at(jumping[i])] = to[i];
+  }
+  void remember_from(const std::vector<int>& jumping) {
+    from.clear();
+    for (const int s : jumping) from.push_back(y[at(s)]);
+  }
+
+  void jump(Run& run, double t, double branch) {
+    if (series_turn) remember_from(series_signals);
+    at_time(run, t, branch);
+    if (series_turn) {
+      for (const int b : delays) evaluate(b);
+      walk(series_signals, [&] { pass_on(run, t, false); });
+    }
+    pass_on(run, t, true);
+  }
+
+  void hit(Run& run, const Points& points, double t, Sampling& sampling) {
+    if (sampled_turn) remember_from(sampled_signals);
+    sample(run, points, t, sampling);
+    if (sampled_turn) walk(sampled_signals, [&] { pass_on_samples(run, t, false); });
+    pass_on_samples(run, t, true);
   }
 
   bool sources_jump(const Run& run) const {
-    for (const int b : sources)
-      if (block(b).series_index >= 0 && run.series[at(block(b).series_index)]->between == Between::hold) return true;
-    return false;
+    return std::any_of(series.begin(), series.end(),
+                       [&](int b) { return run.series[at(block(b).series_index)]->between == Between::hold; });
+  }
+
+  std::vector<double> delays_of(const Run& run) const {
+    std::vector<double> list;
+    for (const int b : delays)
+      if (block(b).kernel->reach_back) list.push_back(block(b).kernel->reach_back(view_of(*program, run, b)));
+    return list;
+  }
+
+  /// Functions of time with corners of their own.
+  bool has_corners() const {
+    return std::any_of(momentary.begin(), momentary.end(), [&](int b) { return block(b).kernel->next_corner; });
   }
 
   void check_finite(const std::vector<std::vector<double>>& values, std::span<const double> instants) const {
@@ -355,8 +397,7 @@ struct Advance::Plan {
     std::vector<double> times(instants.begin(), instants.end());
     const double begin = instants.front();
     const double end = instants.back();
-    for (const int b : sources) {
-      if (block(b).series_index < 0) continue;
+    for (const int b : series) {
       const auto& t = run.series[at(block(b).series_index)]->t;
       const auto first = std::upper_bound(t.begin(), t.end(), begin);
       const auto last = std::lower_bound(t.begin(), t.end(), end);
@@ -377,6 +418,7 @@ Advance::Advance(Advance&&) noexcept = default;
 Advance& Advance::operator=(Advance&&) noexcept = default;
 
 bool Advance::exact_without_substeps() const { return plan_->no_substeps_needed; }
+long Advance::samples() const { return plan_->hits; }
 
 void Advance::operator()(const Run& start_run, std::span<const double> instants, const AdvanceOptions& options,
                          std::vector<std::vector<double>>& values) {
@@ -389,33 +431,51 @@ void Advance::operator()(const Run& start_run, std::span<const double> instants,
       fail("unbound_input", "/inputs", "an input of the diagram is bound to no recording",
            "bind every input before the run");
   Run run = start_run;
-  const auto times = plan.grid(run, instants);
-  const double tolerance = 1e-9;  // instants and samples that differ by rounding only are one point
   const bool jumps = plan.sources_jump(run);
+  Points points(*plan.program, run, plan.grid(run, instants), plan.delays_of(run));
+  Sampling sampling(*plan.program);
+  plan.hits = 0;
+  std::optional<Corners> corners;
+  if (plan.has_corners()) corners.emplace(*plan.program, run, instants.front());
   std::size_t next = 0;
+  const auto due = [&](double t) { return next < instants.size() && instants[next] <= t; };
   const auto record = [&](double t) {
-    while (next < instants.size() && instants[next] <= t) {
+    for (; due(t); ++next)
       for (std::size_t s = 0; s < plan.signals.size(); ++s) values[s][next] = plan.y[at(plan.signals[s])];
-      ++next;
-    }
   };
-  const double first_branch = times.size() > 1 ? 0.5 * (times[0] + times[1]) : times[0];
-  plan.start(run, times[0], first_branch, options.at_rest);
-  record(times[0]);
-  const int substeps = std::max(1, options.substeps);
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    const double before = times[k - 1];
-    const double h = times[k] - before;
-    const double branch = before + 0.5 * h;
-    if (k + 1 < times.size() && h < tolerance * (times[k + 1] - before)) {
-      plan.jump(run, times[k], times[k] + 0.5 * (times[k + 1] - times[k]));  // a point twice, but for rounding
-      record(times[k]);
-      continue;
+  // A time behind t that is inside the next piece of every source.
+  const auto branch_behind = [&](double t, double otherwise) {
+    double until = points.next();
+    if (corners) {
+      corners->pass(t);
+      until = std::min(until, corners->next());
     }
+    return std::isfinite(until) ? 0.5 * (t + until) : t + otherwise;
+  };
+  double t = instants.front();
+  points.start(run);
+  plan.start(run, points, t, branch_behind(t, 0), options.at_rest, sampling);
+  record(t);
+  const int substeps = std::max(1, options.substeps);
+  while (!points.at_end()) {
+    const double before = t;
+    t = points.advance(before, run);
+    const double h = t - before, branch = before + 0.5 * h;
     for (int i = 1; i <= substeps; ++i)
-      plan.step(run, i == substeps ? times[k] : before + h * i / substeps, h / substeps, branch);
-    if (jumps) plan.jump(run, times[k], k + 1 < times.size() ? 0.5 * (times[k] + times[k + 1]) : times[k] + 0.5 * h);
-    record(times[k]);
+      plan.step(run, i == substeps ? t : before + h * i / substeps, h / substeps, branch);
+    const double behind = branch_behind(t, 0.5 * h);
+    if (jumps || points.is_echo()) plan.jump(run, t, behind);
+    const double reached = t + same_row * h;
+    const bool instant = !points.due().empty();
+    if (!plan.momentary.empty() && (instant || due(reached))) {
+      plan.at_time(run, t, behind);
+      for (const int b : plan.momentary) plan.evaluate(b);
+    }
+    if (instant) {
+      plan.hit(run, points, t, sampling);
+      for (const int b : plan.momentary_behind) plan.evaluate(b);
+    }
+    record(reached);
   }
   plan.check_finite(values, instants);
 }

@@ -1,7 +1,7 @@
-// Decides how a diagram of static blocks, memory and linear time-invariant parts is advanced row by row, exactly
-// (DESIGN 6.6). Linear parts use cached matrix exponentials with first-order hold; behind a nonlinear block rows are
-// split into substeps until the result no longer changes. Does not handle nonlinear states nor memory inside a feedback
-// loop.
+// Decides how a diagram of static blocks, memory and linear time-invariant parts, driven by recordings or by sampled
+// blocks, is advanced row by row, exactly (DESIGN 6.6). Linear parts use cached matrix exponentials with first-order
+// hold; behind a nonlinear block rows are split into substeps until the result no longer changes. Does not handle
+// nonlinear states nor memory inside a feedback loop.
 #pragma once
 
 #include <memory>
@@ -39,6 +39,8 @@ class Advance {
 
   /// True if substeps cannot change the result: no nonlinear block feeds a linear part with states.
   bool exact_without_substeps() const;
+
+  long samples() const;  ///< runs of sampled blocks in the last advance
 
  private:
   struct Plan;

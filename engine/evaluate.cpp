@@ -27,17 +27,7 @@ void remember(const Program& program, Run& run, Work& work, int block, double t)
   h.t.push_back(t);
   h.u.push_back(u);
   h.rate.push_back(rate);
-  if (!b.kernel->reach_back) return;
-  // A time that meets a point but for rounding may still ask for the interval before it.
-  const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
-  const double needed = t - b.kernel->reach_back(view_of(program, run, block)) - rounding;
-  while (h.first + 2 < h.t.size() && h.t[h.first + 1] < needed) ++h.first;
-  if (h.first < 4096) return;
-  const auto cut = static_cast<std::ptrdiff_t>(h.first);
-  h.t.erase(h.t.begin(), h.t.begin() + cut);
-  h.u.erase(h.u.begin(), h.u.begin() + cut);
-  h.rate.erase(h.rate.begin(), h.rate.begin() + cut);
-  h.first = 0;
+  if (b.kernel->reach_back) steps::forget(h, t, b.kernel->reach_back(view_of(program, run, block)));
 }
 
 /// Where a loop was not solved nothing may look like a result: a saturation behind it would make numbers of its NaN.

@@ -162,6 +162,7 @@ void LinearPart::bind(const Program& program, const Run& run) {
     c_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].head(n_);
     d_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].tail(m);
   }
+  feeds_through_ = !d_.leftCols(m - 1).isZero(0);
 }
 
 void LinearPart::take_inputs(const std::vector<double>& y) {
@@ -178,7 +179,7 @@ void LinearPart::write_outputs(std::vector<double>& y) const {
   }
 }
 
-void LinearPart::start(const Program& program, const Run& run, const std::vector<double>& y, bool at_rest) {
+void LinearPart::start(const Program& program, const Run& run, std::vector<double>& y, bool at_rest) {
   for (std::size_t k = 0; k < blocks_.size(); ++k)
     for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)
       x_[first_state_[k] + i] = run.x[at(program.blocks[at(blocks_[k])].x_begin + i)];
@@ -189,13 +190,14 @@ void LinearPart::start(const Program& program, const Run& run, const std::vector
     x_ -= a_.completeOrthogonalDecomposition().solve(rate);
   }
   w_before_ = w_;
+  write_outputs(y);
 }
 
-const LinearPart::Step& LinearPart::step_matrices(double h) {
-  constexpr double same = 1e-9;  // relative; times read from text differ in their last digits only
-  if (last_ < cache_.size() && std::abs(cache_[last_].h - h) <= same * h) return cache_[last_];
+const LinearPart::Step& LinearPart::step_matrices(double h, double rounding) {
+  const double same = std::max(1e-9 * h, rounding);  // times read from text differ in their last digits only
+  if (last_ < cache_.size() && std::abs(cache_[last_].h - h) <= same) return cache_[last_];
   for (std::size_t i = 0; i < cache_.size(); ++i)
-    if (std::abs(cache_[i].h - h) <= same * h) {
+    if (std::abs(cache_[i].h - h) <= same) {
       last_ = i;
       return cache_[i];
     }
@@ -212,15 +214,18 @@ const LinearPart::Step& LinearPart::step_matrices(double h) {
   return cache_[last_];
 }
 
-void LinearPart::step(double h, std::vector<double>& y) {
+void LinearPart::step(double h, double rounding, std::vector<double>& y) {
   take_inputs(y);
-  if (n_ > 0) {
-    const Step& s = step_matrices(h);
+  if (n_ > 0 && h > rounding) {
+    const Step& s = step_matrices(h, rounding);
     next_.noalias() = s.state * x_;
     for (Eigen::Index k = 0; k < w_.size(); ++k) {
       const double before = w_before_[k];
       const double change = w_[k] - before;
-      for (Eigen::Index i = 0; i < n_; ++i) next_[i] += s.input(i, k) * before + s.ramp(i, k) * change;
+      if (before != 0)
+        for (Eigen::Index i = 0; i < n_; ++i) next_[i] += s.input(i, k) * before;
+      if (change != 0)
+        for (Eigen::Index i = 0; i < n_; ++i) next_[i] += s.ramp(i, k) * change;
     }
     x_.swap(next_);
   }
@@ -231,7 +236,14 @@ void LinearPart::step(double h, std::vector<double>& y) {
 void LinearPart::refresh(std::vector<double>& y) {
   take_inputs(y);
   w_before_ = w_;
-  write_outputs(y);
+  if (feeds_through_) write_outputs(y);
+}
+
+void LinearPart::store(const Program& program, std::vector<double>& x) const {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockInstance& b = program.blocks[at(blocks_[k])];
+    for (int i = 0; i < b.sizes.states; ++i) x[at(b.x_begin + i)] = x_[first_state_[k] + i];
+  }
 }
 
 }  // namespace hysteron

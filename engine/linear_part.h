@@ -26,19 +26,23 @@ class LinearPart {
   /// Builds the matrices for the parameters of a run; keeps the exponentials where A and B have not changed. Throws
   /// Error(Fault::numerics) "loop_unsolved" if blocks without states feed each other with gain one.
   void bind(const Program& program, const Run& run);
-  /// States as in the run, or in equilibrium for the present inputs (what has no equilibrium of its own stays).
-  void start(const Program& program, const Run& run, const std::vector<double>& y, bool at_rest);
+  /// States as in the run, or in equilibrium for the present inputs (what has no equilibrium of its own stays); then
+  /// writes the outputs to y.
+  void start(const Program& program, const Run& run, std::vector<double>& y, bool at_rest);
   /// Advances the states by h [s] while the inputs go linearly to their values in y; then writes the outputs to y.
-  void step(double h, std::vector<double>& y);
+  /// rounding [s]: by how much h may be off, as the difference of two times; steps that differ by less are one.
+  void step(double h, double rounding, std::vector<double>& y);
   /// Inputs jumped: same states, new outputs.
   void refresh(std::vector<double>& y);
+  /// Its states to where the program has them.
+  void store(const Program& program, std::vector<double>& x) const;
 
  private:
   struct Step {
     double h = 0;
     Eigen::MatrixXd state, input, ramp;
   };
-  const Step& step_matrices(double h);
+  const Step& step_matrices(double h, double rounding);
   void solve_loops(const Program& program, const std::vector<BlockMatrices>& matrices,
                    std::vector<Eigen::RowVectorXd>& rows) const;
   void take_inputs(const std::vector<double>& y);
@@ -47,6 +51,7 @@ class LinearPart {
   std::vector<int> blocks_, inputs_, outputs_;
   std::vector<int> first_state_;   ///< per block
   int n_ = 0;                      ///< states
+  bool feeds_through_ = true;      ///< some output needs an input of the same instant
   bool has_loop_ = false;          ///< some of the blocks need each other's outputs at the same instant
   Eigen::MatrixXd a_, b_, c_, d_;  ///< B and D carry the constant part as a last column (its input is 1)
   Eigen::VectorXd x_, next_, w_, w_before_, y_;

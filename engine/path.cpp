@@ -12,8 +12,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Outputs that differ by less than this share of their size have not jumped: two formulas met at a corner.
 constexpr double rounding = 1e-12;
-// Where only memory follows, behind a bent block: so many pieces. A reversal inside a piece is missed by its height.
-constexpr int pieces = 64;
 
 /// Per block: can a jump of its outputs reach a block of `wanted` at once, on a way that satisfies `passes`.
 std::vector<bool> reaches(const Program& program, const std::vector<bool>& wanted, const std::vector<bool>& passes) {
@@ -31,7 +29,24 @@ std::vector<bool> reaches(const Program& program, const std::vector<bool>& wante
   return result;
 }
 
+/// Per block: do its inputs reach its outputs between sampling instants.
+std::vector<bool> feeds_through(const Program& program) {
+  std::vector<bool> through;
+  for (const auto& block : program.blocks) through.push_back(block.sizes.feedthrough && block.hit_index < 0);
+  return through;
+}
+
 }  // namespace
+
+std::vector<bool> turns_before_memory(const Program& program) {
+  const auto through = feeds_through(program);
+  std::vector<bool> memory, bent;
+  for (const auto& block : program.blocks) memory.push_back(block.sizes.memory > 0);
+  const auto to_memory = reaches(program, memory, through);
+  for (std::size_t b = 0; b < program.blocks.size(); ++b)
+    bent.push_back(through[b] && !program.blocks[b].kernel->declaration.is_linear && to_memory[b]);
+  return reaches(program, bent, through);
+}
 
 JumpPath::JumpPath(const Program& program, double relative_tolerance, std::span<const double> absolute_tolerance)
     : program_(program),
@@ -40,14 +55,11 @@ JumpPath::JumpPath(const Program& program, double relative_tolerance, std::span<
       rate_independent_(program.blocks.size(), 0),
       to_(program.signals.size()) {
   const auto n = program.blocks.size();
-  std::vector<bool> laws(n), memory(n), through(n), bent(n);
+  std::vector<bool> laws(n);
   for (std::size_t b = 0; b < n; ++b) {
     const auto& block = program.blocks[b];
     const auto& declaration = block.kernel->declaration;
     laws[b] = declaration.is_rate_independent && block.sizes.states > 0;
-    memory[b] = block.sizes.memory > 0;
-    through[b] = block.sizes.feedthrough && block.hit_index < 0;
-    bent[b] = through[b] && !declaration.is_linear;
     rate_independent_[b] = laws[b];
     if (!laws[b]) continue;
     for (int i = 0; i < block.sizes.states; ++i) {
@@ -55,11 +67,8 @@ JumpPath::JumpPath(const Program& program, double relative_tolerance, std::span<
       absolute_tolerance_.push_back(absolute_tolerance[at(block.x_begin + i)]);
     }
   }
-  moves_ = reaches(program, laws, through);
-  const auto to_memory = reaches(program, memory, through);
-  std::vector<bool> bent_before_memory(n);
-  for (std::size_t b = 0; b < n; ++b) bent_before_memory[b] = bent[b] && to_memory[b];
-  turns_ = reaches(program, bent_before_memory, through);
+  moves_ = reaches(program, laws, feeds_through(program));
+  turns_ = turns_before_memory(program);
   point_.jumping = jumping_.data();
   point_.rate_independent = rate_independent_.data();
 }
@@ -114,7 +123,7 @@ void JumpPath::commit(Run& run, Work& work, double t, const std::vector<double>&
 }
 
 void JumpPath::walk(Run& run, Work& work, double t, const std::vector<double>& x) {
-  for (int i = 1; i <= pieces; ++i) commit(run, work, t, x, static_cast<double>(i) / pieces);
+  for (int i = 1; i <= jump_pieces; ++i) commit(run, work, t, x, static_cast<double>(i) / jump_pieces);
 }
 
 void JumpPath::integrate(Run& run, Work& work, double t, std::vector<double>& x) {
@@ -137,7 +146,7 @@ void JumpPath::integrate(Run& run, Work& work, double t, std::vector<double>& x)
     IntegratorOptions options;
     options.formula = Formula::runge_kutta;
     options.relative_tolerance = relative_tolerance_;
-    options.max_step = program_.memory_blocks.empty() ? 0.25 : 1.0 / pieces;
+    options.max_step = program_.memory_blocks.empty() ? 0.25 : 1.0 / jump_pieces;
     solver_ = std::make_unique<Integrator>(std::move(system), options, absolute_tolerance_);
   }
   std::vector<double> start;

@@ -17,6 +17,13 @@
 
 namespace hysteron {
 
+/// Where only memory follows a jump, behind a bent block: so many pieces. A reversal inside a piece is missed by its
+/// height.
+inline constexpr int jump_pieces = 64;
+
+/// Per block: does a jump of its outputs reach memory at once through a bent block, so that memory follows in pieces?
+std::vector<bool> turns_before_memory(const Program& program);
+
 class JumpPath {
  public:
   /// Tolerances as of the integration in time; one absolute tolerance per state.

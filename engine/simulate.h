@@ -12,7 +12,7 @@ namespace hysteron {
 
 enum class Method {
   automatic,    ///< exact where the diagram allows it, else bdf
-  exact,        ///< row by row (advance.h)
+  exact,        ///< row by row, instant by instant (advance.h)
   bdf,          ///< variable order and step, implicit: for stiff diagrams
   adams,        ///< variable order and step, for smooth diagrams that are not stiff
   runge_kutta,  ///< order five, explicit: restarts cost little, so for sampled inputs and many events

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/advance.h"
+#include "engine/advance_graph.h"
 #include "engine/simulate.h"
 #include "engine/simulate_parts.h"
 
@@ -22,13 +23,6 @@ double seconds(const Number& number, const char* key, Problems& problems) {
     problems.add("wrong_unit", path, fmt::format("{} {} is not a time", number.value, *number.unit),
                  "give a time, such as \"0.1 ms\"");
   return unit.to_si(number.value);
-}
-
-/// A source that is no series: what stands against an advance from row to row.
-std::string source_between_rows(const Program& program) {
-  for (const auto& block : program.blocks)
-    if (block.n_u == 0 && block.series_index < 0 && block.kernel->uses_time) return block.path;
-  return "";
 }
 
 /// Largest difference over the largest value, over all signals.
@@ -131,16 +125,10 @@ void check_inputs(const Program& program, const Run& run) {
 
 bool advances_exactly(const Program& program, const SimulateOptions& options) {
   if (options.method != Method::automatic && options.method != Method::exact) return false;
-  const auto reason = why_not_exact(program);
-  const auto source = source_between_rows(program);
-  if (reason.empty() && source.empty()) return true;
+  const auto graph = advance_graph(program);
+  if (graph.why_not.empty()) return true;
   if (options.method == Method::automatic) return false;
-  fail("not_exact", source.empty() ? "/simulate/solver/method" : source,
-       reason.empty()
-           ? fmt::format(
-                 "the source \"{}\" moves between the rows of a recording, so that no advance from row to row is exact",
-                 source)
-           : "the diagram cannot be advanced exactly: " + reason,
+  fail("not_exact", graph.in_the_way, "the diagram cannot be advanced exactly: " + graph.why_not,
        "choose the method \"auto\" or \"bdf\"");
 }
 
@@ -182,6 +170,7 @@ Traces simulate_exactly(const Program& program, const Run& run, const SimulateOp
         "check the parameters of the blocks before it");
   }
   traces.t = std::move(instants);
+  traces.statistics.samples = advance.samples();
   traces.statistics.method = "exact";
   return traces;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/loops.h"
 #include "engine/program.h"
@@ -102,6 +104,20 @@ template <class T>
 void gather(const BlockInstance& b, const std::vector<T>& from, T* to) {
   if (b.adjacent >= 0) return;
   for (int i = 0; i < b.n_u; ++i) to[i] = from[at(b.source[at(i)])];
+}
+
+/// Forgets what no dead time of `reach_back` [s] asks for at t or later.
+inline void forget(History& h, double t, double reach_back) {
+  // A time that meets a point but for rounding may still ask for the interval before it.
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const double needed = t - reach_back - rounding;
+  while (h.first + 2 < h.t.size() && h.t[h.first + 1] < needed) ++h.first;
+  if (h.first < 4096) return;
+  const auto cut = static_cast<std::ptrdiff_t>(h.first);
+  h.t.erase(h.t.begin(), h.t.begin() + cut);
+  h.u.erase(h.u.begin(), h.u.begin() + cut);
+  h.rate.erase(h.rate.begin(), h.rate.begin() + cut);
+  h.first = 0;
 }
 
 /// Outputs of a block that jumps, on the way from old to new.

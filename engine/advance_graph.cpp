@@ -1,0 +1,231 @@
+#include "engine/advance_graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hysteron {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool is_function_of_time(const BlockInstance& b) {
+  const bool of_time = b.kernel->uses_time && !b.kernel->declaration.is_series && !b.sizes.history;
+  return !b.kernel->is_sampled() && (of_time || b.sizes.smoothness == Smoothness::no_rate);
+}
+bool remembers(const BlockInstance& b) { return b.sizes.states > 0 || b.sizes.memory > 0 || b.sizes.history; }
+const std::string& type_of(const BlockInstance& b) { return b.kernel->declaration.type; }
+
+class Builder {
+ public:
+  explicit Builder(const Program& program) : program_(program) {}
+
+  AdvanceGraph operator()() {
+    give_roles();
+    if (graph_.why_not.empty()) find_depths();
+    if (!graph_.why_not.empty()) return {.why_not = graph_.why_not, .in_the_way = graph_.in_the_way};
+    find_jumps();
+    find_hit_steps();
+    return std::move(graph_);
+  }
+
+ private:
+  const BlockInstance& block(int b) const { return program_.blocks[at(b)]; }
+  int block_of(int signal) const { return program_.signals[at(signal)].block; }
+  AdvanceRole& role(int b) { return graph_.role[at(b)]; }
+
+  /// Between the instants: sampled blocks read nothing.
+  const std::vector<int>& reads(int b) const {
+    static const std::vector<int> nothing;
+    return block(b).kernel->is_sampled() ? nothing : block(b).source;
+  }
+
+  std::string why_not_block(const BlockInstance& b) const {
+    if (b.kernel->is_sampled()) return "";
+    if (is_function_of_time(b) && program_.sampled_blocks.empty())
+      return b.n_u == 0 ? fmt::format("source {} \"{}\" is a function of time, not a recording", type_of(b), b.path)
+                        : fmt::format(
+                              "{} \"{}\" {}", type_of(b), b.path,
+                              b.sizes.smoothness == Smoothness::no_rate ? "draws random numbers" : "changes with time");
+    if (b.kernel->has_modes()) return fmt::format("{} \"{}\" changes its mode at events", type_of(b), b.path);
+    if (b.sizes.states > 0 && !b.kernel->declaration.is_linear)
+      return fmt::format("{} \"{}\" has nonlinear states", type_of(b), b.path);
+    return "";
+  }
+
+  /// The first refusal counts.
+  void refuse(const BlockInstance& b, std::string why) {
+    if (why.empty() || !graph_.why_not.empty()) return;
+    graph_.why_not = std::move(why);
+    graph_.in_the_way = b.path;
+  }
+
+  void give_roles() {
+    for (const auto& b : program_.blocks) {
+      refuse(b, why_not_block(b));
+      graph_.role.push_back(b.kernel->is_sampled()            ? AdvanceRole::sampled
+                            : is_function_of_time(b)          ? AdvanceRole::momentary
+                            : b.n_u == 0                      ? AdvanceRole::source
+                            : b.kernel->declaration.is_linear ? AdvanceRole::linear
+                                                              : AdvanceRole::nonlinear);
+    }
+    for (const int b : program_.value_order) {
+      if (role(b) != AdvanceRole::momentary && role(b) != AdvanceRole::sampled)
+        for (const int s : reads(b))
+          if (role(block_of(s)) == AdvanceRole::momentary) role(b) = AdvanceRole::momentary;
+      if (role(b) == AdvanceRole::momentary && remembers(block(b))) return refuse_source_of(b);
+    }
+  }
+
+  /// Names the function of time that reaches block `to`, which remembers what happens between instants.
+  void refuse_source_of(int to) {
+    int from = to;
+    while (!is_function_of_time(block(from))) {
+      int next = -1;
+      for (const int s : reads(from))
+        if (next < 0 && role(block_of(s)) == AdvanceRole::momentary) next = block_of(s);
+      from = next;
+    }
+    refuse(block(from), fmt::format("{} \"{}\" is a function of time and moves {} \"{}\" between the rows and instants",
+                                    type_of(block(from)), block(from).path, type_of(block(to)), block(to).path));
+  }
+
+  /// Strongly connected components of the blocks over all wires that are read between instants, sources first.
+  std::vector<std::vector<int>> components() const {
+    const int n = static_cast<int>(program_.blocks.size());
+    std::vector<int> index(at(n), -1), low(at(n), 0), stack;
+    std::vector<bool> on_stack(at(n), false);
+    std::vector<std::vector<int>> result;
+    struct Frame {
+      int block;
+      std::size_t next;
+    };
+    int counter = 0;
+    for (int root = 0; root < n; ++root) {
+      if (index[at(root)] >= 0) continue;
+      std::vector<Frame> frames{{root, 0}};
+      while (!frames.empty()) {
+        Frame& f = frames.back();
+        const auto v = at(f.block);
+        if (f.next == 0) {
+          index[v] = low[v] = counter++;
+          stack.push_back(f.block);
+          on_stack[v] = true;
+        }
+        const auto& sources = reads(f.block);
+        if (f.next < sources.size()) {
+          const int to = block_of(sources[f.next++]);
+          if (index[at(to)] < 0)
+            frames.push_back({to, 0});
+          else if (on_stack[at(to)])
+            low[v] = std::min(low[v], index[at(to)]);
+          continue;
+        }
+        if (low[v] == index[v]) {
+          result.emplace_back();
+          for (int b = -1; b != f.block;) {
+            b = stack.back();
+            stack.pop_back();
+            on_stack[at(b)] = false;
+            result.back().push_back(b);
+          }
+        }
+        const int done = f.block;
+        frames.pop_back();
+        if (!frames.empty()) low[at(frames.back().block)] = std::min(low[at(frames.back().block)], low[at(done)]);
+      }
+    }
+    return result;
+  }
+
+  void find_depths() {
+    graph_.depth.assign(program_.blocks.size(), 0);
+    for (const auto& component : components()) {  // sources first
+      const bool loop = component.size() > 1 || reads_itself(component.front());
+      int d = 0;
+      for (const int b : component) {
+        if (loop && role(b) != AdvanceRole::linear)
+          refuse(block(b),
+                 fmt::format("{} \"{}\" {} and stands in a feedback loop", type_of(block(b)), block(b).path,
+                             role(b) == AdvanceRole::momentary ? "follows a function of time" : "is nonlinear"));
+        for (const int s : reads(b)) {
+          const int from = block_of(s);
+          if (std::find(component.begin(), component.end(), from) == component.end())
+            d = std::max(d, graph_.depth[at(from)] + (role(from) == AdvanceRole::nonlinear ? 1 : 0));
+        }
+      }
+      for (const int b : component) graph_.depth[at(b)] = d;
+    }
+  }
+
+  bool reads_itself(int b) const {
+    return std::any_of(reads(b).begin(), reads(b).end(), [&](int s) { return block_of(s) == b; });
+  }
+
+  bool reads_jumps(int b, const std::vector<bool>& jumps) const {
+    return std::any_of(reads(b).begin(), reads(b).end(), [&](int s) { return jumps[at(s)]; });
+  }
+
+  /// Marks the outputs of sampled blocks and all that follows at once; with_delays: also what follows later.
+  std::vector<bool> jumping(bool with_delays) const {
+    std::vector<bool> jumps(program_.signals.size(), false);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) {
+        const auto& sizes = block(b).sizes;
+        const bool passes = sizes.feedthrough || (with_delays && sizes.history);
+        if (!block(b).kernel->is_sampled() && !(passes && reads_jumps(b, jumps))) continue;
+        for (int s = block(b).y_begin; s < block(b).y_begin + sizes.outputs; ++s)
+          if (!jumps[at(s)]) jumps[at(s)] = changed = true;
+      }
+    }
+    return jumps;
+  }
+
+  void find_jumps() {
+    graph_.jumps = jumping(false);
+    const auto later = jumping(true);
+    for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b)
+      graph_.echoes.push_back(block(b).history_index >= 0 && reads_jumps(b, later));
+  }
+
+  /// Between sampled blocks stands what jumps with one and is read by another at the same instant.
+  void find_hit_steps() {
+    const auto n = program_.blocks.size();
+    std::vector<bool> taken(n, false);
+    std::vector<int> todo = program_.sampled_blocks;
+    while (!todo.empty()) {
+      const int b = todo.back();
+      todo.pop_back();
+      if (taken[at(b)]) continue;
+      taken[at(b)] = true;
+      if (!block(b).kernel->is_sampled() && !block(b).sizes.feedthrough) continue;
+      for (const int s : block(b).source)
+        if (graph_.jumps[at(s)] && role(block_of(s)) != AdvanceRole::sampled) todo.push_back(block_of(s));
+    }
+    for (const Step& step : program_.hit_values) {
+      if (step.order != Order::loop) {
+        if (taken[at(step.block)]) take(step, {step.block});
+        continue;
+      }
+      const Loop& loop = program_.loops[at(step.block)];
+      if (std::none_of(loop.blocks.begin(), loop.blocks.end(), [&](int b) { return taken[at(b)]; })) continue;
+      take(step, loop.blocks);
+    }
+  }
+
+  void take(const Step& step, const std::vector<int>& blocks) {
+    graph_.hit_steps.push_back(step);
+    for (const int b : blocks)
+      graph_.hit_signals.insert(graph_.hit_signals.end(), block(b).source.begin(), block(b).source.end());
+  }
+
+  const Program& program_;
+  AdvanceGraph graph_;
+};
+
+}  // namespace
+
+AdvanceGraph advance_graph(const Program& program) { return Builder(program)(); }
+
+}  // namespace hysteron
