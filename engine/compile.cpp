@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/graph.h"
+#include "engine/past.h"
 
 namespace hysteron {
 namespace {
@@ -223,6 +224,7 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
   program->places = graph.places;
   program->simulate = diagram.simulate;
   program->title = diagram.title;
+  program->pasts = pasts_of(diagram.simulate, *program);
   start(*program);  // blocks refuse values that do not go together
   return program;
 }

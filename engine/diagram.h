@@ -143,6 +143,8 @@ struct SimulateSettings {
       absolute_tolerance{};                  ///< absolute: in units of each state's nominal size
   std::optional<Number> max_step{}, step{};  ///< step: of the methods with fixed steps
   std::optional<std::string> loops{};        ///< what an algebraic loop is: "solve" (solved, the default), or "error"
+  std::optional<std::string> start{};        ///< "given" (default: states as declared) or "steady" (equilibrium)
+  Ordered<NumberList> past{};                ///< block -> what its input has been before the start
   Ordered<Number> guess{};                   ///< signal -> where the search for the loop that it stands in begins
 };
 

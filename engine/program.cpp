@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/loops.h"
+#include "engine/past.h"
 #include "engine/simulate.h"
 
 namespace hysteron {
@@ -132,6 +133,7 @@ void reset(const Program& program, Run& run) {
       b.kernel->initial_memory(v);
     }
   }
+  for (const Past& past : program.pasts) walk(program, run, past);
 }
 
 Run start(const Program& program) {

@@ -95,6 +95,12 @@ struct Loop {
   bool of_values() const { return tears.front().order == Order::value; }
 };
 
+/// What the first input of a block has been before the start, value after value [SI] (past.h).
+struct Past {
+  int block = 0;
+  std::vector<double> inputs;
+};
+
 struct Program {
   std::vector<BlockInstance> blocks;
   std::vector<SignalInfo> signals;
@@ -127,6 +133,7 @@ struct Program {
   std::vector<Loop> loops;
   std::vector<double> guess;  ///< [SI] per number of Run::warm: where the loops start from at first
   Ordered<std::vector<std::string>> places;
+  std::vector<Past> pasts;
   SimulateSettings simulate;
   std::string title;
 

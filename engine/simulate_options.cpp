@@ -56,6 +56,12 @@ SimulateOptions simulate_options(const Program& program, SimulateOptions options
   if (given.max_step) options.max_step = seconds(*given.max_step, "solver/max_step", problems);
   if (given.relative_tolerance) options.relative_tolerance = *given.relative_tolerance;
   if (given.absolute_tolerance) options.absolute_tolerance = *given.absolute_tolerance;
+  if (given.start) {
+    options.at_rest = *given.start == "steady";
+    if (*given.start != "steady" && *given.start != "given")
+      problems.add("bad_value", "/simulate/start", fmt::format("a run cannot start \"{}\"", *given.start),
+                   did_you_mean(*given.start, {"given", "steady"}));
+  }
   if (given.method) {
     const auto& names = method_names();
     const auto found = std::find(names.begin(), names.end(), *given.method);

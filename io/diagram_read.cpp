@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/diagram_file.h"
 #include "engine/simulate.h"
+#include "io/diagram_file.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
 #include "io/recording_file.h"
@@ -307,10 +307,15 @@ class DiagramReader {
   void simulate(const JsonPlace& root) {
     const auto place = root.find("simulate");
     if (!place || !place->expect_object("{\"until\": \"1 s\", \"every\": \"1 ms\"}")) return;
-    place->only({"until", "every", "solver", "loops", "guess"});
+    place->only({"until", "every", "start", "past", "solver", "loops", "guess"});
     auto& s = diagram_.simulate;
     s.until = number_at(*place, "until");
     s.every = number_at(*place, "every");
+    if (const auto start = place->find("start")) s.start = start->text();
+    for_members(*place, "past", "{\"hysteresis\": [\"0 V\", \"10 V\", \"0 V\"]}",
+                [&](const std::string& block, const JsonPlace& values) {
+                  if (const auto list = read_numbers(values)) s.past[block] = *list;
+                });
     if (const auto loops = place->find("loops")) s.loops = loops->text();
     for_members(*place, "guess", "{\"error\": \"1 um\"}", [&](const std::string& signal, const JsonPlace& value) {
       if (const auto number = read_number(value)) s.guess[signal] = *number;

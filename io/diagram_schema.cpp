@@ -141,7 +141,9 @@ Json diagram_parameter() {
 Json simulate() {
   Json solver = object(
       "how it is integrated",
-      {{"method", choice_of("auto: exact where the diagram allows it, else bdf; bdf for stiff diagrams, adams for smooth ones, runge_kutta where restarts are frequent; euler and rk4 take fixed steps", method_names())},
+      {{"method", choice_of("auto: exact where the diagram allows it, else bdf; bdf for stiff diagrams, adams for "
+                            "smooth ones, runge_kutta where restarts are frequent; euler and rk4 take fixed steps",
+                            method_names())},
        {"relative_tolerance", number("error per step, relative")},
        {"absolute_tolerance", number("as a multiple of each state's nominal size")},
        {"max_step", quantity("longest step [s]", false)},
@@ -154,6 +156,12 @@ Json simulate() {
                  {"solver", std::move(solver)},
                  {"loops", choice_of("what an algebraic loop is: something to solve (the default), or an error",
                                      {"solve", "error"})},
+                 {"start", choice_of("given: states as declared; steady: equilibrium for the sources as they begin",
+                                     {"given", "steady"})},
+                 {"past",
+                  {{"type", "object"},
+                   {"description", "block -> what its input has been before the start, value after value"},
+                   {"additionalProperties", {{"type", "array"}, {"items", {{"type", {"number", "string"}}}}}}}},
                  {"guess",
                   {{"type", "object"},
                    {"description", "signals of algebraic loops, where the search for their solution begins"},

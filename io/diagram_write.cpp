@@ -218,7 +218,7 @@ class DiagramWriter {
 
   Members simulate() const {
     const auto& s = d_.simulate;
-    Members m, solver, guess;
+    Members m, solver, guess, past;
     if (s.until) m.emplace_back("until", value_text(*s.until));
     if (s.every) m.emplace_back("every", value_text(*s.every));
     if (s.method) solver.emplace_back("method", json_quoted(*s.method));
@@ -228,6 +228,9 @@ class DiagramWriter {
     if (s.max_step) solver.emplace_back("max_step", value_text(*s.max_step));
     if (!solver.empty()) m.emplace_back("solver", one_line(solver));
     if (s.loops) m.emplace_back("loops", json_quoted(*s.loops));
+    if (s.start) m.emplace_back("start", json_quoted(*s.start));
+    for (const auto& [block, values] : s.past) past.emplace_back(block, numbers_text(values));
+    if (!past.empty()) m.emplace_back("past", one_line(past));
     for (const auto& [signal, number] : s.guess) guess.emplace_back(signal, value_text(number));
     if (!guess.empty()) m.emplace_back("guess", one_line(guess));
     return m;

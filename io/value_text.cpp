@@ -193,4 +193,13 @@ std::string value_text(const Value& value) {
        "write them to a CSV and name it: \"file\", \"column\"");
 }
 
+std::optional<NumberList> read_numbers(const JsonPlace& place) {
+  if (!place.is_array()) {
+    place.add_wrong_type("a list such as [\"0 V\", \"10 V\"]");
+    return std::nullopt;
+  }
+  return read_list(place, std::nullopt);
+}
+std::string numbers_text(const NumberList& list) { return list_text(list); }
+
 }  // namespace hysteron

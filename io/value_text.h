@@ -18,6 +18,10 @@ std::optional<Number> read_number(const JsonPlace& place);
 std::optional<Value> read_value(const JsonPlace& place, const std::string& origin,
                                 const std::vector<std::string>& also = {});
 
+/// [0, "10 V"] in a file; nothing, with notes, where an element is no number.
+std::optional<NumberList> read_numbers(const JsonPlace& place);
+std::string numbers_text(const NumberList& list);
+
 /// Shortest text that reads back as the same double, as JSON wants it. Throws Error "not_finite".
 std::string number_text(double value);
 /// A text in quotes.

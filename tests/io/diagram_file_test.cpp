@@ -196,6 +196,19 @@ TEST(DiagramFile, WhatIsSaidOfAlgebraicLoopsIsReadAndWritten) {
   EXPECT_NE(diagram_text(d).find(settings), std::string::npos) << diagram_text(d);
 }
 
+TEST(DiagramFile, StartPastAndFixedStepAreReadAndWritten) {
+  const std::string settings =
+      R"("simulate": {"start": "steady", "past": {"core": ["0 V", "10 V", 3]}, "solver": {"method": "rk4", "step": "10 us"}})";
+  const TemporaryFolder folder;
+  const Diagram d = read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {}, )" + settings + "}"));
+  EXPECT_EQ(d.simulate.start, "steady");
+  EXPECT_EQ(*d.simulate.past.find("core"), (NumberList{{0, "V"}, {10, "V"}, {3, {}}}));
+  EXPECT_EQ(d.simulate.step, (Number{10, "us"}));
+  EXPECT_NE(diagram_text(d).find(R"("start": "steady", "past": {"core": ["0 V", "10 V", 3]})"), std::string::npos)
+      << diagram_text(d);
+  EXPECT_NE(diagram_text(d).find(R"("step": "10 us")"), std::string::npos);
+}
+
 TEST(DiagramFile, LongBlocksAreWrappedUnderTheirFirstKey) {
   Diagram d;
   Node& node = d.blocks["a"];
