@@ -109,16 +109,20 @@ class Explanation {
       const auto& b = block(step.block);
       std::vector<std::string> reads;
       for (const int s : b.source) reads.push_back(program_.signals[at(s)].path);
-      rows.push_back({fmt::format("{}", rows.size() + 1), name_of(step.order), b.path, type(step.block), when,
-                      reads.empty() ? "" : "reads " + joined(reads)});
+      // A source whose rate is needed makes its value in the same step, the first time that it is called.
+      const bool both = step.order == Order::rate && is_source_of_time(b) && !seen[at(step.block)];
+      rows.push_back({fmt::format("{}", rows.size() + 1), both ? "value+rate" : name_of(step.order), b.path,
+                      type(step.block), when, reads.empty() ? "" : "reads " + joined(reads)});
     };
     const auto values_in = [&](const Step& step) {
       if (step.order == Order::loop) return program_.loops[at(step.block)].blocks;
-      return step.order == Order::value ? std::vector<int>{step.block} : std::vector<int>{};
+      const bool makes_values =
+          step.order == Order::value || (step.order == Order::rate && is_source_of_time(block(step.block)));
+      return makes_values ? std::vector<int>{step.block} : std::vector<int>{};
     };
     for (const auto& step : program_.derivative_steps) {
-      for (const int b : values_in(step)) seen[at(b)] = true;
       add(step, "");
+      for (const int b : values_in(step)) seen[at(b)] = true;
     }
     for (const auto& step : program_.all_values) {
       const auto blocks = values_in(step);

@@ -98,7 +98,7 @@ TEST_F(Explain, EachValueComesBehindThoseThatItReads) {
     std::istringstream words(line);
     std::string number, what, block;
     words >> number >> what >> block;
-    if (what == "value") place[block] = ++at;
+    if (what == "value" || what == "value+rate") place[block] = ++at;
   }
   // The lag gives its value from its state, so it need not stand behind the hysteresis.
   for (const auto& [from, to] : {std::pair{"reference", "error"},
