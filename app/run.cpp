@@ -116,6 +116,17 @@ struct RunFacts {
   Facts traces, statistics;
 };
 
+/// "100 runs of sampled blocks; changes of mode: relay 12." or "".
+std::string events_text(const Statistics& s) {
+  std::vector<std::string> parts;
+  if (s.samples > 0) parts.push_back(count_text(s.samples, "run") + " of sampled blocks");
+  if (s.paths > 0) parts.push_back(count_text(s.paths, "jump") + " followed along the path");
+  std::vector<std::string> changes;
+  for (const auto& [block, count] : s.mode_changes) changes.push_back(fmt::format("{} {}", block, count));
+  if (!changes.empty()) parts.push_back(fmt::format("changes of mode: {}", fmt::join(changes, ", ")));
+  return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+}
+
 void add_traces(Document& document, RunFacts& facts, const Program& program, const Traces& traces,
                 const std::string& name) {
   document.traces.push_back(table_of(program, traces, trace_file(name, document.traces)));
@@ -128,13 +139,19 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(),
                                      s.method, count_text(s.steps, "step"), s.rejected, s.evaluations,
                                      count_text(s.reversals, "reversal")));
+  if (const std::string events = events_text(s); !events.empty()) section.text.push_back(events);
+  Facts changes = Facts::object({});
+  for (const auto& [block, count] : s.mode_changes) changes.set(block, count);
   facts.statistics.set(table.file, Facts::object({{"method", s.method},
                                                   {"steps", s.steps},
                                                   {"rejected", s.rejected},
                                                   {"evaluations", s.evaluations},
                                                   {"jacobians", s.jacobians},
                                                   {"reversals", s.reversals},
-                                                  {"restarts", s.restarts}}));
+                                                  {"restarts", s.restarts},
+                                                  {"samples", s.samples},
+                                                  {"jump_paths", s.paths},
+                                                  {"mode_changes", changes}}));
   document.sections.push_back(std::move(section));
 }
 

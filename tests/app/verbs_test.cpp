@@ -44,6 +44,23 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_EQ(folder_.entries(), before);
 }
 
+TEST_F(Verbs, RunTellsTheEventsOfEachBlock) {
+  // The sine of amplitude 1 passes +-0.5 three times in a second and a half behind the start in the lower mode.
+  folder_.write("relay.json", R"({
+    "format": 1, "title": "Relay",
+    "blocks": {
+      "drive": {"type": "sine", "amplitude": "1 V", "frequency": "1 Hz"},
+      "switch": {"type": "relay", "on_at": "0.5 V", "off_at": "-0.5 V", "on_value": "5 V", "off_value": "0 V", "in": "drive"},
+      "held": {"type": "sample_hold", "period": "0.1 s", "in": "switch"}
+    },
+    "record": ["held"], "simulate": {"until": "1.45 s", "every": "10 ms"}})");
+  const Outcome outcome = hysteron(folder_.path(), {"run", "relay.json", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json statistics = result("out").at("facts").at("statistics").at("signals.csv");
+  EXPECT_EQ(statistics.at("samples"), 15);
+  EXPECT_EQ(statistics.at("mode_changes").at("switch"), 3);
+}
+
 TEST_F(Verbs, LinearizeTellsPolesBandwidthAndMarginsOfALoop) {
   // L = 100/s /(1 + s/100): |L| = 1 at w = 78.615 rad/s, where the phase margin is 51.83 deg; closed: w0 = 100 rad/s.
   folder_.write("servo.json", R"({
