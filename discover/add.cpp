@@ -32,6 +32,7 @@ Spot spot_behind(const Wiring& w, const std::string& signal) {
   spot.from = first.block.empty()
                   ? *w.diagram().outputs.find(first.output)
                   : w.diagram().blocks.find(first.block)->in[static_cast<std::size_t>(first.index)].from;
+  spot.from.erase(spot.from.size() - first.element.size());
   return spot;
 }
 
@@ -91,9 +92,9 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
   const std::string source = w.source(w.signal(spot.from));
   for (const auto& reader : spot.readers) {
     if (reader.block.empty())
-      *diagram.outputs.find(reader.output) = name;
+      *diagram.outputs.find(reader.output) = name + reader.element;
     else
-      diagram.blocks.find(reader.block)->in[static_cast<std::size_t>(reader.index)].from = name;
+      diagram.blocks.find(reader.block)->in[static_cast<std::size_t>(reader.index)].from = name + reader.element;
   }
   place_node(diagram.blocks, source, name, std::move(choice));
   return name;
@@ -186,12 +187,14 @@ void take_out(Diagram& diagram, const std::string& name, const std::string& effe
     return;
   }
   const std::string from = choice.in.front().from;
+  const auto reads = [&](const std::string& wire) { return wire == name || wire.starts_with(name + "["); };
+  const auto put_back = [&](std::string& wire) {
+    if (reads(wire)) wire = from + wire.substr(name.size());
+  };
   for (auto& [other, node] : diagram.blocks)
-    for (auto& wire : node.in)
-      if (wire.from == name) wire.from = from;
-  for (auto& [output, signal] : diagram.outputs)
-    if (signal == name) signal = from;
-  std::erase(diagram.record, name);
+    for (auto& wire : node.in) put_back(wire.from);
+  for (auto& [output, signal] : diagram.outputs) put_back(signal);
+  std::erase_if(diagram.record, reads);
   diagram.blocks.erase(name);
 }
 

@@ -68,11 +68,15 @@ std::string Wiring::source(const std::string& signal) const {
 
 std::vector<Reader> Wiring::readers(const std::string& signal) const {
   std::vector<Reader> list;
+  const auto note = [&](const std::string& wire, Reader reader) {
+    const std::string read = this->signal(wire);
+    if (read != signal && !read.starts_with(signal + "[")) return;
+    reader.element = read.substr(signal.size());
+    list.push_back(std::move(reader));
+  };
   for (const auto& [name, node] : diagram_.blocks)
-    for (std::size_t i = 0; i < node.in.size(); ++i)
-      if (this->signal(node.in[i].from) == signal) list.push_back({name, static_cast<int>(i), ""});
-  for (const auto& [name, from] : diagram_.outputs)
-    if (this->signal(from) == signal) list.push_back({"", 0, name});
+    for (std::size_t i = 0; i < node.in.size(); ++i) note(node.in[i].from, {name, static_cast<int>(i), "", ""});
+  for (const auto& [name, from] : diagram_.outputs) note(from, {"", 0, name, ""});
   return list;
 }
 
@@ -175,7 +179,7 @@ std::vector<std::string> Wiring::chain(const std::string& signal) const {
   std::string s = signal;
   while (list.size() < 64) {
     const auto r = readers(s);
-    if (r.size() != 1 || r.front().block.empty()) break;
+    if (r.size() != 1 || r.front().block.empty() || !r.front().element.empty()) break;
     const Node* node = diagram_.blocks.find(r.front().block);
     // A choice that replaced a block (vary) is a block of the user's, not one of ours on the wire.
     const Node* off = node->from.find("off");
@@ -206,6 +210,7 @@ bool Wiring::passes(const std::string& block, Commutes law) const {
 
 std::string Wiring::root(const std::string& signal, Commutes law, int depth) const {
   const std::string block = source(signal);
+  if (signal.find('[') != std::string::npos) return signal;  // a law on one element is none on all of them
   if (block.empty() || depth > 64 || body(block) == nullptr || !passes(block, law) || outputs_of(block).size() != 1)
     return signal;
   const Node* node = diagram_.blocks.find(block);

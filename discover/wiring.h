@@ -17,6 +17,7 @@ struct Reader {
   std::string block;  ///< "" where it is an output
   int index = 0;      ///< into Node::in
   std::string output;
+  std::string element{};  ///< "[1]" where only that element of the signal is read
 };
 
 class Wiring {

@@ -88,6 +88,38 @@ TEST_F(AddedEffect, ComesAfterTheOneThatStandsOnTheWireAlready) {
   EXPECT_NO_THROW(compile(second.diagram, registry));
 }
 
+/// Two axes: u -> drive (a vector) -> y, and a monitor of its second element.
+Diagram two_axes() {
+  Diagram d;
+  d.inputs["u"] = {"V", "", 2};
+  d.blocks["drive"] = node("gain", {{"", "u"}});
+  d.blocks["drive"].parameters["gain"] = Value("10");
+  d.blocks["monitor"] = node("gain", {{"", "drive[1]"}});
+  d.blocks["monitor"].parameters["gain"] = Value("0.01");
+  d.outputs["y"] = "drive";
+  d.outputs["v"] = "monitor";
+  return d;
+}
+
+TEST_F(AddedEffect, OnAVectorStandsBeforeTheReadersOfItsElementsToo) {
+  const Added a = add_effect(two_axes(), registry, effects.get("creep"), "drive");
+  EXPECT_EQ(a.diagram.blocks.find(a.name)->in.front().from, "drive");
+  EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, a.name + "[1]");
+  EXPECT_EQ(*a.diagram.outputs.find("y"), a.name);
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+  const Diagram back = remove_effect(a.diagram, a.name);
+  EXPECT_EQ(diagram_text(back), diagram_text(two_axes()));
+}
+
+TEST_F(AddedEffect, OnOneElementOfAVectorLeavesTheOthersAlone) {
+  const Added a = add_effect(two_axes(), registry, effects.get("creep"), "drive[1]");
+  EXPECT_EQ(a.name, "drive_1_creep");
+  EXPECT_EQ(a.diagram.blocks.find(a.name)->in.front().from, "drive[1]");
+  EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, a.name);
+  EXPECT_EQ(*a.diagram.outputs.find("y"), "drive");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
 TEST_F(AddedEffect, IsRefusedWhereItStandsAlready) {
   const Added first = add_effect(stage(), registry, effects.get("creep"), "drive");
   try {
