@@ -73,10 +73,12 @@ std::string time_text(double seconds) {
 }
 double degrees(double radians) { return radians * 180 / pi; }
 
+/// "um/V"; a quotient or product below the line stands in brackets: "um/(V/um)".
 std::string ratio_unit(const Unit& to, const Unit& from) {
   if (to.text == from.text) return "";
   if (from.text.empty()) return to.text;
-  return to.text.empty() ? "1/" + from.text : to.text + "/" + from.text;
+  const bool compound = from.text.find_first_of("/ *.") != std::string::npos;
+  return (to.text.empty() ? "1" : to.text) + "/" + (compound ? "(" + from.text + ")" : from.text);
 }
 
 std::string pole_text(std::complex<double> p) {
