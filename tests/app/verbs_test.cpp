@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/units.h"
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
 #include "tests/app/schema_check.h"
@@ -42,6 +43,20 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_NE(outcome.out.find("diagram.json: ok: 3 blocks, 1 input, 1 output"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("dataset.json: ok: 2 recordings, 350 rows judged"), std::string::npos) << outcome.out;
   EXPECT_EQ(folder_.entries(), before);
+}
+
+TEST_F(Verbs, LinearizeWritesTheUnitOfAGainSoThatItCanBeReadBack) {
+  // From V/um to um: um/(V/um) = um^2/V; without brackets it would read as 1/V.
+  folder_.write("gain.json", R"({
+    "format": 1, "title": "Gain", "inputs": {"k": {"unit": "V/um"}},
+    "blocks": {"y": {"type": "gain", "gain": "2 um^2/V", "in": "k"}},
+    "outputs": {"y": "y"}, "record": ["y"]})");
+  const Outcome outcome = hysteron(folder_.path(), {"linearize", "gain.json", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json facts = result("out").at("facts");
+  const Unit unit = parse_unit(facts.at("unit").get<std::string>());
+  EXPECT_EQ(unit.dimension, parse_unit("um^2/V").dimension) << facts.at("unit");
+  EXPECT_NEAR(unit.to_si(facts.at("gain_at_low_frequencies").get<double>()), parse_unit("um^2/V").to_si(2), 1e-24);
 }
 
 TEST_F(Verbs, RunTellsTheEventsOfEachBlock) {
