@@ -55,8 +55,8 @@ class Fitting {
   void check() const;
   void prepare_result();
   std::vector<PointPointer> scan();
-  void try_point(std::span<const double> z, std::vector<PointPointer>& points);
-  void scan_grid(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points);
+  void try_points(const std::vector<std::vector<double>>& z, std::vector<PointPointer>& points);
+  std::vector<std::vector<double>> grid(const std::vector<std::vector<double>>& values) const;
   void scan_one_by_one(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points);
   void search(const std::vector<PointPointer>& starts);
   void search_from(const PointPointer& start);
@@ -121,7 +121,7 @@ bool Fitting::go_on(const char* stage) {
 
 void Fitting::prepare_result() {
   std::vector<ParameterValue> start;
-  for (const auto& f : free_) start.push_back({f.parameter, f.start});
+  for (const auto& f : free_) start.push_back({f.parameter, f.start, f.recording});
   const auto white = judge_.noise().white();
   model_.choose_substeps(start, white);
   result_.before = judge_.score(model_, model_.predict(start, judged_), judged_);
@@ -145,21 +145,29 @@ void Fitting::prepare_result() {
 // --- scan
 // -------------------------------------------------------------------------------------------------------------
 
-void Fitting::try_point(std::span<const double> z, std::vector<PointPointer>& points) {
-  if (!go_on("scan")) return;
-  const auto point = projection_->at(z);
-  keep(point);
-  if (point->ok) points.push_back(point);
+/// Tries points side by side; what can be simulated is appended.
+void Fitting::try_points(const std::vector<std::vector<double>>& z, std::vector<PointPointer>& points) {
+  constexpr std::size_t at_once = 32;
+  for (std::size_t first = 0; first < z.size() && go_on("scan"); first += at_once) {
+    const auto last = std::min(z.size(), first + at_once);
+    const std::vector<std::vector<double>> some(z.begin() + static_cast<std::ptrdiff_t>(first),
+                                                z.begin() + static_cast<std::ptrdiff_t>(last));
+    for (const auto& point : projection_->at_each(some)) {
+      if (!point->ok && first_error_.empty()) first_error_ = point->error;
+      if (point->ok) points.push_back(point);
+    }
+  }
 }
 
-void Fitting::scan_grid(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points) {
+std::vector<std::vector<double>> Fitting::grid(const std::vector<std::vector<double>>& values) const {
+  std::vector<std::vector<double>> points;
   std::vector<std::size_t> digit(values.size(), 0);
   const auto start = projection_->start();
   for (bool more = true; more;) {
     auto z = start;
     for (std::size_t k = 0; k < z.size(); ++k)
       if (!values[k].empty()) z[k] = values[k][digit[k]];
-    try_point(z, points);
+    points.push_back(std::move(z));
     more = false;
     for (std::size_t k = 0; k < digit.size() && !more; ++k) {
       if (values[k].empty()) continue;
@@ -167,17 +175,19 @@ void Fitting::scan_grid(const std::vector<std::vector<double>>& values, std::vec
       if (!more) digit[k] = 0;
     }
   }
+  return points;
 }
 
 void Fitting::scan_one_by_one(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points) {
   auto base = projection_->start();
   for (std::size_t k = 0; k < values.size(); ++k) {
-    std::vector<PointPointer> line;
+    std::vector<std::vector<double>> wanted;
     for (const double v : values[k]) {
-      auto z = base;
-      z[k] = v;
-      try_point(z, line);
+      wanted.push_back(base);
+      wanted.back()[k] = v;
     }
+    std::vector<PointPointer> line;
+    try_points(wanted, line);
     points.insert(points.end(), line.begin(), line.end());
     const auto best = std::min_element(line.begin(), line.end(), [](auto& a, auto& b) { return a->chi2 < b->chi2; });
     if (best != line.end()) base = (*best)->z;
@@ -187,7 +197,10 @@ void Fitting::scan_one_by_one(const std::vector<std::vector<double>>& values, st
 /// Points to search from, best first: the start and what the scan values offer.
 std::vector<PointPointer> Fitting::scan() {
   std::vector<PointPointer> points;
-  try_point(projection_->start(), points);
+  if (const auto start = projection_->at(projection_->start()); go_on("scan")) {
+    keep(start);
+    if (start->ok) points.push_back(start);
+  }
   std::vector<std::vector<double>> values;
   double count = 1;
   bool any = false;
@@ -199,7 +212,7 @@ std::vector<PointPointer> Fitting::scan() {
     count *= std::max<double>(1, static_cast<double>(f.scan.size()));
   }
   if (any && count <= options_.max_scan)
-    scan_grid(values, points);
+    try_points(grid(values), points);
   else if (any)
     scan_one_by_one(values, points);
   std::stable_sort(points.begin(), points.end(), [](auto& a, auto& b) { return a->chi2 < b->chi2; });
@@ -249,6 +262,7 @@ void Fitting::search(const std::vector<PointPointer>& starts) {
   }
   const auto n = std::min<std::size_t>(starts.size(), static_cast<std::size_t>(std::max(1, options_.refine)));
   for (std::size_t i = 0; i < n; ++i) search_from(starts[i]);
+  if (!best_) keep(projection_->at(starts.front()->z));  // stopped before the first search began
 }
 
 /// Where the result needs finer substeps than the start, the search goes on with them.
@@ -327,6 +341,9 @@ void Fitting::find_intervals() {
     add(projection_->linear()[j], best_->columns.col(j), -1);
   for (double& x : jacobian)
     if (!std::isfinite(x)) return;
+  // The intervals are scaled by s2, which is the data's: a prior knows its own width.
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (std::size_t i = projection_->data_rows(); i < rows; ++i) jacobian[j * rows + i] *= std::sqrt(result_.s2);
   NormalForm normal(static_cast<int>(columns.size()));
   normal.add(jacobian, best_->residual);
   judge_parameters(normal, columns, model_.why_not_exact().empty(), result_);
@@ -339,7 +356,8 @@ void Fitting::finish() {
   }
   result_.ok = true;
   write_estimates();
-  result_.chi2 = best_->chi2;
+  result_.chi2 = best_->chi2 - best_->prior_chi2;
+  result_.prior_chi2 = best_->prior_chi2;
   result_.n_parameters = 0;
   for (const auto& e : result_.estimates) result_.n_parameters += e.at_lower || e.at_upper ? 0 : 1;
   result_.after = judge_.score(model_, model_.predict(result_.values, judged_), judged_);
@@ -371,7 +389,9 @@ FitResult fit(DataModel& model, const NoiseModel& noise, const std::vector<FreeP
 FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& free, const FitOptions& options) {
   FitWithNoise both;
   both.noise = noise_before_fit(model);
-  both.result = fit(model, both.noise, free, options);
+  FitOptions first_options = options;  // its intervals would be thrown away
+  first_options.intervals = false;
+  both.result = fit(model, both.noise, free, first_options);
   if (!both.result.ok) return both;
   const auto fitted = options.recordings.empty() ? model.recordings(Role::train) : options.recordings;
   both.noise = noise_from_residual(model, both.noise, model.predict(both.result.values, fitted), fitted);
@@ -381,6 +401,7 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
     again[i].scan.clear();
   }
   auto second = fit(model, both.noise, again, options);
+  if (!second.ok) second = fit(model, noise_before_fit(model), again, options);  // with its intervals this time
   if (!second.ok) return both;
   const FitResult first = std::move(both.result);
   both.result = std::move(second);
@@ -392,7 +413,7 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
     return list;
   }();
   std::vector<ParameterValue> start;
-  for (const auto& f : free) start.push_back({f.parameter, f.start});
+  for (const auto& f : free) start.push_back({f.parameter, f.start, f.recording});
   both.result.before = judge.score(model, model.predict(start, judged), judged);
   both.result.runs += first.runs;
   both.result.failed_runs += first.failed_runs;

@@ -68,7 +68,8 @@ struct FitResult {
   std::vector<int> correlated{};         ///< indices into estimates that have an interval
   std::vector<ParameterValue> values{};  ///< what to pass to DataModel::predict
   Score before{}, after{};               ///< at the starts, at the result; all judged recordings
-  double chi2 = 0, n = 0;                ///< after, fitted recordings
+  double chi2 = 0, n = 0;                ///< after, fitted recordings, without priors
+  double prior_chi2 = 0;                 ///< sum over the priors of ((mean - value) / sigma)^2
   int n_parameters = 0;                  ///< determined and not held at a bound
   double s2 = 0;                         ///< chi2 / (n - n_parameters): intervals are scaled by it
   long runs = 0, failed_runs = 0;        ///< simulations of one recording

@@ -2,7 +2,9 @@
 // program. Does not fit.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/program.h"
@@ -15,7 +17,10 @@ struct FreeParameter {
   double lower = 0, upper = 0;  ///< [SI], may be infinite
   bool log_scale = false;       ///< searched in ln(value); value and bounds > 0
   std::vector<double>
-      scan{};  ///< [SI] values tried before the local search (the best two are refined); empty = start only
+      scan{};          ///< [SI] values tried before the local search (the best two are refined); empty = start only
+  int recording = -1;  ///< its value is that of this recording alone; -1: one value for all
+  /// [SI] what is known beforehand: 95 % of a normal distribution (of the logarithm where the scale is logarithmic).
+  std::optional<std::pair<double, double>> prior{};
 };
 
 /// The free parameters of a diagram, and those named in `extra` ("kp", "core.weights" = all its elements,

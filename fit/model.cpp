@@ -133,6 +133,13 @@ Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<
   return prediction;
 }
 
+std::vector<Prediction> DataModel::predict_each(std::span<const Trial> trials, std::span<const int> recordings) {
+  std::vector<Prediction> predictions;
+  predictions.reserve(trials.size());
+  for (const auto& trial : trials) predictions.push_back(predict(trial, recordings, false));
+  return predictions;
+}
+
 std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
                                                     std::span<const double> noise, bool only_finer) {
   Content& c = *content_;

@@ -17,7 +17,10 @@ namespace hysteron {
 struct ParameterValue {
   int parameter = -1;  ///< index into Program::parameters
   double value = 0;    ///< [SI]
+  int recording = -1;  ///< in this recording only; -1: in all
 };
+/// What one simulation uses; of two values for the same number the later one counts.
+using Trial = std::vector<ParameterValue>;
 
 /// Rows of one output on one recording, or of one response; only judged rows [first, last).
 using Rows = std::vector<double>;
@@ -80,6 +83,10 @@ class DataModel {
   /// Simulates the recordings with these values (all others as compiled). Never throws for a failing simulation.
   /// `with_initial` = false leaves out the responses to initial states that are free per recording.
   Prediction predict(std::span<const ParameterValue> values, std::span<const int> recordings, bool with_initial = true);
+
+  /// The same recordings with each of these trials: one Prediction per trial, as predict() would give it without
+  /// responses to initial states.
+  std::vector<Prediction> predict_each(std::span<const Trial> trials, std::span<const int> recordings);
 
   /// Chooses the substeps of each recording at these values: doubled until no row changes by more than
   /// max(noise[output] / 1000, substep_tolerance * span). Called by predict() at its first call with noise 0.

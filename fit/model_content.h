@@ -44,7 +44,7 @@ struct DataModel::Content {
   void find_outputs();
   void bind(int r);
   void find_free_states();
-  Run prepared(const BoundRecording& b, std::span<const ParameterValue> values) const;
+  Run prepared(int r, std::span<const ParameterValue> values) const;
   void set_start(const Recording& recording, Run& run, double t) const;
   bool from_rest(const Recording& recording) const;
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;

@@ -16,9 +16,21 @@ Projection::Projection(DataModel& model, const Judge& judge, const std::vector<F
     : model_(model), judge_(judge), free_(free), recordings_(std::move(recordings)) {
   for (std::size_t i = 0; i < free.size(); ++i) (affine[i] ? linear_ : nonlinear_).push_back(static_cast<int>(i));
   for (const int r : recordings_) {
+    begin_.push_back(rows_);
     rows_ += judge.size(r);
     has_initial_ = has_initial_ || (model.recording(r).initial_per_recording && !model.free_initial_states().empty());
   }
+  data_rows_ = rows_;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (!free[i].prior) continue;
+    PriorRow prior{static_cast<int>(i), free[i].log_scale && !affine[i], 0, 1};
+    double a = free[i].prior->first, b = free[i].prior->second;
+    if (prior.log_scale) a = std::log(a), b = std::log(b);
+    prior.mean = 0.5 * (a + b);
+    prior.sigma = (b - a) / (2 * 1.959963984540054);  // 95 % of a normal distribution lie between a and b
+    priors_.push_back(prior);
+  }
+  rows_ += priors_.size();
   // The step between two simulations may be large, for the model is affine in it; large makes rounding small.
   for (const int i : linear_) {
     const auto& f = free[static_cast<std::size_t>(i)];
@@ -69,11 +81,11 @@ std::vector<ParameterValue> Projection::values(std::span<const double> z, std::s
   std::vector<ParameterValue> list(free_.size());
   for (std::size_t k = 0; k < nonlinear_.size(); ++k) {
     const auto i = static_cast<std::size_t>(nonlinear_[k]);
-    list[i] = {free_[i].parameter, to_value(static_cast<int>(k), z[k])};
+    list[i] = {free_[i].parameter, to_value(static_cast<int>(k), z[k]), free_[i].recording};
   }
   for (std::size_t j = 0; j < linear_.size(); ++j) {
     const auto i = static_cast<std::size_t>(linear_[j]);
-    list[i] = {free_[i].parameter, theta[j]};
+    list[i] = {free_[i].parameter, theta[j], free_[i].recording};
   }
   return list;
 }
@@ -87,15 +99,54 @@ std::vector<double> Projection::reference() const {
   return ref;
 }
 
-/// factor * W (a - b), all recordings one behind the other.
-void Projection::whiten_difference(const Prediction& a, const Prediction& b, double factor, double* out) const {
-  for (const int r : recordings_) {
-    const auto k = static_cast<std::size_t>(r);
-    auto rows = a.y[k];
-    for (std::size_t o = 0; o < rows.size(); ++o)
-      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] = factor * (rows[o][i] - b.y[k][o][i]);
-    judge_.whiten(r, rows, out);
-    out += judge_.size(r);
+std::span<const int> Projection::touched(int recording) const {
+  if (recording < 0) return recordings_;
+  const auto found = std::find(recordings_.begin(), recordings_.end(), recording);
+  return found == recordings_.end() ? std::span<const int>{} : std::span<const int>(&*found, 1);
+}
+
+/// Simulates what is wanted, as much at once as memory allows, and hands each prediction on: what concerns all
+/// recordings first, in the order given.
+void Projection::simulate(std::span<const Wanted> wanted, const Use& use) {
+  constexpr std::size_t numbers_at_once = 4'000'000;  // 32 MB of predictions
+  std::vector<int> groups{-1};
+  groups.insert(groups.end(), recordings_.begin(), recordings_.end());
+  for (const int group : groups) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i].recording == group) members.push_back(i);
+    const auto recordings = touched(group);
+    const std::size_t rows = group < 0 ? data_rows_ : judge_.size(group);
+    const std::size_t most = std::max<std::size_t>(4, numbers_at_once / std::max<std::size_t>(1, rows));
+    for (std::size_t first = 0; first < members.size(); first += most) {
+      const std::size_t n = std::min(most, members.size() - first);
+      std::vector<Trial> trials;
+      for (std::size_t i = 0; i < n; ++i) trials.push_back(wanted[members[first + i]].trial);
+      const auto predictions = model_.predict_each(trials, recordings);
+      for (std::size_t i = 0; i < n; ++i) use(members[first + i], predictions[i]);
+    }
+  }
+}
+
+/// W (measured - y) of the recordings that a parameter touches, at their places in `out`.
+void Projection::whiten_residual(const Prediction& prediction, int recording, double* out) const {
+  for (std::size_t k = 0; k < recordings_.size(); ++k) {
+    const int r = recordings_[k];
+    if (recording >= 0 && recording != r) continue;
+    std::vector<Rows> rows;
+    for (int o = 0; o < static_cast<int>(model_.outputs().size()); ++o)
+      rows.push_back(residual_rows(model_, prediction, r, o));
+    judge_.whiten(r, rows, out + begin_[k]);
+  }
+}
+
+/// One row per prior, behind the data.
+void Projection::prior_rows(std::span<const double> z, std::span<const double> theta, double* out) const {
+  if (priors_.empty()) return;
+  const auto all = values(z, theta);
+  for (const auto& prior : priors_) {
+    const double value = all[static_cast<std::size_t>(prior.free)].value;
+    *out++ = (prior.mean - (prior.log_scale ? std::log(value) : value)) / prior.sigma;
   }
 }
 
@@ -107,38 +158,52 @@ void Projection::clear(const ProjectedPoint& point, double* column) const {
   }
 }
 
-/// Simulates the reference and one response per linear parameter.
-bool Projection::responses(std::span<const double> z, ProjectedPoint& point, std::vector<double>& residual) {
+/// Simulates the reference and one response per linear parameter of each point.
+void Projection::responses(std::span<ProjectedPoint*> points, std::vector<std::vector<double>>& residuals) {
   const auto ref = reference();
-  const auto base = model_.predict(values(z, ref), recordings_, false);
-  if (!base.ok) {
-    point.error = base.error;
-    return false;
-  }
-  residual.resize(rows_);
-  double* out = residual.data();
-  for (const int r : recordings_) {
-    std::vector<Rows> rows;
-    for (int o = 0; o < static_cast<int>(model_.outputs().size()); ++o)
-      rows.push_back(residual_rows(model_, base, r, o));
-    judge_.whiten(r, rows, out);
-    out += judge_.size(r);
-  }
-  point.columns = Dense(rows_, linear_.size());
-  for (std::size_t j = 0; j < linear_.size(); ++j) {
-    auto theta = ref;
-    const auto& f = free_[static_cast<std::size_t>(linear_[j])];
-    double step = delta_[j];
-    if (theta[j] + step > f.upper && theta[j] - step >= f.lower) step = -step;
-    theta[j] += step;
-    const auto moved = model_.predict(values(z, theta), recordings_, false);
-    if (!moved.ok) {
-      point.error = moved.error;
-      return false;
+  const std::size_t m = linear_.size();
+  std::vector<double> step(m);
+  std::vector<Wanted> wanted;
+  residuals.assign(points.size(), std::vector<double>(rows_));
+  for (auto* point : points) {
+    point->ok = true;
+    point->columns = Dense(rows_, m);
+    wanted.push_back({values(point->z, ref), -1});
+    for (std::size_t j = 0; j < m; ++j) {
+      auto theta = ref;
+      const auto& f = free_[static_cast<std::size_t>(linear_[j])];
+      step[j] = theta[j] + delta_[j] > f.upper && theta[j] - delta_[j] >= f.lower ? -delta_[j] : delta_[j];
+      theta[j] += step[j];
+      wanted.push_back({values(point->z, theta), f.recording});
     }
-    whiten_difference(moved, base, 1 / step, point.columns.col(j));
   }
-  return true;
+  simulate(wanted, [&](std::size_t i, const Prediction& prediction) {
+    ProjectedPoint& point = *points[i / (m + 1)];
+    auto& residual = residuals[i / (m + 1)];
+    if (!prediction.ok) {
+      if (point.ok) point.error = prediction.error;
+      point.ok = false;
+    }
+    if (!point.ok) return;
+    if (i % (m + 1) == 0) return whiten_residual(prediction, -1, residual.data());
+    const std::size_t j = i % (m + 1) - 1;
+    const int recording = free_[static_cast<std::size_t>(linear_[j])].recording;
+    double* column = point.columns.col(j);
+    whiten_residual(prediction, recording, column);
+    for (const int r : touched(recording)) {
+      const auto k =
+          static_cast<std::size_t>(std::find(recordings_.begin(), recordings_.end(), r) - recordings_.begin());
+      for (std::size_t row = begin_[k]; row < begin_[k] + judge_.size(r); ++row)
+        column[row] = (residual[row] - column[row]) / step[j];
+    }
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i]->ok) continue;
+    prior_rows(points[i]->z, ref, residuals[i].data() + data_rows_);
+    for (std::size_t p = 0; p < priors_.size(); ++p)
+      for (std::size_t j = 0; j < m; ++j)
+        if (linear_[j] == priors_[p].free) points[i]->columns(data_rows_ + p, j) = 1 / priors_[p].sigma;
+  }
 }
 
 /// Free initial states are responses too, but scaled by the linear parameters: taken at `theta`.
@@ -158,19 +223,28 @@ void Projection::clear_initial(ProjectedPoint& point, std::vector<double>& resid
   for (std::size_t j = 0; j < linear_.size(); ++j) clear(point, point.columns.col(j));
 }
 
-ProjectedPoint Projection::evaluate(std::span<const double> z) {
-  ProjectedPoint point;
-  point.z.assign(z.begin(), z.end());
-  std::vector<double> residual;
-  if (!responses(z, point, residual)) {
-    // Some blocks refuse zeros: then everything is measured from the start values, from now on.
-    if (!from_zero_ || linear_.empty()) return point;
-    from_zero_ = false;
-    if (!responses(z, point, residual)) {
-      from_zero_ = true;
-      return point;
+void Projection::evaluate(std::span<ProjectedPoint> points) {
+  std::vector<ProjectedPoint*> all;
+  for (auto& point : points) all.push_back(&point);
+  std::vector<std::vector<double>> residuals;
+  responses(all, residuals);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].ok) {
+      solve(points[i], residuals[i]);
+    } else if (from_zero_ && !linear_.empty()) {
+      // Some blocks refuse zeros: then everything is measured from the start values, from now on.
+      from_zero_ = false;
+      std::vector<std::vector<double>> again;
+      responses(std::span(all).subspan(i, 1), again);
+      if (points[i].ok)
+        solve(points[i], again.front());
+      else
+        from_zero_ = true;
     }
   }
+}
+
+void Projection::solve(ProjectedPoint& point, std::vector<double>& residual) {
   const auto ref = reference();
   const auto m = linear_.size();
   std::vector<double> low(m), high(m), near(m);
@@ -208,24 +282,94 @@ ProjectedPoint Projection::evaluate(std::span<const double> z) {
     for (std::size_t i = 0; i < rows_; ++i) residual[i] -= c[i] * solution.x[j];
   }
   point.chi2 = dot(residual.data(), residual.data(), rows_);
+  point.prior_chi2 = dot(residual.data() + data_rows_, residual.data() + data_rows_, priors_.size());
   point.residual = std::move(residual);
   point.ok = std::isfinite(point.chi2);
   if (!point.ok) point.error = "the residual is not finite";
-  return point;
 }
 
 PointPointer Projection::at(std::span<const double> z) {
   for (const auto& p : recent_)
     if (std::equal(z.begin(), z.end(), p->z.begin(), p->z.end())) return p;
-  auto point = std::make_shared<ProjectedPoint>(evaluate(z));
+  auto point = std::make_shared<ProjectedPoint>();
+  point->z.assign(z.begin(), z.end());
+  evaluate(std::span(point.get(), 1));
   if (recent_.size() >= 3) recent_.erase(recent_.begin());
   recent_.push_back(point);
   return point;
 }
 
+std::vector<PointPointer> Projection::at_each(const std::vector<std::vector<double>>& points) {
+  std::vector<PointPointer> list;
+  // As many at once as fit into memory with their columns.
+  const std::size_t numbers = rows_ * (linear_.size() + 2);
+  const std::size_t most = std::max<std::size_t>(1, 8'000'000 / std::max<std::size_t>(1, numbers));
+  for (std::size_t first = 0; first < points.size(); first += most) {
+    std::vector<ProjectedPoint> some(std::min(most, points.size() - first));
+    for (std::size_t i = 0; i < some.size(); ++i) some[i].z = points[first + i];
+    evaluate(some);
+    for (auto& point : some) {
+      point.columns = {};  // only where it lies and how good it is matters of a point among many
+      point.residual.clear();
+      list.push_back(std::make_shared<ProjectedPoint>(std::move(point)));
+    }
+  }
+  return list;
+}
+
 bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns) {
   const auto low = lower(), high = upper();
-  columns = Dense(rows_, nonlinear_.size());
+  const std::size_t m = nonlinear_.size();
+  columns = Dense(rows_, m);
+  // BDF's own error is noise of its tolerance between two neighbouring trials; the exact advance has rounding only.
+  const bool exact = model_.why_not_exact().empty();
+  const double relative = exact ? (central ? 1e-4 : 1e-6) : (central ? 3e-3 : 1e-3);
+
+  /// Where the residual of one side is known: at first here alone, for both sides.
+  struct Side {
+    double z = 0;
+    bool moved = false;
+    std::vector<double> residual;
+  };
+  std::vector<Side> above(m), below(m);
+  std::vector<double> step(m);
+  for (std::size_t k = 0; k < m; ++k) {
+    const auto& f = free_[static_cast<std::size_t>(nonlinear_[k])];
+    above[k].z = below[k].z = point.z[k];
+    double size = f.log_scale ? 1.0 : std::max(std::abs(point.z[k]), 0.01 * std::abs(f.start));
+    if (size == 0) size = std::isfinite(high[k] - low[k]) ? 0.01 * (high[k] - low[k]) : 1.0;
+    step[k] = relative * size;
+  }
+  const auto recording_of = [&](std::size_t k) { return free_[static_cast<std::size_t>(nonlinear_[k])].recording; };
+  // One side of all parameters that `choose` picks, in one go. Sides that cannot be simulated stay here.
+  const auto move = [&](std::vector<Side>& sides, double sign, const auto& choose) {
+    std::vector<Wanted> wanted;
+    std::vector<std::size_t> parameter;
+    for (std::size_t k = 0; k < m; ++k) {
+      if (!choose(k)) continue;
+      auto z = point.z;
+      z[k] = std::clamp(point.z[k] + sign * step[k], low[k], high[k]);
+      if (z[k] == point.z[k]) continue;
+      sides[k].z = z[k];
+      sides[k].residual = point.residual;
+      prior_rows(z, point.theta, sides[k].residual.data() + data_rows_);
+      wanted.push_back({values(z, point.theta), recording_of(k)});
+      parameter.push_back(k);
+    }
+    simulate(wanted, [&](std::size_t i, const Prediction& prediction) {
+      Side& side = sides[parameter[i]];
+      side.moved = prediction.ok;
+      if (!prediction.ok) side.z = point.z[parameter[i]];
+      if (prediction.ok) {
+        whiten_residual(prediction, recording_of(parameter[i]), side.residual.data());
+        clear(point, side.residual.data());
+      }
+    });
+  };
+  move(above, 1, [](std::size_t) { return true; });
+  // One side is enough where the other cannot be had, or where speed counts.
+  move(below, -1, [&](std::size_t k) { return central || !above[k].moved; });
+
   Dense basis(rows_, 0);
   if (projected) {
     Dense inside(rows_, 0);
@@ -236,31 +380,15 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
       }
     basis = orthonormal_basis(inside, dependent);
   }
-  // BDF's own error is noise of its tolerance between two neighbouring trials; the exact advance has rounding only.
-  const bool exact = model_.why_not_exact().empty();
-  const bool two_sided = central || !exact;
-  const double relative = exact ? (two_sided ? 1e-4 : 1e-6) : 3e-3;
-  const auto here = model_.predict(values(point.z, point.theta), recordings_, false);
-  if (!here.ok) return false;
-  for (std::size_t k = 0; k < nonlinear_.size(); ++k) {
-    const auto& f = free_[static_cast<std::size_t>(nonlinear_[k])];
-    double size = f.log_scale ? 1.0 : std::max(std::abs(point.z[k]), 0.01 * std::abs(f.start));
-    if (size == 0) size = std::isfinite(high[k] - low[k]) ? 0.01 * (high[k] - low[k]) : 1.0;
-    auto forward = point.z, backward = point.z;
-    forward[k] = std::min(point.z[k] + relative * size, high[k]);
-    if (two_sided || forward[k] == point.z[k]) backward[k] = std::max(point.z[k] - relative * size, low[k]);
-    auto up = forward[k] != point.z[k] ? model_.predict(values(forward, point.theta), recordings_, false) : here;
-    auto down = backward[k] != point.z[k] ? model_.predict(values(backward, point.theta), recordings_, false) : here;
-    if (!up.ok) up = here, forward[k] = point.z[k];  // one side is enough where the other cannot be simulated
-    if (!down.ok) down = here, backward[k] = point.z[k];
-    if (forward[k] == backward[k]) {
-      backward[k] = std::max(point.z[k] - relative * size, low[k]);
-      down = model_.predict(values(backward, point.theta), recordings_, false);
-      if (!down.ok || forward[k] == backward[k]) return false;
-    }
+  for (std::size_t k = 0; k < m; ++k) {
+    // A parameter whose recording is not among these changes nothing.
+    if (recording_of(k) >= 0 && touched(recording_of(k)).empty()) continue;
+    if (!above[k].moved && !below[k].moved) return false;
+    const auto& up = above[k].moved ? above[k].residual : point.residual;
+    const auto& down = below[k].moved ? below[k].residual : point.residual;
+    const double width = above[k].z - below[k].z;
     double* column = columns.col(k);
-    whiten_difference(up, down, -1 / (forward[k] - backward[k]), column);
-    clear(point, column);
+    for (std::size_t i = 0; i < rows_; ++i) column[i] = (up[i] - down[i]) / width;
     if (!projected) continue;
     const double before = length(column, rows_);
     clear_of(basis, column);

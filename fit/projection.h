@@ -3,11 +3,13 @@
 //
 //   y(z, theta) = y(z, ref) + sum_j (theta_j - ref_j) c_j(z)      exactly, for parameters proved jointly affine
 //   r(z) = min over theta within bounds of |W (measured - y(z, theta))|
-// c_j is the difference of two simulations. dr/dz is taken at fixed theta and cleared of the free columns (Kaufman, BIT
-// 15 (1975) 49): the gradient is exact, and a Jacobian costs one simulation per nonlinear parameter instead of one for
-// each of the linear ones as well.
+// c_j is the difference of two simulations. A parameter of one recording alone has zeros in the others, which are not
+// simulated for it. A prior is one more row: (mean - value) / sigma. dr/dz is taken at fixed theta and cleared of the
+// free columns (Kaufman, BIT 15 (1975) 49): the gradient is exact, and a Jacobian costs one simulation per nonlinear
+// parameter instead of one for each of the linear ones as well.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,11 +27,12 @@ namespace hysteron {
 struct ProjectedPoint {
   bool ok = false;
   std::string error;
-  std::vector<double> z;         ///< nonlinear parameters, ln(value) where the scale is logarithmic
-  std::vector<double> theta;     ///< linear parameters [SI]
-  std::vector<Bound> bound;      ///< of the linear ones
-  std::vector<double> residual;  ///< whitened, all recordings one behind the other
-  double chi2 = 0;
+  std::vector<double> z;             ///< nonlinear parameters, ln(value) where the scale is logarithmic
+  std::vector<double> theta;         ///< linear parameters [SI]
+  std::vector<Bound> bound;          ///< of the linear ones
+  std::vector<double> residual;      ///< whitened, all recordings one behind the other, then one row per prior
+  double chi2 = 0;                   ///< of all rows
+  double prior_chi2 = 0;             ///< the priors' part of it
   Dense columns;                     ///< whitened responses to the linear parameters
   std::vector<Dense> initial_basis;  ///< per recording: orthonormal columns of the free initial states
 };
@@ -43,6 +46,7 @@ class Projection {
   int n_linear() const { return static_cast<int>(linear_.size()); }
   int n_nonlinear() const { return static_cast<int>(nonlinear_.size()); }
   std::size_t rows() const { return rows_; }
+  std::size_t data_rows() const { return data_rows_; }        ///< before the rows of the priors
   const std::vector<int>& linear() const { return linear_; }  ///< indices into the free parameters
   const std::vector<int>& nonlinear() const { return nonlinear_; }
 
@@ -53,6 +57,8 @@ class Projection {
 
   /// The last few points are remembered.
   PointPointer at(std::span<const double> z);
+  /// Many at once, for what is simulated side by side; not remembered.
+  std::vector<PointPointer> at_each(const std::vector<std::vector<double>>& points);
   void forget() { recent_.clear(); }
 
   /// dr/dz (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
@@ -63,10 +69,21 @@ class Projection {
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
 
  private:
-  ProjectedPoint evaluate(std::span<const double> z);
-  bool responses(std::span<const double> z, ProjectedPoint& point, std::vector<double>& residual);
+  /// A trial, and the recording that it changes (-1: all).
+  struct Wanted {
+    Trial trial;
+    int recording = -1;
+  };
+  using Use = std::function<void(std::size_t, const Prediction&)>;
+  void simulate(std::span<const Wanted> wanted, const Use& use);
+  std::span<const int> touched(int recording) const;
+
+  void evaluate(std::span<ProjectedPoint> points);
+  void responses(std::span<ProjectedPoint*> points, std::vector<std::vector<double>>& residuals);
+  void solve(ProjectedPoint& point, std::vector<double>& residual);
   void clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta);
-  void whiten_difference(const Prediction& a, const Prediction& b, double factor, double* out) const;
+  void whiten_residual(const Prediction& prediction, int recording, double* out) const;
+  void prior_rows(std::span<const double> z, std::span<const double> theta, double* out) const;
   void clear(const ProjectedPoint& point, double* column) const;
   std::vector<double> reference() const;
 
@@ -74,11 +91,18 @@ class Projection {
   const Judge& judge_;
   const std::vector<FreeParameter>& free_;
   std::vector<int> recordings_;
+  std::vector<std::size_t> begin_;  ///< per entry of recordings_: its first row
   std::vector<int> linear_, nonlinear_;
   std::vector<double> delta_;  ///< per linear parameter: step between the two simulations
   bool from_zero_ = true;      ///< reference: zero where the bounds allow it, else the start
   bool has_initial_ = false;
-  std::size_t rows_ = 0;
+  std::size_t rows_ = 0, data_rows_ = 0;
+  struct PriorRow {
+    int free = -1;           ///< index into the free parameters
+    bool log_scale = false;  ///< mean and sigma are those of ln(value)
+    double mean = 0, sigma = 1;
+  };
+  std::vector<PriorRow> priors_;
   std::vector<PointPointer> recent_;
 };
 

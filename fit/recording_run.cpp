@@ -106,9 +106,10 @@ void DataModel::Content::find_free_states() {
 }
 
 /// A run with these values; throws where a block refuses them.
-Run DataModel::Content::prepared(const BoundRecording& b, std::span<const ParameterValue> values) const {
-  Run run = b.run;
+Run DataModel::Content::prepared(int r, std::span<const ParameterValue> values) const {
+  Run run = bound[static_cast<std::size_t>(r)].run;
   for (const auto& v : values) {
+    if (v.recording >= 0 && v.recording != r) continue;
     if (!std::isfinite(v.value))
       fail_numerics("not_finite", program->parameters[static_cast<std::size_t>(v.parameter)].path,
                     "value is not finite", "give a finite start value");
@@ -176,7 +177,7 @@ std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue>
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   ++runs;
-  Run run = prepared(b, values);
+  Run run = prepared(r, values);
   set_start(recording, run, b.instants.front());
   simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
   return rows_of(b);
@@ -185,7 +186,7 @@ std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue>
 void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const auto k = static_cast<std::size_t>(r);
-  Run rest = prepared(b, values);
+  Run rest = prepared(r, values);
   rest.t = b.instants.front();
   settle_at_rest(*program, rest, rest.t);
   const auto response = [&](std::size_t state, double unit) {

@@ -256,6 +256,78 @@ TEST(Fit, IntervalsHoldTheTruthInNinetyFivePercentOfDraws) {
   EXPECT_LE(inside_gain, 199);
 }
 
+TEST(Fit, AParameterOfEachRecordingIsFoundInEachAndTheSharedOneInAll) {
+  // The same lag with another gain in each recording: as one gain for both, neither would fit.
+  DataSet data = two_recordings();
+  data.recordings[1].role = Role::train;
+  const auto program = compile(lag_and_gain(), lab::registry());
+  const int tau = parameter_index(*program, "amplifier.times[0]"), gain = parameter_index(*program, "g.gain");
+  lab::measure(data, program, 1e-9, 21, {{tau, 0.02}, {gain, 3e-6, 0}, {gain, 5e-6, 1}});
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"amplifier.times", "g.gain"});
+  free.push_back(free[1]);
+  free[1].recording = 0;
+  free[2].recording = 1;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  const double truth[] = {0.02, 3e-6, 5e-6};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(r.values[i].recording, free[i].recording);
+    EXPECT_EQ(r.estimates[i].linear, i > 0);
+    ASSERT_TRUE(r.estimates[i].sigma);
+    EXPECT_NEAR(*r.estimates[i].value, truth[i], 5 * *r.estimates[i].sigma);
+    EXPECT_LT(*r.estimates[i].sigma, 1e-3 * truth[i]);
+  }
+}
+
+TEST(Fit, ANonlinearParameterOfEachRecordingIsSimulatedInItsRecordingOnly) {
+  DataSet data = two_recordings();
+  data.recordings[1].role = Role::train;
+  const auto program = compile(lag_and_gain(), lab::registry());
+  const int tau = parameter_index(*program, "amplifier.times[0]");
+  lab::measure(data, program, 1e-9, 22, {{tau, 0.02, 0}, {tau, 0.06, 1}});
+  DataModel model(program, lab::shared(data));
+  std::vector<FreeParameter> free(2, free_parameter(*program, "amplifier.times[0]"));
+  free[0].recording = 0;
+  free[1].recording = 1;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  EXPECT_NEAR(*r.estimates[0].value, 0.02, 5 * *r.estimates[0].sigma);
+  EXPECT_NEAR(*r.estimates[1].value, 0.06, 5 * *r.estimates[1].sigma);
+  EXPECT_LT(*r.estimates[1].sigma, 1e-4);
+  // Each is blind to the other's recording.
+  ASSERT_EQ(r.correlation.size(), 4U);
+  EXPECT_NEAR(r.correlation[1], 0, 1e-12);
+}
+
+TEST(Fit, APriorPullsByItsWeightAndIsCountedApart) {
+  // One gain, white noise of known size: the posterior mean of two normal distributions in closed form.
+  DataSet data = two_recordings();
+  const auto program = compile(gain_and_offset(), lab::registry());
+  const int gain = parameter_index(*program, "sensor.gain");
+  lab::measure(data, program, 10e-9, 23, {{gain, 2.5e-6}});
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"sensor.gain"});
+  const auto noise = noise_before_fit(model);
+  const auto plain = fit(model, noise, free);
+  const double sigma_data = 10e-9 / std::sqrt([&] {
+                              double sum = 0;
+                              for (const double u : data.recordings[0].columns["u"]) sum += u * u;
+                              return sum;
+                            }());
+  // 95 % of the prior within four standard deviations of the data, one hundred of them away.
+  const double mean = *plain.estimates[0].value + 100 * sigma_data, sigma = 2 * sigma_data;
+  free[0].prior = {mean - 1.959963984540054 * sigma, mean + 1.959963984540054 * sigma};
+  const auto r = fit(model, noise, free);
+  ASSERT_TRUE(r.ok) << r.error;
+  const double weight = 1 / (sigma_data * sigma_data), prior_weight = 1 / (sigma * sigma);
+  const double expected = (weight * *plain.estimates[0].value + prior_weight * mean) / (weight + prior_weight);
+  EXPECT_NEAR(*r.estimates[0].value, expected, 1e-6 * sigma_data);
+  // The data alone: chi2 rises by ((x - x_data) / sigma_data)^2; the prior's own part is ((mean - x) / sigma)^2.
+  EXPECT_NEAR(r.chi2 - plain.chi2, std::pow((expected - *plain.estimates[0].value) / sigma_data, 2), 1e-3);
+  EXPECT_NEAR(r.prior_chi2, std::pow((mean - expected) / sigma, 2), 1e-3);
+}
+
 TEST(Fit, CorrelationsAreOneOnTheDiagonalAndSymmetric) {
   DataSet data = two_recordings();
   const auto program = compile(plays(4), lab::registry());
