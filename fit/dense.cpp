@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/triangle.h"
+
 namespace hysteron {
 namespace {
 
@@ -23,26 +25,8 @@ double dot(const double* a, const double* b, std::size_t n) {
 double length(const double* a, std::size_t n) { return std::sqrt(dot(a, a, n)); }
 
 void triangularize(Dense& m) {
-  for (std::size_t j = 0; j < m.cols && j + 1 < m.rows; ++j) {
-    double* v = m.col(j) + j;
-    const std::size_t n = m.rows - j;
-    const double norm = length(v, n);
-    if (norm == 0) continue;
-    const double beta = v[0] > 0 ? -norm : norm;
-    const double scale = v[0] - beta;  // reflector (1, v_2/scale, ...), tau = -scale/beta
-    for (std::size_t i = 1; i < n; ++i) v[i] /= scale;
-    v[0] = 1;
-    for (std::size_t k = j + 1; k < m.cols; ++k) {
-      double* x = m.col(k) + j;
-      const double f = -scale / beta * dot(v, x, n);
-      for (std::size_t i = 0; i < n; ++i) x[i] -= f * v[i];
-    }
-    v[0] = beta;
-    std::fill(v + 1, v + n, 0.0);
-  }
   Dense r(m.cols, m.cols);
-  for (std::size_t j = 0; j < m.cols; ++j)
-    for (std::size_t i = 0; i <= j && i < m.rows; ++i) r(i, j) = m(i, j);
+  add_to_triangle(r.a.data(), m.cols, m.a.data(), m.rows);
   m = std::move(r);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fit/dense.h"
+#include "fit/triangle.h"
 
 namespace hysteron {
 namespace {
@@ -170,23 +171,22 @@ NormalForm::NormalForm(int unknowns)
       d(static_cast<std::size_t>(unknowns), 0.0) {}
 
 void NormalForm::add(std::span<const double> a, std::span<const double> b) {
+  constexpr std::size_t at_once = 128;  // rows of a panel that stays in the cache
   const std::size_t rows = b.size(), m = static_cast<std::size_t>(n);
-  if (rows == 0) return;
-  Dense all(m + 1 + rows, m + 1);  // what is there already on top, the new rows below; b as the last column
-  for (std::size_t j = 0; j < m; ++j) {
-    std::copy(r.begin() + static_cast<std::ptrdiff_t>(j * m), r.begin() + static_cast<std::ptrdiff_t>((j + 1) * m),
-              all.col(j));
-    std::copy(a.begin() + static_cast<std::ptrdiff_t>(j * rows),
-              a.begin() + static_cast<std::ptrdiff_t>((j + 1) * rows), all.col(j) + m + 1);
+  Dense triangle(m + 1, m + 1);  // b as the last column
+  for (std::size_t j = 0; j < m; ++j) std::copy_n(r.data() + j * m, m, triangle.col(j));
+  std::copy(d.begin(), d.end(), triangle.col(m));
+  triangle(m, m) = std::sqrt(rest);
+  std::vector<double> panel(at_once * (m + 1));
+  for (std::size_t first = 0; first < rows; first += at_once) {
+    const std::size_t count = std::min(at_once, rows - first);
+    for (std::size_t j = 0; j < m; ++j) std::copy_n(a.data() + j * rows + first, count, panel.data() + j * count);
+    std::copy_n(b.data() + first, count, panel.data() + m * count);
+    add_to_triangle(triangle.a.data(), m + 1, panel.data(), count);
   }
-  std::copy(d.begin(), d.end(), all.col(m));
-  all(m, m) = std::sqrt(rest);
-  std::copy(b.begin(), b.end(), all.col(m) + m + 1);
-  triangularize(all);
-  for (std::size_t j = 0; j < m; ++j)
-    for (std::size_t i = 0; i < m; ++i) r[j * m + i] = all(i, j);
-  for (std::size_t i = 0; i < m; ++i) d[i] = all(i, m);
-  rest = all(m, m) * all(m, m);
+  for (std::size_t j = 0; j < m; ++j) std::copy_n(triangle.col(j), m, r.data() + j * m);
+  std::copy_n(triangle.col(m), m, d.begin());
+  rest = triangle(m, m) * triangle(m, m);
 }
 
 LinearSolution solve_bounded(const NormalForm& problem, std::span<const double> lower, std::span<const double> upper,

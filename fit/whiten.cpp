@@ -49,8 +49,8 @@ void inverse_cosine_transform(std::span<double> coefficients) {
   fftw_execute_r2r(plans_for(coefficients.size()).backward, coefficients.data(), coefficients.data());
 }
 
-Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero)
-    : weight_(rows), drop_zero_(drop_zero && rows > 0) {
+Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero, Order order)
+    : weight_(rows), drop_zero_(drop_zero && rows > 0), in_time_(order == Order::any && share == 0) {
   const double a = share * share * static_cast<double>(rows) / 7.9;
   for (std::size_t k = 0; k < rows; ++k) {
     const double colour = k == 0 ? 4 * a : a / (static_cast<double>(k) + 0.5);
@@ -60,9 +60,27 @@ Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero)
 
 void Whitener::apply(std::span<const double> rows, double* out) const {
   if (weight_.empty()) return;
+  if (in_time_) return apply_in_time(rows, out);
   std::vector<double> coefficients(rows.begin(), rows.end());
   cosine_transform(coefficients);
   for (std::size_t k = drop_zero_ ? 1 : 0; k < weight_.size(); ++k) *out++ = coefficients[k] * weight_[k];
+}
+
+/// White noise is as white in time. The reflection that takes the constant to the first row leaves all that is not
+/// constant in the others.
+void Whitener::apply_in_time(std::span<const double> rows, double* out) const {
+  const double weight = weight_.back();
+  if (!drop_zero_) {
+    for (const double x : rows) *out++ = x * weight;
+    return;
+  }
+  const auto n = static_cast<double>(rows.size());
+  const double root = std::sqrt(n);
+  double sum = 0;
+  for (const double x : rows) sum += x;
+  // v = (1, ..., 1)/sqrt(n) - (1, 0, ..., 0); x - 2 v (v'x)/(v'v) with v'v = 2 - 2/sqrt(n)
+  const double shift = rows.size() > 1 ? (sum / root - rows[0]) / (root - 1) : 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) *out++ = (rows[i] - shift) * weight;
 }
 
 std::size_t Whitener::upper_half() const { return weight_.size() / 2 - (drop_zero_ && weight_.size() > 1 ? 1 : 0); }

@@ -101,6 +101,35 @@ TEST(Whitener, AConstantVanishesWhereTheZeroIsFreeAndIsSeenWhereItIsNot) {
   for (const double x : v) EXPECT_NEAR(x, 0, 1e-12);
 }
 
+TEST(Whitener, WhiteNoiseInAnyOrderHasTheSameLengthsAndProducts) {
+  lab::Noise random(3);
+  for (const std::size_t n : {std::size_t{1}, std::size_t{2}, std::size_t{101}})
+    for (const bool drop_zero : {false, true}) {
+      Rows a, b;
+      for (std::size_t i = 0; i < n; ++i) {
+        a.push_back(5 + random());
+        b.push_back(random() - 2);
+      }
+      const Whitener ordered(n, 0.1, 0, drop_zero), any(n, 0.1, 0, drop_zero, Whitener::Order::any);
+      ASSERT_EQ(any.size(), ordered.size());
+      std::vector<std::vector<double>> w(4, std::vector<double>(any.size()));
+      ordered.apply(a, w[0].data());
+      ordered.apply(b, w[1].data());
+      any.apply(a, w[2].data());
+      any.apply(b, w[3].data());
+      double expected_aa = 0, expected_ab = 0, aa = 0, ab = 0;
+      for (std::size_t i = 0; i < any.size(); ++i) {
+        expected_aa += w[0][i] * w[0][i];
+        expected_ab += w[0][i] * w[1][i];
+        aa += w[2][i] * w[2][i];
+        ab += w[2][i] * w[3][i];
+      }
+      // Orthonormal transforms of some hundred numbers of size 50: rounding.
+      EXPECT_NEAR(aa, expected_aa, 1e-12 * (1 + expected_aa)) << n << drop_zero;
+      EXPECT_NEAR(ab, expected_ab, 1e-12 * (1 + expected_aa)) << n << drop_zero;
+    }
+}
+
 TEST(Whitener, SlowDriftCountsLessThanFastMotionOfTheSameSize) {
   const std::size_t n = 1000;
   std::vector<double> slow(n), fast(n), w(n);
