@@ -10,7 +10,7 @@ constexpr char source[] =
     "thesis Eqs. 2.23 to 2.35, the reversible term by the chain rule; Jiles, Atherton, J. Magn. Magn. Mater. 61 (1986) "
     "48-60; Smith, Ounaies, J. Intell. Mater. Syst. Struct. 11 (2000) 62-79";
 constexpr char slope_text[] =
-    "F(u, y, d) = [(A - y)/(k d - alpha/(1 - c) (A - y)) + R]/[1 - alpha R], A = p_s tanh((u + alpha y)/a), R = c "
+    "F(u, p, d) = [(A - p)/(k d - alpha/(1 - c) (A - p)) + R]/[1 - alpha R], A = p_s tanh((u + alpha p)/a), R = c "
     "p_s/a "
     "(1 - (A/p_s)^2)";
 
@@ -38,6 +38,17 @@ std::string law_check(const P& p) {
   return "";
 }
 
+template <class P>
+std::string inverse_check(const P& p) {
+  if (!(p.scale > 0)) return fmt::format("the scale is {:.4g}, so there is no inverse; give a positive one", p.scale);
+  return law_check(p);
+}
+
+template <class B>
+ParameterDeclaration& scale_parameter(BlockSpec<B>& spec) {
+  return spec.param(&B::template Params<double>::scale, "scale", "", "factor on the output").optional("1");
+}
+
 }  // namespace
 
 void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
@@ -46,15 +57,20 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
       .elementwise()
       .rate_independent()
       .at("core");
-  spec.law(std::string("dy/dt = F(u, y, sign u') u', ") + slope_text).from(source);
+  spec.law(std::string("y = scale p, dp/dt = F(u, p, sign u') u', ") + slope_text).from(source);
   spec.remark("The input must have a rate: noise needs a filter in between. A jump is followed as a fast ramp.");
   spec.remark("The irreversible part is not cut off where it is negative: published piezo parameters hold so.");
-  spec.remark("There is no law where k d = alpha/(1 - c) (A - y): a strong alpha with a small k ends there.");
+  spec.remark("There is no law where k d = alpha/(1 - c) (A - p): a strong alpha with a small k ends there.");
+  spec.remark(
+      "The normalised model of the thesis (Eq. 4.4): scale is the measured stroke over that of the law, found by "
+      "linear "
+      "least squares; a fit of p_s, a, alpha, k, c then cares for the shape alone.");
   spec.input(&In<double>::u, "u", "$a", "drive: field or voltage");
   spec.state(&State<double>::p, "p", "$b", "polarisation");
   spec.output(&Out<double>::y, "y", "$b", "polarisation or displacement");
   law_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$b", "polarisation at the start").optional("0").difference();
+  scale_parameter(spec).linear();
 }
 std::string JilesAtherton::check(const Params<double>& p) { return law_check(p); }
 
@@ -64,7 +80,7 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
       .elementwise()
       .rate_independent()
       .at("command");
-  spec.law(std::string("du/dt = y'/F(u, y + origin, sign y'), ") + slope_text).from(source);
+  spec.law(std::string("du/dt = (y'/scale)/F(u, (y + origin)/scale, sign y'), ") + slope_text).from(source);
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
       "The input must have a rate: noise needs a filter in between. Where it is sampled, "
@@ -80,15 +96,17 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
   spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
       .optional("0")
       .difference();
+  scale_parameter(spec);
 }
-std::string JilesAthertonInverse::check(const Params<double>& p) { return law_check(p); }
+std::string JilesAthertonInverse::check(const Params<double>& p) { return inverse_check(p); }
 
 void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse>& spec) {
   spec.name("sampled_jiles_atherton_inverse", "jiles_atherton_inverse of a digital controller")
       .in_group("sampled")
       .elementwise()
       .at("command");
-  spec.law(std::string("u_k = u_(k-1) + integral from y_(k-1) to y_k of dy/F(u, y + origin, d), ") + slope_text)
+  spec.law(std::string("u_k = u_(k-1) + integral from p_(k-1) to p_k of dp/F(u, p, d), p = (y + origin)/scale, ") +
+           slope_text)
       .from(std::string(source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
@@ -103,9 +121,10 @@ void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse
   spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
       .optional("0")
       .difference();
+  scale_parameter(spec);
   spec.sampled(&Params<double>::period, &Params<double>::offset);
 }
-std::string SampledJilesAthertonInverse::check(const Params<double>& p) { return law_check(p); }
+std::string SampledJilesAthertonInverse::check(const Params<double>& p) { return inverse_check(p); }
 
 Kernel jiles_atherton_block() { return kernel<JilesAtherton>(); }
 Kernel jiles_atherton_inverse_block() { return kernel<JilesAthertonInverse>(); }

@@ -12,7 +12,7 @@ namespace hysteron::blocks {
 struct JilesAtherton {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial;
+    T p_s, a, alpha, k, c, initial, scale;
   };
   template <class T>
   struct In {
@@ -28,8 +28,8 @@ struct JilesAtherton {
   };
   static void describe(BlockSpec<JilesAtherton>& spec);
   template <class T>
-  static Out<T> output(const Params<T>&, const State<T>& s) {
-    return {s.p};
+  static Out<T> output(const Params<T>& p, const State<T>& s) {
+    return {p.scale * s.p};
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in, const In<T>& rate) {
@@ -43,7 +43,7 @@ struct JilesAtherton {
 struct JilesAthertonInverse {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial, origin;
+    T p_s, a, alpha, k, c, initial, origin, scale;
   };
   template <class T>
   struct In {
@@ -64,7 +64,7 @@ struct JilesAthertonInverse {
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in, const In<T>& rate) {
-    const jiles_atherton::Params<T> law{p.p_s, p.a, p.alpha, p.k, p.c};
+    const auto law = jiles_atherton::scaled(jiles_atherton::Params<T>{p.p_s, p.a, p.alpha, p.k, p.c}, p.scale);
     return {jiles_atherton::field_rate(law, s.u, T{in.y + p.origin}, rate.y)};
   }
   static State<double> initial(const Params<double>& p) { return {p.initial}; }
@@ -74,7 +74,7 @@ struct JilesAthertonInverse {
 struct SampledJilesAthertonInverse {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial, origin, period, offset;
+    T p_s, a, alpha, k, c, initial, origin, scale, period, offset;
   };
   template <class T>
   struct In {
@@ -91,7 +91,7 @@ struct SampledJilesAthertonInverse {
   static void describe(BlockSpec<SampledJilesAthertonInverse>& spec);
   template <class T>
   static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    const jiles_atherton::Params<T> law{p.p_s, p.a, p.alpha, p.k, p.c};
+    const auto law = jiles_atherton::scaled(jiles_atherton::Params<T>{p.p_s, p.a, p.alpha, p.k, p.c}, p.scale);
     return {jiles_atherton::field_after(law, s.u, T{s.y + p.origin}, T{in.y + p.origin})};
   }
   template <class T>

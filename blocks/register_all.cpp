@@ -21,6 +21,7 @@
 #include "blocks/multisine.h"
 #include "blocks/pi_controller.h"
 #include "blocks/play.h"
+#include "blocks/polynomial.h"
 #include "blocks/prandtl_ishlinskii.h"
 #include "blocks/prandtl_ishlinskii_inverse.h"
 #include "blocks/product.h"
@@ -36,6 +37,7 @@
 #include "blocks/step.h"
 #include "blocks/sum.h"
 #include "blocks/tank.h"
+#include "blocks/tapi.h"
 #include "blocks/thermal_network.h"
 #include "blocks/transfer_function.h"
 #include "blocks/triangle.h"
@@ -60,6 +62,7 @@ Registry all_blocks() {
   r.add(blocks::product_block());
   r.add(blocks::pass_block());
   r.add(blocks::saturation_block());
+  r.add(blocks::polynomial_block());
   r.add(blocks::calibration_block());
 
   r.add(blocks::mux_block());
@@ -83,6 +86,7 @@ Registry all_blocks() {
   r.add(blocks::prandtl_ishlinskii_block());
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());
+  r.add(blocks::tapi_block());
   r.add(blocks::relay_block());
 
   r.add(blocks::prandtl_ishlinskii_inverse_block());
@@ -103,6 +107,7 @@ Registry all_blocks() {
   r.add(blocks::sampled_pid_block());
   r.add(blocks::sampled_bouc_wen_inverse_block());
   r.add(blocks::sampled_jiles_atherton_inverse_block());
+  r.add(blocks::sampled_tapi_inverse_block());
 
   r.add(blocks::sensor_noise_block());
   return r;

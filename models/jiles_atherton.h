@@ -91,6 +91,16 @@ T field_after(const Params<T>& p, const T& field, const T& from, const T& to, do
                       relative);
 }
 
+/// The law whose polarisation is `scale` times that of p on the same field: P_s and alpha change, no other number does.
+///
+///   P_n = s P:  dP_n/dt = s F(E, P_n/s, d) dE/dt = F_n(E, P_n, d) dE/dt  with  P_s,n = s P_s, alpha_n = alpha/s
+///
+/// Source: thesis Eqs. 4.4 and 4.5 as corrected (normalised model), s = wanted stroke over the stroke of p.
+template <class T>
+Params<T> scaled(const Params<T>& p, const T& scale) {
+  return {scale * p.p_s, p.a, p.alpha / scale, p.k, p.c};
+}
+
 /// 1 - alpha c P_s/a: must be positive, else the reversible part runs away by itself at zero field.
 template <class T>
 T reversible_margin(const Params<T>& p) {

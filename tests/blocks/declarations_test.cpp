@@ -156,7 +156,10 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "discrete_transfer_function",
                                        "sampled_pid",
                                        "sampled_bouc_wen_inverse",
-                                       "sampled_jiles_atherton_inverse"};
+                                       "sampled_jiles_atherton_inverse",
+                                       "polynomial",
+                                       "tapi",
+                                       "sampled_tapi_inverse"};
   EXPECT_EQ(found, expected);
 }
 

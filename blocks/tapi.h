@@ -1,0 +1,78 @@
+// Decides the blocks of the temperature-dependent asymmetric Prandtl-Ishlinskii model: "tapi" and its inverse
+// "sampled_tapi_inverse". Does not decide the law: models/tapi.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/block.h"
+#include "models/tapi.h"
+
+namespace hysteron::blocks {
+
+struct Tapi {
+  enum Parameter { thresholds, weights, p_s, t_c, beta, a, before };
+  enum Input { u, temperature };
+
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape& shape);
+  static std::string check(const View<double>& v);
+  template <class T>
+  static tapi::Params<T> law(const View<T>& v) {
+    return {v.parameter(p_s), v.parameter(t_c), v.parameter(beta), v.parameter(a)};
+  }
+  template <class T>
+  static void advance(const View<T>& v) {
+    prandtl_ishlinskii::advance(play::Sides::one, v.list(thresholds), v.memory(), v.u[u], v.out);
+  }
+  template <class T>
+  static void output(const View<T>& v) {
+    v.out[0] = tapi::output(law(v), v.list(weights), v.memory(), v.u[u], v.u[temperature]);
+  }
+  static void initial_memory(const View<double>& v);
+};
+
+/// Finds the input of the actuator at each instant; its states are the operators of the actuator.
+struct SampledTapiInverse {
+  enum Parameter { thresholds, weights, p_s, t_c, beta, a, before };
+  enum Input { y, temperature };
+
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape& shape);
+  static std::string check(const View<double>& v);
+  template <class T>
+  static void output(const View<T>& v) {
+    v.out[0] = command(v);
+  }
+  template <class T>
+  static void update(const View<T>& v) {
+    const T command_now = v.y != nullptr ? v.y[0] : command(v);
+    prandtl_ishlinskii::advance(play::Sides::one, v.list(thresholds), v.states(), command_now, v.out);
+  }
+  static void initial_states(const View<double>& v);
+
+ private:
+  /// The answer in plain numbers, then one step of Newton's method in T: it adds the derivatives and no more than
+  /// rounding.
+  template <class T>
+  static T command(const View<T>& v) {
+    const auto plain_list = [](std::span<const T> list) {
+      std::vector<double> numbers;
+      for (const T& x : list) numbers.push_back(plain(x));
+      return numbers;
+    };
+    const tapi::Params<T> law{v.parameter(p_s), v.parameter(t_c), v.parameter(beta), v.parameter(a)};
+    const tapi::Params<double> numbers{plain(law.p_s), plain(law.t_c), plain(law.beta), plain(law.a)};
+    const auto r = plain_list(v.list(thresholds)), c = plain_list(v.list(weights)), w = plain_list(v.states());
+    const double hot = plain(v.u[temperature]);
+    const double found = tapi::input_for(numbers, r, c, w, plain(v.u[y]), hot);
+    const T miss =
+        tapi::output_at(law, v.list(thresholds), v.list(weights), v.states(), T{found}, v.u[temperature]) - v.u[y];
+    return T{found} - miss / T{tapi::slope_at(numbers, r, c, w, found, hot)};
+  }
+};
+
+Kernel tapi_block();
+Kernel sampled_tapi_inverse_block();
+
+}  // namespace hysteron::blocks
