@@ -40,4 +40,16 @@ void search_by_swarm(const GlobalProblem& problem, bool attracted, const GlobalS
 void search_by_nlopt(const GlobalProblem& problem, const std::string& method, const GlobalSettings& settings,
                      CostCounter& cost);
 
+struct Polished {
+  Point best;  ///< empty if no point could be evaluated
+  double cost = 0;
+  long runs = 0;
+  bool stopped = false;
+};
+
+/// Sbplx of NLopt from one start: for few unknowns and costs with kinks. `step`: where to look at first; ends where the
+/// unknowns move by less than `tolerance` relative. `go_on` sees the best cost so far.
+Polished minimize_without_slopes(const std::function<double(const Point&)>& cost, const Point& start, const Point& step,
+                                 double tolerance, long max_runs, const std::function<bool(double)>& go_on);
+
 }  // namespace hysteron
