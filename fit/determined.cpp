@@ -56,10 +56,12 @@ std::string sentence_for(const std::vector<std::string>& paths, const std::vecto
 
 class Analysis {
  public:
-  Analysis(const NormalForm& jacobian, const std::vector<Sensitive>& columns, FitResult& result)
+  Analysis(const NormalForm& jacobian, const std::vector<Sensitive>& columns, FitResult& result,
+           const NormalForm* coloured)
       : n_(static_cast<std::size_t>(jacobian.n)),
         columns_(columns),
         result_(result),
+        coloured_(coloured),
         scaled_(n_, n_),
         length_(n_),
         dropped_(n_, false) {
@@ -188,8 +190,23 @@ class Analysis {
       for (std::size_t j = 0; j < m; ++j) {
         double sum = 0;
         for (std::size_t k = 0; k < m; ++k) sum += inverse(i, k) * inverse(j, k);
-        covariance(i, j) = result_.s2 * sum / (length_[kept[i]] * length_[kept[j]]);
+        covariance(i, j) = sum;
       }
+    if (coloured_ == nullptr) {
+      for (double& c : covariance.a) c *= result_.s2;
+    } else {
+      Dense moved(n_, m);  // V^1/2 J (J'J)^-1, but for a rotation
+      for (std::size_t j = 0; j < m; ++j)
+        for (std::size_t k = 0; k < m; ++k) {
+          const double* column = coloured_->r.data() + kept[k] * n_;
+          const double f = covariance(k, j) / length_[kept[k]];
+          for (std::size_t i = 0; i < n_; ++i) moved(i, j) += f * column[i];
+        }
+      for (std::size_t i = 0; i < m; ++i)
+        for (std::size_t j = 0; j < m; ++j) covariance(i, j) = dot(moved.col(i), moved.col(j), n_);
+    }
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) covariance(i, j) /= length_[kept[i]] * length_[kept[j]];
     return covariance;
   }
 
@@ -213,6 +230,7 @@ class Analysis {
   std::size_t n_;
   const std::vector<Sensitive>& columns_;
   FitResult& result_;
+  const NormalForm* coloured_;
   Dense scaled_;  ///< columns of length one
   Vector length_;
   std::vector<bool> dropped_;
@@ -220,9 +238,9 @@ class Analysis {
 
 }  // namespace
 
-void judge_parameters(const NormalForm& jacobian, const std::vector<Sensitive>& columns, bool exact,
-                      FitResult& result) {
-  Analysis analysis(jacobian, columns, result);
+void judge_parameters(const NormalForm& jacobian, const std::vector<Sensitive>& columns, bool exact, FitResult& result,
+                      const NormalForm* coloured) {
+  Analysis analysis(jacobian, columns, result, coloured);
   analysis.drop_silent();
   analysis.drop_combinations(exact ? 1e-6 : 1e-3);
   analysis.drop_lost_in_noise();

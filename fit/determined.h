@@ -25,7 +25,10 @@ struct Sensitive {
 
 /// Fills sigma, interval, determined, correlation and undetermined of `result` from the triangular factor of the
 /// Jacobian (one column per entry of `columns`). `exact`: columns are good to 1e-6, else to 1e-3.
-void judge_parameters(const NormalForm& jacobian, const std::vector<Sensitive>& columns, bool exact, FitResult& result);
+/// `coloured`: the same Jacobian with each row times the standard deviation that the residual has there, where that is
+/// not one for all: covariance (J'J)^-1 J'VJ (J'J)^-1, of a fit whose weights are not those of its noise.
+void judge_parameters(const NormalForm& jacobian, const std::vector<Sensitive>& columns, bool exact, FitResult& result,
+                      const NormalForm* coloured = nullptr);
 
 /// 97.5 % quantile of Student's t (Abramowitz, Stegun 26.7.5).
 double student_975(double degrees_of_freedom);

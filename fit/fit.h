@@ -3,7 +3,9 @@
 // Does not choose the model.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,16 +13,22 @@
 
 #include "engine/diagram.h"
 #include "fit/free_parameter.h"
+#include "fit/global.h"
 #include "fit/model.h"
 #include "fit/noise.h"
 #include "fit/score.h"
 
 namespace hysteron {
 
+struct Neighbourhood;  // colour.h
+
 struct FitProgress {
-  double chi2 = 0;      ///< best so far
-  long runs = 0;        ///< simulations of one recording so far
-  std::string stage{};  ///< "scan", "search", "intervals"
+  double chi2 = 0;       ///< best so far
+  double rows = 0;       ///< what chi2 is when nothing but noise is left
+  long runs = 0;         ///< simulations of one recording so far
+  long candidates = 0;   ///< points tried so far
+  double fraction = -1;  ///< of this stage; negative = unknown
+  std::string stage{};   ///< "scan", "global", "search", "intervals", "profile"
 };
 
 struct FitOptions {
@@ -28,8 +36,20 @@ struct FitOptions {
   int refine = 2;           ///< scan points that are searched from
   int max_scan = 64;        ///< points of a grid over several scanned parameters; beyond, one parameter after the other
   bool intervals = true;    ///< covariance, intervals, undetermined combinations (one more Jacobian)
-  std::vector<int> recordings{};  ///< fitted; empty = all train recordings
-  std::vector<int> judged{};      ///< scored afterwards; empty = all train and validate recordings (never test)
+  int starts = 0;           ///< further points spread evenly over the box, tried like those of a scan
+  /// A method of global.h that looks for a start before the local search; "" = none. Needs finite bounds.
+  std::string global{};
+  long global_runs = 505;                ///< its budget of points
+  bool polish = true;                    ///< false: the best point of the global method is the result
+  std::optional<Attractor> attractor{};  ///< of "nmpso"; components count the free parameters
+  std::uint64_t seed = 1;                ///< of the starts and of the global method
+  std::vector<int> profile{};            ///< free parameters (places in the list) whose profile is wanted
+  std::vector<ParameterValue> fixed{};   ///< held at these values
+  /// What the residual is like, where that is not what the weights say: the intervals follow it.
+  std::optional<NoiseModel> residual_noise{};
+  bool keep_neighbourhood = false;  ///< for noise_from_likelihood()
+  std::vector<int> recordings{};    ///< fitted; empty = all train recordings
+  std::vector<int> judged{};        ///< scored afterwards; empty = all train and validate recordings (never test)
   /// Called between trials; false = stop with the best so far.
   std::function<bool(const FitProgress&)> progress{};
 };
@@ -38,6 +58,7 @@ struct FitOptions {
 struct ParameterEstimate {
   int parameter = -1;
   std::string path;
+  int recording = -1;  ///< of this recording alone; -1: of all
   Unit unit{};
   bool difference = false;
   bool linear = false;  ///< found by linear least squares
@@ -47,9 +68,10 @@ struct ParameterEstimate {
   double used = 0;                          ///< what the simulations behind chi2 used; no estimate unless `determined`
   bool determined = true;                   ///< the data fix it (alone, not only in a combination)
   bool at_lower = false, at_upper = false;  ///< held back by a bound: no interval
-  std::optional<double> value{};            ///< the estimate; absent if not determined
-  std::optional<double> sigma{};            ///< standard deviation (of ln value times value for log scale)
-  std::optional<double> low95{}, high95{};  ///< 95 % interval, inside the bounds
+  std::optional<std::pair<double, double>> prior{};  ///< as given
+  std::optional<double> value{};                     ///< the estimate; absent if not determined
+  std::optional<double> sigma{};                     ///< standard deviation (of ln value times value for log scale)
+  std::optional<double> low95{}, high95{};           ///< 95 % interval, inside the bounds
 };
 
 /// Parameters of which the data fix at most a combination.
@@ -59,23 +81,35 @@ struct Undetermined {
   std::string sentence;           ///< for people
 };
 
+/// How chi2 rises where one parameter is held and all others are fitted again.
+struct Profile {
+  int estimate = -1;
+  std::vector<double> value;  ///< [SI] increasing
+  std::vector<double> rise;   ///< of chi2 (priors included) over its least value, over s2
+  /// Where the rise is 3.84 (95 % of chi-square with one degree of freedom); absent: an open end.
+  std::optional<double> low95{}, high95{};
+};
+
 struct FitResult {
   bool ok = false;
   std::string error{};  ///< why there is no result, "" if ok
   std::vector<ParameterEstimate> estimates{};
   std::vector<Undetermined> undetermined{};
-  std::vector<double> correlation{};     ///< row by row over `correlated`
-  std::vector<int> correlated{};         ///< indices into estimates that have an interval
+  std::vector<double> correlation{};  ///< row by row over `correlated`
+  std::vector<int> correlated{};      ///< indices into estimates that have an interval
+  std::vector<Profile> profiles{};
   std::vector<ParameterValue> values{};  ///< what to pass to DataModel::predict
-  Score before{}, after{};               ///< at the starts, at the result; all judged recordings
-  double chi2 = 0, n = 0;                ///< after, fitted recordings, without priors
-  double prior_chi2 = 0;                 ///< sum over the priors of ((mean - value) / sigma)^2
-  int n_parameters = 0;                  ///< determined and not held at a bound
-  double s2 = 0;                         ///< chi2 / (n - n_parameters): intervals are scaled by it
-  long runs = 0, failed_runs = 0;        ///< simulations of one recording
+  std::shared_ptr<const Neighbourhood> neighbourhood{};
+  Score before{}, after{};         ///< at the starts, at the result; all judged recordings
+  double chi2 = 0, n = 0;          ///< after, fitted recordings, without priors
+  double prior_chi2 = 0;           ///< sum over the priors of ((mean - value) / sigma)^2
+  int n_parameters = 0;            ///< determined and not held at a bound
+  double s2 = 0;                   ///< chi2 / (n - n_parameters): intervals are scaled by it
+  long runs = 0, failed_runs = 0;  ///< simulations of one recording
   int starts = 0, iterations = 0;
   bool converged = false, stopped = false;
-  std::string method{};  ///< "linear least squares (12), trust region (2)"
+  std::vector<std::pair<long, double>> global_history{};  ///< points tried so far, chi2 reached; of a global method
+  std::string method{};                                   ///< "linear least squares (12), Levenberg-Marquardt (2)"
   std::string convergence{};
   double seconds = 0;                  ///< for people; no decision depends on it
   std::vector<std::string> remarks{};  ///< what the user must be told
@@ -86,8 +120,8 @@ struct FitResult {
 FitResult fit(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,
               const FitOptions& options = {});
 
-/// Fit, correct the noise by the residual (noise.h), and fit again where that changes the weights of outputs against
-/// each other.
+/// Fit, estimate the noise from the residual - white rms, and the share of 1/f where the data set does not state it -
+/// and fit again with it, so that the intervals hold with coloured noise too.
 struct FitWithNoise {
   FitResult result;
   NoiseModel noise;

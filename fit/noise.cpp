@@ -25,11 +25,6 @@ const NoiseNote* note_of(const DataModel& model, int output) {
   return found == model.data().notes.end() ? nullptr : &found->second.noise;
 }
 
-/// No instrument is better than this, and no weight may become infinite.
-double floor_of(const DataModel& model, int output, double resolution) {
-  return std::max({resolution / std::sqrt(12.0), 1e-9 * model.span(output), 1e-300});
-}
-
 double found_resolution(const DataModel& model, int output) {
   double finest = 0;
   for (int r = 0; r < model.n_recordings(); ++r) {
@@ -42,10 +37,13 @@ double found_resolution(const DataModel& model, int output) {
 NoiseOfOutput before_fit(const DataModel& model, int output) {
   NoiseOfOutput noise;
   const NoiseNote* note = note_of(model, output);
-  if (note != nullptr && note->one_over_f) noise.one_over_f = *note->one_over_f;
+  if (note != nullptr && note->one_over_f) {
+    noise.one_over_f = *note->one_over_f;
+    noise.share_is_stated = true;
+  }
   if (note != nullptr && note->resolution) noise.resolution = *note->resolution;
   if (note != nullptr && note->white) {
-    noise.white = std::max(std::hypot(*note->white, noise.resolution / std::sqrt(12.0)), floor_of(model, output, 0));
+    noise.white = std::max(std::hypot(*note->white, noise.resolution / std::sqrt(12.0)), noise_floor(model, output, 0));
     noise.source = NoiseSource::data_sheet;
     return noise;
   }
@@ -53,7 +51,7 @@ NoiseOfOutput before_fit(const DataModel& model, int output) {
   std::vector<double> rough;
   for (int r = 0; r < model.n_recordings(); ++r)
     if (const Rows& rows = model.measured(r, output); rows.size() > 8) rough.push_back(roughness(rows));
-  noise.white = std::max(median(rough), floor_of(model, output, noise.resolution));
+  noise.white = std::max(median(rough), noise_floor(model, output, noise.resolution));
   noise.source = NoiseSource::guessed;
   noise.remark = "the data set does not say how noisy this output is: guessed from how rough the measured rows are";
   return noise;
@@ -67,6 +65,10 @@ double level(const std::vector<double>& w, std::size_t begin, std::size_t end) {
 }
 
 }  // namespace
+
+double noise_floor(const DataModel& model, int output, double resolution) {
+  return std::max({resolution / std::sqrt(12.0), 1e-9 * model.span(output), 1e-300});
+}
 
 std::string to_text(NoiseSource source) {
   switch (source) {
@@ -114,8 +116,8 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
     }
     if (high.empty()) continue;
     double s2 = median(high);
-    if (n.source == NoiseSource::data_sheet || n.source == NoiseSource::corrected) {
-      s2 = std::clamp(s2, 0.7, 1.35);  // data sheets are good to about 10 %; more is structure of the residual
+    if (n.white_is_stated()) {
+      s2 = std::clamp(s2, least_change_of_data_sheet, most_change_of_data_sheet);
       n.source = NoiseSource::corrected;
     } else {
       n.source = NoiseSource::estimated;
@@ -126,7 +128,7 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
             "; the residual is smoother than its sampling (a filtered sensor, or structure), so the true noise may be "
             "larger";
     }
-    n.white = std::max(n.white * std::sqrt(s2), floor_of(model, static_cast<int>(o), n.resolution));
+    n.white = std::max(n.white * std::sqrt(s2), noise_floor(model, static_cast<int>(o), n.resolution));
   }
   return noise;
 }

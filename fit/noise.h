@@ -23,8 +23,17 @@ struct NoiseOfOutput {
   double one_over_f = 0.3;  ///< rms of the 1/f part over the white rms; 0.3 where nobody says (DISCOVERY 1)
   double resolution = 0;    ///< [SI]; 0 = unknown
   NoiseSource source = NoiseSource::guessed;
-  std::string remark{};  ///< what the user must be told of it; "" = nothing
+  bool share_is_stated = false;  ///< by the data set
+  bool share_estimated = false;  ///< from a residual (colour.h)
+  std::string remark{};          ///< what the user must be told of it; "" = nothing
+  bool white_is_stated() const { return source == NoiseSource::data_sheet || source == NoiseSource::corrected; }
 };
+
+/// Data sheets are good to about 10 %; more is structure of the residual. Factors of the variance.
+inline constexpr double least_change_of_data_sheet = 0.7, most_change_of_data_sheet = 1.35;
+
+/// No instrument is better than this, and no weight may become infinite [SI].
+double noise_floor(const DataModel& model, int output, double resolution);
 
 struct NoiseModel {
   std::vector<NoiseOfOutput> outputs;  ///< as DataModel::outputs()

@@ -12,8 +12,8 @@ constexpr double dependent = 1e-10;  // columns are differences of simulations t
 }  // namespace
 
 Projection::Projection(DataModel& model, const Judge& judge, const std::vector<FreeParameter>& free,
-                       const std::vector<bool>& affine, std::vector<int> recordings)
-    : model_(model), judge_(judge), free_(free), recordings_(std::move(recordings)) {
+                       const std::vector<bool>& affine, std::vector<int> recordings, Trial fixed)
+    : model_(model), judge_(judge), free_(free), recordings_(std::move(recordings)), fixed_(std::move(fixed)) {
   for (std::size_t i = 0; i < free.size(); ++i) (affine[i] ? linear_ : nonlinear_).push_back(static_cast<int>(i));
   for (const int r : recordings_) {
     begin_.push_back(rows_);
@@ -87,6 +87,7 @@ std::vector<ParameterValue> Projection::values(std::span<const double> z, std::s
     const auto i = static_cast<std::size_t>(linear_[j]);
     list[i] = {free_[i].parameter, theta[j], free_[i].recording};
   }
+  list.insert(list.end(), fixed_.begin(), fixed_.end());
   return list;
 }
 

@@ -40,8 +40,9 @@ using PointPointer = std::shared_ptr<const ProjectedPoint>;
 
 class Projection {
  public:
+  /// `fixed`: values of other parameters, in all simulations.
   Projection(DataModel& model, const Judge& judge, const std::vector<FreeParameter>& free,
-             const std::vector<bool>& affine, std::vector<int> recordings);
+             const std::vector<bool>& affine, std::vector<int> recordings, Trial fixed = {});
 
   int n_linear() const { return static_cast<int>(linear_.size()); }
   int n_nonlinear() const { return static_cast<int>(nonlinear_.size()); }
@@ -65,7 +66,7 @@ class Projection {
   /// had.
   bool jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns);
 
-  /// All free parameters at a point, for DataModel::predict.
+  /// All free parameters at a point, then the fixed ones, for DataModel::predict.
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
 
  private:
@@ -91,6 +92,7 @@ class Projection {
   const Judge& judge_;
   const std::vector<FreeParameter>& free_;
   std::vector<int> recordings_;
+  Trial fixed_;
   std::vector<std::size_t> begin_;  ///< per entry of recordings_: its first row
   std::vector<int> linear_, nonlinear_;
   std::vector<double> delta_;  ///< per linear parameter: step between the two simulations

@@ -49,13 +49,15 @@ void inverse_cosine_transform(std::span<double> coefficients) {
   fftw_execute_r2r(plans_for(coefficients.size()).backward, coefficients.data(), coefficients.data());
 }
 
+double coloured(double k, std::size_t rows, double share) {
+  const double a = share * share * static_cast<double>(rows) / 7.9;
+  return 1 + (k == 0 ? 4 * a : a / (k + 0.5));
+}
+
 Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero, Order order)
     : weight_(rows), drop_zero_(drop_zero && rows > 0), in_time_(order == Order::any && share == 0) {
-  const double a = share * share * static_cast<double>(rows) / 7.9;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const double colour = k == 0 ? 4 * a : a / (static_cast<double>(k) + 0.5);
-    weight_[k] = 1 / (white * std::sqrt(1 + colour));
-  }
+  for (std::size_t k = 0; k < rows; ++k)
+    weight_[k] = 1 / (white * std::sqrt(coloured(static_cast<double>(k), rows, share)));
 }
 
 void Whitener::apply(std::span<const double> rows, double* out) const {

@@ -18,6 +18,9 @@ namespace hysteron {
 void cosine_transform(std::span<double> rows);
 void inverse_cosine_transform(std::span<double> coefficients);
 
+/// Variance of cosine `k` of so many rows over that of white noise.
+double coloured(double k, std::size_t rows, double share);
+
 /// The filter of one output on one recording.
 class Whitener {
  public:

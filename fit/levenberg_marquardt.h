@@ -1,0 +1,43 @@
+// Decides how a bounded nonlinear least-squares problem is solved. Does not know where residuals come from.
+//
+// Levenberg-Marquardt: each step p minimizes |J p + r|^2 + mu |D p|^2 over the box that the bounds leave, exactly (the
+// active set method of linear.h on the triangular factor of [J r]; D = the longest each column has been: Moré, Lect.
+// Notes Math. 630 (1978) 105). mu follows the gain ratio, actual over predicted fall of the squared error (Nielsen, IMM
+// report 1999-05). A trial that cannot be evaluated is a rejected trial. It ends where not even the undamped step
+// inside the bounds would lower the squared error by more than `tolerance` of itself.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/dense.h"
+
+namespace hysteron {
+
+struct LeastSquares {
+  std::vector<double> lower, upper;  ///< per unknown, may be infinite
+  /// Residual at z. False: it cannot be evaluated there.
+  std::function<bool(std::span<const double> z, std::vector<double>& residual)> residual;
+  /// Derivatives of the residual, one column per unknown, at a z whose residual was asked for before. False: not to be
+  /// had.
+  std::function<bool(std::span<const double> z, Dense& columns)> jacobian;
+  std::function<bool()> go_on{};  ///< asked after each trial; false = stop with what was reached
+};
+
+struct LeastSquaresResult {
+  std::vector<double> z;
+  double squared_error = 0;
+  int iterations = 0;  ///< accepted steps
+  int trials = 0;      ///< max_iterations counts these
+  bool converged = false;
+  std::string message;
+};
+
+/// Throws nothing of its own. A start outside the bounds is moved to them; a start that cannot be evaluated comes back
+/// with squared_error = infinity.
+LeastSquaresResult minimize(const LeastSquares& problem, std::vector<double> start, int max_iterations,
+                            double tolerance);
+
+}  // namespace hysteron

@@ -1,0 +1,159 @@
+#include "fit/levenberg_marquardt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/fit/lab.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Model = std::function<bool(std::span<const double>, std::vector<double>&)>;
+
+/// Bounds open unless given; slopes by central differences, good to 1e-9.
+LeastSquares problem(const Model& model, std::size_t n) {
+  LeastSquares p;
+  p.lower.assign(n, -infinity);
+  p.upper.assign(n, infinity);
+  p.residual = model;
+  p.jacobian = [model, n](std::span<const double> z, Dense& columns) {
+    std::vector<double> up, down;
+    for (std::size_t k = 0; k < n; ++k) {
+      std::vector<double> x(z.begin(), z.end());
+      const double h = 1e-5 * std::max(1.0, std::abs(z[k]));
+      x[k] = z[k] + h;
+      if (!model(x, up)) return false;
+      x[k] = z[k] - h;
+      if (!model(x, down)) return false;
+      if (k == 0) columns = Dense(up.size(), n);
+      for (std::size_t i = 0; i < up.size(); ++i) columns(i, k) = (up[i] - down[i]) / (2 * h);
+    }
+    return true;
+  };
+  return p;
+}
+
+bool rosenbrock(std::span<const double> z, std::vector<double>& r) {
+  r = {10 * (z[1] - z[0] * z[0]), 1 - z[0]};
+  return true;
+}
+
+TEST(LevenbergMarquardt, FollowsTheValleyOfRosenbrockToItsEnd) {
+  const auto found = minimize(problem(rosenbrock, 2), {-1.2, 1}, 100, 1e-12);
+  EXPECT_TRUE(found.converged) << found.message;
+  EXPECT_NEAR(found.z[0], 1, 1e-8);  // the minimum is zero at (1, 1); slopes are good to 1e-9
+  EXPECT_NEAR(found.z[1], 1, 1e-8);
+  EXPECT_LT(found.trials, 40);  // MINPACK's lmder needs 21 evaluations (Moré, Garbow, Hillstrom 1981)
+}
+
+TEST(LevenbergMarquardt, ComesDownWhereTheJacobianIsSingularAtTheMinimum) {
+  // Powell's singular function: the minimum is zero at the origin.
+  const auto powell = [](std::span<const double> z, std::vector<double>& r) {
+    r = {z[0] + 10 * z[1], std::sqrt(5.0) * (z[2] - z[3]), std::pow(z[1] - 2 * z[2], 2),
+         std::sqrt(10.0) * std::pow(z[0] - z[3], 2)};
+    return true;
+  };
+  const auto found = minimize(problem(powell, 4), {3, -1, 0, 1}, 200, 1e-12);
+  EXPECT_LT(found.squared_error, 1e-12);
+}
+
+TEST(LevenbergMarquardt, StaysInsideItsBoundsAndFindsTheBestPointOnThem) {
+  // With z0 <= 0.5 the best point of Rosenbrock's valley is (0.5, 0.25): error (1 - 0.5)^2.
+  auto p = problem(rosenbrock, 2);
+  p.upper[0] = 0.5;
+  p.residual = [](std::span<const double> z, std::vector<double>& r) {
+    EXPECT_LE(z[0], 0.5);
+    return rosenbrock(z, r);
+  };
+  const auto found = minimize(p, {-1.2, 1}, 100, 1e-12);
+  EXPECT_TRUE(found.converged) << found.message;
+  EXPECT_EQ(found.z[0], 0.5);
+  EXPECT_NEAR(found.z[1], 0.25, 1e-8);
+  EXPECT_NEAR(found.squared_error, 0.25, 1e-12);
+}
+
+TEST(LevenbergMarquardt, AStartOutsideIsMovedToTheBounds) {
+  auto p = problem(rosenbrock, 2);
+  p.lower = {0, 0};
+  p.upper = {2, 2};
+  const auto found = minimize(p, {-5, 9}, 100, 1e-12);
+  EXPECT_NEAR(found.z[0], 1, 1e-6);
+}
+
+TEST(LevenbergMarquardt, TrialsThatOverflowAreRejectedAndNothingElse) {
+  // exp(z t) overflows for z above 177 at t = 4, and the first steps from a poor start go far beyond.
+  int failed = 0;
+  const Model growth = [&](std::span<const double> z, std::vector<double>& r) {
+    r.clear();
+    for (int i = 0; i <= 40; ++i) r.push_back(std::exp(z[0] * 0.1 * i) - std::exp(0.5 * 0.1 * i));
+    for (const double x : r)
+      if (!std::isfinite(x)) ++failed;
+    return true;
+  };
+  auto p = problem(growth, 1);
+  const auto found = minimize(p, {-30}, 100, 1e-12);
+  EXPECT_TRUE(found.converged) << found.message;
+  EXPECT_NEAR(found.z[0], 0.5, 1e-8);
+  EXPECT_GT(failed, 0);  // else this test tests nothing
+}
+
+TEST(LevenbergMarquardt, TrialsThatCannotBeEvaluatedShortenTheStep) {
+  const auto wall = [](std::span<const double> z, std::vector<double>& r) {
+    if (z[0] > 1.001) return false;  // nothing can be simulated just behind the minimum
+    return rosenbrock(z, r);
+  };
+  const auto found = minimize(problem(wall, 2), {-1.2, 1}, 200, 1e-10);
+  EXPECT_NEAR(found.z[0], 1, 1e-4);
+}
+
+TEST(LevenbergMarquardt, AStartThatCannotBeEvaluatedIsAnAnswer) {
+  const auto never = [](std::span<const double>, std::vector<double>&) { return false; };
+  const auto found = minimize(problem(never, 2), {1, 2}, 10, 1e-9);
+  EXPECT_FALSE(found.converged);
+  EXPECT_EQ(found.squared_error, infinity);
+}
+
+TEST(LevenbergMarquardt, StopsWhenAskedWithTheBestSoFar) {
+  auto p = problem(rosenbrock, 2);
+  int calls = 0;
+  p.go_on = [&] { return ++calls < 5; };
+  const auto found = minimize(p, {-1.2, 1}, 100, 1e-12);
+  EXPECT_EQ(found.trials, 5);
+  EXPECT_FALSE(found.converged);
+  EXPECT_LT(found.squared_error, 24.2);  // that of the start
+}
+
+TEST(LevenbergMarquardt, AnUnknownThatChangesNothingStaysWhereItIs) {
+  const auto blind = [](std::span<const double> z, std::vector<double>& r) {
+    r = {z[0] - 3, 2 * (z[0] - 3)};
+    return true;
+  };
+  const auto found = minimize(problem(blind, 2), {0, 7}, 50, 1e-12);
+  EXPECT_TRUE(found.converged);
+  EXPECT_NEAR(found.z[0], 3, 1e-9);
+  EXPECT_EQ(found.z[1], 7);
+}
+
+TEST(LevenbergMarquardt, DoesNotCareAboutTheUnitsOfItsUnknowns) {
+  // Rosenbrock in micrometres and kilovolts: the same trials.
+  const auto scaled = [](std::span<const double> z, std::vector<double>& r) {
+    return rosenbrock(std::vector<double>{z[0] * 1e6, z[1] * 1e-3}, r);
+  };
+  auto p = problem(scaled, 2);
+  p.jacobian = [](std::span<const double> z, Dense& columns) {
+    columns = Dense(2, 2);
+    columns.a = {-20 * z[0] * 1e6 * 1e6, -1e6, 10e-3, 0};
+    return true;
+  };
+  const auto plain = minimize(problem(rosenbrock, 2), {-1.2, 1}, 100, 1e-10);
+  const auto found = minimize(p, {-1.2e-6, 1e3}, 100, 1e-10);
+  EXPECT_EQ(found.trials, plain.trials);
+  EXPECT_NEAR(found.z[0] * 1e6, 1, 1e-7);
+}
+
+}  // namespace
+}  // namespace hysteron
