@@ -94,24 +94,20 @@ class SteadyLoop {
   }
   DataModel& model() { return model_; }
 
-  /// Sum of squares [um^2] for N = 2000; zeros at the bottom of the loop. `scaled`: to the measured stroke.
-  double fitness(const Point& x, bool scaled) {
+  /// Sums of squares [um^2] for N = 2000.
+  struct Fitness {
+    double thesis = infinity;   ///< zeros at the bottom of the loop; scaled: to the measured stroke
+    double squares = infinity;  ///< scale and zero by least squares: what a fit with the linear parameter `scale` sees
+  };
+  Fitness fitness(const Point& x, bool scaled) {
     const Rows p = rows(x);
-    if (p.empty()) return infinity;
+    if (p.empty()) return {};
     const Rows& y = model_.measured(0, 0);
     const double scale = scaled ? stroke(y) / stroke(p) : 1;
-    double sum = 0;
-    for (std::size_t k = 0; k < y.size(); ++k) sum += std::pow(scale * (p[k] - p[0]) - (y[k] - y[0]), 2);
-    return 1e12 * to_thesis * sum;
-  }
-  /// The same with scale and zero by least squares: what a fit with the linear parameter `scale` sees.
-  double least_squares(const Point& x) {
-    const Rows p = rows(x);
-    if (p.empty()) return infinity;
-    const Rows& y = model_.measured(0, 0);
     const auto n = static_cast<double>(y.size());
-    double sp = 0, sy = 0, spp = 0, spy = 0, syy = 0;
+    double sp = 0, sy = 0, spp = 0, spy = 0, syy = 0, sum = 0;
     for (std::size_t k = 0; k < y.size(); ++k) {
+      sum += std::pow(scale * (p[k] - p[0]) - (y[k] - y[0]), 2);
       sp += p[k];
       sy += y[k];
     }
@@ -120,7 +116,7 @@ class SteadyLoop {
       spy += (p[k] - sp / n) * (y[k] - sy / n);
       syy += std::pow(y[k] - sy / n, 2);
     }
-    return 1e12 * to_thesis * (syy - spy * spy / spp);
+    return {1e12 * to_thesis * sum, 1e12 * to_thesis * (syy - spy * spy / spp)};
   }
 
  private:
@@ -150,29 +146,50 @@ double quantile(std::vector<double> v, double share) {
 
 struct Searched {
   std::vector<GlobalResult> results;  // per seed
-  std::vector<double> least_squares;  // per seed: at the best point
-  double seconds = 0;                 // of one search
+  /// Per seed: (runs so far, Fitness::squares) where the best point changed.
+  std::vector<std::vector<std::pair<long, double>>> squares;
+  double seconds = 0;  // of one search
 };
 
-Searched search(SteadyLoop& loop, const std::string& method, int seeds) {
+Searched search(SteadyLoop& loop, const std::string& method, int seeds, long runs = budget) {
   GlobalProblem problem;
   problem.lower = lower;
   problem.upper = upper;
   problem.attractor = piezo_attractor(4, 3, 6);
   // The methods of NLopt get the normalised model too: they are held against the best of the thesis.
   const bool scaled = method != "pso";
-  problem.cost = [&, scaled](const Point& x) { return loop.fitness(x, scaled); };
+  long run = 0;
+  double best = infinity;
+  std::vector<std::pair<long, double>> squares;
+  problem.cost = [&, scaled](const Point& x) {
+    ++run;
+    const auto f = loop.fitness(x, scaled);
+    if (f.thesis < best) {
+      best = f.thesis;
+      squares.emplace_back(run, f.squares);
+    }
+    return f.thesis;
+  };
   Searched all;
   const auto begin = std::chrono::steady_clock::now();
   for (int seed = 1; seed <= seeds; ++seed) {
     GlobalSettings settings;
     settings.seed = static_cast<std::uint64_t>(seed);
-    settings.max_runs = budget;
+    settings.max_runs = runs;
+    run = 0;
+    best = infinity;
+    squares.clear();
     all.results.push_back(minimize_globally(problem, method, settings));
+    all.squares.push_back(squares);
   }
   all.seconds = seconds_since(begin) / seeds;
-  for (const auto& r : all.results) all.least_squares.push_back(r.best.empty() ? infinity : loop.least_squares(r.best));
   return all;
+}
+
+double runs_until(const std::vector<std::pair<long, double>>& history, double wanted) {
+  for (const auto& [run, value] : history)
+    if (value <= wanted) return static_cast<double>(run);
+  return infinity;
 }
 
 std::vector<double> after(const Searched& s, long runs) {
@@ -210,23 +227,21 @@ void print_searches(const std::map<std::string, Searched>& searches) {
 }
 
 struct LocalSearch {
-  double reached = infinity;  // least squares, N = 2000 [um^2]
-  long runs = 0, until = -1;  // all; until the error was `wanted`
+  double reached = infinity;  // Fitness::squares
+  long runs = 0;
+  std::vector<std::pair<long, double>> squares{};
   double seconds = 0;
 };
 
 /// The local search of fit from one random start in the box; scale and zero linear.
-LocalSearch local(SteadyLoop& loop, std::uint64_t seed, double wanted, bool logarithmic) {
+LocalSearch local(SteadyLoop& loop, std::uint64_t seed) {
   DataModel& model = loop.model();
   auto free = free_parameters(model.program(), {"law.a", "law.alpha", "law.k", "law.c", "law.scale"});
-  const int from[] = {1, 2, 3, 4};
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto j = static_cast<std::size_t>(from[i]);
-    const double share = draws::uniform(seed, 17, i);
+    const std::size_t j = i + 1;
     free[i].lower = si[j] * lower[j];
     free[i].upper = si[j] * upper[j];
-    free[i].start = logarithmic && j != 4 ? si[j] * lower[j] * std::pow(upper[j] / lower[j], share)
-                                          : si[j] * (lower[j] + share * (upper[j] - lower[j]));
+    free[i].start = si[j] * (lower[j] + draws::uniform(seed, 17, i) * (upper[j] - lower[j]));
   }
   free[4].lower = 0;
   free[4].upper = 1e3;
@@ -236,42 +251,54 @@ LocalSearch local(SteadyLoop& loop, std::uint64_t seed, double wanted, bool loga
   options.intervals = false;
   options.refine = 1;
   options.max_iterations = 100;
-  const double per_chi2 = 1e12 * to_thesis * 1e-16;
+  const double per_chi2 = 1e12 * to_thesis * 1e-16;  // um^2 of chi2 with a noise of 10 nm
   options.progress = [&](const FitProgress& p) {
-    if (found.until < 0 && per_chi2 * p.chi2 <= wanted) found.until = p.runs;
+    found.squares.emplace_back(model.runs() - before, per_chi2 * p.chi2);
     return true;
   };
   const auto begin = std::chrono::steady_clock::now();
   const auto r = fit(model, noise_before_fit(model), free, options);
   found.seconds = seconds_since(begin);
   found.runs = model.runs() - before;
-  if (r.ok) found.reached = per_chi2 * r.chi2;
-  if (found.until >= 0) found.until = std::min(found.until, found.runs);
+  if (r.ok) {
+    found.reached = per_chi2 * r.chi2;
+    found.squares.emplace_back(found.runs, found.reached);
+  }
   return found;
 }
 
-void print_local(SteadyLoop& loop, int starts, double wanted, long swarm_runs) {
-  std::vector<double> reached, until, runs, seconds;
-  int failed = 0;
+std::string count(double runs) { return std::isfinite(runs) ? fmt::format("{:.0f}", runs) : "never"; }
+
+/// Medians of the runs until an error is reached, by the swarm of the thesis and by the local search.
+void print_local(SteadyLoop& loop, int starts, const Searched& swarm, double at_the_end) {
+  std::vector<LocalSearch> all;
+  std::vector<double> reached, runs, seconds;
   for (int k = 1; k <= starts; ++k) {
-    const auto one = local(loop, static_cast<std::uint64_t>(k), wanted, false);
-    reached.push_back(one.reached);
-    runs.push_back(static_cast<double>(one.runs));
-    until.push_back(one.until < 0 ? infinity : static_cast<double>(one.until));
-    seconds.push_back(one.seconds);
-    failed += one.until < 0 ? 1 : 0;
+    all.push_back(local(loop, static_cast<std::uint64_t>(k)));
+    reached.push_back(all.back().reached);
+    runs.push_back(static_cast<double>(all.back().runs));
+    seconds.push_back(all.back().seconds);
+  }
+  fmt::print("\nModel runs until the error is reached (scale and zero by least squares, N = 2000), medians\n");
+  fmt::print(
+      "| error um^2 | nmpso | local search, {} random starts | ratio | starts that reach it |\n|---|---|---|---|---|\n",
+      starts);
+  for (const double wanted : {5.0, 2.0, 1.5, at_the_end, 1.0, 0.85}) {
+    std::vector<double> by_swarm, by_start;
+    for (const auto& history : swarm.squares) by_swarm.push_back(runs_until(history, wanted));
+    int there = 0;
+    for (const auto& one : all) {
+      by_start.push_back(runs_until(one.squares, wanted));
+      there += std::isfinite(by_start.back()) ? 1 : 0;
+    }
+    const double a = quantile(by_swarm, 0.5), b = quantile(by_start, 0.5);
+    fmt::print("| {:.3g} | {} | {} | {} | {} |\n", wanted, count(a), count(b),
+               std::isfinite(a) ? fmt::format("{:.1f}", a / b) : "", there);
   }
   fmt::print(
-      "\nLocal search (variable projection) from {} random starts in the box, against {:.4g} um^2 with scale and zero "
-      "by least squares\n",
-      starts, wanted);
-  fmt::print(
-      "starts that reach it: {} of {}; runs until then: quartiles {:.0f} {:.0f} {:.0f}, the swarm's {}: {:.1f} times\n",
-      starts - failed, starts, quantile(until, 0.25), quantile(until, 0.5), quantile(until, 0.75), swarm_runs,
-      static_cast<double>(swarm_runs) / quantile(until, 0.5));
-  fmt::print("at the end: error quartiles {:.4g} {:.4g} {:.4g}, runs {:.0f} {:.0f} {:.0f}, {:.0f} ms\n",
-             quantile(reached, 0.25), quantile(reached, 0.5), quantile(reached, 0.75), quantile(runs, 0.25),
-             quantile(runs, 0.5), quantile(runs, 0.75), 1000 * quantile(seconds, 0.5));
+      "the local search ends at {:.4g} {:.4g} {:.4g} um^2 (quartiles) after {:.0f} {:.0f} {:.0f} runs, {:.0f} ms\n",
+      quantile(reached, 0.25), quantile(reached, 0.5), quantile(reached, 0.75), quantile(runs, 0.25),
+      quantile(runs, 0.5), quantile(runs, 0.75), 1000 * quantile(seconds, 0.5));
 }
 
 }  // namespace
@@ -279,14 +306,16 @@ void print_local(SteadyLoop& loop, int starts, double wanted, long swarm_runs) {
 int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 30;
   SteadyLoop loop(std::make_shared<const DataSet>(steady_loop()));
+  const Point table{56, 48.6, 0.2512, 3.889, 0.6929};
   const auto begin = std::chrono::steady_clock::now();
-  const Point middle{56, 48.6, 0.2512, 3.889, 0.6929};
-  for (int k = 0; k < 20; ++k) loop.fitness(middle, true);
+  for (int k = 0; k < 20; ++k) loop.fitness(table, true);
+  const auto& why = loop.model().why_not_exact();
   fmt::print("one model run of two cycles, {} rows: {:.3g} ms{}\n", 2 * per_cycle, 1000 * seconds_since(begin) / 20,
-             loop.model().why_not_exact().empty() ? "" : " by integration: " + loop.model().why_not_exact());
+             why.empty() ? ", exact advance" : " by integration: " + why);
   std::map<std::string, Searched> searches;
   for (const auto& method : global_method_names()) searches[method] = search(loop, method, seeds);
   print_searches(searches);
-  const double wanted = quantile(searches.at("nmpso").least_squares, 0.5);
-  print_local(loop, seeds, wanted, budget);
+  std::vector<double> ends;
+  for (const auto& history : searches.at("nmpso").squares) ends.push_back(history.back().second);
+  print_local(loop, seeds, search(loop, "nmpso", seeds, 4 * budget), quantile(ends, 0.5));
 }

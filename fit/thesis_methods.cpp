@@ -54,6 +54,7 @@ class OneBlock {
   Rows drive(int recording) const { return model_.input(recording, drive_); }
   const Rows& measured(int recording) const { return model_.measured(recording, output_); }
   const Unit& unit() const { return model_.output_unit(output_); }
+  const Unit& drive_unit() const { return model_.program().input_units[static_cast<std::size_t>(drive_)]; }
 
   int parameter(const std::string& name) const { return parameter_index(model_.program(), block_->path + "." + name); }
   double value(const std::string& name) const {
@@ -243,7 +244,7 @@ class TapiSteps {
     }
     before_ = best;
     error_ = one_.mean_error(values(), cold_);
-    say(fmt::format("2. remanence of an input of {:.4g} [SI] before the start", before_));
+    say("2. remanence of an input of " + in_unit(before_, one_.drive_unit()) + " before the start");
   }
 
   void saturation() {
@@ -272,7 +273,8 @@ class TapiSteps {
     if (best.empty())
       say("3. no saturation lowers the error");
     else
-      say(fmt::format("3. P_s = {:.4g}, a T = {:.4g} [SI] at {:.4g} K", p_, bend_, temperature_));
+      say(fmt::format("3. P_s = {}, a T = {} at {:.4g} K", in_unit(p_, one_.drive_unit()),
+                      in_unit(bend_, one_.drive_unit()), temperature_));
   }
 
   void temperature() {

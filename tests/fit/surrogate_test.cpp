@@ -62,6 +62,25 @@ TEST(Surrogate, S1bRelaxesLess) {
   EXPECT_NEAR(lost_b / lost, 0.05 / 0.16, 0.05);
 }
 
+TEST(Surrogate, T1ReproducesItsGoldenTracesAtEveryTemperature) {
+  HYSTERON_NEEDS_GOLDEN("t1_plant_forward");
+  const auto trace = golden::read("t1_plant_forward");
+  Diagram d = read_diagram(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/chapter5/t1_staircase.json");
+  const auto program = compile(d, lab::registry());
+  SimulateOptions options;
+  options.instants = trace.at("t [s]");
+  options.until = options.instants.back();
+  for (const int celsius : {22, 30, 40, 50, 60, 70}) {
+    hysteron::Run run = start(*program);
+    set_parameter(*program, run, "oven.value", celsius + 273.15);
+    prepare(*program, run);
+    const Traces traces = simulate(*program, run, options);
+    const auto& y = trace.at("y T=" + std::to_string(celsius) + " [um]");
+    for (std::size_t k = 0; k < y.size(); ++k)  // ten digits of y up to 9.4 um and of the weights
+      ASSERT_NEAR(1e6 * traces.values[2][k], y[k], 2e-9) << celsius << " degC, row " << k;
+  }
+}
+
 /// Sum of squares over five cycles [um^2], the zero of the recording found by least squares.
 double fitness(const FitResult& r) { return 5 * 1e12 * r.chi2 * 10e-9 * 10e-9; }
 
