@@ -346,4 +346,50 @@ ThesisMethodResult identify_as_thesis(DataModel& model, const std::string& metho
   return result;
 }
 
+FitResult fit_as_thesis(DataModel& model, const NoiseModel& noise, const std::string& method,
+                        const ThesisMethodOptions& options, std::vector<int> judged) {
+  const long before = model.runs(), failed = model.failures();
+  if (judged.empty()) {
+    const Role roles[] = {Role::train, Role::validate};
+    judged = model.recordings(roles);
+  }
+  const Judge judge(model, noise);
+  FitResult result;
+  result.before = judge.score(model, model.predict({}, judged), judged);
+  auto found = identify_as_thesis(model, method, options);
+  result.ok = true;
+  result.values = std::move(found.values);
+  result.remarks = std::move(found.steps);
+  result.stopped = found.stopped;
+  result.converged = !found.stopped;
+  result.convergence = found.stopped ? "stopped; what the steps so far have found" : "all steps done";
+  result.method = fmt::format("{} of the thesis ({})", method, result.values.size());
+  for (const auto& v : result.values) {
+    const auto& info = model.program().parameters[static_cast<std::size_t>(v.parameter)];
+    ParameterEstimate e;
+    e.parameter = v.parameter;
+    e.path = info.path;
+    e.unit = parameter_unit(model.program(), info);
+    e.difference = info.difference;
+    e.start = info.value;
+    e.lower = info.lower;
+    e.upper = info.upper;
+    e.used = v.value;
+    e.value = v.value;
+    result.estimates.push_back(std::move(e));
+  }
+  result.n_parameters = static_cast<int>(result.estimates.size());
+  result.after = judge.score(model, model.predict(result.values, judged), judged);
+  const auto& fitted = options.recordings.empty() ? model.recordings(Role::train) : options.recordings;
+  for (const auto& one : result.after.recordings)
+    if (std::find(fitted.begin(), fitted.end(), one.recording) != fitted.end()) {
+      result.chi2 += one.chi2;
+      result.n += one.n;
+    }
+  result.s2 = result.chi2 / std::max(1.0, result.n - result.n_parameters);
+  result.runs = model.runs() - before;
+  result.failed_runs = model.failures() - failed;
+  return result;
+}
+
 }  // namespace hysteron

@@ -58,4 +58,9 @@ const std::vector<std::string>& thesis_method_names();
 ThesisMethodResult identify_as_thesis(DataModel& model, const std::string& method,
                                       const ThesisMethodOptions& options = {});
 
+/// The same as a result of a fit: estimates without intervals, scores before and behind, the steps as remarks.
+/// `judged` empty: all train and validate recordings.
+FitResult fit_as_thesis(DataModel& model, const NoiseModel& noise, const std::string& method,
+                        const ThesisMethodOptions& options = {}, std::vector<int> judged = {});
+
 }  // namespace hysteron

@@ -188,6 +188,19 @@ TEST(SlopesMethodOnAModel, GivesTheWeightsOfTheBlock) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found.values[i].value, truth[i], 1e-17);
   EXPECT_LT(found.mean_error, 1e-16);
   EXPECT_EQ(found.steps.size(), 1U);
+
+  // The same as a result of a fit.
+  const auto result = fit_as_thesis(model, noise_before_fit(model), "slopes");
+  ASSERT_TRUE(result.ok);
+  ASSERT_EQ(result.estimates.size(), 3U);
+  EXPECT_EQ(result.estimates[1].path, "core.weights[1]");
+  EXPECT_NEAR(*result.estimates[1].value, truth[1], 1e-17);
+  EXPECT_EQ(result.estimates[1].start, 0.1e-6);
+  EXPECT_FALSE(result.estimates[1].sigma.has_value());
+  EXPECT_EQ(result.n, 2000);
+  EXPECT_GT(result.before.find(0)->rms[0], 1e-7);
+  EXPECT_LT(result.after.find(0)->rms[0], 1e-15);
+  EXPECT_EQ(result.remarks.size(), 1U);
 }
 
 TEST(ThesisMethods, RefuseAModelThatTheyCannotRead) {
