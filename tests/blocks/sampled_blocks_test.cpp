@@ -109,6 +109,21 @@ const Bench::Values jiles_atherton{
     {"p_s", {55.9973e-6}}, {"a", {48.5843}}, {"alpha", {0.2512e6}}, {"k", {3.8892}}, {"c", {0.6929}}};
 const Bench::Values bouc_wen{{"alpha", {0.6187e-6}}, {"beta", {0.2418}}, {"gamma", {0.0237}}, {"d_p", {1.6126e-6}}};
 
+TEST(SampledJilesAthertonInverseBlock, TakesTheScaleOfItsActuator) {
+  // y = s p obeys the law with p_s s and alpha/s: the same command, to the 1e-10 of its way that both keep.
+  auto scaled = jiles_atherton, other = jiles_atherton;
+  const double s = 0.37;
+  scaled["scale"] = {s};
+  other["p_s"] = {jiles_atherton.at("p_s")[0] * s};
+  other["alpha"] = {jiles_atherton.at("alpha")[0] / s};
+  scaled["period"] = other["period"] = {1e-3};
+  const Bench a("sampled_jiles_atherton_inverse", scaled), b("sampled_jiles_atherton_inverse", other);
+  const std::vector<Numbers> wanted{{1e-6}, {2e-6}, {0.5e-6}};
+  const Numbers u = a.response(wanted, 1e-3), v = b.response(wanted, 1e-3);
+  for (std::size_t k = 0; k < u.size(); ++k) EXPECT_NEAR(u[k], v[k], 1e-9);
+  EXPECT_GT(u[1], 3);  // V: 2 um of an actuator that makes 0.37 of the printed stroke
+}
+
 struct InverseCase {
   const char *type, *golden;
   const Bench::Values* law;
