@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/components.h"
+
 namespace hysteron {
 namespace {
 
@@ -90,52 +92,12 @@ class Builder {
                                     type_of(block(from)), block(from).path, type_of(block(to)), block(to).path));
   }
 
-  /// Strongly connected components of the blocks over all wires that are read between instants, sources first.
+  /// Blocks that feed each other over the wires that are read between instants, sources first.
   std::vector<std::vector<int>> components() const {
-    const int n = static_cast<int>(program_.blocks.size());
-    std::vector<int> index(at(n), -1), low(at(n), 0), stack;
-    std::vector<bool> on_stack(at(n), false);
-    std::vector<std::vector<int>> result;
-    struct Frame {
-      int block;
-      std::size_t next;
-    };
-    int counter = 0;
-    for (int root = 0; root < n; ++root) {
-      if (index[at(root)] >= 0) continue;
-      std::vector<Frame> frames{{root, 0}};
-      while (!frames.empty()) {
-        Frame& f = frames.back();
-        const auto v = at(f.block);
-        if (f.next == 0) {
-          index[v] = low[v] = counter++;
-          stack.push_back(f.block);
-          on_stack[v] = true;
-        }
-        const auto& sources = reads(f.block);
-        if (f.next < sources.size()) {
-          const int to = block_of(sources[f.next++]);
-          if (index[at(to)] < 0)
-            frames.push_back({to, 0});
-          else if (on_stack[at(to)])
-            low[v] = std::min(low[v], index[at(to)]);
-          continue;
-        }
-        if (low[v] == index[v]) {
-          result.emplace_back();
-          for (int b = -1; b != f.block;) {
-            b = stack.back();
-            stack.pop_back();
-            on_stack[at(b)] = false;
-            result.back().push_back(b);
-          }
-        }
-        const int done = f.block;
-        frames.pop_back();
-        if (!frames.empty()) low[at(frames.back().block)] = std::min(low[at(frames.back().block)], low[at(done)]);
-      }
-    }
-    return result;
+    std::vector<std::vector<int>> needs(program_.blocks.size());
+    for (std::size_t b = 0; b < needs.size(); ++b)
+      for (const int s : reads(static_cast<int>(b))) needs[b].push_back(block_of(s));
+    return strong_components(needs);
   }
 
   void find_depths() {

@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 
+#include "engine/components.h"
 #include "engine/graph.h"
 #include "engine/loop_plan.h"
 
@@ -45,7 +46,7 @@ class Scheduler {
     }
     demanded_ = needed_;
     wish_rates();
-    tarjan();
+    find_order();
     problems_.throw_if_any();
     write_steps();
     order_hits();
@@ -185,56 +186,15 @@ class Scheduler {
 
   // --- loops and order ----------------------------------------------------------------------------------------------
 
-  void tarjan() {
+  void find_order() {
     order_.clear();
-    std::vector<int> index(static_cast<std::size_t>(3 * n_), -1), low(index), stack;
-    std::vector<bool> on_stack(static_cast<std::size_t>(3 * n_), false);
-    int counter = 0;
-    struct Frame {
-      int node;
-      std::size_t next;
-    };
-    for (int root = 0; root < 3 * n_; ++root) {
-      if (!needed_[static_cast<std::size_t>(root)] || index[static_cast<std::size_t>(root)] >= 0) continue;
-      std::vector<Frame> frames{{root, 0}};
-      while (!frames.empty()) {  // iterative: a chain of 100 000 blocks must not overflow the stack
-        auto& f = frames.back();
-        const auto v = static_cast<std::size_t>(f.node);
-        if (f.next == 0) {
-          index[v] = low[v] = counter++;
-          stack.push_back(f.node);
-          on_stack[v] = true;
-        }
-        if (f.next < edges_[v].size()) {
-          const int to = edges_[v][f.next++];
-          const auto w = static_cast<std::size_t>(to);
-          if (index[w] < 0)
-            frames.push_back({to, 0});
-          else if (on_stack[w])
-            low[v] = std::min(low[v], index[w]);
-          continue;
-        }
-        if (low[v] == index[v]) emit_component(f.node, stack, on_stack);
-        frames.pop_back();
-        if (!frames.empty()) {
-          const auto parent = static_cast<std::size_t>(frames.back().node);
-          low[parent] = std::min(low[parent], low[v]);
-        }
-      }
+    for (const auto& component : strong_components(edges_)) {
+      if (!needed_[static_cast<std::size_t>(component.front())]) continue;
+      const int any = component.front();
+      const auto& self = edges_[static_cast<std::size_t>(any)];
+      if (component.size() > 1 || std::find(self.begin(), self.end(), any) != self.end()) add_loop(component);
+      order_.insert(order_.end(), component.begin(), component.end());
     }
-  }
-
-  void emit_component(int root, std::vector<int>& stack, std::vector<bool>& on_stack) {
-    std::vector<int> component;
-    for (int node = -1; node != root;) {
-      node = stack.back();
-      stack.pop_back();
-      on_stack[static_cast<std::size_t>(node)] = false;
-      component.push_back(node);
-    }
-    const auto& self = edges_[static_cast<std::size_t>(root)];
-    if (component.size() > 1 || std::find(self.begin(), self.end(), root) != self.end()) add_loop(component);
-    order_.insert(order_.end(), component.begin(), component.end());
   }
 
   Step step_of(int node) const {
@@ -398,7 +358,7 @@ class Scheduler {
     for (auto& edges : edges_) edges.clear();
     needed_.assign(needed_.size(), false);
     for (int b = 0; b < n_; ++b) need(value(b));
-    tarjan();
+    find_order();
     problems_.throw_if_any();
     program_.hit_values = steps(needed_);
   }
