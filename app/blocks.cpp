@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/facts.h"
 #include "app/load.h"
 #include "app/numbers.h"
 #include "app/terminal.h"
@@ -18,7 +19,8 @@ constexpr char help[] =
     "Answers: which blocks are there, and what does one of them do - law, ports, parameters, units.\n\n"
     "Examples:\n"
     "  hysteron blocks                      all types, by group\n"
-    "  hysteron blocks prandtl_ishlinskii   one type in full, with an example\n\n"
+    "  hysteron blocks prandtl_ishlinskii   one type in full, with an example\n"
+    "  hysteron blocks tank --json          the same for programs\n\n"
     "Prints to the terminal, writes no files.\n"
     "Exit codes: 0 done, 2 there is no such block.";
 
@@ -69,11 +71,15 @@ std::string conditions(const ParameterDeclaration& p) {
   return list.empty() ? p.meaning : fmt::format("{} ({})", p.meaning, fmt::join(list, "; "));
 }
 
+std::string kind_name(ParameterKind kind) {
+  return kind == ParameterKind::list     ? "list"
+         : kind == ParameterKind::text   ? "text"
+         : kind == ParameterKind::matrix ? "matrix"
+                                         : "number";
+}
+
 std::string kind_column(const ParameterDeclaration& p) {
-  const std::string kind = p.kind == ParameterKind::list     ? "list"
-                           : p.kind == ParameterKind::text   ? "text"
-                           : p.kind == ParameterKind::matrix ? "matrix"
-                                                             : "number";
+  const std::string kind = kind_name(p.kind);
   if (!p.default_text) return kind + ", required";
   return kind + ", default " + (p.default_text->empty() ? "\"\"" : *p.default_text);
 }
@@ -111,6 +117,82 @@ void print_ports(const std::string& title, const std::vector<PortDeclaration>& p
   fmt::print("\n{}\n{}", title, table_text({}, rows));
 }
 
+void print_memory(const Declaration& d) {
+  if (d.memory_port.empty()) return;
+  fmt::print("\nmemory\n{}",
+             wrapped(fmt::format("{}, in the unit of {}; \"simulate\": {{\"memory\": {{\"name\": [...]}}}} "
+                                 "gives it at the start",
+                                 d.memory_meaning, d.memory_port),
+                     2));
+}
+
+/// "coulomb 0 N, breakaway 0 N"
+std::string neutral_text(const VariationDeclaration& variation) {
+  std::vector<std::string> parts;
+  for (const auto& [parameter, value] : variation.neutral) parts.push_back(parameter + " " + value);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void print_variations(const Declaration& d) {
+  if (d.variations.empty()) return;
+  Rows rows;
+  for (const auto& v : d.variations)
+    rows.push_back({v.name, v.type == d.type ? "this type" : v.type, "no change with " + neutral_text(v)});
+  fmt::print("\nvariations (same ports, further parameters)\n{}", table_text({}, rows));
+}
+
+Facts port_facts(const std::vector<PortDeclaration>& ports) {
+  Facts::List list;
+  for (const auto& p : ports)
+    list.push_back(Facts::object({{"name", p.name},
+                                  {"unit", p.unit},
+                                  {"meaning", p.meaning},
+                                  {"any_number", p.variadic},
+                                  {"vector", p.is_vector}}));
+  return list;
+}
+
+Facts finite_or_null(double bound) { return std::isfinite(bound) ? Facts(bound) : Facts(); }
+
+/// All that print_one() says, for programs.
+Facts facts_of(const Declaration& d) {
+  Facts::List parameters, states, variations;
+  for (const auto& p : d.parameters)
+    parameters.push_back(Facts::object({{"name", p.name},
+                                        {"unit", p.unit},
+                                        {"meaning", p.meaning},
+                                        {"kind", kind_name(p.kind)},
+                                        {"default", p.default_text ? Facts(*p.default_text) : Facts()},
+                                        {"choices", p.choices},
+                                        {"minimum", finite_or_null(p.minimum)},
+                                        {"exclusive_minimum", p.exclusive_minimum},
+                                        {"maximum", finite_or_null(p.maximum)},
+                                        {"linear", p.is_linear}}));
+  for (const auto& s : d.states)
+    states.push_back(Facts::object({{"name", s.name}, {"unit", s.unit}, {"meaning", s.meaning}}));
+  for (const auto& v : d.variations) {
+    Facts neutral = Facts::object({});
+    for (const auto& [parameter, value] : v.neutral) neutral.set(parameter, value);
+    variations.push_back(Facts::object({{"name", v.name}, {"type", v.type}, {"neutral", neutral}}));
+  }
+  Facts facts = Facts::object({{"type", d.type},
+                               {"summary", d.summary},
+                               {"group", d.group},
+                               {"law", d.equation},
+                               {"source", d.source},
+                               {"remarks", d.remarks},
+                               {"inputs", port_facts(d.inputs)},
+                               {"outputs", port_facts(d.outputs)},
+                               {"parameters", parameters},
+                               {"states", states},
+                               {"elementwise", d.is_elementwise},
+                               {"sampled", d.is_sampled},
+                               {"variations", variations}});
+  if (!d.memory_port.empty())
+    facts.set("memory", Facts::object({{"unit_of", d.memory_port}, {"meaning", d.memory_meaning}}));
+  return facts;
+}
+
 void print_one(const Declaration& d) {
   fmt::print("{}", wrapped(fmt::format("{}: {} [{}]", d.type, d.summary, d.group)));
   if (!d.equation.empty()) fmt::print("\nlaw\n{}", wrapped(d.equation, 2));
@@ -127,6 +209,8 @@ void print_one(const Declaration& d) {
     for (const auto& s : d.states) rows.push_back({s.name, unit_column(s.unit), s.meaning});
     fmt::print("\nstates\n{}", table_text({}, rows));
   }
+  print_memory(d);
+  print_variations(d);
   if (d.is_elementwise)
     fmt::print("\n{}",
                wrapped("On vectors it works element by element, with the same parameters for all; single numbers "
@@ -146,14 +230,23 @@ void print_one(const Declaration& d) {
 
 int blocks(const Arguments& arguments) {
   if (!arguments.has("type")) {
-    print_all();
+    if (arguments.has("--json")) {
+      Facts::List list;
+      for (const auto& type : shown_types()) list.push_back(facts_of(registry().find(type)->declaration));
+      fmt::print("{}\n", json_text(list));
+    } else {
+      print_all();
+    }
     return exit_code::done;
   }
   const std::string type = arguments.text("type");
   const Kernel* kernel = registry().find(type);
   if (kernel == nullptr)
     fail("unknown_block", type, "there is no block type \"" + type + "\"", did_you_mean(type, shown_types()));
-  print_one(kernel->declaration);
+  if (arguments.has("--json"))
+    fmt::print("{}\n", json_text(facts_of(kernel->declaration)));
+  else
+    print_one(kernel->declaration);
   return exit_code::done;
 }
 
@@ -163,7 +256,8 @@ Verb blocks_verb() {
   return {"blocks",
           "which blocks are there, and what does one do",
           help,
-          {{"type", "TYPE", "the block type to show in full", false, false}},
+          {{"type", "TYPE", "the block type to show in full", false, false},
+           {"--json", "", "as JSON, for programs", false, false}},
           blocks};
 }
 

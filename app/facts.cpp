@@ -51,4 +51,6 @@ void Facts::set(const std::string& name, Facts value) {
 
 std::shared_ptr<nlohmann::json> to_json(const Facts& facts) { return std::make_shared<nlohmann::json>(json_of(facts)); }
 
+std::string json_text(const Facts& facts) { return to_json(facts)->dump(2); }
+
 }  // namespace hysteron

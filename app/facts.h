@@ -43,6 +43,8 @@ struct FactMember {
   Facts value;
 };
 
+/// As text, indented.
+std::string json_text(const Facts& facts);
 /// For Document::facts.
 std::shared_ptr<nlohmann::json> to_json(const Facts& facts);
 

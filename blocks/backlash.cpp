@@ -11,6 +11,7 @@ void Backlash::describe(BlockSpec<Backlash>& spec) {
   spec.remark("The driven side keeps its place while the joint is loose: friction holds it.");
   spec.remark(
       "The play operator of radius gap/2. The lost motion does not grow with the amplitude; that of hysteresis does.");
+  spec.remembers("u", "the position of the driven side");
   spec.input(&In<double>::u, "u", "$a", "position of the driving side");
   spec.output(&Out<double>::y, "y", "$a", "position of the driven side");
   spec.param(&Params<double>::gap, "gap", "$a", "total gap").not_negative().difference();

@@ -16,6 +16,7 @@ void BoucWen::describe(BlockSpec<BoucWen>& spec) {
       "gamma "
       "hold for z = scale: parameters published for z in um take scale \"1 um\".");
   spec.remark("beta + gamma must be positive and beta not below gamma for loops that close.");
+  spec.variation("sharpness", "bouc_wen", {{"exponent", "1"}});
   spec.input(&In<double>::u, "u", "$a", "drive");
   spec.state(&State<double>::z, "z", "$b", "hysteretic part");
   spec.output(&Out<double>::y, "y", "$b", "displacement");

@@ -14,6 +14,8 @@ void SampleHold::describe(BlockSpec<SampleHold>& spec) {
       .elementwise();
   spec.law("y(t) = u(t_k) for t_k <= t < t_(k+1)").from("definition");
   spec.remark("On the average it delays by half a period.");
+  spec.variation("noise", "sampled_noise", {{"rms", "0"}})
+      .variation("computing_time", "delay_line", {{"samples", "0"}});
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "$a", "the held samples");
   spec.sampled(&Params<double>::period, &Params<double>::offset);
@@ -50,9 +52,9 @@ void SampledNoise::describe(Declaration& d) {
       .at("measured");
   d.law("y_k = u(t_k) + rms n_k, n_k standard normal").from("Box, Muller, Ann. Math. Stat. 29 (1958) 610");
   d.remark(
-      "The number depends on seed and k alone: the same on every machine and for every solver. Blocks that should "
-      "differ "
-      "need different seeds.");
+      "The number depends on seed, the name of the block and k alone: the same on every machine and for every solver, "
+      "and "
+      "another one in every block.");
   d.input("u", "$a", "the true signal");
   d.output("y", "$a", "the noisy samples");
   d.parameter("rms", "$a", "root mean square of the noise").linear().not_negative().difference();

@@ -61,7 +61,7 @@ struct SampledNoise {
   template <class T>
   static void output(const View<T>& v) {
     const auto s = static_cast<std::uint64_t>(value_of(v.parameter(seed)));
-    v.out[0] = v.u[0] + v.parameter(rms) * T{random::normal(s, 2, static_cast<std::uint64_t>(v.hit))};
+    v.out[0] = v.u[0] + v.parameter(rms) * T{random::normal(s, v.key + 2, static_cast<std::uint64_t>(v.hit))};
   }
   static std::string check(const View<double>& v);
 };

@@ -10,6 +10,7 @@ void Gain::describe(BlockSpec<Gain>& spec) {
       .law("y = gain u")
       .from("definition");
   spec.remark("A gain of zero still counts as a connection.");
+  spec.variation("offset", "calibration", {{"offset", "0"}});
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "$b", "the multiple");
   spec.param(&Params<double>::gain, "gain", "$b/$a", "output per input, e.g. \"0.75 um/V\"").linear();

@@ -65,6 +65,7 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
       "The normalised model of the thesis (Eq. 4.4): scale is the measured stroke over that of the law, found by "
       "linear "
       "least squares; a fit of p_s, a, alpha, k, c then cares for the shape alone.");
+  spec.variation("scale", "jiles_atherton", {{"scale", "1"}});
   spec.input(&In<double>::u, "u", "$a", "drive: field or voltage");
   spec.state(&State<double>::p, "p", "$b", "polarisation");
   spec.output(&Out<double>::y, "y", "$b", "polarisation or displacement");

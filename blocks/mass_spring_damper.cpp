@@ -6,12 +6,10 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
   spec.name("mass_spring_damper", "one mass on a spring with a damper, driven by a force").linear();
   spec.law("mass dv/dt = force - damping v - stiffness x, dx/dt = v").from("Newton's second law");
   spec.remark("A piezo actuator of free displacement d is the force stiffness d, with its own stiffness counted in.");
-  spec.remark(
-      "Variations with the same ports: mass_on_stiffening_spring, mass_with_friction, mass_with_stops; with their "
-      "extra "
-      "parameters at the neutral value they are this block.");
+  spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
+      .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
+      .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
   describe_motion(spec);
-  spec.param(&Params<double>::stiffness, "stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
   describe_start(spec);
 }
 
@@ -23,7 +21,6 @@ void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
       "stiffening 0 gives mass_spring_damper. Negative values soften: then keep x below sqrt(stiffness/(3 "
       "|stiffening|)).");
   describe_motion(spec);
-  spec.param(&Params<double>::stiffness, "stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
   spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic part of the spring").optional("0");
   describe_start(spec);
 }

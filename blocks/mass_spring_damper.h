@@ -20,22 +20,30 @@ struct MotionOut {
   T position, velocity;
 };
 
-struct MassSpringDamper {
-  template <class T>
-  struct Params {
-    T mass, damping, stiffness, initial_position, initial_velocity;
-  };
+/// What all blocks of one mass share: ports, states, outputs, start.
+struct Mass {
   template <class T>
   using In = ForceIn<T>;
   template <class T>
   using State = MotionState<T>;
   template <class T>
   using Out = MotionOut<T>;
-  static void describe(BlockSpec<MassSpringDamper>& spec);
-  template <class T>
-  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
+  template <class T, class Params>
+  static MotionOut<T> output(const Params&, const MotionState<T>& s) {
     return {s.position, s.velocity};
   }
+  template <class Params>
+  static MotionState<double> initial(const Params& p) {
+    return {p.initial_position, p.initial_velocity};
+  }
+};
+
+struct MassSpringDamper : Mass {
+  template <class T>
+  struct Params {
+    T mass, damping, stiffness, initial_position, initial_velocity;
+  };
+  static void describe(BlockSpec<MassSpringDamper>& spec);
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
     const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, T{0}};
@@ -44,25 +52,14 @@ struct MassSpringDamper {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, 0}, in.force), 0};
   }
-  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
 };
 
-struct MassOnStiffeningSpring {
+struct MassOnStiffeningSpring : Mass {
   template <class T>
   struct Params {
     T mass, damping, stiffness, stiffening, initial_position, initial_velocity;
   };
-  template <class T>
-  using In = ForceIn<T>;
-  template <class T>
-  using State = MotionState<T>;
-  template <class T>
-  using Out = MotionOut<T>;
   static void describe(BlockSpec<MassOnStiffeningSpring>& spec);
-  template <class T>
-  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
-    return {s.position, s.velocity};
-  }
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
     const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, p.stiffening};
@@ -71,12 +68,11 @@ struct MassOnStiffeningSpring {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, p.stiffening}, in.force), 0};
   }
-  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
 };
 
-/// Ports, states and first parameters that all masses have in common.
+/// Ports, states and first parameters that all masses have in common, the spring last.
 template <class B>
-void describe_motion(BlockSpec<B>& spec) {
+ParameterDeclaration& describe_motion(BlockSpec<B>& spec) {
   using P = typename B::template Params<double>;
   spec.in_group("mechanics");
   spec.input(&ForceIn<double>::force, "force", "N", "force on the mass");
@@ -86,6 +82,7 @@ void describe_motion(BlockSpec<B>& spec) {
   spec.output(&MotionOut<double>::velocity, "velocity", "m/s", "velocity");
   spec.param(&P::mass, "mass", "kg", "moving mass").positive();
   spec.param(&P::damping, "damping", "N*s/m", "viscous damping").optional("0").not_negative();
+  return spec.param(&P::stiffness, "stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
 }
 template <class B>
 void describe_start(BlockSpec<B>& spec) {

@@ -14,8 +14,7 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
       "Three modes: sticking, sliding up, sliding down. A sticking mass does not creep, however long it sticks.");
   spec.remark(
       "coulomb and breakaway 0 give mass_spring_damper. Presliding (a spring-like contact) is not in this law.");
-  describe_motion(spec);
-  spec.param(&Params<double>::stiffness, "stiffness", "N/m", "spring to the ground").optional("0").not_negative();
+  describe_motion(spec).optional("0");
   spec.param(&Params<double>::coulomb, "coulomb", "N", "dry friction of fast sliding").not_negative();
   spec.param(&Params<double>::breakaway, "breakaway", "N", "force at which sticking ends, at least coulomb")
       .not_negative();

@@ -8,25 +8,15 @@
 
 namespace hysteron::blocks {
 
-struct MassWithFriction {
+struct MassWithFriction : Mass {
   template <class T>
   struct Params {
     T mass, damping, stiffness, coulomb, breakaway, stribeck_velocity, rest_speed, initial_position, initial_velocity;
   };
-  template <class T>
-  using In = ForceIn<T>;
-  template <class T>
-  using State = MotionState<T>;
-  template <class T>
-  using Out = MotionOut<T>;
   static void describe(BlockSpec<MassWithFriction>& spec);
   template <class T>
   static friction::Params<T> law(const Params<T>& p) {
     return {p.mass, p.damping, p.stiffness, p.coulomb, p.breakaway, p.stribeck_velocity, p.rest_speed};
-  }
-  template <class T>
-  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
-    return {s.position, s.velocity};
   }
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in, Mode mode) {
@@ -48,8 +38,9 @@ struct MassWithFriction {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, 0}, in.force), 0};
   }
-  static Mode initial_mode(const Params<double>& p) { return {friction::start(p.initial_velocity)}; }
-  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
+  static Mode initial_mode(const Params<double>& p) {
+    return {friction::is_absent(law(p)) ? friction::slide_up : friction::start(p.initial_velocity)};
+  }
   static std::string check(const Params<double>& p);
 };
 

@@ -13,8 +13,7 @@ void MassWithStops::describe(BlockSpec<MassWithStops>& spec) {
       .from("Newton's law of restitution; Brogliato, Nonsmooth Mechanics, 3rd ed. (2016)");
   spec.remark("Impacts are located. A rebound not above rest_speed is none: it ends the series of ever smaller ones.");
   spec.remark("Stops out of reach give mass_spring_damper.");
-  describe_motion(spec);
-  spec.param(&Params<double>::stiffness, "stiffness", "N/m", "spring to the ground").optional("0").not_negative();
+  describe_motion(spec).optional("0");
   spec.param(&Params<double>::lower, "lower", "m", "lower stop");
   spec.param(&Params<double>::upper, "upper", "m", "upper stop");
   spec.param(&Params<double>::restitution, "restitution", "", "speed after over speed before an impact")

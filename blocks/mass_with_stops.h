@@ -9,25 +9,15 @@
 
 namespace hysteron::blocks {
 
-struct MassWithStops {
+struct MassWithStops : Mass {
   template <class T>
   struct Params {
     T mass, damping, stiffness, lower, upper, restitution, rest_speed, initial_position, initial_velocity;
   };
-  template <class T>
-  using In = ForceIn<T>;
-  template <class T>
-  using State = MotionState<T>;
-  template <class T>
-  using Out = MotionOut<T>;
   static void describe(BlockSpec<MassWithStops>& spec);
   template <class T>
   static hard_stop::Params<T> law(const Params<T>& p) {
     return {p.mass, p.damping, p.stiffness, p.lower, p.upper, p.restitution, p.rest_speed};
-  }
-  template <class T>
-  static MotionOut<T> output(const Params<T>&, const MotionState<T>& s) {
-    return {s.position, s.velocity};
   }
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in, Mode mode) {
@@ -50,7 +40,6 @@ struct MassWithStops {
     const double free = p.stiffness > 0 ? in.force / p.stiffness : in.force > 0 ? p.upper : p.lower;
     return {std::clamp(free, p.lower, p.upper), 0};
   }
-  static MotionState<double> initial(const Params<double>& p) { return {p.initial_position, p.initial_velocity}; }
   static std::string check(const Params<double>& p);
 };
 

@@ -11,6 +11,7 @@ void Play::describe(BlockSpec<Play>& spec) {
       .from("thesis Eqs. 2.3, 2.4; Brokate, Sprekels, Hysteresis and Phase Transitions (1996), chapter 2");
   spec.remark("The one-sided operator is the two-sided one of half the radius behind u - radius/2.");
   spec.remark("The memory starts at zero, visits \"before\", then the first input.");
+  spec.remembers("u", "its output");
   spec.input(&In<double>::u, "u", "$a", "drive");
   spec.output(&Out<double>::y, "y", "$a", "follower");
   spec.param(&Params<double>::radius, "radius", "$a", "half the dead zone (two sides), or the whole (one side)")

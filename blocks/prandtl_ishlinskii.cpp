@@ -1,5 +1,7 @@
 #include "blocks/prandtl_ishlinskii.h"
 
+#include <fmt/format.h>
+
 namespace hysteron::blocks {
 
 void PrandtlIshlinskii::describe(Declaration& d) {
@@ -16,6 +18,7 @@ void PrandtlIshlinskii::describe(Declaration& d) {
   d.remark(
       "The memory starts at zero, visits \"before\", then the first input: that is the initial remanence. "
       "One-sided operators keep of it only what lies below the first input.");
+  d.remembers("u", "the output w_i of each operator");
   d.input("u", "$a", "drive");
   d.output("y", "$b", "displacement");
   d.list("thresholds", "$a", "threshold of each operator, 0 = linear part").increasing().not_negative().difference();
@@ -35,6 +38,21 @@ Sizes PrandtlIshlinskii::sizes(const Shape& shape) {
 void PrandtlIshlinskii::initial_memory(const View<double>& v) {
   const auto r = v.list(thresholds);
   for (std::size_t i = 0; i < r.size(); ++i) v.out[i] = play::follow(sides_of(v), r[i], 0.0, v.parameter(before));
+}
+
+std::string check_nested(play::Sides sides, std::span<const double> thresholds, std::span<const double> memory) {
+  const double slack = 1e-9 * thresholds.back();
+  const std::size_t i = prandtl_ishlinskii::nested_until(sides, thresholds, memory, slack);
+  if (i == memory.size()) return "";
+  return fmt::format(
+      "the operators of the thresholds {:.6g} and {:.6g} cannot stand at {:.6g} and {:.6g}: the first less the second "
+      "must lie between {:.6g} and {:.6g} [SI]",
+      thresholds[i], thresholds[i + 1], memory[i], memory[i + 1],
+      sides == play::Sides::one ? 0 : thresholds[i] - thresholds[i + 1], thresholds[i + 1] - thresholds[i]);
+}
+
+std::string PrandtlIshlinskii::check_memory(const View<double>& v) {
+  return check_nested(sides_of(v), v.list(thresholds), v.memory());
 }
 
 Kernel prandtl_ishlinskii_block() { return kernel<PrandtlIshlinskii>(); }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
+#include <string>
 
 #include "engine/block.h"
 #include "models/prandtl_ishlinskii.h"
@@ -26,7 +28,11 @@ struct PrandtlIshlinskii {
     v.out[0] = prandtl_ishlinskii::output(v.list(weights), v.memory());
   }
   static void initial_memory(const View<double>& v);
+  static std::string check_memory(const View<double>& v);
 };
+
+/// "" or which numbers cannot stand side by side in the memory of such operators.
+std::string check_nested(play::Sides sides, std::span<const double> thresholds, std::span<const double> memory);
 
 Kernel prandtl_ishlinskii_block();
 

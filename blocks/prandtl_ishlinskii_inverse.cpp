@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "blocks/prandtl_ishlinskii.h"
+
 namespace hysteron::blocks {
 
 void PrandtlIshlinskiiInverse::describe(Declaration& d) {
@@ -18,6 +20,7 @@ void PrandtlIshlinskiiInverse::describe(Declaration& d) {
       .from("thesis Eqs. 2.8, 2.13, 2.14 as corrected; Kuhnen, Eur. J. Control 9 (2003) 407-418");
   d.remark("Takes the parameters of the block prandtl_ishlinskii that it compensates, its memory included.");
   d.remark("Exact, minor loops too, as long as both have the same memory: u is then what drove the actuator.");
+  d.remembers("u", "the output w_i of each operator of the actuator");
   d.input("y", "$b", "wanted displacement");
   d.output("u", "$a", "command");
   d.list("thresholds", "$a", "threshold of each operator of the actuator; the first is 0, the linear part")
@@ -56,6 +59,14 @@ void PrandtlIshlinskiiInverse::initial_memory(const View<double>& v) {
   std::vector<double> actuator(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) actuator[i] = play::follow(sides_of(v), r[i], 0.0, v.parameter(before));
   prandtl_ishlinskii::inverse_memory<double>(v.list(weights), actuator, v.out);
+}
+
+void PrandtlIshlinskiiInverse::given_memory(const View<double>& v) {
+  prandtl_ishlinskii::inverse_memory<double>(v.list(weights), v.memory(), v.out);
+}
+
+std::string PrandtlIshlinskiiInverse::check_memory(const View<double>& v) {
+  return check_nested(sides_of(v), v.list(thresholds), v.memory());
 }
 
 Kernel prandtl_ishlinskii_inverse_block() { return kernel<PrandtlIshlinskiiInverse>(); }

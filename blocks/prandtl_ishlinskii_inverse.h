@@ -29,6 +29,8 @@ struct PrandtlIshlinskiiInverse {
     v.out[0] = prandtl_ishlinskii::inverse_output(v.list(weights), v.memory());
   }
   static void initial_memory(const View<double>& v);
+  static void given_memory(const View<double>& v);
+  static std::string check_memory(const View<double>& v);
   static std::string check(const View<double>& v);
 };
 

@@ -9,9 +9,8 @@ void SensorNoise::describe(Declaration& d) {
   d.law("y = u + rms n_k, k = floor(t/period), n_k standard normal")
       .from("Box, Muller, Ann. Math. Stat. 29 (1958) 610");
   d.remark(
-      "The number depends on seed and k alone: the same seed gives the same noise on every machine, whatever the "
-      "solver does, "
-      "and the same noise in every block that has it.");
+      "The number depends on seed, the name of the block and k alone: the same noise on every machine, whatever the "
+      "solver does, and another one in every block.");
   d.remark("Set the period to the sampling time of the sensor. The output has no rate.");
   d.input("u", "$a", "the true signal");
   d.output("y", "$a", "the noisy signal");

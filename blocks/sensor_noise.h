@@ -23,7 +23,7 @@ struct SensorNoise {
   static void output(const View<T>& v) {
     const auto k = static_cast<std::int64_t>(sample(v.branch, value_of(v.parameter(period))));
     const auto s = static_cast<std::uint64_t>(value_of(v.parameter(seed)));
-    v.out[0] = v.u[0] + v.parameter(rms) * T{random::normal(s, 1, static_cast<std::uint64_t>(k))};
+    v.out[0] = v.u[0] + v.parameter(rms) * T{random::normal(s, v.key + 1, static_cast<std::uint64_t>(k))};
   }
   static double next_corner(const View<double>& v) {
     const double step = v.parameter(period);

@@ -11,10 +11,8 @@ void Tank::describe(BlockSpec<Tank>& spec) {
           "sqrt(h/reference); at the brim the surplus is spilled, below 0 the level does not go")
       .from("Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465");
   spec.remark("outlet is the flow that leaves at the level \"reference\": any level at which it was measured.");
-  spec.remark(
-      "Variations: law \"square_root\" for \"linear\", a brim for none. Spilled water is missing afterwards, unlike "
-      "with a "
-      "saturated sensor.");
+  spec.remark("Spilled water is missing afterwards, unlike with a saturated sensor.");
+  spec.variation("square_root_outflow", "tank", {{"law", "linear"}}).variation("overflow", "tank", {{"brim", "0"}});
   spec.input(&In<double>::inflow, "inflow", "$b", "what flows in; negative = a pump takes out");
   spec.state(&State<double>::level, "level", "$a", "level");
   spec.state(&State<double>::spilled, "spilled", "$b*s", "what has run over the brim");

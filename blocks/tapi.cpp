@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "blocks/prandtl_ishlinskii.h"
 #include "models/prandtl_ishlinskii_inverse.h"
 
 namespace hysteron::blocks {
@@ -64,6 +65,7 @@ void Tapi::describe(Declaration& d) {
       "Weights of a classical model with the same forward slopes are converted, not copied: the identification "
       "\"tapi\" "
       "does it.");
+  d.remembers("u", "the output w_i of each operator");
   d.input("u", "$a", "drive");
   d.input("temperature", "K", "temperature of the material");
   d.output("y", "$b", "displacement");
@@ -74,6 +76,9 @@ void Tapi::describe(Declaration& d) {
 Sizes Tapi::sizes(const Shape& shape) { return one_operator_per_threshold(shape, &Sizes::memory); }
 std::string Tapi::check(const View<double>& v) { return begins_at_zero(v.list(thresholds)[0]); }
 void Tapi::initial_memory(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }
+std::string Tapi::check_memory(const View<double>& v) {
+  return check_nested(play::Sides::one, v.list(thresholds), v.memory());
+}
 
 void SampledTapiInverse::describe(Declaration& d) {
   d.name("sampled_tapi_inverse", "drive that makes a tapi actuator follow the wanted displacement, sample by sample")

@@ -30,6 +30,7 @@ struct Tapi {
     v.out[0] = tapi::output(law(v), v.list(weights), v.memory(), v.u[u], v.u[temperature]);
   }
   static void initial_memory(const View<double>& v);
+  static std::string check_memory(const View<double>& v);
 };
 
 /// Finds the input of the actuator at each instant; its states are the operators of the actuator.

@@ -19,8 +19,8 @@
 //   Mode before, Mode after) -> State<T>   optional: states at the beginning of the mode `after` initial_mode(p) ->
 //   Mode           optional
 // Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance, update, guard,
-//   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, next_corner, pace,
-//   reach_back, check (on View<double>).
+//   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, given_memory,
+//   check_memory, next_corner, pace, reach_back, check (on View<double>).
 #pragma once
 
 #include <array>
@@ -335,6 +335,12 @@ std::string fixed_check(const View<double>& v) {
 }
 
 template <class B>
+std::string fixed_check_memory(const View<double>& v) {
+  using Y = Types<B, double>;
+  return B::check_memory(load<double>(typename Y::P{}, v.p), load<double>(typename Y::M{}, v.m));
+}
+
+template <class B>
 Sizes fixed_sizes(const Shape&) {
   using Y = Types<B, double>;
   using F = Forms<B>;
@@ -421,6 +427,8 @@ Kernel kernel() {
     if constexpr (requires(const View<double>& v) { B::pace(v); }) k.pace = &B::pace;
     if constexpr (requires(const View<double>& v) { B::reach_back(v); }) k.reach_back = &B::reach_back;
     if constexpr (requires(const View<double>& v) { B::check(v); }) k.check = &B::check;
+    if constexpr (requires(const View<double>& v) { B::given_memory(v); }) k.given_memory = &B::given_memory;
+    if constexpr (requires(const View<double>& v) { B::check_memory(v); }) k.check_memory = &B::check_memory;
     if constexpr (requires { B::uses_time; }) k.uses_time = B::uses_time;
   } else {
     using Y = Types<B, double>;
@@ -451,6 +459,8 @@ Kernel kernel() {
     if constexpr (requires(typename Y::P p) { B::next_corner(p, 0.0); }) k.next_corner = &fixed_next_corner<B>;
     if constexpr (requires(typename Y::P p) { B::pace(p); }) k.pace = &fixed_pace<B>;
     if constexpr (requires(typename Y::P p) { B::check(p); }) k.check = &fixed_check<B>;
+    if constexpr (requires(typename Y::P p, typename Y::M m) { B::check_memory(p, m); })
+      k.check_memory = &fixed_check_memory<B>;
   }
   return k;
 }

@@ -13,9 +13,17 @@
 namespace hysteron {
 namespace {
 
+/// FNV-1a (Fowler, Noll, Vo; RFC 9923): spreads names over 64 bits, the same on every machine.
+std::uint64_t key_of(const std::string& path) {
+  std::uint64_t key = 0xcbf29ce484222325ULL;
+  for (const char c : path) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return key;
+}
+
 void lay_out_block(const GraphBlock& g, Program& program) {
   BlockInstance b;
   b.path = g.path;
+  b.key = key_of(g.path);
   b.origin = g.origin;
   b.kernel = g.kernel;
   b.sizes = g.sizes;
@@ -225,7 +233,7 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
   program->simulate = diagram.simulate;
   program->title = diagram.title;
   program->pasts = pasts_of(diagram.simulate, *program);
-  start(*program);  // blocks refuse values that do not go together
+  check_memories(*program, start(*program));  // and blocks refuse values that do not go together
   return program;
 }
 

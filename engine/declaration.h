@@ -69,6 +69,19 @@ struct StateDeclaration {
   StateDeclaration& nominal(double value) { return nominal_size = value, *this; }
 };
 
+/// What a block may be replaced by, to try a hypothesis: another type with the same ports, or other settings of the
+/// same type. It keeps the parameters that it has under their names and gets further ones, of which some values change
+/// nothing.
+struct VariationDeclaration {
+  struct Neutral {
+    std::string parameter;
+    std::string value;  ///< as it would stand in a file
+  };
+  std::string name;  ///< the hypothesis: "friction"
+  std::string type;  ///< that takes the place; may be the block's own
+  std::vector<Neutral> neutral;
+};
+
 /// Whether an output may jump (a step, a held sample) or has no rate at all (noise).
 enum class Smoothness { smooth, jumps, no_rate };
 
@@ -83,7 +96,10 @@ class Declaration {
   std::vector<ParameterDeclaration> parameters;
   std::vector<StateDeclaration> states;
   std::vector<std::string> memory_names;  ///< fixed-size blocks: one per member of Memory
-  std::string group;                      ///< "sources", "math", "continuous", "hysteresis", ...
+  std::string memory_port;     ///< the memory is in the unit of that port; "" = no memory that a diagram could give
+  std::string memory_meaning;  ///< what its numbers are
+  std::vector<VariationDeclaration> variations;
+  std::string group;       ///< "sources", "math", "continuous", "hysteresis", ...
   std::string place;       ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
   bool is_linear = false;  ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
   bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate: a jump of the input is
@@ -108,6 +124,17 @@ class Declaration {
     is_sampled = true;
     parameter("period", "s", "time from one sampling instant to the next").positive();
     parameter("offset", "s", "first sampling instant").optional("0 s").not_negative();
+    return *this;
+  }
+  /// "simulate": {"memory": ...} may give the memory at the start.
+  Declaration& remembers(std::string port, std::string meaning) {
+    memory_port = std::move(port);
+    memory_meaning = std::move(meaning);
+    return *this;
+  }
+  Declaration& variation(std::string hypothesis, std::string other_type,
+                         std::vector<VariationDeclaration::Neutral> neutral) {
+    variations.push_back({std::move(hypothesis), std::move(other_type), std::move(neutral)});
     return *this;
   }
   Declaration& at(std::string kind_of_place) { return place = std::move(kind_of_place), *this; }

@@ -145,6 +145,7 @@ struct SimulateSettings {
   std::optional<std::string> loops{};        ///< what an algebraic loop is: "solve" (solved, the default), or "error"
   std::optional<std::string> start{};        ///< "given" (default: states as declared) or "steady" (equilibrium)
   Ordered<NumberList> past{};                ///< block -> what its input has been before the start
+  Ordered<NumberList> memory{};              ///< block -> what it remembers at the start, number after number
   Ordered<Number> guess{};                   ///< signal -> where the search for the loop that it stands in begins
 };
 

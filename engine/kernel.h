@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -38,13 +39,14 @@ struct View {
   const T* u = nullptr;   ///< inputs
   const T* du = nullptr;  ///< rates of the inputs (only for functions that want them)
   int n_u = 0;
-  int n_y = 0;           ///< number of outputs
-  T t{};                 ///< time [s]
-  double branch = 0;     ///< time that decides which smooth piece of a source applies [s]
-  int mode = 0;          ///< of a block with modes: the present one (reset: the one that begins)
-  int mode_before = 0;   ///< reset: the mode that ends
-  long hit = 0;          ///< of a sampled block: number of the sampling instant, 0 at the offset
-  const T* y = nullptr;  ///< update: the outputs of this instant, where the caller has them
+  int n_y = 0;            ///< number of outputs
+  T t{};                  ///< time [s]
+  double branch = 0;      ///< time that decides which smooth piece of a source applies [s]
+  int mode = 0;           ///< of a block with modes: the present one (reset: the one that begins)
+  int mode_before = 0;    ///< reset: the mode that ends
+  long hit = 0;           ///< of a sampled block: number of the sampling instant, 0 at the offset
+  std::uint64_t key = 0;  ///< made of the block's path: random numbers of its own
+  const T* y = nullptr;   ///< update: the outputs of this instant, where the caller has them
   const Series* series = nullptr;
   const History* history = nullptr;
   T* out = nullptr;  ///< what the function writes: outputs, derivatives, memory, states at rest, constants
@@ -119,6 +121,7 @@ struct Kernel : Functions<double> {
   Call initial_states = nullptr;  ///< out: states at the start where nothing else is said (parameters only); of a
                                   ///< sampled block: its sampled states
   Call initial_memory = nullptr;  ///< out: memory before the first input (parameters only)
+  Call given_memory = nullptr;    ///< out: memory from the numbers m that a diagram gives; absent: these themselves
   int (*initial_mode)(const View<double>&) = nullptr;    ///< mode to try first (parameters only); absent: 0
   int (*next_mode)(const View<double>&) = nullptr;       ///< which mode follows `mode`, whose guard is not positive
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
@@ -127,6 +130,9 @@ struct Kernel : Functions<double> {
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure
+
+  /// "" or why the numbers m that a diagram gives are no memory of this block, and the cure.
+  std::string (*check_memory)(const View<double>&) = nullptr;
 
   bool has_modes() const { return guard != nullptr; }
   bool is_sampled() const { return declaration.is_sampled; }

@@ -78,6 +78,7 @@ View<double> view_of(const Program& program, const Run& run, int block) {
   v.n_m = b.sizes.memory;
   v.n_u = b.n_u;
   v.n_y = b.sizes.outputs;
+  v.key = b.key;
   v.t = run.t;
   v.branch = run.branch;
   v.series = b.series_index < 0 ? nullptr : run.series[static_cast<std::size_t>(b.series_index)].get();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,6 +34,7 @@ struct BlockInstance {
   int history_index = -1;     ///< into Run::histories
   int mode_index = -1;        ///< into Run::mode
   int hit_index = -1;         ///< into Run::hits (sampled blocks)
+  std::uint64_t key = 0;      ///< made of the path, the same in every program that has it
   int adjacent = -1;          ///< first of the signals that it reads where these stand side by side in Work::y, else -1
 
   /// Numbers in the memory arena: memory, or of a sampled block its sampled states and then its held outputs.
@@ -95,10 +97,12 @@ struct Loop {
   bool of_values() const { return tears.front().order == Order::value; }
 };
 
-/// What the first input of a block has been before the start, value after value [SI] (past.h).
+/// What a block remembers at the start (past.h): its memory as given, then what its first input has been, value after
+/// value [SI]. Either may be empty.
 struct Past {
   int block = 0;
-  std::vector<double> inputs;
+  std::vector<double> inputs{};
+  std::vector<double> memory{};
 };
 
 struct Program {

@@ -53,6 +53,7 @@ void bind(const Program& program, const Run& run, WorkOf<T>& work) {
     v.n_m = b.sizes.memory;
     v.n_u = b.n_u;
     v.n_y = b.sizes.outputs;
+    v.key = b.key;
     v.u = b.adjacent >= 0 ? work.y.data() + b.adjacent : work.u.data() + b.u_begin;
     v.du = b.adjacent >= 0 ? work.rate.data() + b.adjacent : work.du.data() + b.u_begin;
     v.history = b.history_index < 0 ? nullptr : &run.histories[at(b.history_index)];
@@ -70,6 +71,7 @@ void bind(const Program& program, const Run& run, WorkOf<T>& work) {
     r.n_m = v.n_m;
     r.n_u = v.n_u;
     r.n_y = v.n_y;
+    r.key = v.key;
     r.history = v.history;
   }
 }

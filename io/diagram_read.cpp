@@ -307,7 +307,7 @@ class DiagramReader {
   void simulate(const JsonPlace& root) {
     const auto place = root.find("simulate");
     if (!place || !place->expect_object("{\"until\": \"1 s\", \"every\": \"1 ms\"}")) return;
-    place->only({"until", "every", "start", "past", "solver", "loops", "guess"});
+    place->only({"until", "every", "start", "past", "memory", "solver", "loops", "guess"});
     auto& s = diagram_.simulate;
     s.until = number_at(*place, "until");
     s.every = number_at(*place, "every");
@@ -315,6 +315,10 @@ class DiagramReader {
     for_members(*place, "past", "{\"hysteresis\": [\"0 V\", \"10 V\", \"0 V\"]}",
                 [&](const std::string& block, const JsonPlace& values) {
                   if (const auto list = read_numbers(values)) s.past[block] = *list;
+                });
+    for_members(*place, "memory", "{\"hysteresis\": [\"0 V\", \"-0.2 V\"]}",
+                [&](const std::string& block, const JsonPlace& values) {
+                  if (const auto list = read_numbers(values)) s.memory[block] = *list;
                 });
     if (const auto loops = place->find("loops")) s.loops = loops->text();
     for_members(*place, "guess", "{\"error\": \"1 um\"}", [&](const std::string& signal, const JsonPlace& value) {

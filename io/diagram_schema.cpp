@@ -141,9 +141,12 @@ Json diagram_parameter() {
 Json simulate() {
   Json solver = object(
       "how it is integrated",
-      {{"method", choice_of("auto: exact where the diagram allows it, else bdf; bdf for stiff diagrams, adams for "
-                            "smooth ones, runge_kutta where restarts are frequent; euler and rk4 take fixed steps",
-                            method_names())},
+      {{"method",
+        choice_of(
+            "auto: exact where the diagram allows it, else runge_kutta where restarts are frequent and nothing is "
+            "stiff, else bdf; bdf for stiff diagrams, adams for "
+            "smooth ones, runge_kutta where restarts are frequent; euler and rk4 take fixed steps",
+            method_names())},
        {"relative_tolerance", number("error per step, relative")},
        {"absolute_tolerance", number("as a multiple of each state's nominal size")},
        {"max_step", quantity("longest step [s]", false)},
@@ -161,6 +164,10 @@ Json simulate() {
                  {"past",
                   {{"type", "object"},
                    {"description", "block -> what its input has been before the start, value after value"},
+                   {"additionalProperties", {{"type", "array"}, {"items", {{"type", {"number", "string"}}}}}}}},
+                 {"memory",
+                  {{"type", "object"},
+                   {"description", "block -> what it remembers at the start, number after number"},
                    {"additionalProperties", {{"type", "array"}, {"items", {{"type", {"number", "string"}}}}}}}},
                  {"guess",
                   {{"type", "object"},

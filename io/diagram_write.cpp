@@ -218,7 +218,7 @@ class DiagramWriter {
 
   Members simulate() const {
     const auto& s = d_.simulate;
-    Members m, solver, guess, past;
+    Members m, solver, guess, past, memory;
     if (s.until) m.emplace_back("until", value_text(*s.until));
     if (s.every) m.emplace_back("every", value_text(*s.every));
     if (s.method) solver.emplace_back("method", json_quoted(*s.method));
@@ -231,6 +231,8 @@ class DiagramWriter {
     if (s.start) m.emplace_back("start", json_quoted(*s.start));
     for (const auto& [block, values] : s.past) past.emplace_back(block, numbers_text(values));
     if (!past.empty()) m.emplace_back("past", one_line(past));
+    for (const auto& [block, values] : s.memory) memory.emplace_back(block, numbers_text(values));
+    if (!memory.empty()) m.emplace_back("memory", one_line(memory));
     for (const auto& [signal, number] : s.guess) guess.emplace_back(signal, value_text(number));
     if (!guess.empty()) m.emplace_back("guess", one_line(guess));
     return m;

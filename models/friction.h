@@ -29,6 +29,12 @@ T sliding_force(const Params<T>& p, const T& velocity) {
   return p.coulomb + (p.breakaway - p.coulomb) * exp(-(ratio * ratio));
 }
 
+/// Nothing to stick to: the mass slides for ever, whichever way, and no turn of its motion is an event.
+template <class T>
+bool is_absent(const Params<T>& p) {
+  return !(p.coulomb > T{0}) && !(p.breakaway > T{0});
+}
+
 /// Force on a mass at rest, before friction: F - k x [N].
 template <class T>
 T pull(const Params<T>& p, const T& position, const T& force) {
@@ -40,7 +46,8 @@ template <class T>
 T acceleration(const Params<T>& p, Mode mode, const T& position, const T& velocity, const T& force) {
   if (mode == stick) return T{0};
   const T dry = sliding_force(p, velocity);
-  return (pull(p, position, force) - p.damping * velocity - (mode == slide_up ? dry : T{-dry})) / p.mass;
+  const bool up = is_absent(p) ? !(velocity < T{0}) : mode == slide_up;  // zero, but its slopes have a sign
+  return (pull(p, position, force) - p.damping * velocity - (up ? dry : T{-dry})) / p.mass;
 }
 
 /// Positive = the mode may stay: reserve of the holding force [N] while it sticks, speed [m/s] while it slides. Sliding
@@ -49,6 +56,7 @@ template <class T>
 T guard(const Params<T>& p, Mode mode, const T& position, const T& velocity, const T& force) {
   using std::abs;
   if (mode == stick) return p.breakaway - abs(pull(p, position, force));
+  if (is_absent(p)) return T{1};
   return (mode == slide_up ? velocity : T{-velocity}) + p.rest_speed;
 }
 

@@ -29,6 +29,18 @@ T output(std::span<const T> weights, std::span<const T> operators) {
   return y;
 }
 
+/// The first operator whose memory, together with that of the next, no input could have left behind; the number of
+/// operators if there is none: 0 <= w_i - w_(i+1) <= r_(i+1) - r_i (one side), |w_i - w_(i+1)| <= r_(i+1) - r_i (two).
+/// `slack` [u] forgives rounding. Source: thesis section 2.1 (nested states).
+inline std::size_t nested_until(play::Sides sides, std::span<const double> thresholds, std::span<const double> memory,
+                                double slack) {
+  for (std::size_t i = 0; i + 1 < memory.size(); ++i) {
+    const double step = memory[i] - memory[i + 1], most = thresholds[i + 1] - thresholds[i];
+    if (step > most + slack || step < (sides == play::Sides::one ? 0 : -most) - slack) return i;
+  }
+  return memory.size();
+}
+
 /// Output at the top of a loop 0 .. top from rest, one-sided operators: H(U) = sum c_i max(U - r_i, 0). Thesis
 /// section 2.1.
 template <class T>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "blocks/register_all.h"
@@ -71,6 +72,26 @@ TEST(Blocks, EveryTypeIsListedAndShownWithinAHundredColumns) {
     for (const char* part : {"\nlaw\n", "\noutputs\n", "\nsource\n", "\nexample\n"})
       EXPECT_NE(one.out.find(part), std::string::npos) << type << " lacks " << part;
   }
+}
+
+TEST(Blocks, TellVariationsAndMemoryToPeopleAndToPrograms) {
+  const Folder folder;
+  const Outcome shown = process::hysteron(folder.path(), {"blocks", "mass_spring_damper"});
+  for (const char* part : {"\nvariations", "mass_with_friction", "coulomb 0 N, breakaway 0 N"})
+    EXPECT_NE(shown.out.find(part), std::string::npos) << part << shown.out;
+  EXPECT_NE(process::hysteron(folder.path(), {"blocks", "play"}).out.find("\nmemory\n  its output, in the unit of u"),
+            std::string::npos);
+  const Outcome one = process::hysteron(folder.path(), {"blocks", "mass_spring_damper", "--json"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  const auto json = nlohmann::json::parse(one.out);
+  EXPECT_EQ(json.at("type"), "mass_spring_damper");
+  const auto& friction = json.at("variations").at(1);
+  EXPECT_EQ(friction.at("name"), "friction");
+  EXPECT_EQ(friction.at("type"), "mass_with_friction");
+  EXPECT_EQ(friction.at("neutral").at("breakaway"), "0 N");
+  EXPECT_EQ(json.at("parameters").at(0).at("unit"), "kg");
+  const auto all = nlohmann::json::parse(process::hysteron(folder.path(), {"blocks", "--json"}).out);
+  EXPECT_GT(all.size(), 40U);
 }
 
 TEST(Effects, EveryEffectIsListedAndShownWithItsLookAlikes) {

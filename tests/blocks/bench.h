@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
 #include <ostream>
 #include <stdexcept>
@@ -189,6 +190,7 @@ class Bench {
   Kernel kernel;
   int mode = 0;  ///< of a block with modes
   long hit = 0;  ///< of a sampled block
+  std::uint64_t key = 0;
   Shape shape;
   Sizes sizes;
   Numbers p, c;
@@ -210,6 +212,7 @@ class Bench {
     v.n_x = states();
     v.mode = mode;
     v.hit = hit;
+    v.key = key;
     v.m = m.data();
     v.n_m = sizes.memory;
     v.u = u.data();

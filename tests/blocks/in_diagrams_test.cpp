@@ -155,7 +155,9 @@ TEST(BlocksInDiagrams, NoiseIsTheSameWhateverTheSolver) {
   std::vector<double> instants;
   for (int k = 0; k < 100; ++k) instants.push_back(0.01 * k + 0.003);
   const auto bdf = simulated(d, instants, Method::bdf), adams = simulated(d, instants, Method::adams);
-  const bench::Bench b("sensor_noise", {{"rms", {1}}, {"period", {0.01}}, {"seed", {5}}});
+  bench::Bench b("sensor_noise", {{"rms", {1}}, {"period", {0.01}}, {"seed", {5}}});
+  const auto program = compile(d, bench::registry());
+  b.key = program->blocks[static_cast<std::size_t>(program->block_index("y"))].key;
   for (std::size_t k = 0; k < instants.size(); ++k) {
     EXPECT_EQ(bdf.values[0][k], adams.values[0][k]);
     EXPECT_NEAR(bdf.values[0][k], b.output(instants[k], {std::sin(2 * M_PI * instants[k])})[0], 1e-12);

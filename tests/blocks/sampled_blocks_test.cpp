@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "engine/program.h"
+#include "engine/simulate.h"
 #include "models/random.h"
 #include "tests/blocks/bench.h"
 #include "tests/models/golden.h"
@@ -95,6 +97,39 @@ TEST(ConverterBlocks, HoldAndQuantize) {
   EXPECT_EQ(hold.output(0, {0.123}), (Numbers{0.123}));
   const Bench adc("quantizer", {{"bits", {16}}, {"lower", {-10}}, {"upper", {10}}, {"period", {1}}});
   EXPECT_EQ(adc.output(0, {1.49 * 20 / 65536})[0], 20.0 / 65536);
+}
+
+TEST(Noise, IsAnotherOneInEveryBlockAndTheSameInEveryProgram) {
+  // White noises that have nothing to do with each other: their correlation over n samples is about 1/sqrt(n).
+  const int n = 2000;
+  for (const std::string type : {"sampled_noise", "sensor_noise"}) {
+    Diagram d;
+    d.inputs["u"].unit = "V";
+    for (const char* name : {"a", "b"}) {
+      d.blocks[name].type = type;
+      d.blocks[name].in = {{"", "u"}};
+      d.blocks[name].parameters["rms"] = "1 V";
+      d.blocks[name].parameters["period"] = "1 ms";
+    }
+    d.record = {"a", "b"};
+    const auto trace_of = [&] {
+      const auto program = compile(d, bench::registry());
+      auto run = start(*program);
+      bind_input(*program, run, "u", std::make_shared<const Series>(Series{{0}, {0}}));
+      std::vector<double> t;
+      for (int k = 0; k < n; ++k) t.push_back(1e-3 * (k + 0.5));
+      return simulate(*program, run, {.instants = t}).values;
+    };
+    const auto first = trace_of();
+    EXPECT_EQ(first, trace_of());
+    double product = 0;
+    for (std::size_t k = 0; k < first[0].size(); ++k) product += first[0][k] * first[1][k];
+    EXPECT_LT(std::abs(product / n), 5 / std::sqrt(n)) << type;
+    d.blocks["a"].parameters["seed"] = 2.0;
+    const auto other = trace_of();
+    EXPECT_NE(other[0], first[0]);
+    EXPECT_EQ(other[1], first[1]);
+  }
 }
 
 TEST(SampledNoiseBlock, DependsOnSeedAndInstantAlone) {

@@ -32,8 +32,17 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
               {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, -0.2}, "um/V")}, {"sides", "two"}},
               {"both_sides"})},
        {"joint", block("backlash", {{"gap", "0.5 V"}}, {"inverse"})},
+       {"warm", block("constant", {{"value", "300 K"}})},
+       {"tapi", block("tapi",
+                      {{"thresholds", list({0, 0.1, 0.7}, "V")},
+                       {"weights", list({1, 0.4, 0.2}, "um/V")},
+                       {"p_s", "5 V"},
+                       {"t_c", "600 K"},
+                       {"beta", 0.5},
+                       {"a", "0.02 V/K"}},
+                      {"u", "warm"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"two", "one", "joint", "late"}, {{"u", "V"}});
+      {"two", "one", "joint", "tapi", "late"}, {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;

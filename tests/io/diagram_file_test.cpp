@@ -209,6 +209,15 @@ TEST(DiagramFile, StartPastAndFixedStepAreReadAndWritten) {
   EXPECT_NE(diagram_text(d).find(R"("step": "10 us")"), std::string::npos);
 }
 
+TEST(DiagramFile, GivenMemoryIsReadAndWritten) {
+  const std::string settings = R"("simulate": {"memory": {"core": ["0 V", "-0.2 V"], "stage/gap": [3]}})";
+  const TemporaryFolder folder;
+  const Diagram d = read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {}, )" + settings + "}"));
+  EXPECT_EQ(*d.simulate.memory.find("core"), (NumberList{{0, "V"}, {-0.2, "V"}}));
+  EXPECT_EQ(*d.simulate.memory.find("stage/gap"), (NumberList{{3, {}}}));
+  EXPECT_NE(diagram_text(d).find(settings), std::string::npos) << diagram_text(d);
+}
+
 TEST(DiagramFile, LongBlocksAreWrappedUnderTheirFirstKey) {
   Diagram d;
   Node& node = d.blocks["a"];

@@ -1,0 +1,174 @@
+// Variations that block types offer: the same ports, and with their neutral values nothing changes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/engine/simulate_tools.h"
+
+namespace hysteron {
+namespace {
+
+using namespace tools;
+
+struct Offered {
+  std::string type;
+  VariationDeclaration variation;
+};
+void PrintTo(const Offered& o, std::ostream* out) { *out << o.type << " " << o.variation.name; }
+
+std::vector<Offered> all_offered() {
+  std::vector<Offered> list;
+  for (const auto& type : registry().types())
+    for (const auto& variation : registry().find(type)->declaration.variations) list.push_back({type, variation});
+  return list;
+}
+
+/// A block of each type that offers variations, and the unit of what drives it.
+struct Example {
+  std::string unit;
+  Parameters parameters;
+};
+const std::map<std::string, Example>& examples() {
+  static const std::map<std::string, Example> all{
+      {"gain", {"V", {{"gain", "-1.7 um/V"}}}},
+      {"mass_spring_damper",
+       {"N",
+        {{"mass", "0.2 kg"},
+         {"damping", "0.8 N s/m"},
+         {"stiffness", "50 N/m"},
+         {"initial_position", "0.03 m"},
+         {"initial_velocity", "-0.2 m/s"}}}},
+      {"tank", {"l/min", {{"area", "2 m^2"}, {"outlet", "0.2 l/min"}, {"reference", "1 m"}, {"initial", "1.5 m"}}}},
+      {"bouc_wen", {"V", {{"alpha", "0.6 um/V"}, {"beta", "0.24 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6 um/V"}}}},
+      {"jiles_atherton",
+       {"V", {{"p_s", "56 um"}, {"a", "48.6 V"}, {"alpha", "0.25 V/um"}, {"k", "3.9 V"}, {"c", 0.69}}}},
+      {"sample_hold", {"V", {{"period", "10 ms"}, {"offset", "3 ms"}}}},
+  };
+  return all;
+}
+
+class Variations : public testing::TestWithParam<Offered> {
+ protected:
+  const Declaration& own() const { return registry().find(GetParam().type)->declaration; }
+  const Declaration& other() const {
+    const Kernel* kernel = registry().find(GetParam().variation.type);
+    if (kernel == nullptr) throw std::logic_error("no block type " + GetParam().variation.type);
+    return kernel->declaration;
+  }
+  bool is_own() const { return GetParam().type == GetParam().variation.type; }
+};
+
+TEST_P(Variations, HaveTheSamePorts) {
+  const auto expect_same = [](const std::vector<PortDeclaration>& a, const std::vector<PortDeclaration>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].name, b[i].name);
+      EXPECT_EQ(a[i].variadic, b[i].variadic);
+      EXPECT_EQ(a[i].is_vector, b[i].is_vector);
+      if (a[i].unit.find('$') == std::string::npos) {
+        EXPECT_EQ(a[i].unit, b[i].unit);
+      }
+    }
+  };
+  expect_same(own().inputs, other().inputs);
+  expect_same(own().outputs, other().outputs);
+  EXPECT_EQ(own().is_elementwise, other().is_elementwise);
+}
+
+TEST_P(Variations, KeepEveryParameterAndNameTheNeutralValueOfEachThatMattersMore) {
+  for (const auto& p : own().parameters) {
+    const int i = other().parameter_index(p.name);
+    ASSERT_GE(i, 0) << p.name;
+    const auto& q = other().parameters[static_cast<std::size_t>(i)];
+    EXPECT_EQ(p.kind, q.kind) << p.name;
+    EXPECT_EQ(p.minimum, q.minimum) << p.name;
+    EXPECT_EQ(p.maximum, q.maximum) << p.name;
+  }
+  const auto& neutral = GetParam().variation.neutral;
+  EXPECT_FALSE(neutral.empty());
+  const auto is_neutral = [&](const std::string& name) {
+    return std::any_of(neutral.begin(), neutral.end(), [&](const auto& n) { return n.parameter == name; });
+  };
+  for (const auto& n : neutral) {
+    const int i = other().parameter_index(n.parameter);
+    ASSERT_GE(i, 0) << n.parameter;
+    const auto& q = other().parameters[static_cast<std::size_t>(i)];
+    if (is_own()) {
+      EXPECT_EQ(q.default_text.value_or("none"), n.value) << "a block that does not state it is the old one";
+    } else {
+      EXPECT_LT(own().parameter_index(n.parameter), 0) << n.parameter << " is no further parameter";
+    }
+  }
+  if (is_own()) return;
+  for (const auto& q : other().parameters) {
+    if (own().parameter_index(q.name) >= 0) continue;
+    EXPECT_TRUE(is_neutral(q.name) || q.default_text) << q.name << " has neither a neutral value nor a default";
+  }
+}
+
+TEST_P(Variations, WithNeutralValuesGiveTheSameTracesToRounding) {
+  const auto example = examples().find(GetParam().type);
+  ASSERT_NE(example, examples().end()) << "add an example for " << GetParam().type;
+  auto varied = example->second.parameters;
+  for (const auto& n : GetParam().variation.neutral) varied.emplace_back(n.parameter, n.value);
+  auto d = diagram({{"u", block("sine", {{"amplitude", "3 " + example->second.unit}, {"frequency", "3 Hz"}})},
+                    {"old", block(GetParam().type, example->second.parameters, {"u"})},
+                    {"new", block(GetParam().variation.type, varied, {"u"})}},
+                   {});
+  const auto p = compiled(d);
+  // A common step for both: an integrator would choose its steps for the two together as well.
+  const auto traces = simulate(*p, start(*p), {.until = 1, .every = 1e-2, .method = Method::rk4, .step = 1e-3});
+  int compared = 0;
+  for (std::size_t i = 0; i < traces.signals.size(); ++i) {
+    const std::string& path = p->signals[static_cast<std::size_t>(traces.signals[i])].path;
+    if (!path.starts_with("old")) continue;
+    const auto& old = traces.values[i];
+    const int same = p->signal("new" + path.substr(3));
+    const auto j = std::find(traces.signals.begin(), traces.signals.end(), same) - traces.signals.begin();
+    // A thousand steps, each with a few roundings.
+    EXPECT_LE(distance(old, traces.values[static_cast<std::size_t>(j)]), 1e-13 * largest(old)) << path;
+    if (path != "old.spilled") {
+      EXPECT_GT(largest(old), 0) << path;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, static_cast<int>(own().outputs.size()));
+}
+
+TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
+  // What is varied can act: a hypothesis that changes nothing could not be tested.
+  static const std::map<std::string, Parameters> active{{"offset", {{"offset", "1 um"}}},
+                                                        {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
+                                                        {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
+                                                        {"stops", {{"lower", "-0.04 m"}, {"upper", "0.035 m"}}},
+                                                        {"square_root_outflow", {{"law", "square_root"}}},
+                                                        {"overflow", {{"brim", "1.500001 m"}}},
+                                                        {"sharpness", {{"exponent", 2.0}, {"scale", "1 um"}}},
+                                                        {"scale", {{"scale", 1.2}}},
+                                                        {"noise", {{"rms", "0.1 V"}}},
+                                                        {"computing_time", {{"samples", 1.0}}}};
+  const auto found = active.find(GetParam().variation.name);
+  ASSERT_NE(found, active.end()) << "add values for " << GetParam().variation.name;
+  const auto& example = examples().at(GetParam().type);
+  auto varied = example.parameters;
+  for (const auto& [name, value] : found->second) varied.emplace_back(name, value);
+  const auto d = diagram({{"u", block("sine", {{"amplitude", "3 " + example.unit}, {"frequency", "3 Hz"}})},
+                          {"old", block(GetParam().type, example.parameters, {"u"})},
+                          {"new", block(GetParam().variation.type, varied, {"u"})}},
+                         {});
+  const auto p = compiled(d);
+  const auto traces = simulate(*p, start(*p), {.until = 1, .every = 1e-2, .method = Method::rk4, .step = 1e-3});
+  const auto at = [&](const std::string& block) {
+    const int s = p->blocks[static_cast<std::size_t>(p->block_index(block))].y_begin;
+    return traces.values[static_cast<std::size_t>(std::find(traces.signals.begin(), traces.signals.end(), s) -
+                                                  traces.signals.begin())];
+  };
+  EXPECT_GT(distance(at("old"), at("new")), 1e-7 * largest(at("old")));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Variations, testing::ValuesIn(all_offered()),
+                         [](const auto& tested) { return tested.param.type + "_" + tested.param.variation.name; });
+
+}  // namespace
+}  // namespace hysteron
