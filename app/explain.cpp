@@ -6,17 +6,21 @@
 #include <cmath>
 #include <functional>
 
+#include "app/facts.h"
 #include "app/load.h"
 #include "app/numbers.h"
 #include "app/program_facts.h"
+#include "app/publish.h"
 #include "app/terminal.h"
 #include "app/verb.h"
+#include "engine/choose_method.h"
 #include "engine/corners.h"
 #include "engine/error.h"
 #include "engine/jacobian.h"
 #include "engine/nominal.h"
 #include "engine/simulate.h"
 #include "engine/simulate_parts.h"
+#include "io/result.h"
 
 namespace hysteron {
 namespace {
@@ -28,7 +32,8 @@ constexpr char help[] =
     "Examples:\n"
     "  hysteron explain stage.json\n"
     "  hysteron explain loop.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n\n"
-    "Prints to the terminal; nothing is simulated and nothing is written.\n"
+    "Prints to the terminal; nothing is simulated. With -o it writes result.json and report.html as well, else\n"
+    "nothing is written.\n"
     "Exit codes: 0 done, 2 the diagram is wrong.";
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -49,7 +54,8 @@ class Explanation {
   Explanation(const Program& program, const Diagram& diagram, std::string file)
       : program_(program), diagram_(diagram), file_(std::move(file)), run_(start(program)) {}
 
-  void print() const {
+  /// Prints everything and returns it.
+  Document print() {
     const auto nonempty = [](const std::string& text) { return text.empty() ? "" : ": " + text; };
     fmt::print("{}", wrapped(fmt::format("{}{}", file_, nonempty(program_.title))));
     fmt::print("{}",
@@ -67,6 +73,18 @@ class Explanation {
     print_solver();
     print_states();
     print_parameters();
+    document_.verb = "explain";
+    document_.title = program_.title.empty() ? stem_of(file_) : program_.title;
+    document_.headline = fmt::format("{}: what the compiler made of it", document_.title);
+    document_.facts = to_json(Facts::object({{"diagram", file_},
+                                             {"blocks", program_.blocks.size()},
+                                             {"signals", program_.signals.size()},
+                                             {"continuous_states", program_.n_x},
+                                             {"parameters", program_.parameters.size()},
+                                             {"loops", program_.loops.size()},
+                                             {"method", method_},
+                                             {"why", why_}}));
+    return std::move(document_);
   }
 
  private:
@@ -79,21 +97,36 @@ class Explanation {
   }
   const std::string& type(int b) const { return block(b).kernel->declaration.type; }
 
-  static void head(const std::string& title) { fmt::print("\n{}\n", title); }
-  static void say(const std::string& text) { fmt::print("{}", wrapped(text, 2)); }
+  // What is printed is kept for result.json, too.
+  void head(const std::string& title) {
+    fmt::print("\n{}\n", title);
+    document_.sections.emplace_back().title = title;
+  }
+  void say(const std::string& text) {
+    fmt::print("{}", wrapped(text, 2));
+    document_.sections.back().text.push_back(text);
+  }
+  void show(const std::vector<std::string>& heads, const Rows& rows) {
+    fmt::print("{}", table_text(heads, rows));
+    Table table;
+    table.columns = heads.empty() ? std::vector<std::string>(rows.empty() ? 0 : rows.front().size()) : heads;
+    table.rows = rows;
+    for (auto& row : table.rows) row.resize(table.columns.size());
+    document_.sections.back().tables.push_back(std::move(table));
+  }
 
-  void print_choices() const {
+  void print_choices() {
     Rows rows;
     for (const auto& [name, node] : diagram_.blocks)
       if (!node.from.empty()) rows.push_back({name, node.choose, "of " + joined(node.from.names())});
     if (rows.empty()) return;
     head("choices");
-    fmt::print("{}", table_text({}, rows));
+    show({}, rows);
   }
 
   // --- order ---------------------------------------------------------------------------------------------------------
 
-  void print_order() const {
+  void print_order() {
     head("order of evaluation");
     Rows rows;
     // Values that dx/dt does not need (what is only recorded) come behind.
@@ -129,7 +162,7 @@ class Explanation {
       if (std::any_of(blocks.begin(), blocks.end(), [&](int b) { return !seen[at(b)]; })) add(step, "outputs only");
     }
     for (const auto& step : program_.rate_steps) add(step, "events only");
-    fmt::print("{}", table_text({"", "what", "of block", "type", "needed for", ""}, rows));
+    show({"", "what", "of block", "type", "needed for", ""}, rows);
   }
 
   static std::string name_of(Order order) {
@@ -146,7 +179,7 @@ class Explanation {
     return names;
   }
 
-  void print_loops() const {
+  void print_loops() {
     head("loops");
     const auto around = [](std::vector<std::string> names) {
       names.push_back(names.front());
@@ -171,7 +204,7 @@ class Explanation {
     if (feedback.empty()) say("feedback: none");
   }
 
-  void print_rates() const {
+  void print_rates() {
     head("rates that are computed (exactly, by the chain rule)");
     Rows rows;
     for (const auto& rate : needed_rates(program_))
@@ -179,12 +212,12 @@ class Explanation {
     if (rows.empty())
       say("none; nobody asks for one");
     else
-      fmt::print("{}", table_text({}, rows));
+      show({}, rows);
   }
 
   // --- events --------------------------------------------------------------------------------------------------------
 
-  void print_events() const {
+  void print_events() {
     head("events");
     Rows rows;
     const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
@@ -219,10 +252,10 @@ class Explanation {
     if (rows.empty())
       say("none; every signal is smooth and no block remembers");
     else
-      fmt::print("{}", table_text({}, rows));
+      show({}, rows);
   }
 
-  void print_clocks() const {
+  void print_clocks() {
     head("clocks");
     const auto clocks = clock_facts(program_);
     if (clocks.empty()) return say("none; no block is sampled");
@@ -230,7 +263,7 @@ class Explanation {
     for (const auto& clock : clocks)
       rows.push_back(
           {"every " + time_text(clock.period), "from " + time_text(clock.offset), joined(paths(clock.blocks))});
-    fmt::print("{}", table_text({}, rows));
+    show({}, rows);
     std::vector<std::string> taken, held;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b)
       for (const int s : program_.blocks[b].source) {
@@ -268,26 +301,28 @@ class Explanation {
                : "between instants only recordings move what is static, with memory, or linear";
   }
 
-  void print_solver() const {
+  void print_solver() {
     head("solver");
-    const SimulateOptions options = simulate_options(program_);
+    SimulateOptions options = simulate_options(program_);
     const std::string reason = why_not_exactly(options);
     const bool exact = reason.empty() && (options.method == Method::automatic || options.method == Method::exact);
     Rows rows;
     const bool asked = options.method != Method::automatic;
-    const std::string method = exact ? "exact" : method_name(asked ? options.method : Method::bdf);
-    rows.push_back({"method", method,
-                    asked   ? "as the diagram says"
-                    : exact ? exact_because()
-                            : "the exact advance does not apply, and the diagram asks for no other"});
+    MethodChoice choice{options.method, "as the diagram says"};
+    if (!asked && exact) choice = {Method::exact, exact_because()};
+    if (!asked && !exact) choice = choose_method(program_, run_, options.begin, options.until - options.begin);
+    method_ = method_name(choice.method);
+    why_ = choice.why;
+    rows.push_back({"method", method_, why_});
     rows.push_back({"exact row by row", reason.empty() ? "applies" : "does not apply", reason});
     const double until = options.until;
     rows.push_back({"until", program_.simulate.until ? time_text(until) : "open",
                     program_.simulate.until ? from_diagram(true) : "--until, or the recordings of --data"});
     rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
                     from_diagram(program_.simulate.every.has_value())});
+    options.method = choice.method;
     if (!exact) add_integrator_rows(rows, options);
-    fmt::print("{}", table_text({}, rows));
+    show({}, rows);
   }
 
   static std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }
@@ -305,8 +340,7 @@ class Explanation {
                         "; times the relative one, times the nominal size of each state"});
     const auto [longest, why] = longest_step_and_why(options);
     rows.push_back({"longest step", longest, why});
-    const bool implicit = options.method == Method::automatic || options.method == Method::bdf;
-    if (implicit && program_.n_x > 0) {
+    if (options.method == Method::bdf && program_.n_x > 0) {
       const Jacobian jacobian(program_);
       rows.push_back({"Jacobian", fmt::format("{} x {}", program_.n_x, program_.n_x),
                       fmt::format("exact slopes, {}", count_text(jacobian.colours(), "direction"))});
@@ -327,7 +361,7 @@ class Explanation {
     return {time_text(longest), "the shortest dead time"};
   }
 
-  void print_states() const {
+  void print_states() {
     if (program_.n_x == 0) return;
     head("continuous states");
     Rows rows;
@@ -343,12 +377,12 @@ class Explanation {
       }
       rows.push_back(std::move(row));
     }
-    fmt::print("{}", table_text({"state", "start [SI]", "nominal size [SI]", "absolute tolerance [SI]"}, rows));
+    show({"state", "start [SI]", "nominal size [SI]", "absolute tolerance [SI]"}, rows);
   }
 
   // --- parameters ----------------------------------------------------------------------------------------------------
 
-  void print_parameters() const {
+  void print_parameters() {
     head("parameters");
     Rows rows;
     for (const auto& info : program_.parameters) {
@@ -357,7 +391,7 @@ class Explanation {
       rows.push_back({info.path, value, origin_text(info.origin) + used_as(info)});
     }
     if (rows.empty()) return say("none");
-    fmt::print("{}", table_text({"parameter", "value", "from"}, rows));
+    show({"parameter", "value", "from"}, rows);
   }
 
   /// Of a diagram parameter: the places that read it.
@@ -373,12 +407,19 @@ class Explanation {
   const Diagram& diagram_;
   std::string file_;
   Run run_;
+  Document document_;
+  std::string method_, why_;
 };
 
 int explain(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
-  with_lines_of(diagram, [&] { Explanation(*program, diagram, arguments.text("diagram")).print(); });
+  with_lines_of(diagram, [&] {
+    const Document document = Explanation(*program, diagram, arguments.text("diagram")).print();
+    if (!arguments.has("-o")) return;
+    fmt::print("\n");
+    publish(arguments, arguments.text("-o"), document);
+  });
   return exit_code::done;
 }
 
@@ -388,7 +429,11 @@ Verb explain_verb() {
   return {"explain",
           "what the compiler made of a diagram",
           help,
-          {options::diagram(), options::set(), options::choose(), options::allow()},
+          {options::diagram(),
+           {"-o", "FOLDER", "also write result.json and report.html into this folder", false, false},
+           options::set(),
+           options::choose(),
+           options::allow()},
           explain};
 }
 

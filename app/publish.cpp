@@ -14,22 +14,25 @@
 namespace hysteron {
 namespace {
 
-void print_answer(const Arguments& arguments, const Document& document) {
+void print_answer(const Arguments& arguments, const Document& document,
+                  const std::vector<std::string>& said_here_only) {
   if (!document.headline.empty()) fmt::print("{}", wrapped(document.headline));
   if (arguments.quiet()) return;
   for (const auto& sentence : document.sentences) fmt::print("{}", wrapped(sentence, 2));
   for (const auto& warning : document.warnings) fmt::print("{}", wrapped("note: " + warning, 2));
+  for (const auto& line : said_here_only) fmt::print("{}", wrapped(line, 2));
 }
 
 }  // namespace
 
-void publish(const Arguments& arguments, const std::string& folder, const Document& document) {
+void publish(const Arguments& arguments, const std::string& folder, const Document& document,
+             const std::vector<std::string>& said_here_only) {
   const std::string page = report_html(document);
   {
     const DeferInterrupts until_in_place(true);
     write_result(folder, document, page);
   }
-  print_answer(arguments, document);
+  print_answer(arguments, document, said_here_only);
   fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
              folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);
 }

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/verb.h"
 #include "io/result.h"
 
 namespace hysteron {
 
-/// Writes `folder` whole or not at all, then prints headline, sentences, warnings and, on the last line, the verdict
-/// and where report.html lies.
-void publish(const Arguments& arguments, const std::string& folder, const Document& document);
+/// Writes `folder` whole or not at all, then prints headline, sentences, warnings, what is said here only (times, which
+/// no result may depend on) and, on the last line, the verdict and where report.html lies.
+void publish(const Arguments& arguments, const std::string& folder, const Document& document,
+             const std::vector<std::string>& said_here_only = {});
 
 /// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
 std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);

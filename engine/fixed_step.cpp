@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/events.h"
+#include "engine/folded.h"
 #include "engine/loops.h"
+#include "engine/needed.h"
 #include "engine/nominal.h"
 #include "engine/simulate_parts.h"
 
@@ -21,6 +23,8 @@ class FixedSteps {
         run_(std::move(run)),
         options_(options),
         work_(program),
+        derivative_(program, run_, work_),
+        recording_(steps_for(program, signals)),
         tolerance_(absolute_tolerances(nominal_sizes(program, run_), options)),
         events_(program, run_, options.begin, instants.back(), options.relative_tolerance, tolerance_),
         t_(options.begin) {
@@ -34,24 +38,12 @@ class FixedSteps {
   }
 
   Traces operator()() {
-    events_.take(t_, run_);
-    events_.begin(run_, work_, t_, x_);
-    commit();
-    for (long grid = 1;;) {
-      while (events_.next() <= t_ + same_instant(t_)) {
-        events_.take(t_, run_);
-        events_.pass(run_, work_, t_, x_);
-        commit();
-      }
-      record_until(t_);
-      if (next_ == traces_.t.size()) break;
-      double stop = options_.begin + static_cast<double>(grid) * options_.step;
-      if (stop <= t_ + same_instant(t_)) {
-        ++grid;
-        continue;
-      }
-      step(std::min(stop, events_.next()));
+    {
+      const Stopwatch all(traces_.statistics.phases.integrate);
+      walk();
     }
+    auto& phases = traces_.statistics.phases;
+    phases.integrate -= phases.events + phases.output;
     tell();
     run_.x = x_;
     traces_.end = std::move(run_);
@@ -59,11 +51,35 @@ class FixedSteps {
   }
 
  private:
+  void walk() {
+    {
+      const Stopwatch watch(traces_.statistics.phases.events);
+      events_.take(t_, run_);
+      events_.begin(run_, work_, t_, x_);
+      commit();
+    }
+    for (long grid = 1;;) {
+      while (events_.next() <= t_ + same_instant(t_)) {
+        const Stopwatch watch(traces_.statistics.phases.events);
+        events_.take(t_, run_);
+        events_.pass(run_, work_, t_, x_);
+        commit();
+      }
+      record_until(t_);
+      if (next_ == traces_.t.size()) return;
+      double stop = options_.begin + static_cast<double>(grid) * options_.step;
+      if (stop <= t_ + same_instant(t_)) {
+        ++grid;
+        continue;
+      }
+      step(std::min(stop, events_.next()));
+    }
+  }
   void derivative(double t, const std::vector<double>& x, std::vector<double>& k) {
     ++traces_.statistics.evaluations;
-    evaluate_derivatives(program_, run_, work_, t, x.data());
+    derivative_(run_, t, x.data());
     throw_if_unsolved(program_, work_, t);
-    work_.dx.swap(k);
+    std::copy(work_.dx.begin(), work_.dx.end(), k.begin());
   }
   void move(double h, const std::vector<double>& k) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = before_[i] + h * k[i];
@@ -99,6 +115,7 @@ class FixedSteps {
 
   /// Outputs inside the step that has just been taken, with the memory as it was before.
   void record_between(double from, double to) {
+    const Stopwatch watch(traces_.statistics.phases.output);
     if (!x_.empty()) derivative(to, x_, k4_);
     for (; next_ < traces_.t.size() && traces_.t[next_] < to - same_instant(to);) {
       const double h = to - from, s = (traces_.t[next_] - from) / h;
@@ -109,10 +126,12 @@ class FixedSteps {
     }
   }
   void record_until(double t) {
+    if (next_ == traces_.t.size() || traces_.t[next_] > t + same_instant(t)) return;
+    const Stopwatch watch(traces_.statistics.phases.output);
     while (next_ < traces_.t.size() && traces_.t[next_] <= t + same_instant(t)) record(t, x_);
   }
   void record(double t, const std::vector<double>& x) {
-    evaluate_values(program_, run_, work_, t, x.data());
+    evaluate_steps(program_, run_, work_, t, x.data(), recording_);
     for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
       const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
       if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x.data());
@@ -127,13 +146,15 @@ class FixedSteps {
   void tell() {
     auto& s = traces_.statistics;
     s.method = options_.method == Method::euler ? "euler" : "rk4";
-    tell_events(program_, events_, s);
+    tell_counts(program_, events_, work_, s);
   }
 
   const Program& program_;
   Run run_;
   const SimulateOptions& options_;
   Work work_;
+  FoldedDerivative derivative_;
+  std::vector<Step> recording_;
   std::vector<double> tolerance_;  // for the paths of jumps only
   Events events_;
   Traces traces_;

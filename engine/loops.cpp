@@ -206,6 +206,7 @@ class Scalar {
   }
 
   bool inside_bracket() {
+    s_.bracketed = true;
     double before = std::numeric_limits<double>::infinity();
     moved_ = false;
     for (int i = 0; i < 8 * newton_steps_allowed; ++i, moved_ = false) {
@@ -344,13 +345,26 @@ class Several {
 bool solve(LoopSolver& s, const Program& program, const Loop& loop) {
   const auto n = loop.tears.size();
   s.best_norm = std::numeric_limits<double>::infinity();
-  s.jumps = false;
+  s.jumps = s.bracketed = false;
   const double* warm = s.run->warm.data() + loop.warm_begin;
   if (n == 1) return Scalar(s, program, loop)(warm[0]);
   std::copy_n(warm, n, s.v.begin());
   if (Several(s, program, loop)()) return true;
   std::fill_n(s.v.begin(), n, 0.0);
   return Several(s, program, loop)();
+}
+
+/// As solve(), and counts what it took.
+bool solve_and_count(LoopSolver& s, const Program& program, int index) {
+  const long before = s.evaluations;
+  const bool solved = solve(s, program, program.loops[at(index)]);
+  LoopCounters& c = s.counters[at(index)];
+  const long took = s.evaluations - before;
+  c.evaluations += took;
+  c.most_evaluations = std::max(c.most_evaluations, static_cast<int>(took));
+  ++(solved ? c.solved : c.failed);
+  c.bracketed += solved && s.bracketed ? 1 : 0;
+  return solved;
 }
 
 template <class T>
@@ -384,7 +398,8 @@ void find_slopes(LoopSolver& s, const Program& program, const Loop& loop, JetWor
 
 }  // namespace
 
-LoopSolver::LoopSolver(const Program& program) : jets(program, false), x(at(program.n_x)) {
+LoopSolver::LoopSolver(const Program& program)
+    : jets(program, false), x(at(program.n_x)), counters(program.loops.size()) {
   std::size_t most = 0;
   for (const auto& loop : program.loops) most = std::max(most, loop.tears.size());
   for (auto* list : {&v, &residual, &trial, &scale, &right, &step, &weight, &best, &best_residual}) list->resize(most);
@@ -400,7 +415,7 @@ void solve_loop(const Program& program, WorkOf<T>& work, int index, const T* x) 
   LoopSolver& s = *work.loops;
   take(s, program, loop, work, x);
   if (!s.outside_is_finite) return give_up(program, work, loop);  // the trouble lies elsewhere
-  if (!solve(s, program, loop)) {
+  if (!solve_and_count(s, program, index)) {
     // A rate that only memory wished for is not missed for good: no reversal is seen at this instant.
     if (work.unsolved < 0 && loop.needed) work.unsolved = index;
     return give_up(program, work, loop);
@@ -412,10 +427,16 @@ void solve_loop(const Program& program, WorkOf<T>& work, int index, const T* x) 
   steps::run(loop.steps, program, work, x);
   // What is solved for is known better than what the steps make of it: with a high gain these magnify its rounding.
   for (std::size_t i = 0; i < loop.tears.size(); ++i) {
-    if constexpr (std::is_same_v<T, Jet>)
+    if constexpr (std::is_same_v<T, Jet>) {
       number(work, loop.tears[i]) = s.solved[i];
-    else
-      number(work, loop.tears[i]) = s.v[i];
+    } else {
+      T& made = number(work, loop.tears[i]);
+      const double left = std::abs(made - s.v[i]);
+      const double size = tolerance(s, loop, static_cast<int>(i)) / (s.run->loop_relative + roundings);
+      double& worst = s.counters[at(index)].worst_residual;
+      if (left > worst * size) worst = left / size;
+      made = s.v[i];
+    }
   }
 }
 template void solve_loop<double>(const Program&, WorkOf<double>&, int, const double*);

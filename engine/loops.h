@@ -29,13 +29,21 @@
 
 namespace hysteron {
 
+/// What it took to solve a loop, since construction.
+struct LoopCounters {
+  long solved = 0, failed = 0, evaluations = 0, bracketed = 0;
+  int most_evaluations = 0;
+  double worst_residual = 0;  ///< |F(v) - v| over the size of v, where it was left
+};
+
 struct LoopSolver {
   explicit LoopSolver(const Program& program);
 
   JetWork jets;  ///< evaluates the steps of a loop; slopes along the tears only
   std::vector<Jet> x;
-  const Run* run = nullptr;  ///< of the present evaluation
-  long evaluations = 0;      ///< of F, since construction
+  std::vector<LoopCounters> counters;  ///< per loop
+  const Run* run = nullptr;            ///< of the present evaluation
+  long evaluations = 0;                ///< of F, since construction
   bool outside_is_finite = true;
 
   // Of the last evaluation of F; the tears, the residual F(v) - v and I - dF/dv, row by row.
@@ -48,6 +56,7 @@ struct LoopSolver {
   double weakest = 1;  ///< smallest pivot of the last factorization, with rows and columns in units of the tears' sizes
   double best_norm = 0, best_weakest = 1;  ///< of a failed search: where the residual was smallest
   bool jumps = false;                      ///< the residual changes its sign without being zero
+  bool bracketed = false;                  ///< the last search ended inside a bracket
 };
 
 /// Solves loop `index` at the point where `work` stands and carries out its steps. Sets work.unsolved if it fails.

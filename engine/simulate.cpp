@@ -15,12 +15,16 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/choose_method.h"
 #include "engine/corners.h"
 #include "engine/events.h"
 #include "engine/fixed_step.h"
+#include "engine/folded.h"
 #include "engine/integrator.h"
 #include "engine/jacobian.h"
+#include "engine/loop_plan.h"
 #include "engine/loops.h"
+#include "engine/needed.h"
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
@@ -75,6 +79,8 @@ class Simulation {
   void pass_root();
   void check_guards();
   void follow_directions();
+  void record_due();
+  void walk();
   void commit();
   void check_pace();
   [[noreturn]] void explain(const Error& error);
@@ -83,6 +89,8 @@ class Simulation {
   Run run_;
   const SimulateOptions& options_;
   Work work_;
+  FoldedDerivative derivative_;
+  std::vector<Step> recording_;
   NominalSizes sizes_;
   std::vector<double> tolerance_;  // absolute, per state
   Events events_;
@@ -108,6 +116,8 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       run_(std::move(run)),
       options_(options),
       work_(program),
+      derivative_(program, run_, work_),
+      recording_(steps_for(program, signals)),
       sizes_(nominal_sizes(program, run_)),
       tolerance_(absolute_tolerances(sizes_, options)),
       events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
@@ -180,7 +190,7 @@ bool Simulation::derivative(double t, const double* x, double* dx) {
     dx[0] = 0;
     return true;
   }
-  evaluate_derivatives(program_, run_, work_, t, x);
+  derivative_(run_, t, x);
   double sum = 0;  // of zeros: not zero if one of them is not finite
   for (std::size_t i = 0; i < work_.dx.size(); ++i) {
     dx[i] = work_.dx[i];
@@ -204,7 +214,7 @@ void Simulation::indicate(double t, const double* x, double* g) {
 }
 
 void Simulation::record(double t, const double* x, bool inside) {
-  evaluate_values(program_, run_, work_, t, x);
+  evaluate_steps(program_, run_, work_, t, x, recording_);
   for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
     const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
     if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x);
@@ -222,11 +232,23 @@ void Simulation::record_slopes(double t, const double* x, std::span<const double
 
 void Simulation::record_inside(double from, double to) {
   const auto& instants = traces_.t;
+  if (next_instant_ == instants.size() || instants[next_instant_] >= to - same_instant(to)) return;
+  const Stopwatch watch(traces_.statistics.phases.output);
   for (; next_instant_ < instants.size() && instants[next_instant_] < to - same_instant(to);) {
     solver_->interpolate(std::max(instants[next_instant_], from), interpolated_);
     if (twins_ != nullptr) solver_->interpolate_sensitivities(std::max(instants[next_instant_], from), s_inside_);
     record(instants[next_instant_], interpolated_.data(), true);
   }
+}
+
+/// Outputs at the present time.
+void Simulation::record_due() {
+  const auto due = [this] {
+    return next_instant_ < traces_.t.size() && traces_.t[next_instant_] <= t_ + same_instant(t_);
+  };
+  if (!due()) return;
+  const Stopwatch watch(traces_.statistics.phases.output);
+  while (due()) record(t_, x_.data());
 }
 
 void Simulation::commit() {
@@ -307,15 +329,18 @@ void Simulation::take_step(double stop) {
   t_ = solver_->t();
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
   if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
-  if (outcome == Integrator::Outcome::root) return pass_root();
+  if (outcome == Integrator::Outcome::root) {
+    const Stopwatch watch(traces_.statistics.phases.events);
+    return pass_root();
+  }
   commit();
   if (reversals_.open(run_)) follow_directions();
   check_guards();
 }
 
-Traces Simulation::operator()() {
-  const auto& instants = traces_.t;
-  try {
+void Simulation::walk() {
+  {
+    const Stopwatch watch(traces_.statistics.phases.events);
     events_.take(t_, run_);
     events_.starting(true);
     if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
@@ -324,24 +349,36 @@ Traces Simulation::operator()() {
     commit();
     if (reversals_.count() > 0) follow_directions();
     restart();
-    for (;;) {
-      while (events_.next() <= t_ + same_instant(t_)) pass_instant();
-      while (next_instant_ < instants.size() && instants[next_instant_] <= t_ + same_instant(t_)) record(t_, x_.data());
-      if (next_instant_ == instants.size()) break;
-      take_step(std::min(events_.next(), until_));
+  }
+  for (;;) {
+    while (events_.next() <= t_ + same_instant(t_)) {
+      const Stopwatch watch(traces_.statistics.phases.events);
+      pass_instant();
     }
+    record_due();
+    if (next_instant_ == traces_.t.size()) return;
+    take_step(std::min(events_.next(), until_));
+  }
+}
+
+Traces Simulation::operator()() {
+  auto& phases = traces_.statistics.phases;
+  try {
+    const Stopwatch all(phases.integrate);
+    walk();
   } catch (const Error& error) {
     explain(error);
   }
+  phases.integrate -= phases.events + phases.output;
   const auto counters = solver_->counters();
   auto& s = traces_.statistics;
-  s.method = method_name(options_.method == Method::automatic ? Method::bdf : options_.method);
+  s.method = method_name(options_.method);
   s.steps = counters.steps;
   s.rejected = counters.rejected;
   s.evaluations = counters.evaluations;
   s.jacobians = counters.jacobians;
   s.restarts = counters.restarts;
-  tell_events(program_, events_, s);
+  tell_counts(program_, events_, work_, s);
   if (program_.n_x > 0) run_.x = x_;
   traces_.end = std::move(run_);
   return std::move(traces_);
@@ -384,12 +421,17 @@ std::vector<double> absolute_tolerances(const NominalSizes& sizes, const Simulat
   return absolute;
 }
 
-void tell_events(const Program& program, const Events& events, Statistics& s) {
+void tell_counts(const Program& program, const Events& events, const Work& work, Statistics& s) {
   s.samples = events.hits();
   s.paths = events.paths();
   for (std::size_t i = 0; i < program.modal_blocks.size(); ++i)
     s.mode_changes.emplace_back(program.blocks[static_cast<std::size_t>(program.modal_blocks[i])].path,
                                 events.changes()[i]);
+  for (std::size_t i = 0; i < program.loops.size(); ++i) {
+    const LoopCounters& c = work.loops->counters[i];
+    s.loops.push_back({to_text(program, program.loops[i].path), c.solved, c.failed, c.evaluations, c.bracketed,
+                       c.most_evaluations, c.worst_residual});
+  }
 }
 
 void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x) {
@@ -451,13 +493,25 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
     fail("bad_value", "/simulate/solver/method", "slopes come with the adaptive methods only",
          "choose bdf, adams or runge_kutta");
   if (options.slopes_for.empty() && advances_exactly(program, options)) {
-    traces = simulate_exactly(program, run, options, std::move(instants), signals);
+    Phases phases;
+    {
+      const Stopwatch watch(phases.integrate);
+      traces = simulate_exactly(program, run, options, std::move(instants), signals);
+    }
+    traces.statistics.phases = phases;
   } else {
     if (options.at_rest) settle_at_rest(program, run, options.begin);
-    if (options.method == Method::euler || options.method == Method::rk4)
+    if (options.method == Method::euler || options.method == Method::rk4) {
       traces = simulate_in_fixed_steps(program, std::move(run), options, std::move(instants), signals);
-    else
-      traces = Simulation(program, std::move(run), held, std::move(instants), signals)();
+    } else {
+      auto how = held_tolerance(options);
+      MethodChoice choice{options.method, ""};
+      if (options.method == Method::automatic)
+        choice = choose_method(program, run, options.begin, instants.back() - options.begin);
+      how.method = choice.method;
+      traces = Simulation(program, std::move(run), how, std::move(instants), signals)();
+      traces.statistics.why = choice.why;
+    }
   }
   traces.statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return traces;

@@ -1,4 +1,5 @@
-// Decides how a program is integrated in time: CVODE one step at a time, events, dense output, acceptance of memory.
+// Decides what a simulation is asked for and what it gives: options, traces, statistics, and where it starts. How it is
+// done stands in simulate.cpp (adaptive steps), fixed_step.h (fixed ones) and advance.h (exactly, row by row).
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@
 namespace hysteron {
 
 enum class Method {
-  automatic,    ///< exact where the diagram allows it, else bdf
+  automatic,    ///< exact where the diagram allows it, else runge_kutta or bdf (choose_method.h)
   exact,        ///< row by row, instant by instant (advance.h)
   bdf,          ///< variable order and step, implicit: for stiff diagrams
   adams,        ///< variable order and step, for smooth diagrams that are not stiff
@@ -41,13 +42,33 @@ struct SimulateOptions {
   bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
 };
 
+/// What it took to solve one algebraic loop, in the evaluations of the simulation itself (not in those for slopes).
+struct LoopStatistics {
+  std::string path;
+  long solved = 0, failed = 0;
+  long evaluations = 0;       ///< of the blocks in the loop
+  long bracketed = 0;         ///< solved between two points at which the residual has different signs
+  int most_evaluations = 0;   ///< for one solution
+  double worst_residual = 0;  ///< left in one of its numbers, relative to its size
+};
+
+/// Where the time went [s]; the rest of Statistics::seconds is the setting up. Differs from run to run.
+struct Phases {
+  double integrate = 0;  ///< steps and acceptance of memory
+  double events = 0;     ///< corners, samples, changes of mode, reversals and restarts
+  double output = 0;
+};
+
 struct Statistics {
   std::string method;
   long steps = 0, rejected = 0, evaluations = 0, jacobians = 0, reversals = 0, restarts = 0;
   long samples = 0;                                          ///< runs of sampled blocks
   long paths = 0;                                            ///< jumps that rate-independent laws followed
   std::vector<std::pair<std::string, long>> mode_changes{};  ///< per block with modes
-  double seconds = 0;
+  std::vector<LoopStatistics> loops{};                       ///< as in Program::loops; none behind the exact advance
+  std::string why{};                                         ///< why `method` was taken, where it was chosen
+  Phases phases{};
+  double seconds = 0;  ///< all of it
 };
 
 struct Traces {

@@ -2,6 +2,7 @@
 // Internal to the ways of simulating.
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "engine/events.h"
@@ -13,8 +14,21 @@ namespace hysteron {
 /// Absolute tolerance per state [SI]; never empty.
 std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options);
 
-/// Counts of events for the statistics.
-void tell_events(const Program& program, const Events& events, Statistics& statistics);
+/// Counts of events and loops for the statistics.
+void tell_counts(const Program& program, const Events& events, const Work& work, Statistics& statistics);
+
+/// Adds the time of its life to a phase [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& phase) : phase_(phase), begin_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { phase_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& phase_;
+  std::chrono::steady_clock::time_point begin_;
+};
 
 /// The output times: as given, or begin, begin + every ... until. Throws Error "bad_value" for options that make no
 /// sense.

@@ -37,7 +37,8 @@ install_packages() {
     stop "apt-get install failed (its reason stands above)"
 }
 
-# configure_and_build FOLDER [cmake options]
+# configure_and_build FOLDER [cmake options]; builds the targets in $build_targets, or everything
+build_targets=()
 configure_and_build() {
   local folder=$1
   shift
@@ -53,5 +54,5 @@ configure_and_build() {
   }
   rm -f "$folder.configure.log"
   say "building"
-  cmake --build "$folder" || stop "the build failed (its reason stands above)"
+  cmake --build "$folder" ${build_targets[@]+--target "${build_targets[@]}"} || stop "the build failed (its reason stands above)"
 }

@@ -127,6 +127,14 @@ TEST_F(Explain, TellsTheSolverAndWhichBlockForbidsTheExactAdvance) {
                 "relative tolerance 1e-07 as the diagram says", "longest step not limited", "Jacobian 3 x 3"});
 }
 
+TEST_F(Explain, WritesWhatItPrintsForProgramsWhereAsked) {
+  const std::string text = explain(loop, {"-o", "out"});
+  EXPECT_NE(text.find("report: out/report.html"), std::string::npos) << text;
+  const std::string result = folder_.read("out/result.json");
+  for (const char* part : {"\"verb\": \"explain\"", "order of evaluation", "\"method\": \"bdf\"", "continuous states"})
+    EXPECT_NE(result.find(part), std::string::npos) << part << "\n" << result;
+}
+
 TEST_F(Explain, TellsWhereEachValueComesFrom) {
   const std::string text = explain(loop, {"--set", "kp=0.7 V/um", "--choose", "feedforward=on"});
   expect_parts(text, {"kp 0.7 V/um --set; read as controller.kp, feedforward.gain",

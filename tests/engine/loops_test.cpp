@@ -87,6 +87,64 @@ TEST(Loops, AMonotoneLoopThatNewtonAloneDoesNotSolveIsBracketed) {
   }
 }
 
+TEST(Loops, WhatTheyTookIsCounted) {
+  const auto program = compiled(diagram({{"v", block("sum", {{"signs", "+-"}}, {"u", "cube"})},
+                                         {"square", block("product", {}, {"v", "v"})},
+                                         {"third", block("product", {}, {"square", "v"})},
+                                         {"cube", block("gain", {{"gain", "1e4 1/V^2"}}, {"third"})}},
+                                        {"v"}, volts));
+  const auto run = with_input(*program, 2);
+  Work work(*program);
+  for (int i = 0; i < 3; ++i) evaluate_values(*program, run, work, 0, run.x.data());
+  const LoopCounters& c = work.loops->counters.at(0);
+  EXPECT_EQ(c.solved, 3);
+  EXPECT_EQ(c.failed, 0);
+  EXPECT_EQ(c.bracketed, 3);  // Newton's first step from zero lands beyond the solution
+  EXPECT_EQ(c.evaluations, 3 * c.most_evaluations);
+  // From 2 V, thirds bring v within a few times the solution (0.058 V) in ten steps; then the error is squared.
+  EXPECT_GT(c.most_evaluations, 8);
+  EXPECT_LT(c.most_evaluations, 30);
+  // The slope of the residual is 1 + 3e4 v^2 = 100: 100 times what rounding (and the tolerance, squared) leaves of v.
+  EXPECT_GT(c.worst_residual, 0);
+  EXPECT_LT(c.worst_residual, 1e-13);
+}
+
+TEST(Loops, StatisticsOfASimulationTellThem) {
+  // y' = (e - y)/tau with e = u - 2 e, so e = u/3: linear, one evaluation finds the slope and the next is exact.
+  const auto program = compiled(diagram({{"error", block("sum", {{"signs", "+-"}}, {"u", "back"})},
+                                         {"back", block("gain", {{"gain", 2.0}}, {"error"})},
+                                         {"y", block("lag", {{"times", list({0.1}, "s")}}, {"error"})}},
+                                        {"y"}, volts));
+  auto run = start(*program);
+  bind_input(*program, run, "u", series({0, 1}, {0, 3}));
+  for (const Method method : {Method::bdf, Method::rk4}) {
+    const auto s = simulate(*program, run, {.until = 1, .method = method, .step = 0.01}).statistics;
+    ASSERT_EQ(s.loops.size(), 1U);
+    EXPECT_EQ(s.loops[0].path, "error -> back -> error");
+    EXPECT_GE(s.loops[0].solved, s.evaluations);
+    EXPECT_EQ(s.loops[0].failed, 0);
+    EXPECT_LE(s.loops[0].most_evaluations, 3);
+    EXPECT_LT(s.loops[0].worst_residual, 1e-14);
+  }
+}
+
+TEST(Statistics, PhasesAreNotNegativeAndDoNotExceedTheWhole) {
+  const auto program = compiled(diagram({{"y", block("lag", {{"times", list({0.1}, "s")}}, {"u"})},
+                                         {"held", block("sample_hold", {{"period", "10 ms"}}, {"y"})},
+                                         {"late", block("lag", {{"times", list({0.01}, "s")}}, {"held"})}},
+                                        {"late"}, volts));
+  auto run = start(*program);
+  bind_input(*program, run, "u", series({0, 1}, {0, 3}));
+  for (const Method method : {Method::bdf, Method::runge_kutta, Method::rk4, Method::exact}) {
+    const auto s = simulate(*program, run, {.until = 1, .method = method, .step = 0.01}).statistics;
+    EXPECT_GE(s.phases.integrate, 0);
+    EXPECT_GE(s.phases.events, 0);
+    EXPECT_GE(s.phases.output, 0);
+    EXPECT_LE(s.phases.integrate + s.phases.events + s.phases.output, s.seconds);
+    EXPECT_GT(s.phases.integrate, 0);
+  }
+}
+
 /// The operators of the thesis behind their own inverse: u_c = (r - sum w_i P_i(u_c)) / w_0 with
 /// w_0 = ratio * sum of the others (ENGINE 17).
 Diagram inverse_compensator(double ratio) {
