@@ -1,9 +1,12 @@
 // Decides which numbers a fit may change where a diagram has effects in it: those that the effect's law leaves free.
 #include "app/effect_parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
+#include "app/numbers.h"
 #include "discover/add.h"
 
 namespace hysteron {
@@ -42,6 +45,28 @@ std::vector<std::string> effect_parameters(const Diagram& diagram, const Program
     }
   }
   return paths;
+}
+
+std::vector<std::string> unusual_values(const Diagram& diagram, const FitResult& result, const Effects& effects) {
+  std::vector<std::string> sentences;
+  for (const auto& [block, id] : effects_in(diagram)) {
+    const Effect* effect = effects.find(id);
+    if (effect == nullptr) continue;
+    for (const auto& e : result.estimates)
+      for (const auto& law : effect->laws(Circumstances{})) {
+        const auto p = std::find_if(law.free.begin(), law.free.end(),
+                                    [&, name = block](const auto& l) { return e.path == name + "." + l.path; });
+        if (p == law.free.end() || !e.value) continue;
+        const bool high = *e.value > p->plausible_upper, low = *e.value < p->plausible_lower;
+        if (high || low)
+          sentences.push_back(fmt::format("{} = {} is {} than {}, the usual limit of {}.", e.path,
+                                          difference_text(*e.value, e.unit), high ? "more" : "less",
+                                          difference_text(high ? p->plausible_upper : p->plausible_lower, e.unit),
+                                          effect->title));
+        break;
+      }
+  }
+  return sentences;
 }
 
 }  // namespace hysteron

@@ -43,8 +43,12 @@ void with_lines_of(const Diagram& diagram, const std::function<void()>& action) 
 
 Diagram load_diagram(const Arguments& arguments) {
   Diagram diagram = read_diagram(arguments.text("diagram"), arguments.list("--allow"));
-  apply_settings(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
+  apply_overrides(diagram, arguments);
   return diagram;
+}
+
+void apply_overrides(Diagram& diagram, const Arguments& arguments) {
+  apply_settings(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
 }
 
 ProgramPointer compile_file(const Diagram& diagram) {

@@ -16,6 +16,8 @@ const Registry& registry();
 
 /// The diagram of the arguments, with --set and --choose applied.
 Diagram load_diagram(const Arguments& arguments);
+/// Applies --set and --choose.
+void apply_overrides(Diagram& diagram, const Arguments& arguments);
 
 /// Runs `action`; an Error that it throws gets the file and line of the diagram.
 void with_lines_of(const Diagram& diagram, const std::function<void()>& action);

@@ -10,17 +10,18 @@
 #include "engine/error.h"
 #include "io/atomic_file.h"
 #include "io/diagram_file.h"
+#include "io/job_file.h"
 
 namespace hysteron {
 namespace {
 
 constexpr char help[] =
-    "Writes the JSON Schemas by which an editor completes and checks diagrams, data sets and results.\n"
+    "Writes the JSON Schemas by which an editor completes and checks diagrams, data sets, jobs and results.\n"
     "They are made from the same declarations that \"hysteron check\" uses.\n\n"
     "Examples:\n"
     "  hysteron schema -o schema/\n\n"
-    "Writes diagram.schema.json, dataset.schema.json and result.schema.json; a file names its schema\n"
-    "with \"$schema\": \"../schema/diagram.schema.json\".\n"
+    "Writes diagram.schema.json, dataset.schema.json, job.schema.json and result.schema.json; a file\n"
+    "names its schema with \"$schema\": \"../schema/diagram.schema.json\".\n"
     "Exit codes: 0 done, 2 the folder cannot be written.";
 
 int schema(const Arguments& arguments) {
@@ -36,6 +37,7 @@ int schema(const Arguments& arguments) {
   };
   write("diagram.schema.json", diagram_schema(registry()));
   write("dataset.schema.json", dataset_schema());
+  write("job.schema.json", job_schema());
   write("result.schema.json", result_schema());
   return exit_code::done;
 }
@@ -44,7 +46,7 @@ int schema(const Arguments& arguments) {
 
 Verb schema_verb() {
   return {"schema",
-          "write the JSON Schemas of diagrams, data sets and results",
+          "write the JSON Schemas of diagrams, data sets, jobs and results",
           help,
           {{"-o", "FOLDER", "where they go; default: schema", false, false}},
           schema};

@@ -136,9 +136,18 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
 Diagram with_parameters(const Diagram& diagram, const Program& program, const std::vector<ParameterValue>& values,
                         int digits = 8, std::vector<std::pair<std::string, Diagram>>* nested = nullptr);
 
+/// Where a set of parameters comes from, for people who find the file later.
+struct FitOrigin {
+  std::string diagram{}, data{};  ///< as they were named
+  std::string date{};             ///< "" = not said
+  std::uint64_t seed = 1;
+};
+
 /// A parameter set as JSON text (ENGINE 10): path -> value with unit, standard deviation, and the interval in words;
 /// what the data do not determine is left out. Where all parameters belong to one block, the names are the block's own
 /// and the block can name the file as its "parameters".
-std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data);
+/// Where the numbers come from stands under "fit"; parameters of single recordings too.
+std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data,
+                                const FitOrigin& origin = {});
 
 }  // namespace hysteron

@@ -82,7 +82,9 @@ class Search {
       low_[k] = problem_.lower[k] - z_[k];
       high_[k] = problem_.upper[k] - z_[k];
     }
-    to_gain_ = error_ - solve_bounded(linear_, low_, high_).squared_error;
+    const auto undamped = solve_bounded(linear_, low_, high_);
+    to_gain_ = error_ - undamped.squared_error;
+    to_go_ = relative_size(undamped.x);
     return true;
   }
 
@@ -105,14 +107,18 @@ class Search {
     return sum;
   }
 
-  /// The step is lost in the rounding of z.
-  bool is_tiny(const std::vector<double>& p) const {
+  /// Even the undamped step would gain next to nothing, or lead nowhere: along a flat valley a damped one always looks
+  /// so.
+  bool near_minimum(double error) const { return to_gain_ <= 100 * tolerance_ * error || to_go_ <= 1e-8; }
+
+  /// Length of a step over that of z, each unknown by its column.
+  double relative_size(const std::vector<double>& p) const {
     double step = 0, size = 0;
     for (std::size_t k = 0; k < n_; ++k) {
       step += std::pow(longest_[k] * p[k], 2);
       size += std::pow(longest_[k] * z_[k], 2);
     }
-    return std::sqrt(step) <= std::min(1e-10, tolerance_) * std::sqrt(size);
+    return size > 0 ? std::sqrt(step / size) : step > 0 ? infinity : 0;
   }
 
   /// Trials from one linearization until one is accepted.
@@ -121,7 +127,8 @@ class Search {
     for (int failures = 0; result_.trials < max_iterations_;) {
       const auto p = damped_step();
       const double foreseen = error_ - predicted(p);
-      if (is_tiny(p) || !(foreseen > 0)) return damping_ < 1 ? Step::converged : Step::stuck;
+      if (relative_size(p) <= std::min(1e-10, tolerance_) || !(foreseen > 0))
+        return near_minimum(error_) ? Step::converged : Step::stuck;
       auto trial = z_;
       for (std::size_t k = 0; k < n_; ++k) trial[k] = std::clamp(trial[k] + p[k], problem_.lower[k], problem_.upper[k]);
       ++result_.trials;
@@ -144,12 +151,11 @@ class Search {
       }
       if (problem_.go_on && !problem_.go_on()) return Step::stopped;
       if (accepted) {
-        // Where an all but undamped step gained nothing to speak of, another Jacobian would only say so again.
-        const bool settled = before - error <= tolerance_ * before && foreseen <= tolerance_ * before;
-        return settled && damping_ < 1e-2 ? Step::converged : Step::accepted;
+        // Where hardly anything was left to gain, another Jacobian would only say so again.
+        return before - error <= tolerance_ * before && near_minimum(before) ? Step::converged : Step::accepted;
       }
       if (evaluated && foreseen <= tolerance_ * error_ && std::abs(error_ - error) <= tolerance_ * error_)
-        return damping_ < 1 ? Step::converged : Step::stuck;
+        return near_minimum(error_) ? Step::converged : Step::stuck;
       if (damping_ > most_damping || failures > most_failures) return Step::stuck;
     }
     return Step::used_up;
@@ -161,7 +167,7 @@ class Search {
   double tolerance_;
   std::vector<double> z_, residual_, longest_, low_, high_;
   NormalForm linear_;
-  double error_ = infinity, to_gain_ = 0, damping_ = first_damping;
+  double error_ = infinity, to_gain_ = 0, to_go_ = infinity, damping_ = first_damping;
   LeastSquaresResult result_;
 };
 

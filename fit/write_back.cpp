@@ -142,6 +142,7 @@ Diagram with_parameters(const Diagram& diagram, const Program& program, const st
                         int digits, std::vector<std::pair<std::string, Diagram>>* nested) {
   Diagram result = diagram;
   for (const auto& v : values) {
+    if (v.recording >= 0) continue;  // a diagram knows no recordings
     const auto& info = program.parameters[static_cast<std::size_t>(v.parameter)];
     const Unit unit = parameter_unit(program, info);
     Writer(info, unit, rounded(shown(unit, info.difference, v.value), digits), nested).write(result, info.path);
@@ -200,6 +201,7 @@ Json list_value(const std::string& name, const std::vector<ParameterEstimate>& e
 std::string common_block(const FitResult& result) {
   std::string prefix;
   for (const auto& e : result.estimates) {
+    if (e.recording >= 0) continue;
     const auto dot = e.path.rfind('.');
     const std::string block = dot == std::string::npos ? "" : e.path.substr(0, dot + 1);
     if (block.empty() || (!prefix.empty() && block != prefix)) return "";
@@ -208,17 +210,38 @@ std::string common_block(const FitResult& result) {
   return prefix;
 }
 
+/// What a reader of the file wants to know of the fit: from what, how, when; and the values of single recordings.
+Json origin_json(const FitResult& result, const DataSet& data, const FitOrigin& origin) {
+  Json json;
+  if (!origin.diagram.empty()) json["diagram"] = origin.diagram;
+  json["data"] = !origin.data.empty() ? origin.data : data.file.empty() ? data.title : data.file;
+  json["method"] = result.method;
+  json["seed"] = origin.seed;
+  if (!origin.date.empty()) json["date"] = origin.date;
+  json["error_over_noise"] = rounded(std::sqrt(result.s2), 4);
+  for (const auto& e : result.estimates) {
+    if (e.recording < 0 || !e.value) continue;
+    Json one{{"value", shown(e, *e.value, 8)}, {"unit", e.unit.text}};
+    if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
+    json["recordings"][data.recordings[static_cast<std::size_t>(e.recording)].name][e.path] = std::move(one);
+  }
+  return json;
+}
+
 }  // namespace
 
-std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data) {
+std::string parameter_file_text(const FitResult& result, const Program& program, const DataSet& data,
+                                const FitOrigin& origin) {
   Json file = {{"format", 1},
                {"title", "fitted parameters"},
                {"source", fmt::format("fit of {} by {}", data.file.empty() ? data.title : data.file, result.method)}};
   std::string undetermined;
   for (const auto& u : result.undetermined) undetermined += (undetermined.empty() ? "" : "; ") + u.sentence;
   if (!undetermined.empty()) file["remark"] = undetermined;
+  file["fit"] = origin_json(result, data, origin);
   const std::string block = common_block(result);
   for (const auto& e : result.estimates) {
+    if (e.recording >= 0) continue;
     const auto [name, index] = without_index(e.path);
     const std::string key = name.substr(block.size());
     if (file.contains(key)) continue;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -92,6 +93,49 @@ TEST(Docs, TheDiagramThatTheyExplainRunsAndTheDataSetIsValid) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(schema::refuses("diagram", folder.read("diagram.json")), "");
   EXPECT_EQ(schema::refuses("dataset", first_json(docs + "datasets.md")), "");
+}
+
+TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
+  // A block "json NAME" is the file NAME; each block of commands runs behind all that stands above it.
+  const Folder folder;
+  std::string output;
+  for (const auto& fence : fences_of(std::string(HYSTERON_SOURCE_DIR) + "/docs/fit.md")) {
+    if (fence.language.starts_with("json ")) {
+      folder.write(fence.language.substr(5), fence.text);
+    } else if (fence.language == "sh") {
+      const Outcome outcome = process::shell(folder.path(), "set -e\n" + fence.text);
+      ASSERT_EQ(outcome.code, 0) << fence.text << outcome.err;
+      output = outcome.out;
+    } else if (fence.language == "text") {
+      for (const auto& line : shown_lines(fence.text))
+        EXPECT_NE(output.find(line), std::string::npos) << line << "\nis not in\n" << output;
+    }
+  }
+  EXPECT_EQ(schema::refuses("job", folder.read("job.json")), "");
+  EXPECT_EQ(schema::refuses("result", folder.read("job.fit/result.json")), "");
+  const auto facts = nlohmann::json::parse(folder.read("job.fit/result.json"))["facts"];
+  // What device.json hides; the scale of all is that of the prior, 12 N/V give or take 4 %, so ratios are judged.
+  double gain = 0, empty = 0, loaded = 0, stiffness = 0, damping = 0;
+  for (const auto& p : facts["parameters"]) {
+    const double value = p["value"].get<double>();
+    if (p["parameter"] == "motor.gain") gain = value;
+    if (p["parameter"] == "stage.mass") (p["recording"] == "empty/traces/signals.csv" ? empty : loaded) = value;
+    if (p["parameter"] == "stage.stiffness") stiffness = value;
+    if (p["parameter"] == "stage.damping") damping = value;
+    EXPECT_TRUE(p["determined"].get<bool>()) << p;
+  }
+  EXPECT_NEAR(gain, 12, 1);
+  EXPECT_NEAR(empty / gain, 0.5 / 12, 0.002 * 0.5 / 12);  // 10 000 rows of 5 um noise against 1 mm: far below 0.2 %
+  EXPECT_NEAR(loaded / gain, 0.7 / 12, 0.002 * 0.7 / 12);
+  EXPECT_NEAR(stiffness / gain, 80.0 / 12, 0.002 * 80 / 12);
+  EXPECT_NEAR(damping / gain, 60.0 / 12, 0.005 * 60 / 12);
+  EXPECT_NEAR(facts["noise"][0]["white"].get<double>(), 5e-3, 2e-4);  // [mm] 20 000 rows: 1 %
+  ASSERT_EQ(facts["profiles"].size(), 1U);
+  EXPECT_LT(facts["profiles"][0]["low95"].get<double>(), damping);
+  EXPECT_GT(facts["profiles"][0]["high95"].get<double>(), damping);
+  const auto parameters = nlohmann::json::parse(folder.read("job.fit/parameters.json"));
+  for (const char* key : {"diagram", "data", "method", "date", "seed", "recordings"})
+    EXPECT_TRUE(parameters["fit"].contains(key)) << key;
 }
 
 TEST(Docs, TheirPictureIsOneOfTheirDiagram) {

@@ -254,6 +254,58 @@ TEST_F(Verbs, FitWithNothingFreeSaysHowToFreeSomething) {
   EXPECT_EQ(hysteron(folder_.path(), {"fit", "fixed.json", "--data", "dataset.json", "--free", "gain"}).code, 0);
 }
 
+TEST_F(Verbs, AJobComparesMethodsAndKeepsTheBest) {
+  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "diagram.json", "data": "dataset.json",
+    "free": [{"parameter": "gain", "lower": "0.1 um/V", "upper": "10 um/V", "start": "0.3 um/V"}],
+    "method": ["search", {"name": "pso", "runs": 50, "then": "nothing"}], "seed": 3, "write": "good.json"})");
+  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json facts = result("job.fit")["facts"];
+  EXPECT_NEAR(facts["parameters"][0]["value"].get<double>(), 1.5, 1e-6);  // six digits in the CSV
+  EXPECT_NEAR(facts["parameters"][0]["start"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(facts["seed"], 3);
+  EXPECT_NE(outcome.out.find("seconds"), std::string::npos) << outcome.out;  // the table of methods
+  EXPECT_EQ(hysteron(folder_.path(), {"compare", "good.json", "--data", "dataset.json", "--tolerance", "1 nm"}).code,
+            0);
+  // The table says seconds to the terminal only: the same input gives the same file.
+  const std::string first = folder_.read("job.fit/result.json");
+  ASSERT_EQ(hysteron(folder_.path(), {"fit", "job.json"}).code, 0);
+  EXPECT_EQ(folder_.read("job.fit/result.json"), first);
+}
+
+TEST_F(Verbs, AWrongJobIsToldWithItsLineAndCure) {
+  const auto told = [&](const std::string& members, const char* code, int line) {
+    folder_.write("job.json",
+                  "{\"format\": 1, \"do\": \"fit\",\n\"diagram\": \"diagram.json\", \"data\": \"dataset.json\",\n" +
+                      members + "}");
+    const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json", "--errors", "json"});
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    const json problem = json::parse(outcome.err)["problems"][0];
+    EXPECT_EQ(problem["code"], code) << problem;
+    EXPECT_EQ(problem["line"], line) << problem;
+    EXPECT_EQ(problem["file"], "job.json") << problem;
+    EXPECT_NE(problem["cure"], "") << problem;
+  };
+  told("\"free\": [\n{\"parameter\": \"gian\"}]", "unknown_parameter", 4);
+  told("\"free\": [{\"parameter\": \"gain\",\n\"lower\": \"1 kg\"}]", "wrong_unit", 4);
+  told("\"free\": [{\"parameter\": \"gain\",\n\"start\": \"5 um/V\", \"upper\": \"2 um/V\"}]", "start_outside", 4);
+  told("\"method\": {\n\"name\": \"psso\"}", "unknown_method", 4);
+  told("\"colour\": 1", "unknown_key", 3);
+  EXPECT_FALSE(folder_.has("job.fit"));
+  const Outcome no_data = hysteron(folder_.path(), {"fit", "diagram.json"});
+  EXPECT_EQ(no_data.code, 2);
+  EXPECT_NE(no_data.err.find("--data"), std::string::npos) << no_data.err;
+}
+
+TEST_F(Verbs, AFitDatesItsParametersAsItIsTold) {
+  const Outcome outcome =
+      process::shell(folder_.path(), "SOURCE_DATE_EPOCH=86400 hysteron fit diagram.json --data dataset.json -o out");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json parameters = json::parse(folder_.read("out/parameters.json"));
+  EXPECT_EQ(parameters["fit"]["date"], "1970-01-02T00:00:00Z");
+  EXPECT_EQ(parameters["fit"]["data"], "dataset.json");
+}
+
 TEST_F(Verbs, AddPrintsTheChangeAndRemoveUndoesItToTheLetter) {
   const Outcome shown = hysteron(folder_.path(), {"add", "creep", "diagram.json", "--at", "actuator"});
   ASSERT_EQ(shown.code, 0) << shown.err;

@@ -14,6 +14,7 @@
 #include "blocks/register_all.h"
 #include "io/dataset.h"
 #include "io/diagram_file.h"
+#include "io/job_file.h"
 #include "io/result.h"
 #include "tests/io/temporary_folder.h"
 
@@ -221,6 +222,23 @@ Document full_document() {
   return d;
 }
 
+TEST(JobSchema, AcceptsWhatTheReaderAcceptsAndRefusesWhatItRefuses) {
+  const SchemaOf jobs(job_schema());
+  const std::string head = R"({"format": 1, "do": "fit", "diagram": "d.json", "data": "a.csv")";
+  EXPECT_EQ(jobs.refuses(head + "}"), "");
+  EXPECT_EQ(jobs.refuses(head + R"(, "free": ["core.weights", {"parameter": "k", "lower": "1 N/um", "upper": 9,
+    "start": {"value": 2, "unit": "N/um"}, "scale": "log", "prior": [2, "3 N/um"], "scan": [1, 4], "per": "recording"}],
+    "method": [{"name": "pso", "runs": 300, "then": "nothing"}, "search"], "seed": 7, "profile": ["k"], "set": {"a": 1},
+    "choose": {"b": "none"}, "write": "out.json"})"),
+            "");
+  EXPECT_EQ(jobs.refuses(head + R"(, "method": {"name": "search", "starts": 30}})"), "");
+  for (const char* wrong :
+       {R"(, "fre": []})", R"(, "free": [{"lower": 1}]})", R"(, "free": [{"parameter": "k", "prior": [1]}]})",
+        R"(, "method": "psso"})", R"(, "seed": -1})", R"(, "method": []})"})
+    EXPECT_NE(jobs.refuses(head + wrong), "") << wrong;
+  EXPECT_NE(jobs.refuses(R"({"format": 1, "do": "runs"})"), "");
+}
+
 TEST(ResultSchema, AcceptsEverythingThatAResultMayHold) {
   EXPECT_TRUE(fits(Json::parse(result_text(full_document())))) << result_text(full_document());
   EXPECT_TRUE(fits(Json::parse(result_text(Document{}))));
@@ -250,6 +268,7 @@ TEST(SharedSchemas, ThoseInTheProjectAreWhatTheDeclarationsSay) {
   };
   expect_same("diagram.schema.json", diagram_schema(all_blocks()));
   expect_same("dataset.schema.json", dataset_schema());
+  expect_same("job.schema.json", job_schema());
   expect_same("result.schema.json", result_schema());
 }
 
