@@ -7,6 +7,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
+#include "engine/folded.h"
 
 namespace hysteron::benchmarks {
 namespace {
@@ -39,6 +40,23 @@ void loop_in_hysteron(benchmark::State& state) {
     }
   state.counters["blocks"] = evaluations * static_cast<double>(program->blocks.size());
   state.counters["calls"] = evaluations * static_cast<double>(program->derivative_steps.size());
+}
+
+/// As simulations do it: linear blocks as weighted sums.
+void loop_folded(benchmark::State& state) {
+  const auto program = closed_loop_program();
+  const auto run = start(*program);
+  Work work(*program);
+  FoldedDerivative derivative(*program, run, work);
+  std::vector<double> x(run.x.size(), 1e-7);
+  for (auto _ : state)
+    for (int k = 0; k < evaluations; ++k) {
+      derivative(run, step_of(k), x.data());
+      benchmark::DoNotOptimize(work.dx.data());
+      benchmark::ClobberMemory();
+    }
+  state.counters["blocks"] = evaluations * static_cast<double>(program->blocks.size());
+  state.counters["calls"] = evaluations * static_cast<double>(derivative.calls() + derivative.rows());
 }
 
 double gain_of(std::size_t i) { return 0.5 + 0.01 * static_cast<double>(i); }
@@ -88,6 +106,7 @@ void chain_in_hysteron(benchmark::State& state) {
 void register_evaluation() {
   benchmark::RegisterBenchmark("evaluation of the closed loop/by hand", loop_by_hand);
   benchmark::RegisterBenchmark("evaluation of the closed loop/hysteron", loop_in_hysteron);
+  benchmark::RegisterBenchmark("evaluation of the closed loop/hysteron, as in simulations", loop_folded);
   benchmark::RegisterBenchmark("evaluation of 50 gains and sums/by hand", chain_by_hand_in_place);
   benchmark::RegisterBenchmark("evaluation of 50 gains and sums/hysteron", chain_in_hysteron);
 }

@@ -78,8 +78,8 @@ class FixedSteps {
   void derivative(double t, const std::vector<double>& x, std::vector<double>& k) {
     ++traces_.statistics.evaluations;
     derivative_(run_, t, x.data());
-    throw_if_unsolved(program_, work_, t);
-    std::copy(work_.dx.begin(), work_.dx.end(), k.begin());
+    if (work_.unsolved >= 0) throw_if_unsolved(program_, work_, t);
+    for (std::size_t i = 0; i < k.size(); ++i) k[i] = work_.dx[i];
   }
   void move(double h, const std::vector<double>& k) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = before_[i] + h * k[i];

@@ -201,7 +201,11 @@ class Folding {
 }  // namespace
 
 FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work& work)
-    : program_(program), work_(work), x_(at(program.n_x)) {
+    : program_(program),
+      work_(work),
+      x_(at(program.n_x)),
+      kept_t_(std::numeric_limits<double>::quiet_NaN()),
+      kept_branch_(kept_t_) {
   const Folding folding(program, run);
   double* y = work.y.data();
   double* rate = work.rate.data();
@@ -222,6 +226,13 @@ FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work&
     if (piece.opaque) {
       stretch.step = piece.step;
       stretch.has_step = true;
+      const BlockInstance* source = piece.step.order == Order::loop ? nullptr : &program.blocks[at(piece.step.block)];
+      if (source != nullptr && piece.step.order != Order::derivative && is_source_of_time(*source)) {
+        stretch.source = static_cast<int>(sources_.size());
+        sources_.push_back(
+            {y + source->y_begin, rate + source->y_begin, source->sizes.outputs, static_cast<int>(kept_.size())});
+        kept_.resize(kept_.size() + 2 * at(source->sizes.outputs));
+      }
       close();
       continue;
     }
@@ -229,7 +240,7 @@ FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work&
       if (folding.is_inlined(number)) continue;
       const Form& form = folding.form(number);
       for (const auto& [read, weight] : form.terms) terms_.push_back({weight, place(read)});
-      rows_.push_back({form.constant, place(number), terms()});
+      rows_.push_back({form.constant, place(number), static_cast<int>(form.terms.size())});
     }
   }
   close();
@@ -242,16 +253,29 @@ int FoldedDerivative::calls() const {
 
 void FoldedDerivative::operator()(const Run& run, double t, const double* x) {
   steps::begin(program_, run, work_, t);
-  std::copy_n(x, x_.size(), x_.begin());
+  const bool same_instant = t == kept_t_ && run.branch == kept_branch_;
+  kept_t_ = t;
+  kept_branch_ = run.branch;
+  double* own = x_.data();
+  for (int i = 0; i < program_.n_x; ++i) own[i] = x[i];
   const Row* row = rows_.data();
   const Term* term = terms_.data();
   for (const Stretch& stretch : stretches_) {
     for (const Row* const end = rows_.data() + stretch.rows_end; row != end; ++row) {
       double sum = row->constant;
-      for (const Term* const last = terms_.data() + row->end; term != last; ++term) sum += term->weight * *term->number;
+      for (const Term* const last = term + row->terms; term != last; ++term) sum += term->weight * *term->number;
       *row->target = sum;
     }
     if (!stretch.has_step) continue;
+    if (stretch.source >= 0 && same_instant) {
+      const Source& source = sources_[at(stretch.source)];
+      const double* kept = kept_.data() + source.kept;
+      for (int i = 0; i < source.count; ++i) {
+        source.value[i] = kept[i];
+        source.rate[i] = kept[source.count + i];
+      }
+      continue;
+    }
     switch (stretch.step.order) {
       case Order::value:
         steps::value(program_, work_, stretch.step.block, x);
@@ -265,6 +289,13 @@ void FoldedDerivative::operator()(const Run& run, double t, const double* x) {
       case Order::loop:
         solve_loop(program_, work_, stretch.step.block, x);
         break;
+    }
+    if (stretch.source < 0) continue;
+    const Source& source = sources_[at(stretch.source)];
+    double* kept = kept_.data() + source.kept;
+    for (int i = 0; i < source.count; ++i) {
+      kept[i] = source.value[i];
+      kept[source.count + i] = source.rate[i];
     }
   }
   if (work_.unsolved >= 0) std::fill(work_.dx.begin(), work_.dx.end(), std::numeric_limits<double>::quiet_NaN());

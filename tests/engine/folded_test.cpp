@@ -149,6 +149,23 @@ TEST(FoldedDerivative, CallsFewerFunctionsThanThereAreSteps) {
   EXPECT_LT(folded.calls() + folded.rows(), static_cast<int>(program->derivative_steps.size()) + 1);
 }
 
+TEST(FoldedDerivative, AsksSourcesOnceAtAnInstantAndSeesTheNextOne) {
+  const auto program = compiled(chain(3));
+  auto run = start(*program);
+  Work work(*program), other(*program);
+  FoldedDerivative folded(*program, run, work);
+  const std::vector<double> x{0.1, 0.2, 0.3};
+  const auto expect_right = [&](double t) {
+    folded(run, t, x.data());
+    evaluate_derivatives(*program, run, other, t, x.data());
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(work.dx[i], other.dx[i], 1e-12) << t;
+  };
+  for (const double t : {0.01, 0.01, 0.02, 0.01, 0.01}) {
+    expect_right(t);
+    evaluate_values(*program, run, work, 7 * t, x.data());  // somebody else uses the same numbers meanwhile
+  }
+}
+
 TEST(FoldedDerivative, OfARunWithOtherParametersIsThatOfThoseParameters) {
   const auto program = compiled(chain(5));
   auto run = start(*program);
