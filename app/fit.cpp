@@ -22,6 +22,7 @@
 #include "engine/error.h"
 #include "fit/delay.h"
 #include "fit/problem.h"
+#include "fit/thesis_methods.h"
 #include "io/diagram_file.h"
 #include "io/job_file.h"
 
@@ -186,6 +187,15 @@ double rms_of(const FitResult& result, const DataModel& model) {
   return rows > 0 ? std::sqrt(sum / rows) : 0;
 }
 
+/// The result of one method, whatever its kind.
+FitResult result_of(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,
+                    const FitMethod& method) {
+  if (!method.of_thesis) return fit(model, noise, free, method.options);
+  ThesisMethodOptions options;
+  options.progress = method.options.progress;
+  return fit_as_thesis(model, noise, method.name, options);
+}
+
 /// Each method from the same start against the same noise; the free parameters begin where the best of them ended.
 std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress& progress) {
   std::vector<Attempt> attempts;
@@ -197,7 +207,7 @@ std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress
     method.options.intervals = false;
     method.options.profile.clear();
     watch(method.options, progress);
-    const FitResult found = fit(model, noise, problem.free, method.options);
+    const FitResult found = result_of(model, noise, problem.free, method);
     Attempt a{found.ok ? found.method : method.name, found.ok, found.error};
     a.runs = found.runs;
     a.failed = found.failed_runs;
@@ -213,10 +223,12 @@ std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress
     }
     attempts.push_back(std::move(a));
   }
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    problem.free[i].start = best[i].value;
-    problem.free[i].scan.clear();
-  }
+  for (auto& f : problem.free)
+    for (const auto& value : best)
+      if (value.parameter == f.parameter && value.recording == f.recording) {
+        f.start = std::clamp(value.value, f.lower, f.upper);
+        f.scan.clear();
+      }
   return attempts;
 }
 
@@ -234,12 +246,21 @@ Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
     options.starts = 0;
   }
   watch(options, progress);
-  auto with_noise = fit_and_noise(model, problem.free, options);
+  const bool of_thesis = problem.methods.size() == 1 && problem.methods.front().of_thesis;
+  FitWithNoise with_noise;
+  if (of_thesis) {
+    with_noise.noise = noise_before_fit(model);
+    problem.methods.front().options = options;
+    with_noise.result = result_of(model, with_noise.noise, problem.free, problem.methods.front());
+    start_values.clear();
+  } else {
+    with_noise = fit_and_noise(model, problem.free, options);
+  }
   progress.clear();
   FitResult& result = with_noise.result;
   if (!result.ok)
     fail_numerics("fit_failed", "fit", result.error, "start from other values, or give the parameters narrower bounds");
-  for (std::size_t i = 0; i < free.size(); ++i) result.estimates[i].start = free[i].start;
+  for (std::size_t i = 0; i < free.size() && !of_thesis; ++i) result.estimates[i].start = free[i].start;
   const auto recordings = judged_recordings(model);
   const Judge judge(model, with_noise.noise);
   const Prediction start = model.predict(start_values, recordings);
@@ -514,7 +535,7 @@ int fit_verb_acts(const Arguments& arguments) {
   for (const auto& path : arguments.list("--free")) wanted.push_back(path);
   const FitProblem problem = with_lines_of_job(job, [&] { return problem_of(job, *program, *data, wanted); });
   const auto& free = problem.free;
-  if (free.empty())
+  if (free.empty() && !(problem.methods.size() == 1 && problem.methods.front().of_thesis))
     fail("nothing_free", job.diagram, "no parameter of the diagram is free",
          "mark parameters of the diagram with \"free\": true, or name them with --free core.weights");
   DataModelOptions model_options;
@@ -530,13 +551,15 @@ int fit_verb_acts(const Arguments& arguments) {
   document.title = diagram.title;
   const std::string train = rms_text(model, fitted.before, fitted.after, Role::train);
   const std::string validate = rms_text(model, fitted.before, fitted.after, Role::validate);
-  document.headline = fmt::format("{} fitted; {}", count_text(static_cast<long>(free.size()), "parameter"),
+  document.headline = fmt::format("{} fitted; {}", count_text(static_cast<long>(result.estimates.size()), "parameter"),
                                   validate.empty() ? train : validate);
   if (!validate.empty()) document.sentences.push_back(train);
   for (const auto& e : result.estimates)
-    if (e.value)
-      document.sentences.push_back(
-          fmt::format("{} = {} (95 %: {})", name_text(model, e), value_text_of(e, *e.value), interval_text(e)));
+    if (e.value) {
+      const std::string interval = interval_text(e);
+      document.sentences.push_back(fmt::format("{} = {}{}", name_text(model, e), value_text_of(e, *e.value),
+                                               interval == "-" ? "" : fmt::format(" (95 %: {})", interval)));
+    }
   for (const auto& u : result.undetermined) document.warnings.push_back(u.sentence);
   for (const auto& sentence : unusual_values(diagram, result, all_effects())) document.warnings.push_back(sentence);
   for (const auto& n : fitted.noise.outputs)
@@ -590,7 +613,8 @@ Verb fit_verb() {
       {{"diagram", "FILE.json", "the diagram, or a job (\"do\": \"fit\") that names it", true, false},
        options::data(false),
        {"--free", "PATH", "also find this parameter, e.g. core.weights (all its elements)", false, true},
-       {"--method", "NAME", "search (default), or a global method before it; several are compared", false, true},
+       {"--method", "NAME", "search (default), a global method before it, or slopes, tapi; several are compared", false,
+        true},
        {"--starts", "N", "spread so many further starts over the bounds", false, false},
        {"--runs", "N", "how many points a global method may try; default 505", false, false},
        {"--seed", "N", "of everything random; default 1", false, false},

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/thesis_methods.h"
+
 namespace hysteron {
 namespace {
 
@@ -161,13 +163,16 @@ class Reader {
     FitOptions& o = method.options;
     auto known = global_method_names();
     known.insert(known.begin(), "search");
+    const auto& of_thesis = thesis_method_names();
+    method.of_thesis = std::find(of_thesis.begin(), of_thesis.end(), method.name) != of_thesis.end();
+    known.insert(known.end(), of_thesis.begin(), of_thesis.end());
     if (std::find(known.begin(), known.end(), method.name) == known.end())
       return problems_.add("unknown_method", pointer(wish.name), fmt::format("there is no method \"{}\"", method.name),
                            did_you_mean(method.name, known));
     o.seed = job_.seed;
     o.starts = wish.starts;
     if (wish.iterations) o.max_iterations = *wish.iterations;
-    if (method.name != "search") {
+    if (method.name != "search" && !method.of_thesis) {
       o.global = method.name;
       o.polish = wish.then_search;
       if (wish.runs) o.global_runs = *wish.runs;

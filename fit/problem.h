@@ -13,6 +13,7 @@ namespace hysteron {
 struct FitMethod {
   std::string name;
   FitOptions options;
+  bool of_thesis = false;  ///< thesis_methods.h: finds the parameters of its block, free or not
 };
 
 struct FitProblem {

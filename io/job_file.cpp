@@ -239,8 +239,10 @@ Json free_entry() {
 Json method_entry() {
   const Json name = choice_of(
       "search: bounded Levenberg-Marquardt; the others look for a start all over the box first: particle swarms of the "
-      "thesis (pso, npso, nmpso), methods of NLopt (crs2, isres, esch, direct)",
-      {"search", "pso", "npso", "nmpso", "crs2", "isres", "esch", "direct"});
+      "thesis (pso, npso, nmpso), methods of NLopt (crs2, isres, esch, direct). slopes and tapi read the parameters of "
+      "a "
+      "prandtl_ishlinskii or tapi block as the thesis does, without a search and without intervals",
+      {"search", "pso", "npso", "nmpso", "crs2", "isres", "esch", "direct", "slopes", "tapi"});
   Json whole{{"type", "integer"}, {"minimum", 0}};
   const auto count = [&](const char* meaning) {
     Json n = whole;

@@ -273,6 +273,27 @@ TEST_F(Verbs, AJobComparesMethodsAndKeepsTheBest) {
   EXPECT_EQ(folder_.read("job.fit/result.json"), first);
 }
 
+TEST_F(Verbs, FitReadsWeightsOffTheSlopesAsTheThesisDoes) {
+  folder_.write("plays.json", R"({"format": 1, "title": "plays", "inputs": {"u": {"unit": "V"}},
+    "blocks": {"core": {"type": "prandtl_ishlinskii", "thresholds": ["0 V", "1 V"], "weights": ["1 um/V", "0.1 um/V"], "in": "u"}},
+    "outputs": {"y": "core"}})");
+  // From rest to 2 V and back: slopes 1.5 and 1.75 um/V, so weights 1.5 and 0.25.
+  folder_.write("loop.csv", "t [s],u [V],y [um]\n0,0,0\n1,0.5,0.75\n2,1,1.5\n3,1.5,2.375\n4,2,3.25\n5,1,1.75\n6,0,0\n");
+  folder_.write("loop.json", R"({"format": 1, "recordings": [{"file": "loop.csv", "role": "train"},
+    {"file": "loop.csv", "role": "validate"}]})");
+  const Outcome outcome = hysteron(folder_.path(), {"fit", "plays.json", "--data", "loop.json", "--method", "slopes"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json parameters = result("plays.fit")["facts"]["parameters"];
+  ASSERT_EQ(parameters.size(), 2U);
+  EXPECT_NEAR(parameters[0]["value"].get<double>(), 1.5, 1e-12);
+  EXPECT_NEAR(parameters[1]["value"].get<double>(), 0.25, 1e-12);
+  EXPECT_TRUE(parameters[1]["low95"].is_null());
+  const Outcome wrong =
+      hysteron(folder_.path(), {"fit", "diagram.json", "--data", "dataset.json", "--method", "slopes"});
+  EXPECT_EQ(wrong.code, 2);  // its model has no such block
+  EXPECT_NE(wrong.err.find("prandtl_ishlinskii"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Verbs, AWrongJobIsToldWithItsLineAndCure) {
   const auto told = [&](const std::string& members, const char* code, int line) {
     folder_.write("job.json",
