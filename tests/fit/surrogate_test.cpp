@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "fit/fit.h"
+#include "io/job_file.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {
@@ -26,6 +28,28 @@ TEST_P(SurrogateGolden, TraceIsReproduced) {
 }
 INSTANTIATE_TEST_SUITE_P(Traces, SurrogateGolden, testing::Values("sine", "triangle"),
                          [](const auto& made) { return std::string(made.param); });
+
+TEST(Surrogate, EveryDiagramAndJobBesideItCanBeReadAndCompiled) {
+  int diagrams = 0, jobs = 0;
+  for (const char* chapter : {"chapter2", "chapter5"}) {
+    const std::string folder = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string file = entry.path().string();
+      if (entry.path().extension() != ".json" || file.find("dataset") != std::string::npos) continue;
+      if (is_job(file)) {
+        const FitJob job = read_fit_job(file);
+        EXPECT_TRUE(std::filesystem::exists(job.diagram)) << file;
+        EXPECT_TRUE(std::filesystem::exists(job.data)) << file;
+        ++jobs;
+      } else {
+        EXPECT_NO_THROW(compile(read_diagram(file), lab::registry())) << file;
+        ++diagrams;
+      }
+    }
+  }
+  EXPECT_GE(diagrams, 9);
+  EXPECT_GE(jobs, 2);
+}
 
 TEST(Surrogate, SteadyLoopHasTheStrokeAndTheAreaOfItsDescription) {
   // SPEC 2.5: stroke 6.68493 um, area 3.91815 um V, largest y - u 0.939 um, y zero at the bottom. 2000 rows a cycle:
