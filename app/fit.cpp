@@ -23,6 +23,7 @@
 #include "fit/delay.h"
 #include "fit/problem.h"
 #include "fit/thesis_methods.h"
+#include "fit/thresholds.h"
 #include "io/diagram_file.h"
 #include "io/job_file.h"
 
@@ -523,15 +524,43 @@ std::string date_text() {
   return text;
 }
 
+/// Puts the thresholds and weights that the job asks for into the diagram.
+void place_wanted_thresholds(const FitJob& job, const std::shared_ptr<const DataSet>& data, Diagram& diagram,
+                             bool quiet) {
+  const auto& wish = *job.thresholds;
+  Progress progress(quiet);
+  FitOptions options;
+  watch(options, progress);
+  try {
+    const auto found = fit_thresholds(diagram, registry(), data, wish.block.text, wish.count,
+                                      wish.by_swing ? Placement::by_swing : Placement::even, options);
+    if (!found.result.ok)
+      fail_numerics("fit_failed", wish.block.text, found.result.error, "begin with other thresholds and weights");
+    diagram = found.diagram;
+  } catch (Error& error) {
+    for (auto& p : error.problems)
+      if (p.path == wish.block.text) p.path = wish.block.pointer;
+    if (!job.file.empty()) locate_problems(error, job.file);
+    throw Error(error.fault, error.problems);
+  }
+}
+
 int fit_verb_acts(const Arguments& arguments) {
   const FitJob job = job_of(arguments);
   Diagram diagram = read_diagram(job.diagram, arguments.list("--allow"));
   with_lines_of_job(job, [&] { apply_settings(diagram, job.set, job.choose); });
   apply_overrides(diagram, arguments);
-  const ProgramPointer program = compile_file(diagram);
+  ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(read_dataset(job.data, arguments.list("--allow")));
   check_binding(*data, *program);
-  auto wanted = effect_parameters(diagram, *program, all_effects());
+  const Diagram as_read = diagram;
+  std::vector<std::string> wanted;
+  if (job.thresholds) {
+    place_wanted_thresholds(job, data, diagram, arguments.quiet());
+    program = compile_file(diagram);
+    wanted.push_back(job.thresholds->block.text + ".weights");
+  }
+  for (const auto& path : effect_parameters(diagram, *program, all_effects())) wanted.push_back(path);
   for (const auto& path : arguments.list("--free")) wanted.push_back(path);
   const FitProblem problem = with_lines_of_job(job, [&] { return problem_of(job, *program, *data, wanted); });
   const auto& free = problem.free;
@@ -576,7 +605,7 @@ int fit_verb_acts(const Arguments& arguments) {
     document.warnings.push_back(
         fmt::format("The search did not end by itself ({}): there may be better values.", result.convergence));
   if (result.stopped) document.warnings.emplace_back("Interrupted: these are the best values found until then.");
-  add_sections(document, model, fitted, text_diff(diagram_text(diagram), diagram_text(after)));
+  add_sections(document, model, fitted, text_diff(diagram_text(as_read), diagram_text(after)));
   document.facts = to_json(Facts::object({{"diagram", job.diagram},
                                           {"data", job.data},
                                           {"method", result.method},

@@ -26,7 +26,7 @@ class JobReader {
     what(root);
     file_.throw_if_any();  // of another kind of job every key would be wrong
     root.only({"$schema", "format", "title", "source", "remark", "do", "diagram", "data", "choose", "set", "free",
-               "method", "seed", "profile", "write"});
+               "thresholds", "method", "seed", "profile", "write"});
     job_.file = file_.file();
     text_member(root, "$schema");
     text_member(root, "source");
@@ -39,6 +39,9 @@ class JobReader {
     settings(root, "set", job_.set);
     if (const auto list = root.find("free"); list && list->expect_array("[{\"parameter\": \"stage.k\"}]"))
       for (const auto& place : list->elements()) free(place);
+    if (const auto place = root.find("thresholds");
+        place && place->expect_object("{\"block\": \"core\", \"count\": 10}"))
+      job_.thresholds = thresholds(*place);
     methods(root);
     if (const auto seed = root.find("seed"))
       if (const auto value = whole(*seed, 0, 9007199254740992.0)) job_.seed = static_cast<std::uint64_t>(*value);
@@ -141,6 +144,18 @@ class JobReader {
       for (const auto& element : scan->elements())
         if (const auto value = number_at(element)) wish.scan.push_back(*value);
     job_.free.push_back(std::move(wish));
+  }
+
+  static ThresholdWish thresholds(const JsonPlace& place) {
+    ThresholdWish wish;
+    place.only({"block", "count", "place", "remark"});
+    text_member(place, "remark");
+    if (const auto block = place.need("block", "write \"block\": \"core\", a block of type prandtl_ishlinskii"))
+      wish.block = {block->text().value_or(""), block->pointer()};
+    if (const auto count = place.need("count", "write \"count\": 10"))
+      if (const auto n = whole(*count, 2, 200)) wish.count = static_cast<int>(*n);
+    if (const auto where = one_of(place, "place", {"even", "swing"})) wish.by_swing = *where == "swing";
+    return wish;
   }
 
   /// "pso", {"name": "pso", "runs": 500}, or a list of these to be compared.
@@ -282,6 +297,14 @@ std::string job_schema() {
                        {"description", "other values of parameters: {\"controller.kp\": \"0.5 V/um\"}"},
                        {"additionalProperties", {{"type", {"string", "number"}}}}};
   properties["free"] = list_of("parameters that may change; default: those that the diagram marks", free_entry());
+  properties["thresholds"] = object(
+      "thresholds of a Prandtl-Ishlinskii block, placed and refined before the fit",
+      {{"block", text("the block, of type prandtl_ishlinskii")},
+       {"count", {{"type", "integer"}, {"minimum", 2}, {"maximum", 200}, {"description", "how many operators"}}},
+       {"place", choice_of("even: over the largest swing; swing: dense where the input turns often; default even",
+                           {"even", "swing"})},
+       {"remark", text("what a reader should know")}},
+      {"block", "count"});
   Json method = method_entry();
   Json several = list_of("several: all are run and compared, the best result is kept", method);
   several["minItems"] = 1;

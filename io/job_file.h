@@ -47,12 +47,20 @@ struct MethodWish {
   std::optional<AttractorWish> attractor{};
 };
 
+/// Thresholds of a Prandtl-Ishlinskii block, to be placed before the fit.
+struct ThresholdWish {
+  WrittenText block;
+  int count = 10;
+  bool by_swing = false;  ///< dense where the input turns often; else evenly
+};
+
 /// "do": "fit".
 struct FitJob {
   std::string file, title;
   std::string diagram, data;  ///< to open, seen from where the program runs
   std::vector<Override> choose, set;
-  std::vector<FreeWish> free;       ///< empty: what the diagram marks
+  std::vector<FreeWish> free;  ///< empty: what the diagram marks
+  std::optional<ThresholdWish> thresholds{};
   std::vector<MethodWish> methods;  ///< at least one; several are compared, and the best result is kept
   std::uint64_t seed = 1;
   std::vector<WrittenText> profile;

@@ -318,6 +318,35 @@ TEST_F(Verbs, AWrongJobIsToldWithItsLineAndCure) {
   EXPECT_NE(no_data.err.find("--data"), std::string::npos) << no_data.err;
 }
 
+TEST_F(Verbs, AJobPlacesThresholdsAndTheSlopesOfTheThesisAreAMethod) {
+  folder_.write("truth.json", R"({"format": 1, "blocks": {
+    "drive": {"type": "triangle", "amplitude": "4 V", "offset": "4 V", "phase": "-90 deg", "frequency": "1 Hz"},
+    "core": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 1.5, 4], "unit": "V"},
+             "weights": {"value": [0.8, 0.3, 0.2], "unit": "um/V"}, "in": "drive"}},
+    "record": ["drive", "core"], "simulate": {"until": "3 s", "every": "5 ms"}})");
+  folder_.write("pi.json", R"({"format": 1, "inputs": {"drive": {"unit": "V"}}, "blocks": {
+    "model": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 1, 2], "unit": "V"},
+              "weights": {"value": [1, 0.1, 0.1], "unit": "um/V"}, "in": "drive"}}, "outputs": {"core": "model"}})");
+  ASSERT_EQ(hysteron(folder_.path(), {"run", "truth.json", "-o", "lab"}).code, 0);
+  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "pi.json", "data": "lab/traces/signals.csv",
+    "thresholds": {"block": "model", "count": 3}})");
+  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto value = [&](const std::string& out, const std::string& path) {
+    const json facts = result(out)["facts"];
+    for (const auto& p : facts["parameters"])
+      if (p["parameter"] == path) return p["value"].get<double>();
+    return std::nan("");
+  };
+  EXPECT_NEAR(value("job.fit", "model.weights[0]"), 0.8, 1e-3);  // no noise; the search ends within 1e-9 of chi2
+  EXPECT_NEAR(value("job.fit", "model.weights[1]"), 0.3, 1e-3);
+  const Outcome slopes = hysteron(
+      folder_.path(), {"fit", "pi.json", "--data", "lab/traces/signals.csv", "--method", "slopes", "-o", "slopes"});
+  ASSERT_EQ(slopes.code, 0) << slopes.err;
+  // Up to 1 V the branch that rises from zero has the slope 0.8 um/V, whatever comes behind.
+  EXPECT_NEAR(value("slopes", "model.weights[0]"), 0.8, 1e-6);
+}
+
 TEST_F(Verbs, AFitDatesItsParametersAsItIsTold) {
   const Outcome outcome =
       process::shell(folder_.path(), "SOURCE_DATE_EPOCH=86400 hysteron fit diagram.json --data dataset.json -o out");

@@ -18,6 +18,7 @@ constexpr char whole_job[] = R"({
   "method": [{"name": "pso", "runs": 300, "then": "nothing"},
              {"name": "nmpso", "attractor": {"c": "core.c", "k": "core.k", "top": "10 V"}},
              "search"],
+  "thresholds": {"block": "core", "count": 6, "place": "swing"},
   "seed": 7, "profile": ["stage.k"], "write": "fitted.json"
 })";
 
@@ -70,6 +71,9 @@ TEST(JobFile, EveryPartOfTheFormatIsRead) {
   EXPECT_EQ(job.methods[1].attractor->k.text, "core.k");
   EXPECT_EQ(job.methods[2].name.text, "search");
   EXPECT_EQ(job.seed, 7U);
+  EXPECT_EQ(job.thresholds->block.text, "core");
+  EXPECT_EQ(job.thresholds->count, 6);
+  EXPECT_TRUE(job.thresholds->by_swing);
   EXPECT_EQ(job.profile[0].text, "stage.k");
   EXPECT_TRUE(job.write.ends_with("jobs/fitted.json"));
 }
@@ -114,6 +118,8 @@ TEST(JobFile, WrongInputIsToldWithItsPlace) {
   EXPECT_EQ(problem_of_job(with("\"method\": {\"name\": \"pso\", \"runs\": -1}")), "bad_value /method/runs");
   EXPECT_EQ(problem_of_job(with("\"method\": []")), "bad_value /method");
   EXPECT_EQ(problem_of_job(with("\"seed\": -1")), "bad_value /seed");
+  EXPECT_EQ(problem_of_job(with("\"thresholds\": {\"count\": 5}")), "missing_key /thresholds");
+  EXPECT_EQ(problem_of_job(with("\"thresholds\": {\"block\": \"core\", \"count\": 1}")), "bad_value /thresholds/count");
   EXPECT_EQ(problem_of_job(with("\"write\": \"../../out.json\"")), "outside_project /write");
   EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fit\", \"diagram\": \"/etc/d.json\", \"data\": \"a.csv\"}"),
             "outside_project /diagram");
