@@ -81,6 +81,9 @@ class Search {
     for (std::size_t k = 0; k < n_; ++k) {
       low_[k] = problem_.lower[k] - z_[k];
       high_[k] = problem_.upper[k] - z_[k];
+      if (problem_.largest_step.empty()) continue;
+      low_[k] = std::max(low_[k], -problem_.largest_step[k]);
+      high_[k] = std::min(high_[k], problem_.largest_step[k]);
     }
     const auto undamped = solve_bounded(linear_, low_, high_);
     to_gain_ = error_ - undamped.squared_error;

@@ -18,6 +18,8 @@ namespace hysteron {
 
 struct LeastSquares {
   std::vector<double> lower, upper;  ///< per unknown, may be infinite
+  /// Per unknown: no step goes further than the linearization can be believed; empty = as far as the bounds.
+  std::vector<double> largest_step{};
   /// Residual at z. False: it cannot be evaluated there.
   std::function<bool(std::span<const double> z, std::vector<double>& residual)> residual;
   /// Derivatives of the residual, one column per unknown, at a z whose residual was asked for before. False: not to be

@@ -128,6 +128,7 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
   LeastSquares problem;
   problem.lower = projection.lower();
   problem.upper = projection.upper();
+  problem.largest_step = projection.largest_step();
   problem.residual = [&](std::span<const double> at, std::vector<double>& residual) {
     const auto point = see(at);
     if (point->ok) residual = point->residual;

@@ -77,6 +77,15 @@ std::vector<double> Projection::upper() const {
   return list;
 }
 
+std::vector<double> Projection::largest_step() const {
+  std::vector<double> list;
+  for (const int i : nonlinear_) {
+    const auto& f = free_[static_cast<std::size_t>(i)];
+    list.push_back(f.log_scale ? std::log(4.0) : 0.5 * (f.upper - f.lower));
+  }
+  return list;
+}
+
 std::vector<ParameterValue> Projection::values(std::span<const double> z, std::span<const double> theta) const {
   std::vector<ParameterValue> list(free_.size());
   for (std::size_t k = 0; k < nonlinear_.size(); ++k) {

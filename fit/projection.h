@@ -53,6 +53,8 @@ class Projection {
 
   std::vector<double> start() const;  ///< z
   std::vector<double> lower() const, upper() const;
+  /// How far one step of a search may go: a factor of four on a log scale, half of a finite box on a linear one.
+  std::vector<double> largest_step() const;
   double to_z(int k, double value) const;
   double to_value(int k, double z) const;
 
