@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/error.h"
 #include "engine/units.h"
+#include "models/linear_system.h"
 
 namespace hysteron::blocks {
 namespace {
@@ -112,6 +116,20 @@ void StateSpace::prepare(const View<double>& v) {
 void StateSpace::initial_states(const View<double>& v) {
   const auto given = v.list(initial);
   for (int k = 0; k < v.n_x; ++k) v.out[k] = given.empty() ? 0.0 : given[static_cast<std::size_t>(k)];
+}
+
+void StateSpace::rest(const View<double>& v) {
+  const auto n = static_cast<std::size_t>(v.n_x);
+  const std::vector<double> none(n, 0.0);
+  auto at_zero = v;
+  at_zero.x = none.data();
+  derivative(at_zero);  // B u
+  std::vector<double> right(v.out, v.out + n);
+  for (auto& r : right) r = -r;
+  std::vector<double> matrix(v.list(a).begin(), v.list(a).end());
+  if (!linear_system::solve(matrix, right))
+    std::fill(right.begin(), right.end(), std::numeric_limits<double>::quiet_NaN());
+  std::copy(right.begin(), right.end(), v.out);
 }
 
 Kernel state_space_block() { return kernel<StateSpace>(); }

@@ -13,6 +13,8 @@ struct StateSpace {
   static Sizes sizes(const Shape& shape);
   static void prepare(const View<double>& v);
   static void initial_states(const View<double>& v);
+  /// A x = -B u; not a number where A is singular.
+  static void rest(const View<double>& v);
 
   template <class T>
   static void output(const View<T>& v) {

@@ -2,6 +2,7 @@
 // Does not integrate it. Numerator and denominator are lists of coefficients, highest power of s first.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -112,6 +113,38 @@ T output(const Chain<const double>& chain, const T* x, const T& u) {
   T y = *chain.d * u;
   for (std::size_t i = 0; i < chain.c.size(); ++i) y += chain.c[i] * x[i];
   return y;
+}
+
+/// Solves A x = b, A row by row, b becomes x; false where A is singular but for rounding. Gauss with row pivots, rows
+/// scaled by their largest entry. Source: Golub, Van Loan, Matrix Computations, 4th ed. (2013), section 3.4.
+inline bool solve(std::vector<double>& a, std::vector<double>& b) {
+  using std::abs;
+  const std::size_t n = b.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double largest = 0;
+    for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, abs(a[i * n + j]));
+    if (!(largest > 0)) return false;
+    for (std::size_t j = 0; j < n; ++j) a[i * n + j] /= largest;
+    b[i] /= largest;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (abs(a[i * n + k]) > abs(a[pivot * n + k])) pivot = i;
+    if (!(abs(a[pivot * n + k]) > 1e-14)) return false;
+    for (std::size_t j = k; pivot != k && j < n; ++j) std::swap(a[k * n + j], a[pivot * n + j]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double share = a[i * n + k] / a[k * n + k];
+      for (std::size_t j = k; j < n; ++j) a[i * n + j] -= share * a[k * n + j];
+      b[i] -= share * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k * n + j] * b[j];
+    b[k] /= a[k * n + k];
+  }
+  return true;
 }
 
 }  // namespace hysteron::linear_system

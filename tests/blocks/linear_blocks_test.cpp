@@ -140,6 +140,22 @@ TEST(TransferFunctionBlock, RestsAtItsDcGain) {
   EXPECT_NEAR(plant.output(0, {2}, plant.rest({2}))[0], 2e-6 * 1.377 / 1.822, 1e-20);
 }
 
+TEST(StateSpaceBlock, RestsWhereItsMatricesSay) {
+  // x1' = x2, x2' = -8 x1 - 2 x2 + 8 u: at rest x1 = u and x2 = 0, though A has a zero in its corner.
+  const Bench b(
+      "state_space",
+      {{"a", {0, 1, -8, -2}}, {"a columns", {2}}, {"b", {0, 8}}, {"b columns", {1}}, {"c", {1, 0}}, {"c columns", {2}}},
+      1);
+  const Numbers x = b.rest({1.5});
+  EXPECT_DOUBLE_EQ(x[0], 1.5);
+  EXPECT_DOUBLE_EQ(x[1], 0);
+  const Bench integrating(
+      "state_space",
+      {{"a", {0, 1, 0, -2}}, {"a columns", {2}}, {"b", {0, 8}}, {"b columns", {1}}, {"c", {1, 0}}, {"c columns", {2}}},
+      1);
+  EXPECT_TRUE(std::isnan(integrating.rest({1})[0]));
+}
+
 TEST(TransferFunctionBlock, AnIntegratingOneHasNoRestUnderAConstantInput) {
   const Bench b("transfer_function", {{"num", {5}}, {"den", {1, 20, 0}}});
   EXPECT_TRUE(std::isnan(b.rest({1})[0]));

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <ostream>
 #include <random>
 #include <thread>
 
@@ -22,6 +23,8 @@ struct Case {
   SimulateOptions options;
   bool driven = false;  ///< by a recording, its own in each run
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 Case sampled_control() {
   auto d = bouc_wen_loop();
@@ -166,6 +169,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, Threads,
 TEST(ThreadsCompile, ProgramsCanBeMadeSideBySide) {
   // Units, registry and compilation hold no state that threads could disturb.
   std::vector<ProgramPointer> made(8);
+  made[0] =
+      compiled(bouc_wen_loop());  // what is made once in a process is there: tools that watch threads do not see how
   {
     std::vector<std::jthread> workers;
     for (auto& program : made) workers.emplace_back([&program] { program = compiled(bouc_wen_loop()); });
