@@ -193,7 +193,40 @@ class Reader {
     problem_.methods.push_back(std::move(method));
   }
 
+  const ParameterInfo& info_of(int place) const {
+    return program_.parameters[static_cast<std::size_t>(problem_.free[static_cast<std::size_t>(place)].parameter)];
+  }
+
+  void add(const AttractorComponentWish& wish, Attractor& to) {
+    Attractor::Component c;
+    c.component = place_in_free(wish.parameter);
+    if (c.component < 0) return;
+    if (!wish.of && wish.draw.size() != 2)
+      return problems_.add("bad_value", pointer(wish.parameter), "a range has two ends", "write \"draw\": [low, high]");
+    if (!wish.of) {
+      const auto low = si(wish.draw[0], info_of(c.component)), high = si(wish.draw[1], info_of(c.component));
+      if (!low || !high) return;
+      c.low = *low;
+      c.high = *high;
+    } else {
+      c.of = place_in_free(*wish.of);
+      if (c.of < 0) return;
+      // Curves are written in the units that people see.
+      const double y = parameter_unit(program_, info_of(c.component)).scale;
+      const double x = parameter_unit(program_, info_of(c.of)).scale;
+      for (const auto& [factor, rate] : wish.upper) c.upper.push_back({y * factor, rate / x});
+      for (const auto& [factor, rate] : wish.lower) c.lower.push_back({y * factor, rate / x});
+      c.scale = wish.scale;
+    }
+    to.components.push_back(std::move(c));
+  }
+
   void add(const AttractorWish& wish, FitOptions& o) {
+    if (!wish.components.empty()) {
+      o.attractor.emplace();
+      for (const auto& component : wish.components) add(component, *o.attractor);
+      return;
+    }
     const int c = place_in_free(wish.c), k = place_in_free(wish.k);
     if (c < 0 || k < 0) return;
     const auto& info =

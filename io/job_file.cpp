@@ -190,10 +190,52 @@ class JobReader {
     if (const auto at = place.find("iterations"))
       if (const auto n = whole(*at, 1, 1e6)) wish.iterations = static_cast<int>(*n);
     if (const auto then = one_of(place, "then", {"search", "nothing"})) wish.then_search = *then == "search";
-    if (const auto at = place.find("attractor");
-        at && at->expect_object("{\"c\": \"core.c\", \"k\": \"core.k\", \"top\": \"10 V\"}"))
-      wish.attractor = attractor(*at);
+    if (const auto at = place.find("attractor")) {
+      if (at->is_array()) {
+        wish.attractor.emplace();
+        for (const auto& one : at->elements()) component(one, wish.attractor->components);
+        if (at->elements().empty()) at->add("bad_value", "the attractor names no parameter", "leave it out");
+      } else if (at->expect_object("{\"c\": \"core.c\", \"k\": \"core.k\", \"top\": \"10 V\"}")) {
+        wish.attractor = attractor(*at);
+      }
+    }
     job_.methods.push_back(std::move(wish));
+  }
+
+  /// {"parameter": "core.c", "draw": [0.1, 0.9]}, or {"parameter": "core.k", "of": "core.c", "upper": [[0.1, 2.6]],
+  /// ...}
+  static void component(const JsonPlace& place, std::vector<AttractorComponentWish>& to) {
+    if (!place.expect_object("{\"parameter\": \"core.c\", \"draw\": [0.1, 0.9]}")) return;
+    place.only({"parameter", "draw", "of", "upper", "lower", "scale"});
+    AttractorComponentWish wish;
+    if (const auto at = place.need("parameter", "name the parameter by its path"))
+      wish.parameter = {at->text().value_or(""), at->pointer()};
+    const auto draw = place.find("draw"), of = place.find("of");
+    if (draw.has_value() == of.has_value())
+      place.add("bad_value", "a parameter of an attractor is either drawn or found from a drawn one",
+                "give one of \"draw\": [low, high] and \"of\": \"path\" with \"upper\" and \"lower\"");
+    if (draw && draw->expect_array("[0.1, 0.9]")) {
+      for (const auto& end : draw->elements())
+        if (const auto value = number_at(end)) wish.draw.push_back(*value);
+      if (wish.draw.size() != 2) draw->add("bad_value", "a range has two ends", "write \"draw\": [low, high]");
+    }
+    if (of) wish.of = WrittenText{of->text().value_or(""), of->pointer()};
+    for (const char* key : {"upper", "lower"}) {
+      const auto at = of ? place.need(key, "write the curve as [[factor, rate], ...]") : place.find(key);
+      if (!at || !at->expect_array("[[0.112, 2.644]]")) continue;
+      for (const auto& term : at->elements()) {
+        const auto pair = term.is_array() ? term.elements() : std::vector<JsonPlace>{};
+        if (pair.size() != 2) {
+          term.add("bad_value", "a term of a curve is factor * exp(rate x), found " + term.found(),
+                   "write [factor, rate]");
+          continue;
+        }
+        const auto factor = pair[0].number(), rate = pair[1].number();
+        if (factor && rate) (*key == 'u' ? wish.upper : wish.lower).emplace_back(*factor, *rate);
+      }
+    }
+    if (const auto scale = number_member(place, "scale")) wish.scale = *scale;
+    to.push_back(std::move(wish));
   }
 
   static AttractorWish attractor(const JsonPlace& place) {
@@ -251,6 +293,33 @@ Json free_entry() {
   return {{"anyOf", Json::array({text("its path alone"), std::move(entry)})}};
 }
 
+Json attractor_of_jiles_atherton() {
+  return object("of nmpso: towards what the data of a Jiles-Atherton loop suggest",
+                {{"c", text("path of the parameter c")},
+                 {"k", text("path of the parameter k")},
+                 {"top", quantity("largest input", false)}},
+                {"c", "k", "top"});
+}
+
+Json attractor_of_any() {
+  Json pair = list_of("lowest and highest value drawn", {{"$ref", "#/definitions/quantity"}});
+  pair["minItems"] = pair["maxItems"] = 2;
+  Json term = list_of("factor and rate of factor * exp(rate x)", {{"type", "number"}});
+  term["minItems"] = term["maxItems"] = 2;
+  Json curve =
+      list_of("sum of exponentials of the drawn parameter, in the units in which the diagram shows both", term);
+  Json scale{{"type", "number"}, {"description", "factor on the middle of both curves; default 1"}};
+  return list_of("of nmpso: towards points that the data suggest",
+                 object("a parameter that is drawn, or found halfway between two curves of a drawn one",
+                        {{"parameter", text("its path")},
+                         {"draw", pair},
+                         {"of", text("path of the drawn parameter")},
+                         {"upper", curve},
+                         {"lower", curve},
+                         {"scale", scale}},
+                        {"parameter"}));
+}
+
 Json method_entry() {
   const Json name = choice_of(
       "search: bounded Levenberg-Marquardt; the others look for a start all over the box first: particle swarms of the "
@@ -270,11 +339,7 @@ Json method_entry() {
                        {"runs", count("how many points a global method may try; default 505")},
                        {"iterations", count("trials of a search from one start; default 40")},
                        {"then", choice_of("what follows a global method; default search", {"search", "nothing"})},
-                       {"attractor", object("of nmpso: towards what the data of a Jiles-Atherton loop suggest",
-                                            {{"c", text("path of the parameter c")},
-                                             {"k", text("path of the parameter k")},
-                                             {"top", quantity("largest input", false)}},
-                                            {"c", "k", "top"})},
+                       {"attractor", {{"anyOf", Json::array({attractor_of_jiles_atherton(), attractor_of_any()})}}},
                        {"remark", text("what a reader should know")}},
                       {"name"});
   return {{"anyOf", Json::array({name, std::move(entry)})}};

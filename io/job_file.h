@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/diagram.h"
@@ -32,10 +33,21 @@ struct FreeWish {
   bool per_recording = false;
 };
 
-/// The data-driven attractor of "nmpso": which parameters are c and k of Jiles-Atherton, and the largest input.
+/// One parameter of an attractor: drawn in a range, or found from a drawn one.
+struct AttractorComponentWish {
+  WrittenText parameter;
+  std::vector<WrittenNumber> draw{};  ///< two: its ends
+  std::optional<WrittenText> of{};  ///< or: the drawn parameter x, and curves sum factor exp(rate x) of it, numbers ...
+  std::vector<std::pair<double, double>> upper{}, lower{};  ///< ... in the units in which the diagram shows both
+  double scale = 1;                                         ///< the value is scale (upper + lower)/2
+};
+
+/// The data-driven attractor of "nmpso": which parameters are c and k of Jiles-Atherton, and the largest input; or any
+/// parameters with their curves.
 struct AttractorWish {
   WrittenText c, k;
   WrittenNumber top;
+  std::vector<AttractorComponentWish> components{};  ///< not empty: these instead
 };
 
 struct MethodWish {

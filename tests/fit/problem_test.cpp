@@ -143,5 +143,39 @@ TEST(FitProblem, WrongWishesAreToldWithTheirPlaceInTheJob) {
   EXPECT_EQ(problem_with(job), "not_free /profile/0");
 }
 
+TEST(FitProblem, AnAttractorOfAnyParametersIsReadInTheUnitsThatPeopleSee) {
+  // Time constants shown in ms, gain in um/V: 3 exp(0.2 x) with x in ms is 3e-6 exp(200 x) m/V with x in s.
+  FitJob job;
+  for (const char* path : {"amplifier.times[0]", "g.gain"}) {
+    FreeWish wish = wish_for(path);
+    wish.lower = written(0.1, nullptr);
+    wish.upper = written(100, nullptr);
+    job.free.push_back(wish);
+  }
+  MethodWish method;
+  method.name = {"nmpso", ""};
+  method.attractor.emplace();
+  method.attractor->components = {
+      {.parameter = {"amplifier.times[0]", ""}, .draw = {written(1, nullptr), written(0.02, "s")}},
+      {.parameter = {"g.gain", ""},
+       .of = WrittenText{"amplifier.times[0]", ""},
+       .upper = {{3, 0.2}},
+       .lower = {{1, 0}, {2, -0.1}},
+       .scale = 5}};
+  job.methods = {method};
+  const auto program = compile(diagram(), lab::registry());
+  const auto problem = problem_of(job, *program, data(2), {});
+  const auto& all = problem.methods.front().options.attractor->components;
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].component, 0);
+  EXPECT_NEAR(all[0].low, 1e-3, 1e-18);
+  EXPECT_NEAR(all[0].high, 0.02, 1e-17);
+  EXPECT_EQ(all[1].of, 0);
+  EXPECT_NEAR(all[1].upper[0].factor, 3e-6, 1e-20);
+  EXPECT_NEAR(all[1].upper[0].rate, 200, 1e-12);
+  EXPECT_NEAR(all[1].lower[1].rate, -100, 1e-12);
+  EXPECT_EQ(all[1].scale, 5);
+}
+
 }  // namespace
 }  // namespace hysteron

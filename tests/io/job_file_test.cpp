@@ -125,5 +125,28 @@ TEST(JobFile, WrongInputIsToldWithItsPlace) {
             "outside_project /diagram");
 }
 
+TEST(JobFile, AnAttractorMayNameAnyParametersAndTheirCurves) {
+  const TemporaryFolder folder;
+  const auto job = read_fit_job(folder.write("job.json", with(R"("method": {"name": "nmpso", "attractor": [
+        {"parameter": "core.c", "draw": [0.001, 0.999]},
+        {"parameter": "core.k", "of": "core.c", "upper": [[0.112, 2.644], [2.644e-9, 21.74]], "lower": [[0.045, 1.989]], "scale": 6}]})")));
+  const auto& all = job.methods[0].attractor->components;
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].draw[1].number.value, 0.999);
+  EXPECT_FALSE(all[0].of.has_value());
+  EXPECT_EQ(all[1].of->text, "core.c");
+  EXPECT_EQ(all[1].upper, (std::vector<std::pair<double, double>>{{0.112, 2.644}, {2.644e-9, 21.74}}));
+  EXPECT_EQ(all[1].scale, 6);
+  const auto told = [](const std::string& attractor) {
+    return problem_of_job(with("\"method\": {\"name\": \"nmpso\", \"attractor\": " + attractor + "}"));
+  };
+  EXPECT_EQ(told("[]"), "bad_value /method/attractor");
+  EXPECT_EQ(told(R"([{"parameter": "a"}])"), "bad_value /method/attractor/0");
+  EXPECT_EQ(told(R"([{"parameter": "a", "draw": [1]}])"), "bad_value /method/attractor/0/draw");
+  EXPECT_EQ(told(R"([{"parameter": "a", "of": "b", "upper": [[1, 2]]}])"), "missing_key /method/attractor/0");
+  EXPECT_EQ(told(R"([{"parameter": "a", "of": "b", "upper": [1], "lower": [[1, 2]]}])"),
+            "bad_value /method/attractor/0/upper/0");
+}
+
 }  // namespace
 }  // namespace hysteron
