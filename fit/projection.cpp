@@ -81,7 +81,7 @@ std::vector<double> Projection::largest_step() const {
   std::vector<double> list;
   for (const int i : nonlinear_) {
     const auto& f = free_[static_cast<std::size_t>(i)];
-    list.push_back(f.log_scale ? std::log(4.0) : 0.5 * (f.upper - f.lower));
+    list.push_back(f.log_scale ? std::log(2.0) : 0.5 * (f.upper - f.lower));
   }
   return list;
 }

@@ -53,7 +53,8 @@ class Projection {
 
   std::vector<double> start() const;  ///< z
   std::vector<double> lower() const, upper() const;
-  /// How far one step of a search may go: a factor of four on a log scale, half of a finite box on a linear one.
+  /// How far one step of a search may go: a factor of two on a log scale (by four, the time constants of
+  /// two relaxations change places), half of a finite box on a linear one.
   std::vector<double> largest_step() const;
   double to_z(int k, double value) const;
   double to_value(int k, double z) const;

@@ -150,6 +150,34 @@ TEST(Fit, FindsATimeConstantFromAPoorStartOnALogScale) {
   }
 }
 
+TEST(Fit, TimeConstantsOfTwoRelaxationsAreFoundFromThirtyPerCentAway) {
+  // Sums of relaxations are badly conditioned: an unbounded step of a logarithm would leave for times of 1e-15 s or
+  // 1e+293 s, where no slope leads back.
+  const auto steps = [](double t) { return 2 + 2 * std::floor(std::fmod(t * 0.7, 4.0)); };
+  Diagram d = lab::diagram("g");
+  auto& creep = lab::add(d, "creep", "creep", "u");
+  creep.parameters["amounts"] = NumberList{{0.02, {}}, {0.03, {}}};
+  creep.parameters["times"] = NumberList{{0.1, "s"}, {1, "s"}};
+  lab::add(d, "g", "gain", "creep").parameters["gain"] = "1 um/V";
+  const auto program = compile(d, lab::registry());
+  const auto free = free_parameters(*program, {"creep.amounts", "creep.times", "g.gain"});
+  for (unsigned draw = 0; draw < 10; ++draw) {
+    lab::Noise random(300 + draw);
+    std::vector<ParameterValue> truth;
+    for (const auto& f : free) truth.push_back({f.parameter, f.start * (0.7 + 0.6 * random.uniform())});
+    DataSet data = two_recordings(1500, 0.006);
+    data.notes["y"].noise.white = 20e-9;
+    for (auto& r : data.recordings)
+      for (std::size_t i = 0; i < r.t.size(); ++i) r.columns["u"][i] = steps(r.t[i]);
+    lab::measure(data, program, 20e-9, 400 + draw, truth);
+    DataModel model(program, lab::shared(data));
+    const auto r = fit(model, noise_before_fit(model), free);
+    ASSERT_TRUE(r.ok) << r.error;
+    EXPECT_TRUE(r.converged) << r.convergence;
+    EXPECT_LT(r.chi2 / r.n, 1.15);  // 1500 rows: 1 +- 0.037; a step gone astray leaves 1.3 and more
+  }
+}
+
 TEST(Fit, AScanLeadsPastALocalMinimum) {
   // A sine that is one and a half periods late looks best when delayed by half a period: a local search
   // that begins near there ends there.

@@ -110,6 +110,22 @@ TEST(LevenbergMarquardt, TrialsThatCannotBeEvaluatedShortenTheStep) {
   EXPECT_NEAR(found.z[0], 1, 1e-4);
 }
 
+TEST(LevenbergMarquardt, NoTrialStepsFurtherThanItIsAllowed) {
+  auto p = problem(rosenbrock, 2);
+  p.largest_step = {0.1, infinity};
+  std::vector<double> seen{-1.2};
+  p.go_on = [] { return true; };
+  p.residual = [&](std::span<const double> z, std::vector<double>& r) {
+    double nearest = infinity;
+    for (const double x : seen) nearest = std::min(nearest, std::abs(z[0] - x));
+    EXPECT_LE(nearest, 0.1 + 1e-12);  // each trial starts at a point that was seen before
+    seen.push_back(z[0]);
+    return rosenbrock(z, r);
+  };
+  const auto found = minimize(p, {-1.2, 1}, 200, 1e-12);
+  EXPECT_NEAR(found.z[0], 1, 1e-6);
+}
+
 TEST(LevenbergMarquardt, AStartThatCannotBeEvaluatedIsAnAnswer) {
   const auto never = [](std::span<const double>, std::vector<double>&) { return false; };
   const auto found = minimize(problem(never, 2), {1, 2}, 10, 1e-9);
