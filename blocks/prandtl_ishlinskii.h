@@ -27,6 +27,13 @@ struct PrandtlIshlinskii {
   static void output(const View<T>& v) {
     v.out[0] = prandtl_ishlinskii::output(v.list(weights), v.memory());
   }
+  static void rows(const RowsView& r) {
+    for (int lane = 0; lane < r.lanes; ++lane) {
+      const View<double>& v = r.views[lane];
+      prandtl_ishlinskii::pass(sides_of(v), v.list(thresholds), v.list(weights), r.m + lane * v.n_m, r.u[0] + lane,
+                               r.y[0] + lane, r.lanes, r.count);
+    }
+  }
   static void initial_memory(const View<double>& v);
   static std::string check_memory(const View<double>& v);
 };

@@ -1,7 +1,7 @@
-// Decides how a diagram of static blocks, memory and linear time-invariant parts, driven by recordings or by sampled
-// blocks, is advanced row by row, exactly (DESIGN 6.6). Linear parts use cached matrix exponentials with first-order
-// hold; behind a nonlinear block rows are split into substeps until the result no longer changes. Does not handle
-// nonlinear states nor memory inside a feedback loop.
+// Decides how a diagram of static blocks, memory, linear time-invariant parts and nonlinear states outside of feedback
+// loops, driven by recordings or by sampled blocks, is advanced row by row, exactly (DESIGN 6.6). Linear parts use
+// cached matrix exponentials with first-order hold; behind a nonlinear block, and for nonlinear states, rows are split
+// into substeps until the result no longer changes. Does not handle nonlinear blocks inside a feedback loop.
 #pragma once
 
 #include <memory>
@@ -18,13 +18,16 @@ std::string why_not_exact(const Program& program);
 
 struct AdvanceOptions {
   int substeps = 1;     ///< per row; 1 is exact where no nonlinear block feeds a linear part with states
-  bool at_rest = true;  ///< linear states start in equilibrium for the first inputs
+  bool at_rest = true;  ///< states start in equilibrium for the first inputs; memory stays
 };
 
-/// The plan of an exact advance of one program. Immutable once built but for its cache of matrix exponentials:
-/// one Advance per thread.
+/// The plan of an exact advance of one program. Immutable once built but for what it keeps between runs (matrix
+/// exponentials, the values of recordings at the instants): one Advance per thread.
 class Advance {
  public:
+  /// Instants that are known by their place: what was worked out for them is kept for the next run.
+  using Instants = std::shared_ptr<const std::vector<double>>;
+
   /// `signals`: what to return. Throws Error "not_exact".
   Advance(ProgramPointer program, std::vector<int> signals);
   ~Advance();
@@ -33,18 +36,22 @@ class Advance {
 
   /// Advances a copy of `run` through `instants` (increasing; the first is the start) and writes
   /// values[signal][instant] [SI]. Between instants the bound inputs move as their series say; their own samples need
-  /// not be instants.
+  /// not be instants. Throws Error(Fault::numerics) "diverged" where a value is not finite.
+  void operator()(const Run& run, const Instants& instants, const AdvanceOptions& options,
+                  std::vector<std::vector<double>>& values);
+  /// The same; instants are compared with those of the last call.
   void operator()(const Run& run, std::span<const double> instants, const AdvanceOptions& options,
                   std::vector<std::vector<double>>& values);
 
-  /// True if substeps cannot change the result: no nonlinear block feeds a linear part with states.
+  /// True if substeps cannot change the result: no nonlinear block feeds a linear part with states, and no nonlinear
+  /// block has states.
   bool exact_without_substeps() const;
 
   long samples() const;  ///< runs of sampled blocks in the last advance
 
  private:
-  struct Plan;
-  std::unique_ptr<Plan> plan_;
+  struct Content;
+  std::unique_ptr<Content> content_;
 };
 
 }  // namespace hysteron

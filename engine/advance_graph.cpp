@@ -50,8 +50,8 @@ class Builder {
                               "{} \"{}\" {}", type_of(b), b.path,
                               b.sizes.smoothness == Smoothness::no_rate ? "draws random numbers" : "changes with time");
     if (b.kernel->has_modes()) return fmt::format("{} \"{}\" changes its mode at events", type_of(b), b.path);
-    if (b.sizes.states > 0 && !b.kernel->declaration.is_linear)
-      return fmt::format("{} \"{}\" has nonlinear states", type_of(b), b.path);
+    if (b.n_u > 0 && b.kernel->rows == nullptr)
+      return fmt::format("{} \"{}\" has no functions that rows could be passed by", type_of(b), b.path);
     return "";
   }
 
@@ -128,14 +128,16 @@ class Builder {
     return std::any_of(reads(b).begin(), reads(b).end(), [&](int s) { return jumps[at(s)]; });
   }
 
-  /// Marks the outputs of sampled blocks and all that follows at once; with_delays: also what follows later.
+  /// Marks the outputs of sampled blocks and all that follows at once, the states of rate-independent laws included;
+  /// with_delays: also what follows later.
   std::vector<bool> jumping(bool with_delays) const {
     std::vector<bool> jumps(program_.signals.size(), false);
     for (bool changed = true; changed;) {
       changed = false;
       for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) {
         const auto& sizes = block(b).sizes;
-        const bool passes = sizes.feedthrough || (with_delays && sizes.history);
+        const bool moves_states = sizes.states > 0 && block(b).kernel->declaration.is_rate_independent;
+        const bool passes = sizes.feedthrough || moves_states || (with_delays && sizes.history);
         if (!block(b).kernel->is_sampled() && !(passes && reads_jumps(b, jumps))) continue;
         for (int s = block(b).y_begin; s < block(b).y_begin + sizes.outputs; ++s)
           if (!jumps[at(s)]) jumps[at(s)] = changed = true;

@@ -13,7 +13,7 @@ enum class AdvanceRole {
   source,     ///< recorded inputs and constants
   sampled,    ///< holds between its instants: a source that jumps
   linear,     ///< linear time-invariant, with or without states
-  nonlinear,  ///< static, memory, dead time
+  nonlinear,  ///< static, memory, dead time, states of their own
   momentary   ///< follows a function of time and drives nothing that remembers: asked for at instants and rows only
 };
 

@@ -109,6 +109,30 @@ struct Functions {
   Call reset = nullptr;   ///< blocks with modes; out: states at the beginning of `mode`, which follows `mode_before`
 };
 
+/// Many rows of one block, one behind the other, in runs side by side ("lanes") that differ in their numbers only: what
+/// the exact advance asks for where the inputs of all rows are known. The number of row k in lane l stands at
+/// [k * lanes + l]; row -1 is the point before the first one.
+struct RowsView {
+  /// What a block may be asked for: one lane, or this many.
+  static constexpr int most_lanes = 4;
+
+  int lanes = 1;
+  int count = 0;                        ///< rows
+  const View<double>* views = nullptr;  ///< per lane: parameters, constants and counts; nothing else is set
+  const double* const* u = nullptr;     ///< per input, from row -1 on
+  double* const* y = nullptr;           ///< per output, from row 0 on
+  double* x = nullptr;                  ///< states, lane by lane: at row -1, left as they are at the last row
+  double* m = nullptr;                  ///< memory, the same
+  const double* h = nullptr;            ///< per row: the step that leads to it [s]; 0: there the inputs jump
+  int path_steps = 0;                   ///< Runge-Kutta steps along a jump; 0: states stand still there
+  double* scratch = nullptr;            ///< of scratch_size()
+
+  /// Numbers that one block needs beside its own.
+  static std::size_t scratch_size(int inputs, int states, int memory, int outputs) {
+    return static_cast<std::size_t>(3 * inputs + 5 * states + memory + outputs);
+  }
+};
+
 /// A block type: its declaration and its functions.
 struct Kernel : Functions<double> {
   Declaration declaration;
@@ -127,6 +151,7 @@ struct Kernel : Functions<double> {
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
   double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
+  void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor with modes nor a source: made by block.h
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure

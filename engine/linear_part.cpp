@@ -112,7 +112,31 @@ void LinearPart::solve_loops(const Program& program, const std::vector<BlockMatr
     if (place[s] >= 0) rows[s] = solved.row(place[s]);
 }
 
+bool LinearPart::is_bound_to(const Program& program, const Run& run) const {
+  std::size_t place = 0;
+  if (bound_to_.empty()) return false;
+  for (const int block : blocks_) {
+    const BlockInstance& b = program.blocks[at(block)];
+    for (int i = 0; i < b.p_at.back(); ++i)
+      if (bound_to_[place++] != run.p[at(b.p_begin + i)]) return false;
+    for (int i = 0; i < b.sizes.constants; ++i)
+      if (bound_to_[place++] != run.c[at(b.c_begin + i)]) return false;
+  }
+  return true;
+}
+
+void LinearPart::remember_numbers(const Program& program, const Run& run) {
+  bound_to_.clear();
+  for (const int block : blocks_) {
+    const BlockInstance& b = program.blocks[at(block)];
+    bound_to_.insert(bound_to_.end(), run.p.begin() + b.p_begin, run.p.begin() + b.p_begin + b.p_at.back());
+    bound_to_.insert(bound_to_.end(), run.c.begin() + b.c_begin, run.c.begin() + b.c_begin + b.sizes.constants);
+  }
+}
+
 void LinearPart::bind(const Program& program, const Run& run) {
+  if (is_bound_to(program, run)) return;
+  bound_to_.clear();
   const auto m = w_.size();
   // Every signal of the group as a row over [x, w, 1].
   const Eigen::Index columns = n_ + m;
@@ -155,6 +179,9 @@ void LinearPart::bind(const Program& program, const Run& run) {
     b_ = b;
     cache_.clear();
     last_ = 0;
+    packed_.clear();
+    packed_count_ = 0;
+    has_to_rest_ = false;
   }
   c_.resize(static_cast<Eigen::Index>(outputs_.size()), n_);
   d_.resize(static_cast<Eigen::Index>(outputs_.size()), m);
@@ -163,6 +190,16 @@ void LinearPart::bind(const Program& program, const Run& run) {
     d_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].tail(m);
   }
   feeds_through_ = !d_.leftCols(m - 1).isZero(0);
+  padded_ = at(n_ + n_ % 2);
+  c_rows_.assign(outputs_.size() * padded_, 0.0);
+  d_rows_.clear();
+  for (std::size_t o = 0; o < outputs_.size(); ++o) {
+    const auto row = static_cast<Eigen::Index>(o);
+    for (int i = 0; i < n_; ++i) c_rows_[o * padded_ + at(i)] = c_(row, i);
+    for (Eigen::Index i = 0; i < m; ++i) d_rows_.push_back(d_(row, i));
+  }
+  row_scratch_.assign(2 * padded_, 0.0);
+  remember_numbers(program, run);
 }
 
 void LinearPart::take_inputs(const std::vector<double>& y) {
@@ -187,10 +224,23 @@ void LinearPart::start(const Program& program, const Run& run, std::vector<doubl
   if (at_rest && n_ > 0) {
     // Least-norm correction: a free integrator keeps its value, everything else goes to A x + B w = 0.
     const Eigen::VectorXd rate = a_ * x_ + b_ * w_;
-    x_ -= a_.completeOrthogonalDecomposition().solve(rate);
+    if (!has_to_rest_) to_rest_.compute(a_);
+    has_to_rest_ = true;
+    x_ -= to_rest_.solve(rate);
   }
   w_before_ = w_;
   write_outputs(y);
+}
+
+LinearPart::Step LinearPart::make_step(double h) const {
+  // exp of [[A, B, 0], [0, 0, I/h], [0, 0, 0]] h: the response to states, to constant inputs and to a unit ramp over h.
+  const auto m = b_.cols();
+  Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n_ + 2 * m, n_ + 2 * m);
+  big.topLeftCorner(n_, n_) = a_ * h;
+  big.block(0, n_, n_, m) = b_ * h;
+  big.block(n_, n_ + m, m, m).setIdentity();
+  const Eigen::MatrixXd e = big.exp();
+  return {h, e.topLeftCorner(n_, n_), e.block(0, n_, n_, m), e.block(0, n_ + m, n_, m)};
 }
 
 const LinearPart::Step& LinearPart::step_matrices(double h, double rounding) {
@@ -201,15 +251,8 @@ const LinearPart::Step& LinearPart::step_matrices(double h, double rounding) {
       last_ = i;
       return cache_[i];
     }
-  // exp of [[A, B, 0], [0, 0, I/h], [0, 0, 0]] h: the response to states, to constant inputs and to a unit ramp over h.
-  const auto m = b_.cols();
-  Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n_ + 2 * m, n_ + 2 * m);
-  big.topLeftCorner(n_, n_) = a_ * h;
-  big.block(0, n_, n_, m) = b_ * h;
-  big.block(n_, n_ + m, m, m).setIdentity();
-  const Eigen::MatrixXd e = big.exp();
-  if (cache_.size() >= 1024) cache_.clear();  // irregular times: do not grow without bound
-  cache_.push_back({h, e.topLeftCorner(n_, n_), e.block(0, n_, n_, m), e.block(0, n_ + m, n_, m)});
+  if (cache_.size() >= most_steps_kept) cache_.clear();  // irregular times: do not grow without bound
+  cache_.push_back(make_step(h));
   last_ = cache_.size() - 1;
   return cache_[last_];
 }

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/QR>
+#include <cstddef>
 #include <vector>
 
 #include "engine/program.h"
@@ -21,6 +23,7 @@ class LinearPart {
   LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs);
 
   const std::vector<int>& input_signals() const { return inputs_; }
+  const std::vector<int>& output_signals() const { return outputs_; }
   bool has_states() const { return n_ > 0; }
 
   /// Builds the matrices for the parameters of a run; keeps the exponentials where A and B have not changed. Throws
@@ -34,6 +37,19 @@ class LinearPart {
   void step(double h, double rounding, std::vector<double>& y);
   /// Inputs jumped: same states, new outputs.
   void refresh(std::vector<double>& y);
+  /// Advances through many rows whose inputs are known. `kind`, per row: its step is lengths[kind] / substeps [s]; -1:
+  /// the inputs jump, the states stand still. Values of row k at [k * stride]; row -1 of the inputs is the point
+  /// before.
+  struct RowsOfPart {
+    int count = 0;
+    std::ptrdiff_t stride = 1;
+    const double* const* w = nullptr;  ///< per input
+    double* const* y = nullptr;        ///< per output
+    const int* kind = nullptr;
+    const std::vector<double>* lengths = nullptr;
+    int substeps = 1;
+  };
+  void pass(const RowsOfPart& rows);
   /// Its states to where the program has them.
   void store(const Program& program, std::vector<double>& x) const;
 
@@ -45,8 +61,16 @@ class LinearPart {
   const Step& step_matrices(double h, double rounding);
   void solve_loops(const Program& program, const std::vector<BlockMatrices>& matrices,
                    std::vector<Eigen::RowVectorXd>& rows) const;
+  static constexpr std::size_t most_steps_kept = 1024;  // irregular times: do not grow without bound
+  Step make_step(double h) const;
   void take_inputs(const std::vector<double>& y);
   void write_outputs(std::vector<double>& y) const;
+  bool is_bound_to(const Program& program, const Run& run) const;
+  void remember_numbers(const Program& program, const Run& run);
+  void make_packed(int kind, double h);
+  template <int size>
+  void pass_of(const RowsOfPart& rows);
+  void pass_large(const RowsOfPart& rows);
 
   std::vector<int> blocks_, inputs_, outputs_;
   std::vector<int> first_state_;   ///< per block
@@ -57,6 +81,21 @@ class LinearPart {
   Eigen::VectorXd x_, next_, w_, w_before_, y_;
   std::vector<Step> cache_;
   std::size_t last_ = 0;
+  std::vector<double> bound_to_;  ///< parameters and constants of its blocks
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> to_rest_;
+  bool has_to_rest_ = false;
+
+  /// The matrices of a step as pass() reads them, columns of padded_ numbers: what constants add, per input what its
+  /// value before and its value now add, per state what it adds.
+  struct Packed {
+    double h = 0;
+    std::vector<double> numbers;
+  };
+  std::vector<Packed> packed_;  ///< per kind; empty where not made
+  std::size_t packed_count_ = 0;
+  std::size_t padded_ = 0;               ///< n_, made even
+  std::vector<double> c_rows_, d_rows_;  ///< C and D row by row
+  std::vector<double> row_scratch_;
 };
 
 }  // namespace hysteron

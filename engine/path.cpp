@@ -39,9 +39,14 @@ std::vector<bool> feeds_through(const Program& program) {
 }  // namespace
 
 std::vector<bool> turns_before_memory(const Program& program) {
-  const auto through = feeds_through(program);
+  auto through = feeds_through(program);
   std::vector<bool> memory, bent;
-  for (const auto& block : program.blocks) memory.push_back(block.sizes.memory > 0);
+  for (std::size_t b = 0; b < program.blocks.size(); ++b) {
+    const auto& block = program.blocks[b];
+    const bool law = block.kernel->declaration.is_rate_independent && block.sizes.states > 0;
+    memory.push_back(block.sizes.memory > 0 || law);
+    through[b] = through[b] || law;
+  }
   const auto to_memory = reaches(program, memory, through);
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     bent.push_back(through[b] && !program.blocks[b].kernel->declaration.is_linear && to_memory[b]);

@@ -21,7 +21,8 @@ namespace hysteron {
 /// height.
 inline constexpr int jump_pieces = 64;
 
-/// Per block: does a jump of its outputs reach memory at once through a bent block, so that memory follows in pieces?
+/// Per block: does a jump of its outputs reach memory, or the states of a rate-independent law, at once through a bent
+/// block, so that these follow in pieces?
 std::vector<bool> turns_before_memory(const Program& program);
 
 class JumpPath {

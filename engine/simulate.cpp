@@ -487,7 +487,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   set_loop_accuracy(program, run, held.relative_tolerance, held.absolute_tolerance);
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
-  Traces traces;
+  std::optional<Traces> exact;
   if (!options.slopes_for.empty() &&
       (options.method == Method::exact || options.method == Method::euler || options.method == Method::rk4))
     fail("bad_value", "/simulate/solver/method", "slopes come with the adaptive methods only",
@@ -496,9 +496,13 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
     Phases phases;
     {
       const Stopwatch watch(phases.integrate);
-      traces = simulate_exactly(program, run, options, std::move(instants), signals);
+      exact = simulate_exactly(program, run, options, instants, signals);
     }
-    traces.statistics.phases = phases;
+    if (exact) exact->statistics.phases = phases;
+  }
+  Traces traces;
+  if (exact) {
+    traces = std::move(*exact);
   } else {
     if (options.at_rest) settle_at_rest(program, run, options.begin);
     if (options.method == Method::euler || options.method == Method::rk4) {

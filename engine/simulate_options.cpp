@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/advance.h"
 #include "engine/advance_graph.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr int default_points = 1000;
 constexpr std::size_t most_instants = 50'000'000;
 constexpr int most_substeps = 4096;
+constexpr double most_steps = 5e7;  // in all, where the integrator may do it instead
 
 double seconds(const Number& number, const char* key, Problems& problems) {
   const std::string path = std::string("/simulate/") + key;
@@ -138,30 +140,48 @@ bool advances_exactly(const Program& program, const SimulateOptions& options) {
        "choose the method \"auto\" or \"bdf\"");
 }
 
-Traces simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
-                        std::vector<double> instants, const std::vector<int>& signals) {
+std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
+                                       std::vector<double> instants, const std::vector<int>& signals) {
   const bool early = instants.front() > options.begin;
   if (early) instants.insert(instants.begin(), options.begin);
+  const auto rows = std::make_shared<const std::vector<double>>(instants);
   // The advance keeps a pointer only while it is built and called; the program outlives both.
   Advance advance(ProgramPointer(ProgramPointer(), &program), signals);
   Traces traces;
   traces.signals = signals;
   AdvanceOptions how;
   how.at_rest = options.at_rest;
-  advance(run, instants, how, traces.values);
-  traces.statistics.steps = static_cast<long>(instants.size());
-  if (!advance.exact_without_substeps()) {
-    // Rows are halved until the result stays; the last change bounds what is left (the error falls with the second
-    // power).
-    for (bool same = false; !same && how.substeps < most_substeps;) {
-      how.substeps *= 2;
-      auto finer = traces.values;
-      advance(run, instants, how, finer);
-      same = change(traces.values, finer) <= options.relative_tolerance;
-      traces.values = std::move(finer);
+  const bool may_give_up = options.method == Method::automatic;
+  const bool refines = !advance.exact_without_substeps();
+  const auto can_be_finer = [&] {
+    const auto steps = static_cast<double>(instants.size()) * 2 * how.substeps;
+    return refines && how.substeps < most_substeps && (!may_give_up || steps <= most_steps);
+  };
+  // Steps that are too long for nonlinear states let them run away: shorter ones may not. True: here are the values.
+  const auto try_advance = [&](std::vector<std::vector<double>>& values) {
+    try {
+      advance(run, rows, how, values);
+      return true;
+    } catch (const Error& error) {
+      const bool ran_away = error.problems.front().code == "diverged";
+      if (ran_away && (can_be_finer() || (refines && may_give_up))) return false;
+      throw;
     }
-    traces.statistics.steps *= how.substeps;
+  };
+  bool good = try_advance(traces.values);
+  // Rows are halved until the result stays; the last change bounds what is left (the error falls with the second
+  // power).
+  bool same = !refines;
+  while (!same && can_be_finer()) {
+    how.substeps *= 2;
+    auto finer = traces.values;
+    const bool good_too = try_advance(finer);
+    same = good && good_too && change(traces.values, finer) <= options.relative_tolerance;
+    good = good_too;
+    traces.values = std::move(finer);
   }
+  if (!same && may_give_up) return std::nullopt;
+  traces.statistics.steps = static_cast<long>(instants.size()) * how.substeps;
   if (early) {
     instants.erase(instants.begin());
     for (auto& v : traces.values) v.erase(v.begin());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <vector>
 
 #include "engine/events.h"
@@ -40,8 +41,9 @@ void check_inputs(const Program& program, const Run& run);
 /// True if the method and the diagram allow it. Throws Error "not_exact" where it
 /// was asked for and cannot be.
 bool advances_exactly(const Program& program, const SimulateOptions& options);
-Traces simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
-                        std::vector<double> instants, const std::vector<int>& signals);
+/// Nothing where the method may be another and no number of substeps that pays gives the tolerance.
+std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
+                                       std::vector<double> instants, const std::vector<int>& signals);
 
 /// Throws Error "diverged" that names the first block in program order whose value at (t, x) is not finite.
 [[noreturn]] void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x);

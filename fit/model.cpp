@@ -154,26 +154,36 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
   bool all = true;
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
-    try {
-      auto coarse = c.one(r, values, 1, false);
-      int n = 1;
-      for (; n < c.options.max_substeps; n *= 2) {
-        auto fine = c.one(r, values, 2 * n, false);
-        double worst = 0;
+    // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
+    const auto rows_with = [&](int substeps) {
+      std::vector<Rows> rows;
+      try {
+        rows = c.one(r, values, substeps, false);
+      } catch (const std::exception&) {
+      }
+      return rows;
+    };
+    auto coarse = rows_with(1);
+    int n = 1;
+    for (; n < c.options.max_substeps; n *= 2) {
+      auto fine = rows_with(2 * n);
+      double worst = coarse.empty() || fine.empty() ? std::numeric_limits<double>::infinity() : 0;
+      if (worst == 0)
         for (std::size_t o = 0; o < fine.size(); ++o)
           for (std::size_t i = 0; i < fine[o].size(); ++i)
             worst = std::max(worst, std::abs(fine[o][i] - coarse[o][i]) / std::max(tolerance[o], 1e-300));
-        // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
-        if (worst <= 1) break;
-        coarse = std::move(fine);
-      }
-      b.substeps = only_finer ? std::max(n, b.substeps) : n;
-      if (n >= c.options.max_substeps)
-        remarks.push_back(
-            fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for", recording(r).name, n));
-    } catch (const std::exception&) {
-      all = false;  // at values where it can be simulated this is done again
+      // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
+      if (worst <= 1) break;
+      coarse = std::move(fine);
     }
+    if (coarse.empty()) {
+      all = false;  // at values where it can be simulated this is done again
+      continue;
+    }
+    b.substeps = only_finer ? std::max(n, b.substeps) : n;
+    if (n >= c.options.max_substeps)
+      remarks.push_back(
+          fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for", recording(r).name, n));
   }
   c.substeps_chosen = all;
   return remarks;

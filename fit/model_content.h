@@ -21,6 +21,7 @@ struct BoundRecording {
   std::vector<Rows> measured;                ///< [output][judged row]
   Rows times;
   int substeps = 1;
+  Advance::Instants rows;  ///< the instants, as the advance knows them again
   std::optional<Advance> advance;
   std::vector<std::vector<double>> values;  ///< workspace: [output][instant]
 };

@@ -76,6 +76,7 @@ void DataModel::Content::bind(int r) {
       b.at[o].push_back(
           static_cast<std::size_t>(std::lower_bound(b.instants.begin(), b.instants.end(), t) - b.instants.begin()));
   if (not_exact.empty()) {
+    b.rows = std::make_shared<const std::vector<double>>(b.instants);
     b.advance.emplace(program, signals);
     needs_substeps = needs_substeps || !b.advance->exact_without_substeps();
   }
@@ -145,7 +146,7 @@ void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest,
     AdvanceOptions o;
     o.substeps = substeps;
     o.at_rest = at_rest;
-    (*b.advance)(run, b.instants, o, b.values);
+    (*b.advance)(run, b.rows, o, b.values);
     return;
   }
   SimulateOptions o;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -20,12 +21,23 @@ void advance(play::Sides sides, std::span<const T> thresholds, std::span<const T
     for (std::size_t i = 0; i < n; ++i) after[i] = play::follow_one_sided(thresholds[i], before[i], u);
 }
 
+/// So many operators are summed for themselves, those at even and odd places side by side: no addition waits for all
+/// before it, and the order is always the same.
+inline constexpr std::size_t group = 16;
+
 /// y = sum c_i w_i over advanced operators; threshold 0 is the linear part, since its w is u.
 /// Source: thesis Eq. 2.5; Kuhnen, Eur. J. Control 9 (2003) 407-418.
 template <class T>
 T output(std::span<const T> weights, std::span<const T> operators) {
+  const std::size_t n = weights.size();
   T y{0};
-  for (std::size_t i = 0; i < weights.size(); ++i) y += weights[i] * operators[i];
+  for (std::size_t begin = 0; begin < n; begin += group) {
+    const std::size_t end = std::min(begin + group, n);
+    T even{0}, odd{0};
+    for (std::size_t i = begin; i < end; i += 2) even += weights[i] * operators[i];
+    for (std::size_t i = begin + 1; i < end; i += 2) odd += weights[i] * operators[i];
+    y += even + odd;
+  }
   return y;
 }
 
@@ -39,6 +51,51 @@ inline std::size_t nested_until(play::Sides sides, std::span<const double> thres
     if (step > most + slack || step < (sides == play::Sides::one ? 0 : -most) - slack) return i;
   }
   return memory.size();
+}
+
+namespace detail {
+
+/// One group over all rows: its operators stay in registers. Weight 0 fills up an odd number. Adds to y but for the
+/// first group.
+template <std::size_t size, play::Sides sides>
+void pass_rows(std::size_t n, const double* thresholds, const double* weights, double* operators, const double* u,
+               double* y, std::ptrdiff_t stride, std::ptrdiff_t rows, bool first) {
+  std::array<double, size> r{}, c{}, w{};
+  std::copy_n(thresholds, n, r.begin());
+  std::copy_n(weights, n, c.begin());
+  std::copy_n(operators, n, w.begin());
+  for (std::ptrdiff_t k = 0; k < rows; ++k) {
+    const double now = u[k * stride];
+    for (std::size_t i = 0; i < size; ++i) w[i] = play::follow(sides, r[i], w[i], now);
+    std::array<double, 2> sum{};
+    for (std::size_t i = 0; i < size; i += 2)
+      for (std::size_t j = 0; j < 2; ++j) sum[j] += c[i + j] * w[i + j];
+    const double whole = sum[0] + sum[1];
+    y[k * stride] = first ? whole : y[k * stride] + whole;
+  }
+  std::copy_n(w.begin(), n, operators);
+}
+
+template <std::size_t size, play::Sides sides>
+void pass_group(std::size_t n, const double* thresholds, const double* weights, double* operators, const double* u,
+                double* y, std::ptrdiff_t stride, std::ptrdiff_t rows, bool first) {
+  if constexpr (size > 2)
+    if (n <= size - 2) return pass_group<size - 2, sides>(n, thresholds, weights, operators, u, y, stride, rows, first);
+  pass_rows<size, sides>(n, thresholds, weights, operators, u, y, stride, rows, first);
+}
+
+}  // namespace detail
+
+/// advance() and output() for many rows of the input, one behind the other: y[k * stride] for u[k * stride], group
+/// after group of operators. The same numbers, to the last bit.
+inline void pass(play::Sides sides, std::span<const double> thresholds, std::span<const double> weights,
+                 double* operators, const double* u, double* y, std::ptrdiff_t stride, std::ptrdiff_t rows) {
+  for (std::size_t begin = 0; begin < thresholds.size(); begin += group) {
+    const std::size_t n = std::min(group, thresholds.size() - begin);
+    const auto one = sides == play::Sides::two ? &detail::pass_group<group, play::Sides::two>
+                                               : &detail::pass_group<group, play::Sides::one>;
+    one(n, thresholds.data() + begin, weights.data() + begin, operators + begin, u, y, stride, rows, begin == 0);
+  }
 }
 
 /// Output at the top of a loop 0 .. top from rest, one-sided operators: H(U) = sum c_i max(U - r_i, 0). Thesis

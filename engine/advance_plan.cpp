@@ -1,0 +1,205 @@
+#include "engine/advance_plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/path.h"
+#include "engine/steps.h"
+
+namespace hysteron {
+
+using steps::at;
+
+AdvancePlan::AdvancePlan(ProgramPointer p, std::vector<int> wanted)
+    : program(std::move(p)), signals(std::move(wanted)), graph(advance_graph(*program)) {
+  if (!graph.why_not.empty())
+    fail("not_exact", graph.why_not, "this diagram cannot be advanced row by row exactly", "use the method \"bdf\"");
+  find_needed();
+  build_levels();
+  find_curved();
+  find_behind();
+}
+
+void AdvancePlan::find_needed() {
+  needed_.assign(program->blocks.size(), false);
+  std::vector<int> todo = program->sampled_blocks;
+  for (const int s : signals) todo.push_back(block_of(s));
+  while (!todo.empty()) {
+    const int b = todo.back();
+    todo.pop_back();
+    if (needed_[at(b)]) continue;
+    needed_[at(b)] = true;
+    for (const int s : block(b).source) todo.push_back(block_of(s));
+  }
+}
+
+std::vector<int> AdvancePlan::blocks_in_value_order() const {
+  std::vector<int> order;
+  for (const int b : program->value_order)
+    if (needed_[at(b)]) order.push_back(b);
+  return order;
+}
+
+void AdvancePlan::build_levels() {
+  const auto order = blocks_in_value_order();
+  int deepest = 0;
+  for (const int b : order) deepest = std::max(deepest, graph.depth[at(b)]);
+  levels.resize(at(deepest) + 1);
+  const auto add_signals = [&](int b, std::vector<int>& list) {
+    for (int o = 0; o < block(b).sizes.outputs; ++o) list.push_back(block(b).y_begin + o);
+  };
+  const auto turns = turns_before_memory(*program);
+  for (const int b : order) {
+    switch (role(b)) {
+      case AdvanceRole::source:
+        (block(b).series_index >= 0 ? series : constants).push_back(b);
+        if (block(b).series_index < 0) break;
+        add_signals(b, series_signals);
+        series_turn = series_turn || turns[at(b)];
+        break;
+      case AdvanceRole::sampled:
+        add_signals(b, sampled_signals);
+        sampled_turn = sampled_turn || turns[at(b)];
+        break;
+      case AdvanceRole::nonlinear:
+        levels[at(graph.depth[at(b)])].nonlinear.push_back(b);
+        has_histories = has_histories || block(b).history_index >= 0;
+        has_own_rest = has_own_rest || (has_states(b) && !is_rate_independent(b));
+        if (!graph.echoes[at(b)]) break;
+        delays.push_back(b);
+        add_signals(b, series_signals);
+        series_turn = series_turn || turns[at(b)];
+        break;
+      case AdvanceRole::momentary:
+        momentary.push_back(b);
+        break;
+      case AdvanceRole::linear:
+        break;
+    }
+  }
+  for (int d = 0; d <= deepest; ++d) group_linear(d, order);
+}
+
+/// Linear blocks of one depth that are wired together become one part.
+void AdvancePlan::group_linear(int d, const std::vector<int>& order) {
+  std::vector<int> parent(program->blocks.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int b) {
+    while (parent[at(b)] != b) b = parent[at(b)];
+    return b;
+  };
+  const auto here = [&](int b) { return needed_[at(b)] && role(b) == AdvanceRole::linear && graph.depth[at(b)] == d; };
+  for (const int b : order)
+    if (here(b))
+      for (const int s : block(b).source)
+        if (here(block_of(s))) parent[at(root(b))] = root(block_of(s));
+  std::vector<int> roots;
+  for (const int b : order)
+    if (here(b) && std::find(roots.begin(), roots.end(), root(b)) == roots.end()) roots.push_back(root(b));
+  for (const int r : roots) {
+    std::vector<int> members;
+    for (const int b : order)
+      if (here(b) && root(b) == r) members.push_back(b);
+    levels[at(d)].linear.push_back(static_cast<int>(parts.size()));
+    parts.emplace_back(*program, members, outside_readers(members));
+  }
+}
+
+std::vector<int> AdvancePlan::outside_readers(const std::vector<int>& members) const {
+  std::vector<int> outputs;
+  const auto inside = [&](int b) { return std::find(members.begin(), members.end(), b) != members.end(); };
+  const auto add = [&](int s) {
+    if (inside(block_of(s)) && std::find(outputs.begin(), outputs.end(), s) == outputs.end()) outputs.push_back(s);
+  };
+  for (const int s : signals) add(s);
+  for (const int s : graph.hit_signals) add(s);
+  for (std::size_t b = 0; b < program->blocks.size(); ++b)
+    if (needed_[b] && !inside(static_cast<int>(b)))
+      for (const int s : program->blocks[b].source) add(s);
+  return outputs;
+}
+
+bool AdvancePlan::any_source(int b, const std::vector<bool>& marked) const {
+  return std::any_of(block(b).source.begin(), block(b).source.end(), [&](int s) { return marked[at(s)]; });
+}
+
+void AdvancePlan::mark(int b, std::vector<bool>& marked, bool value) const {
+  for (int o = 0; o < block(b).sizes.outputs; ++o) marked[at(block(b).y_begin + o)] = value;
+}
+
+/// A signal moves between points if a recorded input or a state stands before it; it is curved there if a state or a
+/// delay does. Substeps matter where a curved or kinked signal drives states, or a curved one drives memory (an
+/// extreme inside a row), and for nonlinear states, whatever drives them.
+void AdvancePlan::find_curved() {
+  curved_.assign(program->signals.size(), false);
+  moves_ = kinked_ = curved_;
+  for (const int b : series) mark(b, moves_, true);
+  for (std::size_t d = 0; d < levels.size(); ++d) {
+    for (const int i : levels[d].linear)
+      if (parts[at(i)].has_states())
+        for (const int s : parts[at(i)].input_signals())
+          if (curved_[at(s)] || kinked_[at(s)]) no_substeps_needed = false;
+    mark_linear(static_cast<int>(d));
+    for (const int b : levels[d].nonlinear) {
+      const bool any_curved = any_source(b, curved_);
+      const bool remembers = block(b).sizes.memory > 0 || block(b).history_index >= 0;
+      if (has_states(b) || (any_curved && remembers)) no_substeps_needed = false;
+      const bool any_moves = any_source(b, moves_) || (has_states(b) && !is_rate_independent(b));
+      mark(b, moves_, any_moves);
+      mark(b, kinked_, any_moves);
+      mark(b, curved_, any_curved || (has_states(b) && any_moves));
+    }
+  }
+}
+
+void AdvancePlan::mark_linear(int d) {
+  for (const int b : blocks_in_value_order()) {
+    if (role(b) != AdvanceRole::linear || graph.depth[at(b)] != d) continue;
+    const bool states = block(b).sizes.states > 0;
+    mark(b, curved_, states || any_source(b, curved_));
+    mark(b, moves_, states || any_source(b, moves_));
+    mark(b, kinked_, any_source(b, kinked_));
+  }
+}
+
+void AdvancePlan::find_behind() {
+  for (auto& level : levels) {
+    for (const int i : level.linear) {
+      const auto& inputs = parts[at(i)].input_signals();
+      if (std::any_of(inputs.begin(), inputs.end(), [&](int s) { return graph.jumps[at(s)]; }))
+        level.linear_behind.push_back(i);
+    }
+    for (const int b : level.nonlinear)
+      if (any_source(b, graph.jumps)) level.nonlinear_behind.push_back(b);
+  }
+  for (const int b : momentary)
+    if (any_source(b, graph.jumps)) momentary_behind.push_back(b);
+  for (const Step& step : graph.hit_steps) {
+    if (step.order == Order::loop)
+      for (const int b : program->loops[at(step.block)].blocks) needs_states |= block(b).sizes.states > 0;
+    else
+      needs_states |= block(step.block).sizes.states > 0;
+  }
+}
+
+bool AdvancePlan::is_plain(const Run& run) const {
+  return program->sampled_blocks.empty() && momentary.empty() && !(sources_jump(run) && (has_histories || series_turn));
+}
+
+bool AdvancePlan::sources_jump(const Run& run) const {
+  return std::any_of(series.begin(), series.end(),
+                     [&](int b) { return run.series[at(block(b).series_index)]->between == Between::hold; });
+}
+
+std::vector<double> AdvancePlan::delays_of(const Run& run) const {
+  std::vector<double> list;
+  for (const int b : delays)
+    if (block(b).kernel->reach_back) list.push_back(block(b).kernel->reach_back(view_of(*program, run, b)));
+  return list;
+}
+
+bool AdvancePlan::has_corners() const {
+  return std::any_of(momentary.begin(), momentary.end(), [&](int b) { return block(b).kernel->next_corner; });
+}
+
+}  // namespace hysteron

@@ -1,0 +1,210 @@
+#include "engine/advance_state.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/advance_points.h"
+#include "engine/path.h"
+#include "engine/simulate.h"
+#include "engine/steps.h"
+
+namespace hysteron {
+
+using steps::at;
+
+AdvanceState::AdvanceState(const AdvancePlan& plan)
+    : work(*plan.program),
+      y(work.y),
+      x(at(plan.program->n_x)),
+      parts(plan.parts),
+      plan_(plan),
+      program_(*plan.program),
+      inputs_(2 * at(program_.n_u)),
+      input_places_(at(program_.n_u)),
+      output_places_(at(program_.n_y)) {
+  std::size_t scratch = 0;
+  for (const auto& b : program_.blocks)
+    scratch = std::max(scratch, RowsView::scratch_size(b.n_u, b.sizes.states, b.sizes.memory, b.sizes.outputs));
+  scratch_.resize(scratch);
+  for (std::size_t i = 0; i < input_places_.size(); ++i) input_places_[i] = inputs_.data() + 2 * i + 1;
+  for (std::size_t i = 0; i < output_places_.size(); ++i) output_places_[i] = y.data() + i;
+}
+
+void AdvanceState::take(const Run& start, int path_steps) {
+  run = start;
+  x = run.x;
+  path_steps_ = path_steps;
+  hits = 0;
+}
+
+void AdvanceState::at_time(double t, double branch) {
+  run.branch = branch;
+  steps::begin(program_, run, work, t);
+  for (const int b : plan_.series)
+    y[at(plan_.block(b).y_begin)] = run.series[at(plan_.block(b).series_index)]->value(t, branch);
+}
+
+void AdvanceState::steps_value(int block) { steps::value(program_, work, block, x.data()); }
+
+void AdvanceState::look_back(int block, double t) {
+  const BlockInstance& b = plan_.block(block);
+  History& h = run.histories[at(b.history_index)];
+  const double u = y[at(b.source.front())];
+  if (h.t.empty()) h.before = u;
+  h.t.push_back(t);
+  h.u.push_back(u);
+  h.rate.push_back(std::numeric_limits<double>::quiet_NaN());
+  if (b.kernel->reach_back) steps::forget(h, t, b.kernel->reach_back(work.views[at(block)]));
+  evaluate(block);
+}
+
+/// Nonlinear blocks follow their inputs, h [s] behind the last point; memory is committed at once: every point of the
+/// advance is an accepted one.
+void AdvanceState::follow(int block, double t, double h) {
+  const BlockInstance& b = plan_.block(block);
+  if (b.history_index >= 0) return look_back(block, t);
+  if (b.sizes.states > 0) return move_states(block, h);
+  evaluate(block);
+  if (b.sizes.memory > 0) std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
+}
+
+void AdvanceState::move_states(int block, double h) {
+  const BlockInstance& b = plan_.block(block);
+  for (int i = 0; i < b.n_u; ++i) inputs_[2 * at(b.u_begin + i) + 1] = y[at(b.source[at(i)])];
+  RowsView rows;
+  rows.count = 1;
+  rows.views = &work.views[at(block)];
+  rows.u = input_places_.data() + b.u_begin;
+  rows.y = output_places_.data() + b.y_begin;
+  rows.x = x.data() + b.x_begin;
+  rows.m = run.m.data() + b.m_begin;
+  rows.h = &h;
+  rows.path_steps = path_steps_of(block);
+  rows.scratch = scratch_.data();
+  b.kernel->rows(rows);
+  remember_inputs(block);
+}
+
+void AdvanceState::remember_inputs(int block) {
+  const BlockInstance& b = plan_.block(block);
+  for (int i = 0; i < b.n_u; ++i) inputs_[2 * at(b.u_begin + i)] = y[at(b.source[at(i)])];
+}
+
+/// Before the first instant: a dead time has its input always been, and nothing is remembered yet.
+void AdvanceState::foresee(int block) {
+  if (plan_.block(block).history_index >= 0)
+    y[at(plan_.block(block).y_begin)] = y[at(plan_.block(block).source.front())];
+  else
+    evaluate(block);
+}
+
+void AdvanceState::start(std::span<const int> due, double t, double branch, bool at_rest, Sampling& sampling) {
+  if (at_rest && plan_.has_own_rest) {
+    run.branch = branch;
+    settle_at_rest(program_, run, t);
+    x = run.x;
+    at_rest = false;
+  }
+  at_time(t, branch);
+  for (const int b : plan_.constants) evaluate(b);
+  for (const int b : program_.sampled_blocks) evaluate(b);  // what they hold
+  const bool instant = !due.empty();
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) {
+      parts[at(i)].bind(program_, run);
+      parts[at(i)].start(program_, run, y, at_rest);
+    }
+    for (const int b : level.nonlinear) {
+      remember_inputs(b);  // nothing moves at the start
+      instant ? foresee(b) : follow(b, t, 0);
+    }
+  }
+  for (const int b : plan_.momentary) evaluate(b);
+  if (!instant) return;
+  sample(due, t, sampling);
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear) {
+      remember_inputs(b);
+      follow(b, t, 0);
+    }
+  }
+  for (const int b : plan_.momentary_behind) evaluate(b);
+}
+
+void AdvanceState::sample(std::span<const int> due, double t, Sampling& sampling) {
+  if (plan_.needs_states)
+    for (const auto& part : parts) part.store(program_, x);
+  hits += static_cast<long>(due.size());
+  sampling(run, work, t, x.data(), due, plan_.graph.hit_steps);
+  for (const int b : program_.sampled_blocks) evaluate(b);
+}
+
+void AdvanceState::step(double t, double h, double branch) {
+  at_time(t, branch);
+  const double rounding = rounding_of(t);
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].step(h, rounding, y);
+    for (const int b : level.nonlinear) follow(b, t, h > rounding ? h : 0);
+  }
+}
+
+/// Everything behind sources that have jumped; with_delays: dead times, too, whose own outputs may have jumped.
+void AdvanceState::pass_on(double t, bool with_delays) {
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear)
+      if (with_delays || plan_.block(b).history_index < 0) follow(b, t, 0);
+  }
+}
+
+void AdvanceState::pass_on_samples(double t, bool with_delays) {
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear_behind) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear_behind)
+      if (with_delays || plan_.block(b).history_index < 0) follow(b, t, 0);
+  }
+}
+
+/// Memory behind a bend follows the jump of `jumping` from `from_` to their present values in pieces, but for the
+/// last.
+template <class PassOn>
+void AdvanceState::walk(const std::vector<int>& jumping, PassOn pass) {
+  to_.clear();
+  bool any = false;
+  for (std::size_t i = 0; i < jumping.size(); ++i) {
+    to_.push_back(y[at(jumping[i])]);
+    any = any || to_[i] != from_[i];
+  }
+  if (!any) return;
+  for (int k = 1; k < jump_pieces; ++k) {
+    for (std::size_t i = 0; i < jumping.size(); ++i)
+      y[at(jumping[i])] = from_[i] + (to_[i] - from_[i]) * k / jump_pieces;
+    pass();
+  }
+  for (std::size_t i = 0; i < jumping.size(); ++i) y[at(jumping[i])] = to_[i];
+}
+
+void AdvanceState::remember_from(const std::vector<int>& jumping) {
+  from_.clear();
+  for (const int s : jumping) from_.push_back(y[at(s)]);
+}
+
+void AdvanceState::jump(double t, double branch) {
+  if (plan_.series_turn) remember_from(plan_.series_signals);
+  at_time(t, branch);
+  if (plan_.series_turn) {
+    for (const int b : plan_.delays) evaluate(b);
+    walk(plan_.series_signals, [&] { pass_on(t, false); });
+  }
+  pass_on(t, true);
+}
+
+void AdvanceState::hit(std::span<const int> due, double t, Sampling& sampling) {
+  if (plan_.sampled_turn) remember_from(plan_.sampled_signals);
+  sample(due, t, sampling);
+  if (plan_.sampled_turn) walk(plan_.sampled_signals, [&] { pass_on_samples(t, false); });
+  pass_on_samples(t, true);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,152 @@
+// The linear part row after row: everything that does not change from row to row is laid out once, in the order in
+// which it is read. The states of up to eight are kept in pairs, with which processors calculate at once; sums of even
+// and odd columns stand side by side, so that none waits for all before it.
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "engine/linear_part.h"
+
+namespace hysteron {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using Pair [[gnu::vector_size(16)]] = double;
+
+inline Pair pair_at(const double* from) {
+  Pair p;
+  std::memcpy(&p, from, sizeof p);
+  return p;
+}
+inline Pair twice(double a) { return Pair{a, a}; }
+
+}  // namespace
+
+void LinearPart::make_packed(int kind, double h) {
+  if (packed_.size() <= at(kind)) packed_.resize(at(kind) + 1);
+  Packed& p = packed_[at(kind)];
+  if (!p.numbers.empty() && p.h == h) return;
+  if (p.numbers.empty()) ++packed_count_;
+  const Step s = make_step(h);
+  p.h = h;
+  p.numbers.assign(padded_ * (1 + 2 * inputs_.size() + at(n_)), 0.0);
+  std::size_t column = 0;
+  const auto add = [&](const auto& numbers) {
+    for (int i = 0; i < n_; ++i) p.numbers[column * padded_ + at(i)] = numbers(i);
+    ++column;
+  };
+  add(s.input.col(s.input.cols() - 1));
+  for (Eigen::Index i = 0; i + 1 < s.input.cols(); ++i) {
+    add(s.input.col(i) - s.ramp.col(i));
+    add(s.ramp.col(i));
+  }
+  for (Eigen::Index i = 0; i < n_; ++i) add(s.state.col(i));
+}
+
+template <int size>
+void LinearPart::pass_of(const RowsOfPart& rows) {
+  constexpr int pairs = (size + 1) / 2, padded = 2 * pairs;
+  const std::size_t inputs = inputs_.size(), outputs = outputs_.size();
+  std::array<double, padded> start{};
+  std::copy_n(x_.data(), size, start.begin());
+  std::array<Pair, pairs> x;
+  for (int j = 0; j < pairs; ++j) x[at(j)] = pair_at(start.data() + 2 * j);
+  for (int k = 0; k < rows.count; ++k) {
+    const std::ptrdiff_t place = k * rows.stride;
+    if (const int kind = rows.kind[k]; kind >= 0) {
+      const double* column = packed_[at(kind)].numbers.data();
+      std::array<Pair, pairs> even, odd{};
+      for (int j = 0; j < pairs; ++j) even[at(j)] = pair_at(column + 2 * j);
+      column += padded;
+      for (std::size_t i = 0; i < inputs; ++i, column += 2 * padded) {
+        const Pair before = twice(rows.w[i][place - rows.stride]), now = twice(rows.w[i][place]);
+        for (int j = 0; j < pairs; ++j)
+          even[at(j)] += pair_at(column + 2 * j) * before + pair_at(column + padded + 2 * j) * now;
+      }
+      for (int i = 0; i < size; ++i, column += padded) {
+        const Pair state = twice(x[at(i / 2)][i % 2]);
+        auto& sum = i % 2 == 0 ? even : odd;
+        for (int j = 0; j < pairs; ++j) sum[at(j)] += pair_at(column + 2 * j) * state;
+      }
+      for (int j = 0; j < pairs; ++j) x[at(j)] = even[at(j)] + odd[at(j)];
+    }
+    for (std::size_t o = 0; o < outputs; ++o) {
+      const double* d = d_rows_.data() + o * (inputs + 1);
+      const double* c = c_rows_.data() + o * padded;
+      double direct = d[inputs];
+      for (std::size_t i = 0; i < inputs; ++i) direct += d[i] * rows.w[i][place];
+      Pair sum = pair_at(c) * x[0];
+      for (int j = 1; j < pairs; ++j) sum += pair_at(c + 2 * j) * x[at(j)];
+      rows.y[o][place] = direct + (sum[0] + sum[1]);
+    }
+  }
+  for (int i = 0; i < size; ++i) x_[i] = x[at(i / 2)][i % 2];
+}
+
+/// Any number of states, none included.
+void LinearPart::pass_large(const RowsOfPart& rows) {
+  const std::size_t n = at(n_), inputs = inputs_.size(), outputs = outputs_.size();
+  double* x = row_scratch_.data();
+  double* next = x + padded_;
+  std::copy_n(x_.data(), n, x);
+  for (int k = 0; k < rows.count; ++k) {
+    const std::ptrdiff_t place = k * rows.stride;
+    if (const int kind = rows.kind[k]; kind >= 0 && n > 0) {
+      const double* column = packed_[at(kind)].numbers.data();
+      std::copy_n(column, padded_, next);
+      column += padded_;
+      for (std::size_t i = 0; i < inputs; ++i, column += 2 * padded_) {
+        const double before = rows.w[i][place - rows.stride], now = rows.w[i][place];
+        for (std::size_t j = 0; j < padded_; ++j) next[j] += column[j] * before + column[padded_ + j] * now;
+      }
+      for (std::size_t i = 0; i < n; ++i, column += padded_)
+        for (std::size_t j = 0; j < padded_; ++j) next[j] += column[j] * x[i];
+      std::swap(x, next);
+    }
+    for (std::size_t o = 0; o < outputs; ++o) {
+      const double* d = d_rows_.data() + o * (inputs + 1);
+      const double* c = c_rows_.data() + o * padded_;
+      double sum = d[inputs];
+      for (std::size_t i = 0; i < inputs; ++i) sum += d[i] * rows.w[i][place];
+      for (std::size_t i = 0; i < n; ++i) sum += c[i] * x[i];
+      rows.y[o][place] = sum;
+    }
+  }
+  std::copy_n(x, n, x_.data());
+}
+
+void LinearPart::pass(const RowsOfPart& rows) {
+  if (packed_count_ > most_steps_kept) {
+    for (auto& p : packed_) p = {};
+    packed_count_ = 0;
+  }
+  if (n_ > 0)
+    for (int k = 0, last = -1; k < rows.count; ++k)
+      if (const int kind = rows.kind[k]; kind >= 0 && kind != last) {
+        make_packed(kind, (*rows.lengths)[at(kind)] / rows.substeps);
+        last = kind;
+      }
+  switch (n_) {
+    case 1:
+      return pass_of<1>(rows);
+    case 2:
+      return pass_of<2>(rows);
+    case 3:
+      return pass_of<3>(rows);
+    case 4:
+      return pass_of<4>(rows);
+    case 5:
+      return pass_of<5>(rows);
+    case 6:
+      return pass_of<6>(rows);
+    case 7:
+      return pass_of<7>(rows);
+    case 8:
+      return pass_of<8>(rows);
+    default:
+      return pass_large(rows);
+  }
+}
+
+}  // namespace hysteron
