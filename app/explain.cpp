@@ -297,15 +297,15 @@ class Explanation {
 
   std::string exact_because() const {
     return program_.sampled_blocks.empty()
-               ? "every source is a recording, everything else static, with memory, or linear"
-               : "between instants only recordings move what is static, with memory, or linear";
+               ? "every source is a recording, and no block changes its mode"
+               : "between instants nothing but recordings moves what remembers, and no block changes its mode";
   }
 
   void print_solver() {
     head("solver");
     SimulateOptions options = simulate_options(program_);
     const std::string reason = why_not_exactly(options);
-    const bool exact = reason.empty() && (options.method == Method::automatic || options.method == Method::exact);
+    const bool exact = reason.empty() && advances_exactly(program_, options);
     Rows rows;
     const bool asked = options.method != Method::automatic;
     MethodChoice choice{options.method, "as the diagram says"};

@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   hysteron::benchmarks::register_open_loop();
   hysteron::benchmarks::register_chains();
   hysteron::benchmarks::register_creep();
+  hysteron::benchmarks::register_lanes();
   hysteron::benchmarks::register_evaluation();
   hysteron::benchmarks::register_sampled_loop();
   benchmark::Initialize(&count, arguments.data());

@@ -12,6 +12,7 @@ void register_closed_loop();   ///< WORKLOADS W1: CVODE, and Runge-Kutta with a 
 void register_open_loop();     ///< W2: 10 and 80 play operators on a recorded input
 void register_chains();        ///< W3: chains of 10, 100, 1000 lags
 void register_creep();         ///< a plant with relaxations on 20 000 recorded rows
+void register_lanes();         ///< value and slopes of a law on a recording, runs side by side
 void register_evaluation();    ///< one evaluation of a diagram, per block
 void register_sampled_loop();  ///< 10 kHz PI, Jiles-Atherton inverse, plant
 

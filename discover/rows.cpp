@@ -1,6 +1,8 @@
 // Decides how signals of a program are simulated at given times. See rows.h.
 #include "discover/rows.h"
 
+#include <optional>
+
 #include "engine/advance.h"
 #include "engine/simulate.h"
 
@@ -11,12 +13,14 @@ std::vector<std::vector<double>> simulate_rows(const ProgramPointer& program, co
                                                bool at_rest) {
   Run run = start(*program);
   for (std::size_t i = 0; i < inputs.size(); ++i) bind_input(*program, run, program->input_names[i], inputs[i]);
-  if (why_not_exact(*program).empty()) {
+  std::optional<Advance> advance;
+  if (why_not_exact(*program).empty()) advance.emplace(program, signals);
+  if (advance && !advance->integrates()) {  // states that are not linear need steps that suit them
     std::vector<std::vector<double>> values;
     AdvanceOptions options;
     options.at_rest = at_rest;
     options.substeps = 2;  // range, holds and differences of two models need no last digit
-    Advance(program, signals)(run, t, options, values);
+    (*advance)(run, t, options, values);
     return values;
   }
   SimulateOptions options;

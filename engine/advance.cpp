@@ -6,9 +6,10 @@
 // linear system (LinearPart): between them no nonlinear block can stand, so cascades and loops of linear blocks,
 // algebraic ones too, are exact. A row is one pass over the depths: the linear systems step with their inputs moving
 // linearly, then the nonlinear blocks of that depth follow, their states by the Runge-Kutta formula of order four
-// (rows.h). A signal behind a nonlinear block is taken as linear between substeps, which, with that formula, is the
-// only approximation; the caller doubles the substeps until nothing changes. What stands still between the instants of
-// sampled blocks stands still behind a nonlinear block, too: no substeps.
+// (rows.h). Feedback loops with nonlinear blocks move as a whole, by the same formula along the program's own steps,
+// and count as one nonlinear block. A signal behind a nonlinear block is taken as linear between substeps, which, with
+// that formula, is the only approximation; the caller doubles the substeps until nothing changes. What stands still
+// between the instants of sampled blocks stands still behind a nonlinear block, too: no substeps.
 //
 // At a point (a row, a sampling instant, an echo of one behind a dead time), in the order of events.h: step up to it;
 // sources jump; sampled blocks that are due run (sampling.h); their jumps reach everything behind them at once, and
@@ -52,6 +53,16 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(sum.begin(), sum.end(), [](double s) { return s == 0; });
 }
 
+template <class Work>
+std::string text_of_failure(const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string why_not_exact(const Program& program) { return advance_graph(program).why_not; }
@@ -64,6 +75,9 @@ struct Advance::Content {
   AdvanceRows rows;
   Sampling sampling;
   std::optional<Schedule> schedule;
+  // Made when several runs come at once.
+  std::vector<std::unique_ptr<AdvanceState>> beside;
+  std::optional<AdvanceRows> wide;
 
   Content(ProgramPointer program, std::vector<int> signals)
       : plan(std::move(program), std::move(signals)), state(plan), rows(plan, 1), sampling(*plan.program) {}
@@ -98,15 +112,39 @@ struct Advance::Content {
     if (!schedule || !schedule->is_for(instants, series)) schedule.emplace(instants, std::move(series));
   }
 
+  void start_rows(AdvanceState& s, const Run& run, const AdvanceOptions& options) {
+    s.take(run, path_steps * std::max(1, options.substeps));
+    s.start({}, schedule->t.front(), schedule->start_branch, options.at_rest, sampling);
+  }
+
   void advance_rows(const Run& run, const Instants& instants, const AdvanceOptions& options, Values& values) {
     keep_schedule(run, instants);
     const int substeps = std::max(1, options.substeps);
-    state.take(run, path_steps * substeps);
-    state.start({}, schedule->t.front(), schedule->start_branch, options.at_rest, sampling);
+    start_rows(state, run, options);
     AdvanceState* const states[] = {&state};
     Values* const lanes[] = {&values};
     rows(states, *schedule, substeps, lanes);
   }
+
+  void size(Values& values, const Instants& instants) const {
+    values.resize(plan.signals.size());
+    for (auto& v : values) v.resize(instants->size());
+  }
+
+  void one(const Run& run, const Instants& instants, const AdvanceOptions& options, Values& values) {
+    size(values, instants);
+    if (instants->empty()) return;
+    check_bound(run);
+    if (plan.is_plain(run))
+      advance_rows(run, instants, options, values);
+    else
+      advance_points(run, *instants, options, values);
+    check_finite(values, *instants);
+  }
+
+  bool can_go_side_by_side(std::span<const Run* const> runs) const;
+  void side_by_side(std::span<const Run* const> runs, const Instants& instants, const AdvanceOptions& options,
+                    std::span<Values> values, std::span<std::string> errors);
 
   void advance_points(const Run& start, std::span<const double> instants, const AdvanceOptions& options,
                       Values& values);
@@ -163,6 +201,41 @@ void Advance::Content::advance_points(const Run& start, std::span<const double> 
   }
 }
 
+bool Advance::Content::can_go_side_by_side(std::span<const Run* const> runs) const {
+  const Run& first = *runs.front();
+  const auto bound = [](const SeriesPointer& s) { return s != nullptr; };
+  return std::all_of(first.series.begin(), first.series.end(), bound) && plan.is_plain(first) &&
+         std::all_of(runs.begin(), runs.end(), [&](const Run* run) { return run->series == first.series; });
+}
+
+/// As many runs as there are lanes, or fewer: the lanes that are left carry the numbers of the first.
+void Advance::Content::side_by_side(std::span<const Run* const> runs, const Instants& instants,
+                                    const AdvanceOptions& options, std::span<Values> values,
+                                    std::span<std::string> errors) {
+  if (!wide) {
+    wide.emplace(plan, RowsView::most_lanes);
+    for (int l = 1; l < RowsView::most_lanes; ++l) beside.push_back(std::make_unique<AdvanceState>(plan));
+  }
+  keep_schedule(*runs.front(), instants);
+  std::array<AdvanceState*, RowsView::most_lanes> states{};
+  std::array<Values*, RowsView::most_lanes> lanes{};
+  std::array<std::size_t, RowsView::most_lanes> run_of{};
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    states[n] = n == 0 ? &state : beside[n - 1].get();
+    lanes[n] = &values[i];
+    run_of[n] = i;
+    size(values[i], instants);
+    errors[i] = text_of_failure([&] {
+      start_rows(*states[n], *runs[i], options);
+      ++n;
+    });
+  }
+  if (n == 0) return;
+  (*wide)(std::span(states).first(n), *schedule, std::max(1, options.substeps), std::span(lanes).first(n));
+  for (std::size_t l = 0; l < n; ++l) errors[run_of[l]] = text_of_failure([&] { check_finite(*lanes[l], *instants); });
+}
+
 Advance::Advance(ProgramPointer program, std::vector<int> signals)
     : content_(std::make_unique<Content>(std::move(program), std::move(signals))) {}
 Advance::~Advance() = default;
@@ -170,20 +243,12 @@ Advance::Advance(Advance&&) noexcept = default;
 Advance& Advance::operator=(Advance&&) noexcept = default;
 
 bool Advance::exact_without_substeps() const { return content_->plan.no_substeps_needed; }
+bool Advance::integrates() const { return content_->plan.integrates; }
 long Advance::samples() const { return content_->state.hits; }
 
 void Advance::operator()(const Run& run, const Instants& instants, const AdvanceOptions& options,
                          std::vector<std::vector<double>>& values) {
-  Content& c = *content_;
-  values.resize(c.plan.signals.size());
-  for (auto& v : values) v.resize(instants->size());
-  if (instants->empty()) return;
-  c.check_bound(run);
-  if (c.plan.is_plain(run))
-    c.advance_rows(run, instants, options, values);
-  else
-    c.advance_points(run, *instants, options, values);
-  c.check_finite(values, *instants);
+  content_->one(run, instants, options, values);
 }
 
 void Advance::operator()(const Run& run, std::span<const double> instants, const AdvanceOptions& options,
@@ -193,6 +258,27 @@ void Advance::operator()(const Run& run, std::span<const double> instants, const
       known && std::equal(instants.begin(), instants.end(), known->instants->begin(), known->instants->end());
   (*this)(run, same ? known->instants : std::make_shared<const std::vector<double>>(instants.begin(), instants.end()),
           options, values);
+}
+
+std::vector<std::string> Advance::each(std::span<const Run* const> runs, const Instants& instants,
+                                       const AdvanceOptions& options,
+                                       std::vector<std::vector<std::vector<double>>>& values) {
+  Content& c = *content_;
+  constexpr std::size_t lanes = RowsView::most_lanes;
+  values.resize(runs.size());
+  std::vector<std::string> errors(runs.size());
+  for (std::size_t first = 0; first < runs.size();) {
+    const std::size_t n = std::min(lanes, runs.size() - first);
+    const auto some = runs.subspan(first, n);
+    // Two runs take less time one after the other than four lanes.
+    if (n + 1 >= lanes && !instants->empty() && c.can_go_side_by_side(some))
+      c.side_by_side(some, instants, options, std::span(values).subspan(first, n), std::span(errors).subspan(first, n));
+    else
+      for (std::size_t i = first; i < first + n; ++i)
+        errors[i] = text_of_failure([&] { c.one(*runs[i], instants, options, values[i]); });
+    first += n;
+  }
+  return errors;
 }
 
 }  // namespace hysteron

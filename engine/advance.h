@@ -43,9 +43,19 @@ class Advance {
   void operator()(const Run& run, std::span<const double> instants, const AdvanceOptions& options,
                   std::vector<std::vector<double>>& values);
 
+  /// Several runs of the program, side by side where they see nothing but rows: the same numbers as one after the
+  /// other, to the last bit. Inputs are bound to the same recordings in all of them. values[run][signal][instant] [SI].
+  /// Never throws for a run that fails; one text per run, "" or why.
+  std::vector<std::string> each(std::span<const Run* const> runs, const Instants& instants,
+                                const AdvanceOptions& options, std::vector<std::vector<std::vector<double>>>& values);
+
   /// True if substeps cannot change the result: no nonlinear block feeds a linear part with states, and no nonlinear
   /// block has states.
   bool exact_without_substeps() const;
+
+  /// Some states are not linear, or stand in a loop with nonlinear blocks: where these are stiff no number of substeps
+  /// that pays may suffice.
+  bool integrates() const;
 
   long samples() const;  ///< runs of sampled blocks in the last advance
 

@@ -105,19 +105,36 @@ class Builder {
     for (const auto& component : components()) {  // sources first
       const bool loop = component.size() > 1 || reads_itself(component.front());
       int d = 0;
+      if (loop &&
+          std::any_of(component.begin(), component.end(), [&](int b) { return role(b) != AdvanceRole::linear; })) {
+        for (const int b : component) refuse(block(b), why_not_looped(b));
+        for (const int b : component) role(b) = AdvanceRole::looped;
+        graph_.loops.push_back(component);
+      }
       for (const int b : component) {
-        if (loop && role(b) != AdvanceRole::linear)
-          refuse(block(b),
-                 fmt::format("{} \"{}\" {} and stands in a feedback loop", type_of(block(b)), block(b).path,
-                             role(b) == AdvanceRole::momentary ? "follows a function of time" : "is nonlinear"));
         for (const int s : reads(b)) {
           const int from = block_of(s);
           if (std::find(component.begin(), component.end(), from) == component.end())
-            d = std::max(d, graph_.depth[at(from)] + (role(from) == AdvanceRole::nonlinear ? 1 : 0));
+            d = std::max(d, graph_.depth[at(from)] + (is_bent(from) ? 1 : 0));
         }
       }
       for (const int b : component) graph_.depth[at(b)] = d;
     }
+  }
+
+  bool is_bent(int b) { return role(b) == AdvanceRole::nonlinear || role(b) == AdvanceRole::looped; }
+
+  std::string why_not_looped(int b) {
+    const auto in_loop = [&](const char* what) {
+      return fmt::format("{} \"{}\" {} and stands in a feedback loop", type_of(block(b)), block(b).path, what);
+    };
+    if (role(b) == AdvanceRole::momentary) return in_loop("follows a function of time");
+    if (block(b).history_index >= 0) return in_loop("is a dead time");
+    for (const Loop& loop : program_.loops)
+      if (std::find(loop.blocks.begin(), loop.blocks.end(), b) != loop.blocks.end())
+        return fmt::format("{} \"{}\" stands in a feedback loop with nonlinear blocks that is an algebraic loop",
+                           type_of(block(b)), block(b).path);
+    return "";
   }
 
   bool reads_itself(int b) const {

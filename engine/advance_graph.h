@@ -14,15 +14,17 @@ enum class AdvanceRole {
   sampled,    ///< holds between its instants: a source that jumps
   linear,     ///< linear time-invariant, with or without states
   nonlinear,  ///< static, memory, dead time, states of their own
+  looped,     ///< in a feedback loop with nonlinear blocks
   momentary   ///< follows a function of time and drives nothing that remembers: asked for at instants and rows only
 };
 
 struct AdvanceGraph {
-  std::string why_not{};            ///< "" or the block that stands in the way and why; then the rest is empty
-  std::string in_the_way{};         ///< path of that block
-  std::vector<AdvanceRole> role{};  ///< per block
-  std::vector<int> depth{};         ///< per block: nonlinear blocks in a row before it, see advance.cpp
-  std::vector<bool> jumps{};        ///< per signal: may jump at a sampling instant
+  std::string why_not{};                  ///< "" or the block that stands in the way and why; then the rest is empty
+  std::string in_the_way{};               ///< path of that block
+  std::vector<AdvanceRole> role{};        ///< per block
+  std::vector<std::vector<int>> loops{};  ///< blocks of each feedback loop with nonlinear blocks
+  std::vector<int> depth{};               ///< per block: nonlinear blocks in a row before it, see advance.cpp
+  std::vector<bool> jumps{};              ///< per signal: may jump at a sampling instant
   std::vector<bool> echoes{};      ///< per block: a dead time whose input may jump, at an instant or behind another one
   std::vector<Step> hit_steps{};   ///< of Program::hit_values: sampled blocks and what stands between them
   std::vector<int> hit_signals{};  ///< what these steps read

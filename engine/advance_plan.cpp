@@ -65,6 +65,7 @@ void AdvancePlan::build_levels() {
         levels[at(graph.depth[at(b)])].nonlinear.push_back(b);
         has_histories = has_histories || block(b).history_index >= 0;
         has_own_rest = has_own_rest || (has_states(b) && !is_rate_independent(b));
+        integrates = integrates || has_states(b);
         if (!graph.echoes[at(b)]) break;
         delays.push_back(b);
         add_signals(b, series_signals);
@@ -74,10 +75,45 @@ void AdvancePlan::build_levels() {
         momentary.push_back(b);
         break;
       case AdvanceRole::linear:
+      case AdvanceRole::looped:
         break;
     }
   }
+  for (const auto& b : program->blocks)
+    rate_independent.push_back(b.kernel->declaration.is_rate_independent && b.sizes.states > 0);
+  jumping.assign(program->blocks.size(), 0);
+  for (const auto& blocks : graph.loops) {
+    if (!needed_[at(blocks.front())]) continue;
+    levels[at(graph.depth[at(blocks.front())])].loops.push_back(static_cast<int>(loops.size()));
+    loops.push_back(looped_part(blocks));
+    const auto& states = loops.back().states;
+    has_own_rest = has_own_rest || !states.empty();
+    integrates = integrates || !states.empty();
+  }
   for (int d = 0; d <= deepest; ++d) group_linear(d, order);
+}
+
+AdvancePlan::LoopedPart AdvancePlan::looped_part(const std::vector<int>& blocks) const {
+  LoopedPart part;
+  part.blocks = blocks;
+  const auto inside = [&](int b) { return std::find(blocks.begin(), blocks.end(), b) != blocks.end(); };
+  const auto take = [&](const std::vector<Step>& from, std::vector<Step>& to) {
+    for (const Step& step : from)
+      if (step.order != Order::loop && inside(step.block)) to.push_back(step);
+  };
+  take(program->derivative_steps, part.derivatives);
+  take(program->all_values, part.values);
+  for (const int block_in_loop : blocks) {
+    const BlockInstance& b = block(block_in_loop);
+    for (int o = 0; o < b.sizes.outputs; ++o) part.outputs.push_back(b.y_begin + o);
+    for (int i = 0; i < b.sizes.states; ++i) part.states.push_back(b.x_begin + i);
+    if (b.sizes.memory > 0) part.memory.push_back(block_in_loop);
+    part.follows_jumps = part.follows_jumps || b.sizes.memory > 0 || rate_independent[at(block_in_loop)] != 0;
+    for (const int s : b.source)
+      if (!inside(block_of(s)) && std::find(part.inputs.begin(), part.inputs.end(), s) == part.inputs.end())
+        part.inputs.push_back(s);
+  }
+  return part;
 }
 
 /// Linear blocks of one depth that are wired together become one part.
@@ -123,6 +159,10 @@ bool AdvancePlan::any_source(int b, const std::vector<bool>& marked) const {
   return std::any_of(block(b).source.begin(), block(b).source.end(), [&](int s) { return marked[at(s)]; });
 }
 
+bool AdvancePlan::any_input(const LoopedPart& loop, const std::vector<bool>& marked) const {
+  return std::any_of(loop.inputs.begin(), loop.inputs.end(), [&](int s) { return marked[at(s)]; });
+}
+
 void AdvancePlan::mark(int b, std::vector<bool>& marked, bool value) const {
   for (int o = 0; o < block(b).sizes.outputs; ++o) marked[at(block(b).y_begin + o)] = value;
 }
@@ -149,6 +189,12 @@ void AdvancePlan::find_curved() {
       mark(b, kinked_, any_moves);
       mark(b, curved_, any_curved || (has_states(b) && any_moves));
     }
+    for (const int i : levels[d].loops) {
+      const auto& loop = loops[at(i)];
+      if (!loop.states.empty()) no_substeps_needed = false;
+      for (const int b : loop.blocks)
+        for (auto* marked : {&moves_, &kinked_, &curved_}) mark(b, *marked, true);
+    }
   }
 }
 
@@ -171,6 +217,8 @@ void AdvancePlan::find_behind() {
     }
     for (const int b : level.nonlinear)
       if (any_source(b, graph.jumps)) level.nonlinear_behind.push_back(b);
+    for (const int i : level.loops)
+      if (any_input(loops[at(i)], graph.jumps)) level.loops_behind.push_back(i);
   }
   for (const int b : momentary)
     if (any_source(b, graph.jumps)) momentary_behind.push_back(b);

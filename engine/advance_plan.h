@@ -15,8 +15,20 @@ struct AdvancePlan {
   struct Level {
     std::vector<int> linear;     ///< places in `parts`
     std::vector<int> nonlinear;  ///< blocks in value order
+    std::vector<int> loops;      ///< places in `loops`
     // Those that a jump of sampled blocks reaches at once.
-    std::vector<int> linear_behind, nonlinear_behind;
+    std::vector<int> linear_behind, nonlinear_behind, loops_behind;
+  };
+
+  /// A feedback loop with nonlinear blocks: its states move together, by the Runge-Kutta formula, along the program's
+  /// own steps.
+  struct LoopedPart {
+    std::vector<int> blocks;
+    std::vector<Step> derivatives, values;
+    std::vector<int> inputs, outputs;  ///< signals that it reads; all signals that it makes
+    std::vector<int> states;           ///< places in the states of the program
+    std::vector<int> memory;           ///< blocks
+    bool follows_jumps = false;        ///< something in it remembers the way of a jump
   };
 
   ProgramPointer program;
@@ -28,6 +40,9 @@ struct AdvancePlan {
   std::vector<int> series_signals, sampled_signals;
   std::vector<Level> levels;
   std::vector<LinearPart> parts;  ///< not bound to any numbers
+  std::vector<LoopedPart> loops;
+  std::vector<unsigned char> rate_independent, jumping;  ///< per block: states that move along a jump; nothing (path.h)
+  bool integrates = false;                               ///< some states are not linear
   bool no_substeps_needed = true;
   bool series_turn = false, sampled_turn = false;  ///< their jumps turn in front of memory: path.h
   bool needs_states = false;                       ///< sampling evaluates blocks with states
@@ -56,8 +71,10 @@ struct AdvancePlan {
   std::vector<int> blocks_in_value_order() const;
   void build_levels();
   void group_linear(int d, const std::vector<int>& order);
+  LoopedPart looped_part(const std::vector<int>& blocks) const;
   std::vector<int> outside_readers(const std::vector<int>& members) const;
   bool any_source(int b, const std::vector<bool>& marked) const;
+  bool any_input(const LoopedPart& loop, const std::vector<bool>& marked) const;
   void mark(int b, std::vector<bool>& marked, bool value) const;
   void find_curved();
   void mark_linear(int d);

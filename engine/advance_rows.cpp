@@ -26,6 +26,8 @@ AdvanceRows::AdvanceRows(const AdvancePlan& plan, int lanes)
   const std::size_t sources = signals_.size();
   for (const auto& level : plan_.levels)
     for (const int b : level.nonlinear) add(b);
+  for (const auto& loop : plan_.loops)
+    for (const int b : loop.blocks) add(b);
   for (const auto& part : plan_.parts)
     signals_.insert(signals_.end(), part.output_signals().begin(), part.output_signals().end());
   computed_.assign(at(program_.n_y), false);
@@ -50,25 +52,28 @@ AdvanceRows::AdvanceRows(const AdvancePlan& plan, int lanes)
 
 /// Row -1 of every signal is the start; constants stand in every row.
 void AdvanceRows::begin(std::span<AdvanceState* const> states, std::size_t rows) {
-  arena_.resize(signals_.size() * (rows + 1) * lanes_);
+  const auto state_of = [&](std::size_t lane) -> const AdvanceState& {
+    return *states[lane < states.size() ? lane : 0];
+  };
+  arena_.assign(signals_.size() * (rows + 1) * lanes_, 0.0);
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     double* row = arena_.data() + (i * (rows + 1) + 1) * lanes_;
     own_[at(signals_[i])] = row;
     in_[at(signals_[i])] = row;
     for (std::size_t l = 0; l < lanes_; ++l)
-      row[static_cast<std::ptrdiff_t>(l) - static_cast<std::ptrdiff_t>(lanes_)] = states[l]->y[at(signals_[i])];
+      row[static_cast<std::ptrdiff_t>(l) - static_cast<std::ptrdiff_t>(lanes_)] = state_of(l).y[at(signals_[i])];
   }
   for (const int b : plan_.constants)
     for (int s = plan_.block(b).y_begin; s < plan_.block(b).y_begin + plan_.block(b).sizes.outputs; ++s)
-      for (std::size_t k = 0; k < rows * lanes_; ++k) own_[at(s)][k] = states[k % lanes_]->y[at(s)];
+      for (std::size_t k = 0; k < rows * lanes_; ++k) own_[at(s)][k] = state_of(k % lanes_).y[at(s)];
   for (const auto& level : plan_.levels)
     for (const int block : level.nonlinear) {
       const BlockInstance& b = plan_.block(block);
       const auto n_x = at(b.sizes.states), n_m = at(b.sizes.memory);
       for (std::size_t l = 0; l < lanes_; ++l) {
-        std::copy_n(states[l]->x.begin() + b.x_begin, n_x, x_.data() + lanes_ * at(b.x_begin) + l * n_x);
-        std::copy_n(states[l]->run.m.begin() + b.m_begin, n_m, m_.data() + lanes_ * at(b.m_begin) + l * n_m);
-        views_[lanes_ * at(block) + l] = states[l]->work.views[at(block)];
+        std::copy_n(state_of(l).x.begin() + b.x_begin, n_x, x_.data() + lanes_ * at(b.x_begin) + l * n_x);
+        std::copy_n(state_of(l).run.m.begin() + b.m_begin, n_m, m_.data() + lanes_ * at(b.m_begin) + l * n_m);
+        views_[lanes_ * at(block) + l] = state_of(l).work.views[at(block)];
       }
     }
 }
@@ -123,7 +128,7 @@ void AdvanceRows::fill_sources(const Schedule& schedule, std::size_t first, std:
 
 void AdvanceRows::pass_linear(std::span<AdvanceState* const> states, int part, std::size_t rows,
                               const Schedule& schedule, int substeps) {
-  for (std::size_t l = 0; l < lanes_; ++l) {
+  for (std::size_t l = 0; l < states.size(); ++l) {
     LinearPart& p = states[l]->parts[at(part)];
     LinearPart::RowsOfPart r;
     r.count = static_cast<int>(rows);
@@ -142,7 +147,7 @@ void AdvanceRows::pass_linear(std::span<AdvanceState* const> states, int part, s
 void AdvanceRows::pass_block(std::span<AdvanceState* const> states, int block, std::size_t rows) {
   const BlockInstance& b = plan_.block(block);
   if (b.history_index >= 0) {
-    for (std::size_t l = 0; l < lanes_; ++l) pass_history(*states[l], static_cast<int>(l), block, rows);
+    for (std::size_t l = 0; l < states.size(); ++l) pass_history(*states[l], static_cast<int>(l), block, rows);
     return;
   }
   for (std::size_t i = 0; i < at(b.n_u); ++i) inputs_[i] = in_[at(b.source[i])];
@@ -174,13 +179,22 @@ void AdvanceRows::pass_history(AdvanceState& state, int lane, int block, std::si
   }
 }
 
+void AdvanceRows::pass_loop(AdvanceState& state, std::size_t lane, int loop, std::size_t rows) {
+  const auto& part = plan_.loops[at(loop)];
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (const int s : part.inputs) state.y[at(s)] = in_[at(s)][k * lanes_ + lane];
+    state.move_loop(loop, steps_[k]);
+    for (const int s : part.outputs) own_[at(s)][k * lanes_ + lane] = state.y[at(s)];
+  }
+}
+
 void AdvanceRows::record(const Schedule& schedule, std::size_t first, std::size_t points,
                          std::span<Values* const> values) {
   std::size_t end = next_instant_;
   while (end < schedule.point.size() && schedule.point[end] < first + points) ++end;
   const bool all = lanes_ == 1 && schedule.one_to_one && row_is_point_;
   for (std::size_t s = 0; s < plan_.signals.size(); ++s)
-    for (std::size_t l = 0; l < lanes_ && direct_[s] == 0; ++l) {
+    for (std::size_t l = 0; l < values.size() && direct_[s] == 0; ++l) {
       const double* rows = in_[at(plan_.signals[s])] + l;
       double* to = (*values[l])[s].data();
       if (all)
@@ -231,7 +245,8 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
   next_instant_ = 0;
   while (next_instant_ < schedule.point.size() && schedule.point[next_instant_] == 0) {
     for (std::size_t s = 0; s < plan_.signals.size(); ++s)
-      for (std::size_t l = 0; l < lanes_; ++l) (*values[l])[s][next_instant_] = states[l]->y[at(plan_.signals[s])];
+      for (std::size_t l = 0; l < states.size(); ++l)
+        (*values[l])[s][next_instant_] = states[l]->y[at(plan_.signals[s])];
     ++next_instant_;
   }
   for (std::size_t first = 1; first < schedule.t.size(); first += points_at_once) {
@@ -242,6 +257,8 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
     for (const auto& level : plan_.levels) {
       for (const int part : level.linear) pass_linear(states, part, rows, schedule, substeps);
       for (const int block : level.nonlinear) pass_block(states, block, rows);
+      for (const int loop : level.loops)
+        for (std::size_t l = 0; l < states.size(); ++l) pass_loop(*states[l], l, loop, rows);
     }
     record(schedule, first, points, values);
     keep_last_row(rows);

@@ -18,7 +18,8 @@ class AdvanceRows {
   /// lanes: 1 or RowsView::most_lanes.
   AdvanceRows(const AdvancePlan& plan, int lanes);
 
-  /// Runs that have been started at the first point, through all others: values[lane]->[signal][instant] [SI].
+  /// Runs that have been started at the first point, one to as many as there are lanes, through all others:
+  /// values[run]->[signal][instant] [SI].
   void operator()(std::span<AdvanceState* const> states, const Schedule& schedule, int substeps,
                   std::span<std::vector<std::vector<double>>* const> values);
 
@@ -34,6 +35,7 @@ class AdvanceRows {
                    int substeps);
   void pass_block(std::span<AdvanceState* const> states, int block, std::size_t rows);
   void pass_history(AdvanceState& state, int lane, int block, std::size_t rows);
+  void pass_loop(AdvanceState& state, std::size_t lane, int loop, std::size_t rows);
   void record(const Schedule& schedule, std::size_t first, std::size_t points, std::span<Values* const> values);
   void keep_last_row(std::size_t rows);
 

@@ -33,6 +33,9 @@ class AdvanceState {
 
   /// Remembers and asks the past of a dead time, whose input stands in y.
   void look_back(int block, double t);
+  /// A loop with nonlinear blocks moves while its inputs go from their values at the last point to those in y; h = 0:
+  /// they jump.
+  void move_loop(int loop, double h);
   int path_steps_of(int block) const { return plan_.is_rate_independent(block) ? path_steps_ : 0; }
 
   // Of the run, read and written row by row, too (advance_rows.h).
@@ -47,8 +50,12 @@ class AdvanceState {
   void steps_value(int block);
   void follow(int block, double t, double h);
   void move_states(int block, double h);
+  void loop_step(const AdvancePlan::LoopedPart& part, const std::vector<double>& before, double begin, double end,
+                 double length, double duration);
+  void loop_values(const AdvancePlan::LoopedPart& part);
   void remember_inputs(int block);
   void foresee(int block);
+  void start_loop(int loop, bool accept);
   void sample(std::span<const int> due, double t, Sampling& sampling);
   void pass_on(double t, bool with_delays);
   void pass_on_samples(double t, bool with_delays);
@@ -64,6 +71,9 @@ class AdvanceState {
   std::vector<double> inputs_, scratch_;
   std::vector<const double*> input_places_;
   std::vector<double*> output_places_;
+  // Of loops: their inputs at the last point and now, their states.
+  std::vector<std::vector<double>> loop_inputs_;
+  std::vector<double> loop_now_, loop_states_, loop_work_;
 };
 
 }  // namespace hysteron

@@ -44,6 +44,7 @@ class Cursor {
     if (next_ == 0) return n == 0 ? 0.0 : s_.v.front();
     const std::size_t i = next_ - 1;
     if (s_.between == Between::hold || next_ == n) return s_.v[i];
+    if (t == s_.t[next_]) return s_.v[next_];
     return s_.v[i] + (s_.v[next_] - s_.v[i]) * ((t - s_.t[i]) / (s_.t[next_] - s_.t[i]));
   }
 
@@ -59,7 +60,9 @@ std::vector<double> rows_between(std::span<const double> instants, std::span<con
   for (const auto& s : series) {
     const auto first = std::upper_bound(s->t.begin(), s->t.end(), instants.front());
     const auto last = std::lower_bound(s->t.begin(), s->t.end(), instants.back());
-    if (first >= last) continue;
+    const bool known = last - first + 2 == static_cast<std::ptrdiff_t>(times.size()) &&
+                       std::equal(first, last, times.begin() + 1);  // the instants are the samples: most often
+    if (first >= last || known) continue;
     std::vector<double> merged;
     merged.reserve(times.size() + static_cast<std::size_t>(last - first));
     std::set_union(times.begin(), times.end(), first, last, std::back_inserter(merged));

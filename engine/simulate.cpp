@@ -488,11 +488,10 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
   std::optional<Traces> exact;
-  if (!options.slopes_for.empty() &&
-      (options.method == Method::exact || options.method == Method::euler || options.method == Method::rk4))
-    fail("bad_value", "/simulate/solver/method", "slopes come with the adaptive methods only",
-         "choose bdf, adams or runge_kutta");
-  if (options.slopes_for.empty() && advances_exactly(program, options)) {
+  if (!options.slopes_for.empty() && (options.method == Method::euler || options.method == Method::rk4))
+    fail("bad_value", "/simulate/solver/method", "slopes do not come with fixed steps",
+         "choose auto, exact, bdf, adams or runge_kutta");
+  if (advances_exactly(program, options)) {
     Phases phases;
     {
       const Stopwatch watch(phases.integrate);

@@ -8,6 +8,7 @@
 #include "engine/advance_graph.h"
 #include "engine/simulate.h"
 #include "engine/simulate_parts.h"
+#include "engine/twins.h"
 
 namespace hysteron {
 namespace {
@@ -134,11 +135,39 @@ void check_inputs(const Program& program, const Run& run) {
 bool advances_exactly(const Program& program, const SimulateOptions& options) {
   if (options.method != Method::automatic && options.method != Method::exact) return false;
   const auto graph = advance_graph(program);
+  // A free choice leaves loops with nonlinear blocks to the integrators: they see where these switch.
+  if (options.method == Method::automatic) return graph.why_not.empty() && graph.loops.empty();
   if (graph.why_not.empty()) return true;
-  if (options.method == Method::automatic) return false;
   fail("not_exact", graph.in_the_way, "the diagram cannot be advanced exactly: " + graph.why_not,
        "choose the method \"auto\" or \"bdf\"");
 }
+
+namespace {
+
+/// The advance has no step control, whose choices would be noise between neighbouring runs: central differences of runs
+/// along the same steps lose no more than the square of their width.
+void add_slopes(const Program& program, const Run& run, const std::vector<int>& parameters, Advance& advance,
+                const Advance::Instants& rows, const AdvanceOptions& how, Traces& traces) {
+  if (parameters.empty()) return;
+  const auto pairs = Twins(program, run, parameters).pairs(run);
+  std::vector<const Run*> runs;
+  for (const auto& pair : pairs) runs.insert(runs.end(), {&pair.up, &pair.down});
+  std::vector<std::vector<std::vector<double>>> values;
+  const auto errors = advance.each(runs, rows, how, values);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (const std::size_t side : {2 * k, 2 * k + 1})
+      if (!errors[side].empty())
+        fail_numerics("diverged", program.parameters[static_cast<std::size_t>(parameters[k])].path,
+                      "beside the value given, where its slope is taken: " + errors[side],
+                      "take another value of the parameter, or leave its slope out");
+    auto& slopes = traces.slopes.emplace_back(std::move(values[2 * k]));
+    for (std::size_t s = 0; s < slopes.size(); ++s)
+      for (std::size_t i = 0; i < slopes[s].size(); ++i)
+        slopes[s][i] = (slopes[s][i] - values[2 * k + 1][s][i]) / (2 * pairs[k].h);
+  }
+}
+
+}  // namespace
 
 std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
                                        std::vector<double> instants, const std::vector<int>& signals) {
@@ -181,10 +210,19 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
     traces.values = std::move(finer);
   }
   if (!same && may_give_up) return std::nullopt;
+  if (!same && advance.integrates())
+    fail_numerics("not_fine_enough", "/simulate/solver",
+                  fmt::format("rows split into {} steps do not give the nonlinear states to the tolerance asked for",
+                              how.substeps),
+                  "choose the method \"auto\" or \"bdf\", or more rows");
   traces.statistics.steps = static_cast<long>(instants.size()) * how.substeps;
+  traces.statistics.samples = advance.samples();
+  add_slopes(program, run, options.slopes_for, advance, rows, how, traces);
   if (early) {
     instants.erase(instants.begin());
     for (auto& v : traces.values) v.erase(v.begin());
+    for (auto& slopes : traces.slopes)
+      for (auto& v : slopes) v.erase(v.begin());
   }
   for (std::size_t s = 0; s < signals.size(); ++s) {
     const auto& v = traces.values[s];
@@ -196,7 +234,6 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
         "check the parameters of the blocks before it");
   }
   traces.t = std::move(instants);
-  traces.statistics.samples = advance.samples();
   traces.statistics.method = "exact";
   return traces;
 }

@@ -61,6 +61,13 @@ std::vector<double> Twins::parameter_sizes() const {
   return sizes;
 }
 
+std::vector<Twins::Pair> Twins::pairs(const Run& run) {
+  start(run, [](Run&) {});
+  std::vector<Pair> list;
+  for (const auto& twin : twins_) list.push_back({twin.up.run, twin.down.run, twin.h});
+  return list;
+}
+
 std::vector<double> Twins::start(const Run& run, const std::function<void(Run&)>& settle) {
   std::vector<double> s;
   for (auto& twin : twins_) {

@@ -31,6 +31,13 @@ class Twins {
   int count() const { return static_cast<int>(twins_.size()); }
   std::vector<double> parameter_sizes() const;  ///< usual sizes [SI]
 
+  /// Runs with p + h and p - h, started as declared for them: for ways of simulating that carry no slopes themselves.
+  struct Pair {
+    Run up, down;
+    double h = 0;
+  };
+  std::vector<Pair> pairs(const Run& run);
+
   /// dx/dp at the start, by columns: what the declared start says, or `settle` (an equilibrium, say) makes of it.
   std::vector<double> start(const Run& run, const std::function<void(Run&)>& settle);
   /// dS/dt for all columns; false where one is not finite.

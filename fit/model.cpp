@@ -134,9 +134,23 @@ Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<
 }
 
 std::vector<Prediction> DataModel::predict_each(std::span<const Trial> trials, std::span<const int> recordings) {
-  std::vector<Prediction> predictions;
-  predictions.reserve(trials.size());
-  for (const auto& trial : trials) predictions.push_back(predict(trial, recordings, false));
+  Content& c = *content_;
+  if (trials.empty()) return {};
+  if (!c.substeps_chosen) choose_substeps(trials.front());
+  std::vector<Prediction> predictions(trials.size());
+  for (auto& prediction : predictions) {
+    prediction.y.resize(c.bound.size());
+    prediction.initial.resize(c.bound.size());
+  }
+  std::vector<std::vector<std::string>> errors(c.bound.size());
+  c.side_by_side(recordings,
+                 [&](int r) { errors[static_cast<std::size_t>(r)] = c.predict_trials(r, trials, predictions); });
+  for (const auto& of_recording : errors)
+    for (std::size_t i = 0; i < of_recording.size(); ++i)
+      if (!of_recording[i].empty() && predictions[i].ok) {
+        predictions[i].ok = false;
+        predictions[i].error = of_recording[i];
+      }
   return predictions;
 }
 
@@ -155,10 +169,13 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
     // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
+    bool ran_away = false;
     const auto rows_with = [&](int substeps) {
       std::vector<Rows> rows;
       try {
         rows = c.one(r, values, substeps, false);
+      } catch (const Error& error) {
+        ran_away = ran_away || error.problems.front().code == "diverged";
       } catch (const std::exception&) {
       }
       return rows;
@@ -175,6 +192,11 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
       // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
       if (worst <= 1) break;
       coarse = std::move(fine);
+    }
+    if (n >= c.options.max_substeps && b.advance->integrates() && (!coarse.empty() || ran_away)) {
+      c.not_exact = fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name, n);
+      c.substeps_chosen = true;
+      return remarks;
     }
     if (coarse.empty()) {
       all = false;  // at values where it can be simulated this is done again

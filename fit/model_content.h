@@ -23,7 +23,8 @@ struct BoundRecording {
   int substeps = 1;
   Advance::Instants rows;  ///< the instants, as the advance knows them again
   std::optional<Advance> advance;
-  std::vector<std::vector<double>> values;  ///< workspace: [output][instant]
+  std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
+  std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
 };
 
 struct DataModel::Content {
@@ -49,10 +50,11 @@ struct DataModel::Content {
   void set_start(const Recording& recording, Run& run, double t) const;
   bool from_rest(const Recording& recording) const;
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
-  std::vector<Rows> rows_of(const BoundRecording& b) const;
+  std::vector<Rows> rows_of(const BoundRecording& b, const std::vector<std::vector<double>>& values) const;
   std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
   void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,
                    std::string& error);
+  std::vector<std::string> predict_trials(int r, std::span<const Trial> trials, std::vector<Prediction>& predictions);
   void predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction);
   template <class Job>
   void side_by_side(std::span<const int> recordings, const Job& job) const;

@@ -142,7 +142,7 @@ void DataModel::Content::set_start(const Recording& recording, Run& run, double 
 
 /// values[output][instant] of one recording.
 void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const {
-  if (b.advance && !cvode) {
+  if (b.advance && not_exact.empty() && !cvode) {
     AdvanceOptions o;
     o.substeps = substeps;
     o.at_rest = at_rest;
@@ -160,16 +160,24 @@ void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest,
   b.values = simulate(*program, std::move(run), o).values;
 }
 
-std::vector<Rows> DataModel::Content::rows_of(const BoundRecording& b) const {
+std::vector<Rows> DataModel::Content::rows_of(const BoundRecording& b,
+                                              const std::vector<std::vector<double>>& values) const {
   std::vector<Rows> rows(outputs.size());
   for (std::size_t o = 0; o < outputs.size(); ++o) {
-    rows[o].reserve(b.at[o].size());
-    for (const std::size_t i : b.at[o]) {
-      const double y = b.values[o][i];
-      if (!std::isfinite(y))
-        fail_numerics("diverged", outputs[o], fmt::format("not finite at {} s", b.instants[i]), "narrow the bounds");
-      rows[o].push_back(y);
+    const auto& at = b.at[o];
+    if (at.empty()) continue;
+    if (at.back() - at.front() + 1 == at.size()) {
+      const auto first = values[o].begin() + static_cast<std::ptrdiff_t>(at.front());
+      rows[o].assign(first, first + static_cast<std::ptrdiff_t>(at.size()));
+    } else {
+      rows[o].reserve(at.size());
+      for (const std::size_t i : at) rows[o].push_back(values[o][i]);
     }
+    const auto bad = std::find_if(rows[o].begin(), rows[o].end(), [](double y) { return !std::isfinite(y); });
+    if (bad != rows[o].end())
+      fail_numerics("diverged", outputs[o],
+                    fmt::format("not finite at {} s", b.instants[at[static_cast<std::size_t>(bad - rows[o].begin())]]),
+                    "narrow the bounds");
   }
   return rows;
 }
@@ -181,7 +189,7 @@ std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue>
   Run run = prepared(r, values);
   set_start(recording, run, b.instants.front());
   simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
-  return rows_of(b);
+  return rows_of(b, b.values);
 }
 
 void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction) {
@@ -195,7 +203,7 @@ void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> 
     Run run = rest;
     run.x[state] += unit;
     simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
-    return rows_of(b);
+    return rows_of(b, b.values);
   };
   const auto zero = response(0, 0.0);
   for (const std::size_t state : free_state_index) {
@@ -218,6 +226,53 @@ void DataModel::Content::predict_one(int r, std::span<const ParameterValue> valu
     ++failures;
     error = fmt::format("{}: {}", data->recordings[k].name, e.what());
   }
+}
+
+/// Trials side by side where the advance is exact; per trial "" or why it failed.
+std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<const Trial> trials,
+                                                            std::vector<Prediction>& predictions) {
+  const auto k = static_cast<std::size_t>(r);
+  BoundRecording& b = bound[k];
+  std::vector<std::string> errors(trials.size());
+  if (!b.advance || !not_exact.empty()) {
+    for (std::size_t i = 0; i < trials.size(); ++i) predict_one(r, trials[i], false, predictions[i], errors[i]);
+    return errors;
+  }
+  const Recording& recording = data->recordings[k];
+  const auto say = [&](std::size_t i, const std::string& why) {
+    ++failures;
+    errors[i] = fmt::format("{}: {}", recording.name, why);
+  };
+  std::vector<Run> started;
+  std::vector<std::size_t> trial_of;
+  started.reserve(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ++runs;
+    try {
+      Run run = prepared(r, trials[i]);
+      set_start(recording, run, b.instants.front());
+      started.push_back(std::move(run));
+      trial_of.push_back(i);
+    } catch (const std::exception& e) {
+      say(i, e.what());
+    }
+  }
+  std::vector<const Run*> list;
+  for (const auto& run : started) list.push_back(&run);
+  const AdvanceOptions how{.substeps = b.substeps, .at_rest = from_rest(recording)};
+  const auto why = b.advance->each(list, b.rows, how, b.many_values);
+  for (std::size_t i = 0; i < why.size(); ++i) {
+    if (!why[i].empty()) {
+      say(trial_of[i], why[i]);
+      continue;
+    }
+    try {
+      predictions[trial_of[i]].y[k] = rows_of(b, b.many_values[i]);
+    } catch (const std::exception& e) {
+      say(trial_of[i], e.what());
+    }
+  }
+  return errors;
 }
 
 }  // namespace hysteron

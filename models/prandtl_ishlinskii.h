@@ -21,23 +21,12 @@ void advance(play::Sides sides, std::span<const T> thresholds, std::span<const T
     for (std::size_t i = 0; i < n; ++i) after[i] = play::follow_one_sided(thresholds[i], before[i], u);
 }
 
-/// So many operators are summed for themselves, those at even and odd places side by side: no addition waits for all
-/// before it, and the order is always the same.
-inline constexpr std::size_t group = 16;
-
 /// y = sum c_i w_i over advanced operators; threshold 0 is the linear part, since its w is u.
 /// Source: thesis Eq. 2.5; Kuhnen, Eur. J. Control 9 (2003) 407-418.
 template <class T>
 T output(std::span<const T> weights, std::span<const T> operators) {
-  const std::size_t n = weights.size();
   T y{0};
-  for (std::size_t begin = 0; begin < n; begin += group) {
-    const std::size_t end = std::min(begin + group, n);
-    T even{0}, odd{0};
-    for (std::size_t i = begin; i < end; i += 2) even += weights[i] * operators[i];
-    for (std::size_t i = begin + 1; i < end; i += 2) odd += weights[i] * operators[i];
-    y += even + odd;
-  }
+  for (std::size_t i = 0; i < weights.size(); ++i) y += weights[i] * operators[i];
   return y;
 }
 
@@ -52,6 +41,9 @@ inline std::size_t nested_until(play::Sides sides, std::span<const double> thres
   }
   return memory.size();
 }
+
+/// So many operators pass the rows together, in registers.
+inline constexpr std::size_t group = 16;
 
 namespace detail {
 
@@ -87,7 +79,7 @@ void pass_group(std::size_t n, const double* thresholds, const double* weights, 
 }  // namespace detail
 
 /// advance() and output() for many rows of the input, one behind the other: y[k * stride] for u[k * stride], group
-/// after group of operators. The same numbers, to the last bit.
+/// after group of operators, those at even and odd places summed side by side. The same numbers but for rounding.
 inline void pass(play::Sides sides, std::span<const double> thresholds, std::span<const double> weights,
                  double* operators, const double* u, double* y, std::ptrdiff_t stride, std::ptrdiff_t rows) {
   for (std::size_t begin = 0; begin < thresholds.size(); begin += group) {

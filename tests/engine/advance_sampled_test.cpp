@@ -342,11 +342,17 @@ TEST(AdvanceSampled, SaysWhichBlockStandsInTheWay) {
   EXPECT_EQ(why({{"law", thesis_bouc_wen("held")}}, "law"), "");
   expect(why({{"relay", block("test_relay", {{"on", "1 V"}, {"off", "-1 V"}, {"level", 1.0}}, {"held"})}}, "relay"),
          {"test_relay \"relay\"", "mode"});
-  expect(why({{"sum", block("sum", {}, {"held", "x"})},
+  EXPECT_EQ(why({{"sum", block("sum", {}, {"held", "x"})},
+                 {"w", block("play", {{"radius", "1 V"}}, {"sum"})},
+                 {"x", lag("w")}},
+                "x"),
+            "");
+  expect(why({{"sum", block("sum", {}, {"held", "late"})},
               {"w", block("play", {{"radius", "1 V"}}, {"sum"})},
-              {"x", lag("w")}},
+              {"x", lag("w")},
+              {"late", block("dead_time", {{"delay", "1 ms"}}, {"x"})}},
              "x"),
-         {"play \"w\"", "feedback loop"});
+         {"dead_time \"late\"", "feedback loop"});
   const auto program = with_events(diagram({{"reference", sine()}, {"x", lag("reference")}}, {"x"}));
   EXPECT_NE(why_not_exact(*program).find("\"reference\""), std::string::npos);
 }

@@ -1,0 +1,86 @@
+// What a model says for many trials at once, and what it does where rows cannot be split finely enough.
+#include "fit/model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/advance.h"
+#include "tests/fit/lab.h"
+
+namespace hysteron {
+namespace {
+
+DataSet recordings(double step, std::size_t rows) {
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["y"].to = "y";
+  for (const double f : {1.0, 1.7})
+    data.recordings.push_back(lab::recording(f < 1.5 ? "train" : "validate", f < 1.5 ? Role::train : Role::validate,
+                                             step, rows,
+                                             [f](double t) { return 3 - 3 * std::cos(2 * std::numbers::pi * f * t); }));
+  return data;
+}
+
+ProgramPointer hysteretic_stage() {
+  Diagram d = lab::diagram("lag");
+  auto& law = lab::add(d, "law", "bouc_wen", "u");
+  law.parameters["alpha"] = "0.6 um/V";
+  law.parameters["beta"] = "0.3 1/V";
+  law.parameters["gamma"] = "0.05 1/V";
+  law.parameters["d_p"] = "1.5 um/V";
+  lab::add(d, "lag", "lag", "law").parameters["times"] = NumberList{{0.05, "s"}};
+  return compile(d, lab::registry());
+}
+
+TEST(DataModel, ManyTrialsSayWhatEachSaysAlone) {
+  const auto program = hysteretic_stage();
+  DataModel together(program, lab::shared(recordings(0.01, 300))), alone(program, lab::shared(recordings(0.01, 300)));
+  const int beta = parameter_index(*program, "law.beta"), tau = parameter_index(*program, "lag.times[0]");
+  std::vector<Trial> trials{{}};
+  for (int i = 1; i < 7; ++i) trials.push_back({{beta, 0.3 + 0.01 * i}, {tau, 0.05 + 0.003 * i}});
+  trials[3][1].value = std::numeric_limits<double>::quiet_NaN();  // lost, alone
+  const std::vector<int> both{0, 1};
+  alone.choose_substeps({});
+  const auto predictions = together.predict_each(trials, both);
+  ASSERT_EQ(predictions.size(), trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const auto one = alone.predict(trials[i], both, false);
+    EXPECT_EQ(predictions[i].ok, i != 3);
+    EXPECT_EQ(predictions[i].ok, one.ok);
+    EXPECT_EQ(predictions[i].error, one.error);
+    EXPECT_EQ(predictions[i].y, one.y) << i;
+  }
+  EXPECT_EQ(together.runs(), alone.runs());
+  EXPECT_EQ(together.failures(), alone.failures());
+  EXPECT_TRUE(together.predict_each({}, both).empty());
+}
+
+TEST(DataModel, WhatIsTooStiffForRowsIsIntegrated) {
+  // A loop with a limit and a time constant of 2 us; rows of 10 ms would need thousands of steps each.
+  Diagram d = lab::diagram("y");
+  auto& e = lab::add(d, "e", "sum", "u");
+  e.parameters["signs"] = "+-";
+  e.in.push_back({"", "x"});
+  auto& limited = lab::add(d, "limited", "saturation", "e");
+  limited.parameters["lower"] = "-10 V";
+  limited.parameters["upper"] = "10 V";
+  lab::add(d, "speed", "gain", "limited").parameters["gain"] = "5e5 1/s";
+  lab::add(d, "x", "integrator", "speed");
+  lab::add(d, "y", "gain", "x").parameters["gain"] = "1 um/V";
+  const auto program = compile(d, lab::registry());
+  ASSERT_EQ(why_not_exact(*program), "");
+  DataModel model(program, lab::shared(recordings(0.01, 60)));
+  const auto prediction = model.predict({}, std::vector<int>{0});
+  ASSERT_TRUE(prediction.ok) << prediction.error;
+  EXPECT_NE(model.why_not_exact().find("64 substeps per row do not suffice"), std::string::npos);
+  // So fast a loop follows its input: u - x = u'/(5e5/s), at most 19 V/s of it.
+  const auto& r = model.recording(0);
+  for (std::size_t i = 0; i < r.t.size(); ++i)
+    EXPECT_NEAR(prediction.y[0][0][i], 1e-6 * r.columns.at("u")[i], 5e-11) << r.t[i];
+}
+
+}  // namespace
+}  // namespace hysteron
