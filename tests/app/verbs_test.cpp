@@ -347,6 +347,22 @@ TEST_F(Verbs, AJobPlacesThresholdsAndTheSlopesOfTheThesisAreAMethod) {
   EXPECT_NEAR(value("slopes", "model.weights[0]"), 0.8, 1e-6);
 }
 
+TEST_F(Verbs, AnInterruptedFitKeepsItsBestAndSaysSo) {
+  // A budget that would take hours; however slow the machine, the fit is at work when the signal comes.
+  folder_.write("lag.json", R"({"format": 1, "inputs": {"u": {"unit": "V"}}, "blocks": {
+    "lag": {"type": "lag", "times": {"value": [5], "unit": "ms"}, "in": "u"},
+    "sensor": {"type": "calibration", "gain": "1.5 um/V", "offset": "0.2 um", "in": "lag"}},
+    "outputs": {"y": "sensor"}})");
+  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "lag.json", "data": "dataset.json",
+    "free": [{"parameter": "lag.times", "lower": "0.1 ms", "upper": "1 s"}],
+    "method": {"name": "isres", "runs": 1000000000}})");
+  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"}, "", 4000);
+  EXPECT_EQ(outcome.code, 130) << outcome.out << outcome.err;
+  ASSERT_TRUE(folder_.has("job.fit/parameters.json")) << outcome.err;
+  EXPECT_EQ(result("job.fit")["facts"]["interrupted"], true);
+  EXPECT_NE(outcome.err.find("job.fit"), std::string::npos) << outcome.err;  // where the best so far lies
+}
+
 TEST_F(Verbs, AFitDatesItsParametersAsItIsTold) {
   const Outcome outcome =
       process::shell(folder_.path(), "SOURCE_DATE_EPOCH=86400 hysteron fit diagram.json --data dataset.json -o out");
