@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/linear_part.h"
 #include "engine/path.h"
 #include "engine/steps.h"
 
@@ -19,6 +20,8 @@ AdvancePlan::AdvancePlan(ProgramPointer p, std::vector<int> wanted)
   find_curved();
   find_behind();
 }
+
+AdvancePlan::~AdvancePlan() = default;
 
 void AdvancePlan::find_needed() {
   needed_.assign(program->blocks.size(), false);

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "engine/advance_graph.h"
-#include "engine/linear_part.h"
 #include "engine/program.h"
 
 namespace hysteron {
+
+class LinearPart;
 
 struct AdvancePlan {
   struct Level {
@@ -51,6 +52,9 @@ struct AdvancePlan {
 
   /// Throws Error "not_exact".
   AdvancePlan(ProgramPointer program, std::vector<int> signals);
+  ~AdvancePlan();
+  AdvancePlan(const AdvancePlan&) = delete;
+  AdvancePlan& operator=(const AdvancePlan&) = delete;
 
   const BlockInstance& block(int b) const { return program->blocks[static_cast<std::size_t>(b)]; }
   int block_of(int signal) const { return program->signals[static_cast<std::size_t>(signal)].block; }

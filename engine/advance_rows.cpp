@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/linear_part.h"
 #include "engine/steps.h"
 
 namespace hysteron {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/advance_points.h"
+#include "engine/linear_part.h"
 #include "engine/path.h"
 #include "engine/rows.h"
 #include "engine/simulate.h"
@@ -36,6 +37,8 @@ AdvanceState::AdvanceState(const AdvancePlan& plan)
   for (std::size_t i = 0; i < input_places_.size(); ++i) input_places_[i] = inputs_.data() + 2 * i + 1;
   for (std::size_t i = 0; i < output_places_.size(); ++i) output_places_[i] = y.data() + i;
 }
+
+AdvanceState::~AdvanceState() = default;
 
 void AdvanceState::take(const Run& start, int path_steps) {
   run = start;

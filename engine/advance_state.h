@@ -14,6 +14,7 @@ namespace hysteron {
 class AdvanceState {
  public:
   explicit AdvanceState(const AdvancePlan& plan);
+  ~AdvanceState();
   AdvanceState(const AdvanceState&) = delete;
   AdvanceState& operator=(const AdvanceState&) = delete;
 
