@@ -107,7 +107,8 @@ TEST(FrictionModel, WithoutFrictionTheMassNeverSticks) {
   EXPECT_NEAR(walk.x[0], std::cos(10.0), 1e-8);
   EXPECT_NEAR(walk.x[1], -10 * std::sin(10.0), 1e-7);
   for (const auto& e : walk.events) EXPECT_NE(e.after, friction::stick);
-  EXPECT_EQ(walk.events.size(), 4u);  // begins to slide, turns at pi/10, 2 pi/10, 3 pi/10
+  // Begins to slide. That it turns, at pi/10 and so on, is no event: there is nothing to stick to.
+  EXPECT_EQ(walk.events.size(), 1u);
 }
 
 TEST(FrictionModel, ForceExactlyAtBreakawaySettles) {
