@@ -32,28 +32,20 @@ constexpr char help[] =
     "Prints the difference of the diagram file; writes it with -o.\n"
     "Exit codes: 0 done, 2 the diagram, the effect or the place is wrong.";
 
-/// The place that add_effect would take without --at, so that the data can be looked at there.
-Place place_of(const Diagram& diagram, const Effect& effect, const std::string& at) {
-  if (!at.empty()) return place_at(diagram, registry(), at);
-  const auto places = places_of(effect, diagram, registry());
-  if (places.empty())
-    fail("no_place", effect.id, "the diagram has no place where " + effect.id + " may enter",
-         "name one with --at SIGNAL, or give the diagram \"places\"");
-  return places.front();
-}
-
 int add(const Arguments& arguments) {
   const Effects library = all_effects();
   const Effect& effect = library.get(arguments.text("effect"));
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
+  std::optional<DataSet> data;
   std::optional<Circumstances> circumstances;
   if (arguments.has("--data")) {
-    const DataSet data = load_data(arguments, *program);
-    circumstances = circumstances_at(diagram, registry(), data, place_of(diagram, effect, arguments.text("--at")));
+    data = load_data(arguments, *program);
+    const Place place = place_for(effect, diagram, registry(), arguments.text("--at"), &*data);
+    circumstances = circumstances_at(diagram, registry(), *data, place);
   }
-  const Added added =
-      add_effect(diagram, registry(), effect, arguments.text("--at"), circumstances ? &*circumstances : nullptr);
+  const Added added = add_effect(diagram, registry(), effect, arguments.text("--at"),
+                                 circumstances ? &*circumstances : nullptr, data ? &*data : nullptr);
   refuse_new_loop(*program, *compile(added.diagram, registry()), added.at);  // what is written must run
 
   fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(added.diagram)));

@@ -147,6 +147,15 @@ int parse_and_act(const std::vector<std::string>& words) {
   return chosen()->verb.act(arguments_of(*chosen()));
 }
 
+Problem output_not_written() {
+  return {"cannot_write",
+          "standard output",
+          "not all of the output could be written",
+          "free space on the device, or send the output elsewhere",
+          "",
+          0};
+}
+
 /// One problem that no room reported as an Error: an exception of the library.
 std::vector<Problem> unexpected(const char* what) {
   return {{"unexpected", "hysteron", what,
@@ -174,17 +183,15 @@ int run_command_line(const std::vector<std::string>& words) {
                    code, as_json);
   } catch (const std::system_error& error) {  // files and terminals
     code = exit_code::bad_input;
-    print_problems({{"cannot_write", "files", error.what(), "check the disk and the rights of the folder", "", 0}},
-                   code, as_json);
+    const Problem files{"cannot_write", "files", error.what(), "check the disk and the rights of the folder", "", 0};
+    print_problems({std::ferror(stdout) != 0 ? output_not_written() : files}, code, as_json);
   } catch (const std::exception& error) {
     code = exit_code::numerics;
     print_problems(unexpected(error.what()), code, as_json);
   }
   if (std::fflush(stdout) != 0 && code == exit_code::done) {
     code = exit_code::bad_input;
-    print_problems({{"cannot_write", "standard output", "not all of the output could be written",
-                     "free space on the device, or send the output elsewhere", "", 0}},
-                   code, as_json);
+    print_problems({output_not_written()}, code, as_json);
   }
   return code;
 }

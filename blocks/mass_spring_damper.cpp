@@ -8,6 +8,7 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
   spec.remark("A piezo actuator of free displacement d is the force stiffness d, with its own stiffness counted in.");
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
+      .variation("presliding", "mass_with_presliding", {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
       .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
   describe_motion(spec);
   describe_start(spec);

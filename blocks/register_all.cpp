@@ -7,6 +7,7 @@
 #include "blocks/constant.h"
 #include "blocks/converters.h"
 #include "blocks/creep.h"
+#include "blocks/cross_coupling.h"
 #include "blocks/dead_time.h"
 #include "blocks/delay_line.h"
 #include "blocks/discrete_transfer_function.h"
@@ -16,6 +17,7 @@
 #include "blocks/lag.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
+#include "blocks/mass_with_presliding.h"
 #include "blocks/mass_with_stops.h"
 #include "blocks/matrix_gain.h"
 #include "blocks/multisine.h"
@@ -28,16 +30,19 @@
 #include "blocks/rate_limiter.h"
 #include "blocks/recorded.h"
 #include "blocks/relay.h"
+#include "blocks/resonance.h"
 #include "blocks/sampled_pid.h"
 #include "blocks/saturation.h"
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
+#include "blocks/soft_saturation.h"
 #include "blocks/staircase.h"
 #include "blocks/state_space.h"
 #include "blocks/step.h"
 #include "blocks/sum.h"
 #include "blocks/tank.h"
 #include "blocks/tapi.h"
+#include "blocks/temperature.h"
 #include "blocks/thermal_network.h"
 #include "blocks/transfer_function.h"
 #include "blocks/triangle.h"
@@ -62,8 +67,12 @@ Registry all_blocks() {
   r.add(blocks::product_block());
   r.add(blocks::pass_block());
   r.add(blocks::saturation_block());
+  r.add(blocks::soft_saturation_block());
   r.add(blocks::polynomial_block());
   r.add(blocks::calibration_block());
+  r.add(blocks::cross_coupling_block());
+  r.add(blocks::temperature_gain_block());
+  r.add(blocks::thermal_expansion_block());
 
   r.add(blocks::mux_block());
   r.add(blocks::demux_block());
@@ -74,6 +83,8 @@ Registry all_blocks() {
   r.add(blocks::transfer_function_block());
   r.add(blocks::state_space_block());
   r.add(blocks::pi_controller_block());
+  r.add(blocks::resonance_block());
+  r.add(blocks::mode_block());
   r.add(blocks::lag_block());
   r.add(blocks::creep_block());
   r.add(blocks::dead_time_block());
@@ -96,6 +107,7 @@ Registry all_blocks() {
   r.add(blocks::mass_spring_damper_block());
   r.add(blocks::mass_on_stiffening_spring_block());
   r.add(blocks::mass_with_friction_block());
+  r.add(blocks::mass_with_presliding_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());
 

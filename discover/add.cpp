@@ -73,8 +73,11 @@ void place_node(Ordered<Node>& blocks, const std::string& source, const std::str
   blocks = std::move(reordered);
 }
 
+/// Marks an input that an effect brought into the diagram, so that it leaves with it.
+std::string side_remark(const Effect& effect) { return "read by " + effect.id; }
+
 std::string insert(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
-                   const std::string& at) {
+                   const std::string& at, const Place& place) {
   const Wiring w(diagram, registry);
   const std::string signal = w.signal(at);
   const Spot spot = signal.empty() ? spot_before(w, at) : spot_behind(w, signal);
@@ -86,6 +89,10 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
   choice.choose = "on";
   choice.effect = effect.id;
   choice.in = {{"", spot.from}};
+  if (!place.side.empty()) {
+    choice.in.push_back({"", place.side});
+    if (w.signal(place.side).empty()) diagram.inputs[place.side] = {place.side_unit.text, side_remark(effect), 0};
+  }
   choice.from["off"].type = "pass";
   choice.from["on"] = law.block;
   const std::string name = unused_name(diagram, spot.wire + "_" + effect.id);
@@ -107,6 +114,7 @@ std::string vary(Diagram& diagram, const Effect& effect, const Law& law, const s
     fail("unknown_place", block, fmt::format("there is no block \"{}\"", block),
          did_you_mean(block, diagram.blocks.names()));
   const auto with_law = [&](Node as_is) {
+    if (!law.block.type.empty()) as_is.type = law.block.type;
     for (const auto& [name, value] : law.block.parameters) as_is.parameters[name] = value;
     return as_is;
   };
@@ -139,10 +147,11 @@ std::string changed_file(const std::string& file, const std::string& effect) {
 }
 
 std::string add_at(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
-                   const std::string& at, Added& added) {
+                   const std::string& at, const Place& place, Added& added) {
   const auto slash = at.find('/');
   if (slash == std::string::npos)
-    return effect.way == Way::vary ? vary(diagram, effect, law, at) : insert(diagram, registry, effect, law, at);
+    return effect.way == Way::vary || !place.by.empty() ? vary(diagram, effect, law, at)
+                                                        : insert(diagram, registry, effect, law, at, place);
   const std::string head = at.substr(0, slash);
   Node* node = diagram.blocks.find(head);
   if (node != nullptr && !node->from.empty()) node = node->from.find(node->choose);
@@ -150,7 +159,7 @@ std::string add_at(Diagram& diagram, const Registry& registry, const Effect& eff
     fail("unknown_place", at, fmt::format("there is no nested diagram \"{}\"", head),
          did_you_mean(head, diagram.blocks.names()));
   Diagram inner = *node->nested;
-  const std::string name = head + "/" + add_at(inner, registry, effect, law, at.substr(slash + 1), added);
+  const std::string name = head + "/" + add_at(inner, registry, effect, law, at.substr(slash + 1), place, added);
   node->file = changed_file(node->file, effect.id);
   inner.file = inner.file.empty() ? "" : changed_file(inner.file, effect.id);
   added.nested.emplace_back(node->file, inner);
@@ -187,6 +196,7 @@ void take_out(Diagram& diagram, const std::string& name, const std::string& effe
     return;
   }
   const std::string from = choice.in.front().from;
+  const std::string side = choice.in.size() > 1 ? choice.in[1].from : "";
   const auto reads = [&](const std::string& wire) { return wire == name || wire.starts_with(name + "["); };
   const auto put_back = [&](std::string& wire) {
     if (reads(wire)) wire = from + wire.substr(name.size());
@@ -196,6 +206,12 @@ void take_out(Diagram& diagram, const std::string& name, const std::string& effe
   for (auto& [output, signal] : diagram.outputs) put_back(signal);
   std::erase_if(diagram.record, reads);
   diagram.blocks.erase(name);
+  const auto* input = side.empty() ? nullptr : diagram.inputs.find(side);
+  if (input == nullptr || input->remark != "read by " + effect) return;
+  for (const auto& [other, node] : diagram.blocks)
+    for (const auto& wire : node.in)
+      if (wire.from == side) return;
+  diagram.inputs.erase(side);
 }
 
 void remove_at(Diagram& diagram, const std::string& path, const std::string& effect) {
@@ -228,28 +244,14 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
   added.effect = effect.id;
   added.at = place.at;
   added.law = law.name;
-  added.name = add_at(added.diagram, registry, effect, law, place.at, added);
+  added.name = add_at(added.diagram, registry, effect, law, place.at, place, added);
   for (const auto& p : law.free) added.free.push_back(added.name + "." + p.path);
   return added;
 }
 
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
-                 const Circumstances* circumstances) {
-  Place place;
-  if (at.empty()) {
-    const auto places = places_of(effect, diagram, registry);
-    if (places.empty())
-      fail("unknown_place", effect.id,
-           fmt::format("{} has no place in this diagram where it does not stand already", effect.id),
-           effect.way == Way::vary
-               ? fmt::format("it needs a block with memory that has a parameter \"{}\"", effect.parameter)
-               : "name one with --at SIGNAL or --at BLOCK.in");
-    place = places.front();
-  } else if (effect.way == Way::vary) {
-    place.at = at;
-  } else {
-    place = place_at(diagram, registry, at);
-  }
+                 const Circumstances* circumstances, const DataSet* data) {
+  const Place place = place_for(effect, diagram, registry, at, data);
   Circumstances none;
   if (circumstances == nullptr) {
     if (const auto* input = diagram.inputs.find(place.wire)) none.unit = parse_unit(input->unit);

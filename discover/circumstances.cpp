@@ -46,6 +46,21 @@ double longest_hold(const std::vector<double>& t, const std::vector<double>& u, 
   return longest;
 }
 
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  double ma = 0, mb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ma += a[i] / static_cast<double>(a.size());
+    mb += b[i] / static_cast<double>(b.size());
+  }
+  double aa = 0, ab = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - ma) * (a[i] - ma);
+    ab += (a[i] - ma) * (b[i] - mb);
+    bb += (b[i] - mb) * (b[i] - mb);
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
 /// The only signal that a block reads beside constants; -1 if there are several or none.
 int moving_input(const Program& program, const BlockInstance& block) {
   int moving = -1;
@@ -161,6 +176,21 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
     signals.push_back(first >= 0 ? first : program->signal(p.wire));
   }
   const std::size_t n = signals.size();
+  std::vector<int> side_signal;  // per place: its row among `signals`, -1 = none
+  for (const auto& p : places) {
+    const int signal = p.side.empty() ? -1 : program->find_signal(p.side);
+    side_signal.push_back(signal < 0 ? -1 : static_cast<int>(signals.size()));
+    if (signal >= 0) signals.push_back(signal);
+  }
+  std::vector<int> travel_signal;  // per place: the row of what a replaced block moves, -1 = none
+  for (const auto& p : places) {
+    int signal = -1;
+    for (const auto& block : program->blocks)
+      if (!p.by.empty() && block.path == p.at) signal = block.y_begin;
+    travel_signal.push_back(signal < 0 ? -1 : static_cast<int>(signals.size()));
+    if (signal >= 0) signals.push_back(signal);
+  }
+  const std::size_t drives = signals.size();
   signals.insert(signals.end(), program->input_signals.begin(), program->input_signals.end());
   std::vector<std::vector<std::vector<double>>> rows;  // [train recording][signal][row]
   std::vector<const Recording*> trains;
@@ -171,6 +201,12 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
     for (auto& s : rows.back()) s.resize(r.last);
   }
 
+  // A side signal is a wire of the diagram, or a column that the diagram does not read yet.
+  const auto side_rows = [&](std::size_t r, std::size_t i) -> const std::vector<double>* {
+    if (side_signal[i] >= 0) return &rows[r][static_cast<std::size_t>(side_signal[i])];
+    const auto found = trains[r]->columns.find(places[i].side);
+    return found == trains[r]->columns.end() ? nullptr : &found->second;
+  };
   const InSeries in_series(*program, free_paths);
   std::vector<Circumstances> result(n, common);
   const auto span = [&](std::size_t s, double& low, double& high) {
@@ -199,8 +235,28 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
           c.quickest = std::max(c.quickest, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / c.range());
       }
     }
+    c.by = places[i].by;
+    if (travel_signal[i] >= 0) span(static_cast<std::size_t>(travel_signal[i]), c.travel_lowest, c.travel_highest);
+    if (!places[i].side.empty()) {
+      c.side_unit = places[i].side_unit;
+      if (side_signal[i] >= 0)
+        c.side_unit =
+            program->signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(side_signal[i])])].unit;
+      std::vector<double> side, wire;
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        if (const auto* column = side_rows(r, i)) {
+          side.insert(side.end(), column->begin(), column->begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
+          wire.insert(wire.end(), rows[r][i].begin(), rows[r][i].end());
+        }
+      if (!side.empty()) {
+        const auto [low, high] = std::minmax_element(side.begin(), side.end());
+        c.side_lowest = *low;
+        c.side_highest = *high;
+        c.side_correlation = correlation(side, wire);
+      }
+    }
     // Holds are those of the drive: the signal behind a slow plant never stands still.
-    for (std::size_t s = n; s < signals.size(); ++s) {
+    for (std::size_t s = drives; s < signals.size(); ++s) {
       double low = 0;
       double high = 0;
       span(s, low, high);

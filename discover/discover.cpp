@@ -131,13 +131,8 @@ class Investigation {
     std::vector<Place> places;
     for (const auto& e : effects_.list()) {
       if (!wanted(e) || standing(e)) continue;
-      const auto where = places_of(e, current_.diagram, registry_);
-      if (where.empty() && step == 1)
-        d_.refused.push_back(
-            {e.id, "",
-             e.way == Way::vary
-                 ? fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter)
-                 : "the diagram has no place where it could enter"});
+      const auto where = places_of(e, current_.diagram, registry_, data_.get());
+      if (where.empty() && step == 1) d_.refused.push_back({e.id, "", why_no_place(e)});
       for (const auto& p : where) {
         Tried t;
         t.effect = &e;
@@ -176,7 +171,18 @@ class Investigation {
     return kept;
   }
 
+  static std::string why_no_place(const Effect& e) {
+    if (!e.variation.empty())
+      return fmt::format("no block of the diagram offers the variation \"{}\" (a mass on a spring)", e.variation);
+    if (e.way == Way::vary)
+      return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
+    if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";
+    if (e.side == Side::other_axis) return "no other axis is recorded";
+    return "the diagram has no place where it could enter";
+  }
+
   bool standing(const Effect& e) const {
+    if (e.side == Side::other_axis) return false;  // each axis has its own; a wire that has it is left out by places_of
     return std::any_of(current_.standing.begin(), current_.standing.end(),
                        [&](const Standing& s) { return s.effect->family == e.family; });
   }
@@ -405,7 +411,7 @@ class Investigation {
       for (const auto& e : effects_.list()) {
         if (!wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(e))) continue;
         Contender rest = without(shop_, current_, i);
-        const auto places = places_of(e, rest.diagram, registry_);
+        const auto places = places_of(e, rest.diagram, registry_, data_.get());
         if (places.empty()) continue;
         const auto at = circumstances_at(rest.diagram, registry_, *data_, places, options_.free_paths);
         for (std::size_t p = 0; p < places.size() && !stopped(); ++p) {

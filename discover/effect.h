@@ -29,27 +29,41 @@ enum class Commutes {
   time_invariant  ///< a delay: every block that does not look at the clock
 };
 
+/// A second signal that an effect reads besides the wire that it stands on.
+enum class Side {
+  none,
+  temperature,  ///< an input of the diagram or a column of the recordings that is a temperature and no output
+  other_axis    ///< drive or motion of another axis: an input, a column or an output's signal that this wire neither
+                ///< moves nor follows
+};
+
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
 /// the train recordings, and how finely and how long it was recorded. Numbers in SI.
 struct Circumstances {
   bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
   Unit unit;               ///< of the wire, as it is written
   double lowest = 0, highest = 1;
-  double largest_jump = 0;             ///< largest change between two rows
-  double shortest_step = 1e-3;         ///< [s] between rows, smallest over the train recordings
-  double longest_step = 1e-3;          ///< [s]
-  double longest_recording = 100;      ///< [s] of any recording, validation included
-  double longest_hold = 0;             ///< [s] at one level after a move of at least 5 % of the range
-  double step_at_longest_hold = 1e-3;  ///< [s] between rows in that hold
-  int reversals = 0;                   ///< turning points that come back by at least 2 % of the range
-  int recordings = 0;                  ///< train recordings
-  double quickest = 0;                 ///< [1/s] largest change per second over the range
-  bool starts_away_from_zero = false;  ///< the wire is not at zero at the start of some recording
-  bool gain_is_free = false;           ///< a free gain in series behind the place makes a gain here undetermined
-  bool offset_is_free = false;         ///< a free offset behind the place (or a free zero of each recording)
+  std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
+  double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
+  double largest_jump = 0;                       ///< largest change between two rows
+  double shortest_step = 1e-3;                   ///< [s] between rows, smallest over the train recordings
+  double longest_step = 1e-3;                    ///< [s]
+  double longest_recording = 100;                ///< [s] of any recording, validation included
+  double longest_hold = 0;                       ///< [s] at one level after a move of at least 5 % of the range
+  double step_at_longest_hold = 1e-3;            ///< [s] between rows in that hold
+  int reversals = 0;                             ///< turning points that come back by at least 2 % of the range
+  int recordings = 0;                            ///< train recordings
+  double quickest = 0;                           ///< [1/s] largest change per second over the range
+  bool starts_away_from_zero = false;            ///< the wire is not at zero at the start of some recording
+  bool gain_is_free = false;    ///< a free gain in series behind the place makes a gain here undetermined
+  bool offset_is_free = false;  ///< a free offset behind the place (or a free zero of each recording)
   /// Program paths of the constants that add to the signal behind the place ("sensor.offset"), free or not.
   std::vector<std::string> zeros;
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
+  Unit side_unit;                          ///< of the side signal, where the effect reads one
+  double side_lowest = 0, side_highest = 1;
+  /// Correlation of the side signal with this wire over the train recordings, -1..1.
+  double side_correlation = 0;
   double range() const { return highest - lowest; }
 };
 
@@ -91,9 +105,12 @@ struct Effect {
   std::string residual;  ///< what it leaves in the residual, for people
   std::string needs;     ///< the data it needs, for people
   Way way = Way::insert;
-  std::string block_type;           ///< the block that it inserts (insert); the registry knows it
-  std::string parameter;            ///< the parameter that it sets (vary, data)
+  std::string block_type;  ///< the block that it inserts (insert); the registry knows it
+  std::string parameter;   ///< the parameter that it sets (vary, data)
+  /// A block that offers this variation may be replaced by its richer type besides: the law is then that type.
+  std::string variation;
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
+  Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
   Commutes commutes = Commutes::nothing;
   /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is

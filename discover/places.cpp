@@ -199,19 +199,114 @@ std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
   return ids;
 }
 
+/// Blocks, nested ones included, that offer the variation by which the effect may enter.
+void collect_variations(const Diagram& diagram, const Registry& registry, const Effect& effect,
+                        const std::string& prefix, std::vector<Place>& list) {
+  const Wiring w(diagram, registry);
+  for (const auto& [block, node] : diagram.blocks) {
+    const Node* body = w.body(block);
+    if (body == nullptr) continue;
+    if (body->nested) {
+      collect_variations(*body->nested, registry, effect, prefix + block + "/", list);
+      continue;
+    }
+    if (node.effect == effect.id || (!node.from.empty() && node.from.find(effect.id) != nullptr)) continue;
+    const Kernel* k = registry.find(body->type);
+    if (k == nullptr || node.in.empty()) continue;
+    for (const auto& v : k->declaration.variations) {
+      if (v.name != effect.variation) continue;
+      Place p;
+      p.kind = "force";
+      p.at = prefix + block;
+      p.wire = prefix + w.signal(node.in.front().from);
+      p.by = v.type;
+      list.push_back(std::move(p));
+    }
+  }
+}
+
+bool is_temperature(const Unit& unit) { return unit.dimension == parse_unit("K").dimension; }
+
+/// True if `to` is made from `from`.
+bool leads_to(const Wiring& w, const std::string& from, const std::string& to, int depth = 0) {
+  if (from == to) return true;
+  const std::string block = w.source(to);
+  if (block.empty() || depth > 64) return false;
+  const Node* node = w.diagram().blocks.find(block);
+  if (node == nullptr) return false;  // a column that the diagram does not read
+  const auto& in = node->in;
+  return std::any_of(in.begin(), in.end(),
+                     [&](const Wire& wire) { return leads_to(w, from, w.signal(wire.from), depth + 1); });
+}
+
+/// A signal that may stand beside a wire: its name and, where the diagram does not read it yet, its unit.
+struct SideSignal {
+  std::string name;
+  Unit unit;
+};
+
+std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, const DataSet* data) {
+  const auto fits = [&](const Unit& unit) {
+    if (effect.side == Side::temperature) return is_temperature(unit);
+    return !is_temperature(unit) && !unit.dimension.none();
+  };
+  std::vector<SideSignal> list;
+  for (const auto& [name, input] : w.diagram().inputs)
+    if (fits(parse_unit(input.unit))) list.push_back({name, {}});
+  if (effect.side == Side::other_axis && w.diagram().outputs.size() > 1)  // its motion, not only its drive
+    for (const auto& [name, from] : w.diagram().outputs)
+      if (const auto s = w.signal(from); !s.empty()) list.push_back({start_of_chain(w, before_offset(w, s)), {}});
+  if (data == nullptr) return list;
+  for (const auto& [name, note] : data->notes) {
+    if (w.is_input(name) || w.diagram().outputs.find(name) != nullptr) continue;
+    const auto has = [&](const Recording& r) { return r.columns.contains(name); };
+    if (data->recordings.empty() || !std::all_of(data->recordings.begin(), data->recordings.end(), has)) continue;
+    const Unit& unit = data->recordings.front().units.at(name);
+    // The drive of another axis looks like a drive: in the unit of an input.
+    const auto like_input = [&] {
+      for (const auto& [other, input] : w.diagram().inputs)
+        if (parse_unit(input.unit).dimension == unit.dimension) return true;
+      return false;
+    };
+    if (fits(unit) && (effect.side == Side::temperature || like_input())) list.push_back({name, unit});
+  }
+  return list;
+}
+
+/// Each place with each side signal that does not move its wire already.
+std::vector<Place> beside(const std::vector<Place>& places, const Effect& effect, const Wiring& w,
+                          const DataSet* data) {
+  std::vector<Place> list;
+  const auto signals = side_signals(effect, w, data);
+  for (const auto& place : places) {
+    if (place.at.find('/') != std::string::npos) continue;  // no wire leads into a nested diagram from here
+    for (const auto& side : signals) {
+      const std::string wire = w.signal(place.wire);
+      if (effect.side == Side::other_axis && (leads_to(w, side.name, wire) || leads_to(w, wire, side.name))) continue;
+      Place p = place;
+      p.side = side.name;
+      p.side_unit = side.unit;
+      list.push_back(std::move(p));
+    }
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<Place> find_places(const Diagram& diagram, const Registry& registry) {
   return Finder(diagram, registry).find();
 }
 
-std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry) {
+std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry,
+                             const DataSet* data) {
   std::vector<Place> list;
-  if (effect.way == Way::vary) {
+  if (effect.way == Way::vary && effect.variation.empty()) {
     collect_vary(diagram, registry, effect.parameter, "", list);
     return list;
   }
   const Wiring w(diagram, registry);
+  if (!effect.variation.empty()) collect_variations(diagram, registry, effect, "", list);
   for (auto& place : find_places(diagram, registry)) {
     if (std::find(effect.places.begin(), effect.places.end(), place.kind) == effect.places.end()) continue;
     if (place.kind == "core" && effect.behind_core && !place.behind_core) continue;
@@ -221,6 +316,7 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     const bool known = std::any_of(list.begin(), list.end(), [&](const Place& p) { return p.at == place.at; });
     if (!known) list.push_back(std::move(place));
   }
+  if (effect.side != Side::none) return beside(list, effect, w, data);
   // The zero of a sensor stands behind everything: a calibration enters at the output itself.
   if (effect.block_type == "calibration" && diagram.places.find("measured") == nullptr) {
     list.clear();
@@ -232,6 +328,37 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     }
   }
   return list;
+}
+
+Place place_for(const Effect& effect, const Diagram& diagram, const Registry& registry, const std::string& at,
+                const DataSet* data) {
+  std::vector<Place> places;
+  if (at.empty()) {
+    places = places_of(effect, diagram, registry, data);
+  } else if (effect.way == Way::vary && effect.variation.empty()) {
+    places.emplace_back().at = at;
+  } else if (diagram.blocks.find(at) != nullptr && !effect.variation.empty()) {
+    collect_variations(diagram, registry, effect, "", places);
+    std::erase_if(places, [&](const Place& p) { return p.at != at; });
+    if (places.empty()) places = {place_at(diagram, registry, at)};
+  } else {
+    places = {place_at(diagram, registry, at)};
+    if (effect.side != Side::none) places = beside(places, effect, Wiring(diagram, registry), data);
+  }
+  if (!places.empty()) return places.front();
+  if (effect.side != Side::none)
+    fail("no_side_signal", effect.id,
+         effect.side == Side::temperature
+             ? "it reads a temperature, and neither an input of the diagram nor a column of the recordings is one"
+             : "it reads the drive of another axis, and there is none",
+         effect.side == Side::temperature
+             ? "give the diagram an input in K or degC, or name recordings with such a column (--data)"
+             : "give the diagram a second input, or name recordings with such a column (--data)");
+  fail("unknown_place", effect.id,
+       fmt::format("{} has no place in this diagram where it does not stand already", effect.id),
+       effect.way == Way::vary
+           ? fmt::format("it needs a block with memory that has a parameter \"{}\"", effect.parameter)
+           : "name one with --at SIGNAL or --at BLOCK.in");
 }
 
 Place place_at(const Diagram& diagram, const Registry& registry, const std::string& at) {

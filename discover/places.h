@@ -8,6 +8,7 @@
 #include "discover/effect.h"
 #include "engine/diagram.h"
 #include "engine/kernel.h"
+#include "io/dataset.h"
 
 namespace hysteron {
 
@@ -18,6 +19,9 @@ struct Place {
                      ///< (vary) a block
   std::string wire;  ///< the signal that passes there
   bool behind_core = false;  ///< of a core place: behind the core, not before it
+  std::string side{};        ///< the signal or column that an effect reads there besides; "" = none
+  std::string by{};          ///< the type that replaces the block `at` (a variation that it offers); "" = no block is
+  Unit side_unit{};          ///< of a column that the diagram does not read yet
   std::string group[4]{};    ///< by Commutes: places with one mark cannot be told apart by such a law
   const std::string& group_for(const Effect& effect) const { return group[static_cast<int>(effect.commutes)]; }
 };
@@ -28,7 +32,15 @@ std::vector<Place> find_places(const Diagram& diagram, const Registry& registry)
 
 /// The places where `effect` may enter. A place where it already stands is left out.
 /// For a `vary` effect: the blocks (chosen candidates included) whose type has the parameter that it sets.
-std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry);
+/// For an effect that reads a side signal: each place with each such signal of the diagram and, where `data` is given,
+/// each column of the recordings that is bound to nothing.
+std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const Registry& registry,
+                             const DataSet* data = nullptr);
+
+/// The place that a user means: `at` as for place_at, "" = the first where the effect may enter; with the side signal
+/// that it reads there. Throws Error "unknown_place", "no_side_signal".
+Place place_for(const Effect& effect, const Diagram& diagram, const Registry& registry, const std::string& at,
+                const DataSet* data = nullptr);
 
 /// The place that a user named with --at, as a signal or an input port, also inside diagrams ("stage/actuator.u").
 /// Throws Error "unknown_place" with the nearest name.

@@ -13,6 +13,16 @@ Effects all_effects() {
       amplifier_lag(),
       sensor_lag(),
       dead_time(),
+      structural_resonance(),
+      saturation(),
+      backlash(),
+      asymmetry(),
+      sensor_nonlinearity(),
+      temperature_gain(),
+      thermal_expansion(),
+      cross_coupling(),
+      friction(),
+      stiffening(),
   });
 }
 

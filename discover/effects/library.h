@@ -12,6 +12,16 @@ Effect creep();
 Effect amplifier_lag();
 Effect sensor_lag();
 Effect dead_time();
+Effect structural_resonance();
+Effect saturation();
+Effect backlash();
+Effect asymmetry();
+Effect sensor_nonlinearity();
+Effect temperature_gain();
+Effect thermal_expansion();
+Effect cross_coupling();
+Effect friction();
+Effect stiffening();
 
 /// The laws that amplifier and sensor lag share: one pole, two poles.
 std::vector<Law> lag_laws(const Circumstances& at);

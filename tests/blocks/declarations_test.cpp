@@ -158,6 +158,13 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "sampled_bouc_wen_inverse",
                                        "sampled_jiles_atherton_inverse",
                                        "polynomial",
+                                       "soft_saturation",
+                                       "cross_coupling",
+                                       "temperature_gain",
+                                       "thermal_expansion",
+                                       "resonance",
+                                       "mode",
+                                       "mass_with_presliding",
                                        "tapi",
                                        "sampled_tapi_inverse"};
   EXPECT_EQ(found, expected);

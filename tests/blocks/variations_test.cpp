@@ -138,16 +138,18 @@ TEST_P(Variations, WithNeutralValuesGiveTheSameTracesToRounding) {
 
 TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
   // What is varied can act: a hypothesis that changes nothing could not be tested.
-  static const std::map<std::string, Parameters> active{{"offset", {{"offset", "1 um"}}},
-                                                        {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
-                                                        {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
-                                                        {"stops", {{"lower", "-0.04 m"}, {"upper", "0.035 m"}}},
-                                                        {"square_root_outflow", {{"law", "square_root"}}},
-                                                        {"overflow", {{"brim", "1.500001 m"}}},
-                                                        {"sharpness", {{"exponent", 2.0}, {"scale", "1 um"}}},
-                                                        {"scale", {{"scale", 1.2}}},
-                                                        {"noise", {{"rms", "0.1 V"}}},
-                                                        {"computing_time", {{"samples", 1.0}}}};
+  static const std::map<std::string, Parameters> active{
+      {"offset", {{"offset", "1 um"}}},
+      {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
+      {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
+      {"presliding", {{"contact_stiffness", "30 N/m"}, {"slip_distance", "0.02 m"}}},
+      {"stops", {{"lower", "-0.04 m"}, {"upper", "0.035 m"}}},
+      {"square_root_outflow", {{"law", "square_root"}}},
+      {"overflow", {{"brim", "1.500001 m"}}},
+      {"sharpness", {{"exponent", 2.0}, {"scale", "1 um"}}},
+      {"scale", {{"scale", 1.2}}},
+      {"noise", {{"rms", "0.1 V"}}},
+      {"computing_time", {{"samples", 1.0}}}};
   const auto found = active.find(GetParam().variation.name);
   ASSERT_NE(found, active.end()) << "add values for " << GetParam().variation.name;
   const auto& example = examples().at(GetParam().type);

@@ -1,0 +1,50 @@
+// Decides the block "mass_with_presliding": a mass on a spring beside which elements stick and slip. Does not decide
+// their law: models/presliding.h. One element is a guide with friction, several are a spring with hysteresis.
+#pragma once
+
+#include <string>
+
+#include "engine/block.h"
+#include "models/mass_spring_damper.h"
+#include "models/presliding.h"
+
+namespace hysteron::blocks {
+
+struct MassWithPresliding {
+  enum Parameter { mass, damping, stiffness, contact_stiffness, slip_distance, initial_position, initial_velocity };
+
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape& shape);
+  template <class T>
+  static void output(const View<T>& v) {
+    v.out[0] = v.x[0];
+    v.out[1] = v.x[1];
+  }
+  template <class T>
+  static void derivative(const View<T>& v) {
+    const auto k = v.list(contact_stiffness), distance = v.list(slip_distance);
+    const T velocity = v.x[1];
+    T force = v.u[0];
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      force -= k[i] * v.x[i + 2];
+      v.out[i + 2] = presliding::deflection_rate(distance[i], v.x[i + 2], velocity);
+    }
+    const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
+    v.out[0] = velocity;
+    v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
+  }
+  /// The elements at rest hold nothing: as after a long decaying motion.
+  static void rest(const View<double>& v) {
+    v.out[0] = mass_spring_damper::rest({v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0}, v.u[0]);
+    for (int i = 1; i < v.n_x; ++i) v.out[i] = 0;
+  }
+  static void initial_states(const View<double>& v) {
+    v.out[0] = v.parameter(initial_position);
+    v.out[1] = v.parameter(initial_velocity);
+    for (int i = 2; i < v.n_x; ++i) v.out[i] = 0;
+  }
+};
+
+Kernel mass_with_presliding_block();
+
+}  // namespace hysteron::blocks

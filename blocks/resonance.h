@@ -1,0 +1,73 @@
+// Decides the blocks "resonance", one lightly damped mode with gain one, and "mode", one more mode beside what a signal
+// does anyway. For stages whose parts are known by their frequency only: with mass and stiffness known,
+// mass_spring_damper says more.
+#pragma once
+
+#include "engine/block.h"
+
+namespace hysteron::blocks {
+
+struct Resonance {
+  template <class T>
+  struct Params {
+    T frequency, damping;
+  };
+  template <class T>
+  struct In {
+    T u;
+  };
+  template <class T>
+  struct State {
+    T y, v;  ///< v = y'/w: of the size of y at the resonance
+  };
+  template <class T>
+  struct Out {
+    T y;
+  };
+  static void describe(BlockSpec<Resonance>& spec);
+  template <class T>
+  static Out<T> output(const Params<T>&, const State<T>& s) {
+    return {s.y};
+  }
+  template <class T>
+  static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    const T w = p.frequency * 6.283185307179586476925287;
+    return {w * s.v, w * (in.u - s.y - 2.0 * p.damping * s.v)};
+  }
+  static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
+};
+
+struct AddedMode {
+  template <class T>
+  struct Params {
+    T frequency, damping, position, velocity;
+  };
+  template <class T>
+  struct In {
+    T u;
+  };
+  template <class T>
+  struct State {
+    T q, v;  ///< v = q'/w
+  };
+  template <class T>
+  struct Out {
+    T y;
+  };
+  static void describe(BlockSpec<AddedMode>& spec);
+  template <class T>
+  static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    return {in.u + p.position * (s.q - in.u) + p.velocity * s.v};
+  }
+  template <class T>
+  static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    const T w = p.frequency * 6.283185307179586476925287;
+    return {w * s.v, w * (in.u - s.q - 2.0 * p.damping * s.v)};
+  }
+  static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
+};
+
+Kernel resonance_block();
+Kernel mode_block();
+
+}  // namespace hysteron::blocks

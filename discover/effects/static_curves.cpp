@@ -1,0 +1,99 @@
+// The effects asymmetry and sensor_nonlinearity: a static curve before the memory, or at the sensor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+namespace {
+
+/// x = (u - lowest)/range: y = u + c_2 x (x - 1) + c_3 x (x - 1) (2 x - 1), written as a polynomial in u/range. Both
+/// terms vanish at the ends of the range, so that a free gain or zero does not take their part.
+Law curve(const Circumstances& at, int order) {
+  Law law;
+  law.name = order == 2 ? "quadratic" : "cubic";
+  law.block.type = "polynomial";
+  const double range = at.range() > 0 ? at.range() : 1;
+  const auto unit = at.unit.text.empty() ? to_text(at.unit.dimension) : at.unit.text;
+  const auto shown = [&](double si) { return Number{rounded(at.unit.difference_from_si(si)), unit}; };
+  NumberList coefficients{shown(0), shown(range), shown(0)};
+  if (order == 3) coefficients.push_back(shown(0));
+  // What multiplies u must be exactly the reference: rounding both alike keeps the neutral curve neutral.
+  coefficients[1] = shown(range);
+  give(law.block, "coefficients", std::move(coefficients));
+  give(law.block, "reference", shown(range));
+  give(law.block, "lower", Number{rounded(at.unit.from_si(at.lowest - range)), unit});
+  give(law.block, "upper", Number{rounded(at.unit.from_si(at.highest + range)), unit});
+  for (int k = 2; k <= order; ++k) {
+    LawParameter c;
+    c.path = element("coefficients", k);
+    c.start = 0.01 * range;
+    c.lower = -0.5 * range;
+    c.upper = 0.5 * range;
+    c.plausible_lower = -0.15 * range;
+    c.plausible_upper = 0.15 * range;
+    law.free.push_back(c);
+  }
+  return law;
+}
+
+std::string curve_summary(const Law&, const std::vector<double>& values, const Circumstances& at) {
+  std::string text;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    text += fmt::format("{}{:.2g} % {}", k == 0 ? "" : ", ", 100 * values[k] / std::max(at.range(), 1e-300),
+                        k == 0 ? "quadratic" : "cubic");
+  return text + " over the range";
+}
+
+Effect common() {
+  Effect e;
+  e.way = Way::insert;
+  e.block_type = "polynomial";
+  e.equation = "y = u + p2*u^2 + p3*u^3";
+  e.moves_zero = true;
+  e.summary = curve_summary;
+  e.laws = [](const Circumstances& at) { return std::vector<Law>{curve(at, 2), curve(at, 3)}; };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
+  };
+  e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
+  return e;
+}
+
+}  // namespace
+
+Effect asymmetry() {
+  Effect e = common();
+  e.id = e.family = "asymmetry";
+  e.title = "Asymmetry";
+  e.cause = "Unipolar drive: the low and the high end of the drive, and so both branches, respond differently.";
+  e.source = "EFFECTS 3, asymmetry; Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
+  e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
+  e.needs = "Full drive, and small motion about two or more levels.";
+  e.places = {"core"};
+  e.parameters.front().range = "up to 10 % of the linear part";
+  e.look_alikes = {{"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"},
+                   {"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
+                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
+  return e;
+}
+
+Effect sensor_nonlinearity() {
+  Effect e = common();
+  e.id = e.family = "sensor_nonlinearity";
+  e.title = "Curvature of the sensor";
+  e.cause = "Tilt and fringes of a capacitive sensor, a bridge, the ends of an LVDT.";
+  e.source = "EFFECTS 3, sensor_nonlinearity";
+  e.residual = "One curve over the output, the same on rising and falling branches.";
+  e.needs = "A second sensor for proof; without it a curve in y or a curved actuator.";
+  e.places = {"measured"};
+  e.parameters.front().range = "0.02 .. 1 % of full scale";
+  e.look_alikes = {{"asymmetry", "reference_sensor", "a sensor's curve has no memory"},
+                   {"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
+                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
+  return e;
+}
+
+}  // namespace hysteron::effects

@@ -1,0 +1,72 @@
+// The effect temperature_gain: the stroke per volt changes with temperature.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect temperature_gain() {
+  Effect e;
+  e.id = "temperature_gain";
+  e.title = "Gain that depends on temperature";
+  e.cause = "The piezoelectric coefficient grows with temperature.";
+  e.equation = "y = u*(1 + sensitivity*(T - T0))";
+  e.source = "EFFECTS 3, temperature_gain";
+  e.residual = "In proportion to (T - T0) times the signal; nothing where the signal is zero.";
+  e.needs = "A temperature column that spans 3 K or more, with motion at each temperature.";
+  e.way = Way::insert;
+  e.block_type = "temperature_gain";
+  e.places = {"core"};
+  e.behind_core = true;
+  e.side = Side::temperature;
+  e.parameters = {{"sensitivity", "1/K", "relative change of the gain per kelvin",
+                   "0.05 .. 0.5 %/K near room temperature (EFFECTS 3)"},
+                  {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"}};
+  e.look_alikes = {{"thermal_expansion", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"},
+                   {"calibration", "temperature_staircase", "a calibration does not change with temperature"},
+                   {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};
+  e.family = "temperature_gain";
+  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+    std::string text = fmt::format("{:.3g} %/K", 100 * values[0]);
+    if (law.free.size() > 1)
+      text += fmt::format(" about {:.3g} {}", at.side_unit.from_si(values[1]), at.side_unit.text);
+    return text;
+  };
+  e.laws = [](const Circumstances& at) {
+    Law law;
+    law.name = "linear in temperature";
+    law.block.type = "temperature_gain";
+    const double middle = 0.5 * (at.side_lowest + at.side_highest);
+    give(law.block, "sensitivity", Number{0.001, "1/K"});
+    give(law.block, "reference",
+         at.side_unit.text.empty() ? Number{20, "degC"}
+                                   : Number{rounded(at.side_unit.from_si(middle)), at.side_unit.text});
+    LawParameter sensitivity;
+    sensitivity.path = "sensitivity";
+    sensitivity.start = 0.001;
+    sensitivity.lower = -0.05;
+    sensitivity.upper = 0.05;
+    sensitivity.plausible_lower = -0.005;
+    sensitivity.plausible_upper = 0.01;
+    law.free = {sensitivity};
+    if (!at.gain_is_free) {  // else the gain of the model is that at the reference, wherever that is
+      LawParameter reference;
+      reference.path = "reference";
+      reference.start = middle;
+      reference.lower = middle - 100;
+      reference.upper = middle + 100;
+      law.free.push_back(reference);
+    }
+    return std::vector<Law>{law};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (!at.from_data) return "";
+    const double span = at.side_highest - at.side_lowest;
+    return span < 3 ? fmt::format("the temperature spans {:.2g} K, a gain needs 3 K", span) : "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

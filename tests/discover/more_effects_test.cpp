@@ -1,0 +1,264 @@
+// Effects that read a second signal or replace a block, each hidden by a formula of its own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/register_all.h"
+#include "discover/discover.h"
+#include "io/diagram_file.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+class MoreEffects : public ::testing::Test {
+ protected:
+  Discovery found(const Diagram& d, const DataSet& data) { return diagnose(d, data, registry, effects); }
+  static std::string tried(const Discovery& d) {
+    std::string text = d.headline;
+    for (const auto& c : d.candidates)
+      text += "\n  " + c.effect + " at " + c.place + ": " + c.summary + "; " + c.reason;
+    for (const auto& r : d.refused) text += "\n  refused " + r.effect + ": " + r.reason;
+    return text;
+  }
+  static const Refused* refusal(const Discovery& d, const std::string& effect) {
+    for (const auto& r : d.refused)
+      if (r.effect == effect) return &r;
+    return nullptr;
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+struct Made {
+  Role role;
+  std::vector<double> t, u;
+};
+
+/// A temperature [K] that wanders by `span`, differently in each recording.
+std::vector<double> wandering(const std::vector<double>& t, double span, double phase) {
+  return sampled(t, [&, T = t.back()](double x) {
+    return 295 + span * (0.5 + 0.3 * std::sin(2 * pi * 1.3 * x / T + phase) + 0.2 * std::sin(2 * pi * 3.1 * x / T));
+  });
+}
+
+std::vector<Made> drives() {
+  return {{Role::train, rows(900, 0.05), levels(rows(900, 0.05), {0.4, 1, 0.2, 0.7})},
+          {Role::train, rows(900, 0.02), several_sines(rows(900, 0.02), 1, {0.3, 0.8})},
+          {Role::validate, rows(900, 0.04), several_sines(rows(900, 0.04), 1, {0.2, 0.5})}};
+}
+
+/// Recordings with column T in which y = law(t, u, T) plus noise.
+template <class Law>
+DataSet with_temperature(double span, double white, Law law) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 300;
+  for (auto& m : drives()) {
+    const auto warm = wandering(m.t, span, static_cast<double>(seed));
+    auto y = law(m.t, m.u, warm);
+    const auto n = noise(y.size(), white, 0.1 * white, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+    list.back().columns["T"] = warm;
+    list.back().units["T"] = parse_unit("degC");
+  }
+  DataSet data = data_set(list, white);
+  data.notes["T"].to = "T";
+  return data;
+}
+
+/// A part that warms up with time constant 4 s and moves y, integrated by small Euler steps.
+DataSet expanding(double span) {
+  return with_temperature(span, 2e-3, [](const auto& t, const auto& u, const auto& warm) {
+    std::vector<double> y;
+    double w = warm.front();
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 50; ++i) w += (t[k] - t[k - 1]) / 50 * (warm[k] - w) / 4;
+      y.push_back(u[k] + 0.02 * (w - 297));
+    }
+    return y;
+  });
+}
+
+TEST_F(MoreEffects, ThermalExpansionIsNamedWithItsDelayAndBringsTheColumnIn) {
+  const Discovery d = found(plain_gain(), expanding(6));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  const auto& winner = d.steps.front().winner;
+  ASSERT_EQ(winner.effect, "thermal_expansion") << tried(d);
+  EXPECT_NEAR(d.final_error.rms_validate, 2e-3, 2e-4);
+  EXPECT_EQ(winner.law, "one time constant");
+  const auto value = [&](std::size_t i) { return winner.found.at(i).estimate.used; };
+  EXPECT_NEAR(value(0), 0.02, 0.002);  // m/K; noise and 1/f of 0.2 mm over 900 rows leave less than a tenth
+  EXPECT_NEAR(value(1), 4, 0.4);       // s
+  EXPECT_NEAR(value(2), 297, 0.5);     // K: no constant of this diagram takes up the middle
+  const auto* input = d.final_diagram.inputs.find("T");
+  ASSERT_NE(input, nullptr);
+  EXPECT_EQ(input->unit, "degC");
+  const Diagram without = remove_effect(d.final_diagram, "thermal_expansion");
+  EXPECT_EQ(without.inputs.find("T"), nullptr) << "the column leaves with the effect";
+  EXPECT_EQ(without.blocks.names(), plain_gain().blocks.names());
+}
+
+TEST_F(MoreEffects, AGainThatFollowsTheTemperatureIsNoExpansion) {
+  const auto data = with_temperature(12, 2e-3, [](const auto&, const auto& u, const auto& warm) {
+    std::vector<double> y;
+    for (std::size_t k = 0; k < u.size(); ++k) y.push_back(u[k] * (1 + 0.004 * (warm[k] - 300)));
+    return y;
+  });
+  const Discovery d = found(plain_gain(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "temperature_gain") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 0.004, 4e-4);
+}
+
+TEST_F(MoreEffects, AnExpansionIsRefusedWhereTheTemperatureStandsStillOrIsNotRecorded) {
+  const Discovery still = found(plain_gain(), expanding(0.2));
+  const auto* narrow = refusal(still, "thermal_expansion");
+  ASSERT_NE(narrow, nullptr) << tried(still);
+  EXPECT_NE(narrow->reason.find("0.5 K"), std::string::npos) << narrow->reason;
+  DataSet data = expanding(6);
+  data.notes.erase("T");
+  for (auto& r : data.recordings) r.columns.erase("T");
+  const Discovery blind = found(plain_gain(), data);
+  const auto* missing = refusal(blind, "thermal_expansion");
+  ASSERT_NE(missing, nullptr) << tried(blind);
+  EXPECT_NE(missing->reason.find("no column"), std::string::npos) << missing->reason;
+}
+
+TEST_F(MoreEffects, AnotherAxisIsNamedFromItsDrive) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 500;
+  for (auto& m : drives()) {
+    const auto other = sampled(m.t, [&, T = m.t.back()](double x) {
+      return 0.5 * (1 - std::cos(2 * pi * 2.7 * x / T + static_cast<double>(seed)));
+    });
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += m.u[k] + 0.03 * other[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+    list.back().columns["u2"] = other;
+    list.back().units["u2"] = parse_unit("V");
+  }
+  DataSet data = data_set(list, 1e-3);
+  data.notes["u2"].to = "u2";
+  const Discovery d = found(plain_gain(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "cross_coupling") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 0.03, 1e-3);
+}
+
+TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
+  // q'' + 2 z w q' + w^2 q = w^2 u by the central difference with 100 steps a row: y = u + 0.05 (q - u).
+  std::vector<Recording> list;
+  std::uint64_t seed = 700;
+  const double hertz = 37, w = 2 * pi * hertz, z = 0.02;
+  for (const auto& [role, step] : {std::pair{Role::train, 2e-3}, {Role::train, 3e-3}, {Role::validate, 2.5e-3}}) {
+    const auto t = rows(1200, step);
+    const auto u = levels(
+        t, role == Role::train ? std::vector<double>{0.3, 1, 0.5, 0.8, 0.1} : std::vector<double>{0.9, 0.2, 0.6, 0});
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    double q = 0, v = 0;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 100; ++i) {
+        const double h = step / 100, drive = u[k - 1] + (u[k] - u[k - 1]) * (i + 0.5) / 100;
+        v += h * (w * w * (drive - q) - 2 * z * w * v);
+        q += h * v;
+      }
+      y[k] += u[k] + 0.05 * (q - u[k]);
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "structural_resonance") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, hertz, 0.2);
+}
+
+TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 900;
+  for (auto& m : drives()) {
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += std::min(m.u[k], 0.83);
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "saturation") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.at(1).estimate.used, 0.83, 2e-3);
+}
+
+/// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
+Diagram mass_on_spring() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& force = d.blocks["force"];
+  force.type = "gain";
+  force.parameters["gain"] = Value("10 N/V");
+  force.in = {{"", "u"}};
+  Node& stage = d.blocks["stage"];
+  stage.type = "mass_spring_damper";
+  stage.parameters["mass"] = Value("1 kg");
+  stage.parameters["stiffness"] = Value("400 N/m");
+  stage.parameters["damping"] = Value("4 N s/m");
+  stage.in = {{"", "force"}};
+  d.outputs["y"] = "stage.position";
+  return d;
+}
+
+/// The mass with a further force(x, v), by small semi-implicit Euler steps.
+template <class Force>
+DataSet moving_mass(Force force) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 1100;
+  for (auto& m : drives()) {
+    auto y = noise(m.t.size(), 1e-5, 1e-6, seed);
+    double x = 0, v = 0;
+    Force f = force;
+    for (std::size_t k = 0; k < m.t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 200; ++i) {
+        const double h = (m.t[k] - m.t[k - 1]) / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 0.5) / 200;
+        v += h * (10 * u - 400 * x - 4 * v - f(x, v, h));
+        x += h * v;
+      }
+      y[k] += x;
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  return data_set(list, 1e-5);
+}
+
+TEST_F(MoreEffects, AStiffeningSpringIsNamedAndReplacesTheBlock) {
+  const auto data = moving_mass([](double x, double, double) { return 8e4 * x * x * x; });
+  const Discovery d = found(mass_on_spring(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "stiffening") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 8e4, 4e3);
+  const Node* stage = d.final_diagram.blocks.find("stage");
+  ASSERT_NE(stage, nullptr);
+  ASSERT_NE(stage->from.find("on"), nullptr);
+  EXPECT_EQ(stage->from.find("on")->type, "mass_on_stiffening_spring");
+  EXPECT_EQ(stage->from.find("off")->type, "mass_spring_damper");
+}
+
+TEST_F(MoreEffects, FrictionOfAGuideIsNamedWithItsForce) {
+  // LuGre's bristle with constant friction 0.4 N and stiffness 2e4 N/m [Canudas de Wit 1995, without viscous terms].
+  struct Bristle {
+    double z = 0;
+    double operator()(double, double v, double h) {
+      z += h * (v - 2e4 * std::abs(v) / 0.4 * z);
+      return 2e4 * z;
+    }
+  };
+  const Discovery d = found(mass_on_spring(), moving_mass(Bristle{}));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
+  const auto& f = d.steps.front().winner.found;
+  EXPECT_NEAR(f.at(0).estimate.used * f.at(1).estimate.used, 0.4, 0.04);
+}
+
+}  // namespace
+}  // namespace hysteron
