@@ -9,6 +9,7 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
       .variation("presliding", "mass_with_presliding", {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
+      .variation("resonance", "mass_with_mode", {{"share", "0"}, {"frequency", "1 Hz"}})
       .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
   describe_motion(spec);
   describe_start(spec);
@@ -24,6 +25,22 @@ void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
   describe_motion(spec);
   spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic part of the spring").optional("0");
   describe_start(spec);
+}
+
+ParameterDeclaration& describe_motion(Declaration& d) {
+  d.in_group("mechanics");
+  d.input("force", "N", "force on the mass");
+  d.output("position", "m", "position");
+  d.output("velocity", "m/s", "velocity");
+  d.state("position", "m", "position");
+  d.state("velocity", "m/s", "velocity");
+  d.parameter("mass", "kg", "moving mass").positive();
+  d.parameter("damping", "N*s/m", "viscous damping").optional("0").not_negative();
+  return d.parameter("stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
+}
+void describe_start(Declaration& d) {
+  d.parameter("initial_position", "m", "position at the start").optional("0");
+  d.parameter("initial_velocity", "m/s", "velocity at the start").optional("0");
 }
 
 Kernel mass_spring_damper_block() { return kernel<MassSpringDamper>(); }

@@ -70,26 +70,11 @@ struct MassOnStiffeningSpring : Mass {
   }
 };
 
-/// Ports, states and first parameters that all masses have in common, the spring last.
-template <class B>
-ParameterDeclaration& describe_motion(BlockSpec<B>& spec) {
-  using P = typename B::template Params<double>;
-  spec.in_group("mechanics");
-  spec.input(&ForceIn<double>::force, "force", "N", "force on the mass");
-  spec.state(&MotionState<double>::position, "position", "m", "position");
-  spec.state(&MotionState<double>::velocity, "velocity", "m/s", "velocity");
-  spec.output(&MotionOut<double>::position, "position", "m", "position");
-  spec.output(&MotionOut<double>::velocity, "velocity", "m/s", "velocity");
-  spec.param(&P::mass, "mass", "kg", "moving mass").positive();
-  spec.param(&P::damping, "damping", "N*s/m", "viscous damping").optional("0").not_negative();
-  return spec.param(&P::stiffness, "stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
-}
-template <class B>
-void describe_start(BlockSpec<B>& spec) {
-  using P = typename B::template Params<double>;
-  spec.param(&P::initial_position, "initial_position", "m", "position at the start").optional("0");
-  spec.param(&P::initial_velocity, "initial_velocity", "m/s", "velocity at the start").optional("0");
-}
+/// Ports, the first two states, and mass, damping and stiffness, with which the Params of all masses begin. Returns the
+/// stiffness.
+ParameterDeclaration& describe_motion(Declaration& d);
+/// Position and velocity at the start, with which they end.
+void describe_start(Declaration& d);
 
 Kernel mass_spring_damper_block();
 Kernel mass_on_stiffening_spring_block();

@@ -1,32 +1,27 @@
 #include "blocks/mass_with_presliding.h"
 
+#include "blocks/mass_spring_damper.h"
+
 namespace hysteron::blocks {
 
 void MassWithPresliding::describe(Declaration& d) {
-  d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force")
-      .in_group("mechanics");
+  d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v - |v| "
        "z_i/slip_distance_i")
-      .from("Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, ASME DETC (2003)");
+      .from(
+          "Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, PhysCon (2003) "
+          "1170-1178");
   d.remark("One element is a guide with friction; several, soft and stiff ones, are a spring with hysteresis.");
   d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
-  d.input("force", "N", "force on the mass");
-  d.output("position", "m", "position");
-  d.output("velocity", "m/s", "velocity");
-  d.state("position", "m", "position");
-  d.state("velocity", "m/s", "velocity");
+  describe_motion(d);
   d.state("deflection", "m", "deflection of each element");
-  d.parameter("mass", "kg", "moving mass").positive();
-  d.parameter("damping", "N*s/m", "viscous damping").optional("0").not_negative();
-  d.parameter("stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
   d.list("contact_stiffness", "N/m", "stiffness of each element while it sticks").not_negative();
   d.list("slip_distance", "m", "deflection at which each element slips; its friction is stiffness times distance")
       .positive()
       .difference()
       .as_long_as("contact_stiffness");
-  d.parameter("initial_position", "m", "position at the start").optional("0").difference();
-  d.parameter("initial_velocity", "m/s", "velocity at the start").optional("0");
+  describe_start(d);
 }
 
 Sizes MassWithPresliding::sizes(const Shape& shape) {

@@ -17,6 +17,7 @@
 #include "blocks/lag.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
+#include "blocks/mass_with_mode.h"
 #include "blocks/mass_with_presliding.h"
 #include "blocks/mass_with_stops.h"
 #include "blocks/matrix_gain.h"
@@ -107,6 +108,7 @@ Registry all_blocks() {
   r.add(blocks::mass_spring_damper_block());
   r.add(blocks::mass_on_stiffening_spring_block());
   r.add(blocks::mass_with_friction_block());
+  r.add(blocks::mass_with_mode_block());
   r.add(blocks::mass_with_presliding_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());

@@ -1,9 +1,10 @@
 // Decides the blocks "resonance", one lightly damped mode with gain one, and "mode", one more mode beside what a signal
 // does anyway. For stages whose parts are known by their frequency only: with mass and stiffness known,
-// mass_spring_damper says more.
+// mass_spring_damper says more. Does not decide how a mode moves: models/resonance.h.
 #pragma once
 
 #include "engine/block.h"
+#include "models/resonance.h"
 
 namespace hysteron::blocks {
 
@@ -31,8 +32,8 @@ struct Resonance {
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    const T w = p.frequency * 6.283185307179586476925287;
-    return {w * s.v, w * (in.u - s.y - 2.0 * p.damping * s.v)};
+    const auto rate = resonance::rates(p.frequency, p.damping, s.y, s.v, in.u);
+    return {rate.q, rate.v};
   }
   static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
 };
@@ -61,8 +62,8 @@ struct AddedMode {
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    const T w = p.frequency * 6.283185307179586476925287;
-    return {w * s.v, w * (in.u - s.q - 2.0 * p.damping * s.v)};
+    const auto rate = resonance::rates(p.frequency, p.damping, s.q, s.v, in.u);
+    return {rate.q, rate.v};
   }
   static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
 };

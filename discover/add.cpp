@@ -74,7 +74,7 @@ void place_node(Ordered<Node>& blocks, const std::string& source, const std::str
 }
 
 /// Marks an input that an effect brought into the diagram, so that it leaves with it.
-std::string side_remark(const Effect& effect) { return "read by " + effect.id; }
+std::string side_remark(const std::string& effect) { return "read by " + effect; }
 
 std::string insert(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
                    const std::string& at, const Place& place) {
@@ -91,7 +91,7 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
   choice.in = {{"", spot.from}};
   if (!place.side.empty()) {
     choice.in.push_back({"", place.side});
-    if (w.signal(place.side).empty()) diagram.inputs[place.side] = {place.side_unit.text, side_remark(effect), 0};
+    if (w.signal(place.side).empty()) diagram.inputs[place.side] = {place.side_unit.text, side_remark(effect.id), 0};
   }
   choice.from["off"].type = "pass";
   choice.from["on"] = law.block;
@@ -207,7 +207,7 @@ void take_out(Diagram& diagram, const std::string& name, const std::string& effe
   std::erase_if(diagram.record, reads);
   diagram.blocks.erase(name);
   const auto* input = side.empty() ? nullptr : diagram.inputs.find(side);
-  if (input == nullptr || input->remark != "read by " + effect) return;
+  if (input == nullptr || input->remark != side_remark(effect)) return;
   for (const auto& [other, node] : diagram.blocks)
     for (const auto& wire : node.in)
       if (wire.from == side) return;

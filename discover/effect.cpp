@@ -45,7 +45,7 @@ Number with_unit(double si, const Unit& unit) {
   // Differences: a threshold of 2 degC is a span, not a temperature.
   const double value = effects::rounded(unit.difference_from_si(si));
   if (unit.text.empty() && unit.dimension.none()) return {value, {}};
-  return {value, unit.text.empty() ? to_text(unit.dimension) : unit.text};
+  return {value, effects::unit_text(unit)};
 }
 
 NumberList with_unit(const std::vector<double>& si, const Unit& unit) {
@@ -80,6 +80,14 @@ std::string time_text(double seconds) {
   if (seconds >= 1 || seconds == 0) return fmt::format("{:.3g} s", seconds);
   if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.3g} us", seconds * 1e6);
+}
+
+std::string unit_text(const Unit& unit) { return unit.text.empty() ? to_text(unit.dimension) : unit.text; }
+
+Number level(double si, const Unit& unit) { return {rounded(unit.from_si(si)), unit_text(unit)}; }
+
+std::string stands_still(const Circumstances& at) {
+  return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
 }
 
 }  // namespace effects

@@ -38,8 +38,8 @@ std::vector<double> output_instants(const SimulateOptions& options);
 /// Throws Error "unbound_input" if an input of the diagram has no series.
 void check_inputs(const Program& program, const Run& run);
 
-/// True if the method and the diagram allow it; "auto" does not take it for loops with nonlinear blocks. Throws Error "not_exact" where it
-/// was asked for and cannot be.
+/// True if the method and the diagram allow it; "auto" does not take it for loops with nonlinear blocks. Throws Error
+/// "not_exact" where it was asked for and cannot be.
 bool advances_exactly(const Program& program, const SimulateOptions& options);
 /// Nothing where the method may be another and no number of substeps that pays gives the tolerance.
 std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,

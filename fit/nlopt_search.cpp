@@ -19,7 +19,7 @@ constexpr double lost = 1e100;
 
 struct Asked {
   CostCounter& cost;
-  nlopt_opt library;
+  nlopt_opt optimizer;
   std::exception_ptr error{};
 };
 
@@ -27,16 +27,16 @@ struct Asked {
 double ask(unsigned n, const double* x, double*, void* data) {
   auto& asked = *static_cast<Asked*>(data);
   if (asked.error || asked.cost.ended()) {
-    nlopt_force_stop(asked.library);
+    nlopt_force_stop(asked.optimizer);
     return lost;
   }
   try {
     const double cost = asked.cost(Point(x, x + n));
-    if (asked.cost.ended()) nlopt_force_stop(asked.library);
+    if (asked.cost.ended()) nlopt_force_stop(asked.optimizer);
     return std::isfinite(cost) ? cost : lost;
   } catch (...) {
     asked.error = std::current_exception();
-    nlopt_force_stop(asked.library);
+    nlopt_force_stop(asked.optimizer);
     return lost;
   }
 }

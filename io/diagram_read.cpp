@@ -252,7 +252,8 @@ class DiagramReader {
       const JsonPlace root = set.root();
       if (root.expect_object("{\"alpha\": \"0.6 um/V\"}"))
         for (const auto& [key, member] : root.members()) {
-          if (key == "$schema" || key == "format" || key == "title" || key == "source" || key == "remark" || key == "fit")
+          if (key == "$schema" || key == "format" || key == "title" || key == "source" || key == "remark" ||
+              key == "fit")
             continue;
           if (auto value = read_value(member, *path + "#" + member.pointer(),
                                       {"std", "source", "free", "scale", "bounds", "remark"}))

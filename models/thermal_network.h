@@ -2,12 +2,13 @@
 // Does not decide where the heat comes from.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "models/linear_system.h"
 
 namespace hysteron::thermal_network {
 
@@ -56,26 +57,8 @@ inline void rest(const Network<double>& net, std::span<const double> heat, doubl
       a[j * n + i] -= g;
     }
   }
-  // Elimination without pivoting: the matrix is symmetric and diagonally dominant. What is left of a pivot without a
-  // way to the ambient is rounding.
-  std::vector<double> full(n);
-  for (std::size_t i = 0; i < n; ++i) full[i] = a[i * n + i];
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!(a[k * n + k] > 1e-14 * full[k])) {
-      for (std::size_t i = 0; i < n; ++i) out[i] = std::numeric_limits<double>::quiet_NaN();
-      return;
-    }
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double factor = a[i * n + k] / a[k * n + k];
-      for (std::size_t j = k; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    double sum = b[i];
-    for (std::size_t j = i + 1; j < n; ++j) sum -= a[i * n + j] * (out[j] - ambient);
-    out[i] = ambient + sum / a[i * n + i];
-  }
+  const bool solved = linear_system::solve(a, b);
+  for (std::size_t i = 0; i < n; ++i) out[i] = solved ? ambient + b[i] : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace hysteron::thermal_network

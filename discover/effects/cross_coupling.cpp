@@ -35,10 +35,9 @@ Effect cross_coupling() {
     law.name = "static";
     law.block.type = "cross_coupling";
     const double own = std::max(at.range(), 1e-30) / std::max(at.side_highest - at.side_lowest, 1e-300);
-    const auto text = [](const Unit& u) { return u.text.empty() ? to_text(u.dimension) : u.text; };
     const double scale = at.unit.difference_from_si(1) / at.side_unit.difference_from_si(1);
     give(law.block, "coefficient",
-         Number{rounded(0.01 * own * scale), "(" + text(at.unit) + ")/(" + text(at.side_unit) + ")"});
+         Number{rounded(0.01 * own * scale), "(" + unit_text(at.unit) + ")/(" + unit_text(at.side_unit) + ")"});
     LawParameter c;
     c.path = "coefficient";
     c.start = 0.01 * own;

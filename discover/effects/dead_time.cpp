@@ -48,9 +48,7 @@ Effect dead_time() {
     law.free.push_back(delay);
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
-  };
+  e.unseen = stands_still;
   return e;
 }
 

@@ -9,14 +9,10 @@
 namespace hysteron::effects {
 namespace {
 
+/// [m] that the mass moves; a micrometre where nobody looked.
 double travel(const Circumstances& at) {
   const double range = at.travel_highest - at.travel_lowest;
   return range > 0 ? range : 1e-6;
-}
-
-Number number(double si, const char* unit) {
-  const Unit u = parse_unit(unit);
-  return {rounded(u.difference_from_si(si)), unit};
 }
 
 }  // namespace
@@ -47,8 +43,8 @@ Effect friction() {
     law.name = "presliding (Dahl)";
     law.block.type = "mass_with_presliding";
     const double range = travel(at), force = at.range() > 0 ? at.range() : 1;
-    give(law.block, "contact_stiffness", NumberList{number(0.5 * force / range, "N/m")});
-    give(law.block, "slip_distance", NumberList{number(0.02 * range, "um")});
+    give(law.block, "contact_stiffness", NumberList{with_unit(0.5 * force / range, parse_unit("N/m"))});
+    give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit("um"))});
     LawParameter k;
     k.path = element("contact_stiffness", 0);
     k.start = 0.5 * force / range;
@@ -101,7 +97,7 @@ Effect stiffening() {
     const double x = std::max({std::abs(at.travel_lowest), std::abs(at.travel_highest), 1e-12});
     const double unit =
         std::max(at.range(), 1e-30) / (x * x * x);  // as much force as the drive has, at the largest travel
-    give(law.block, "stiffening", number(0.01 * unit, "N/m^3"));
+    give(law.block, "stiffening", with_unit(0.01 * unit, parse_unit("N/m^3")));
     LawParameter k3;
     k3.path = "stiffening";
     k3.start = 0.01 * unit;

@@ -35,5 +35,11 @@ std::vector<double> per_decade(double from, double to, double per_decade);
 double rounded(double value);
 /// "0.2 ms", "16 s": a time for people.
 std::string time_text(double seconds);
+/// A unit as it is written into a file: as people wrote it, else its dimension.
+std::string unit_text(const Unit& unit);
+/// A level [SI], not a difference, as a parameter in `unit`: 20 degC stays 20 degC.
+Number level(double si, const Unit& unit);
+/// Why nothing can be seen at a place where the signal does not move, "" where it does or nobody looked.
+std::string stands_still(const Circumstances& at);
 
 }  // namespace hysteron::effects

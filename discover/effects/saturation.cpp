@@ -42,11 +42,8 @@ Effect saturation() {
     law.name = "hard limits";
     law.block.type = "saturation";
     const double range = at.range() > 0 ? at.range() : 1;
-    const auto absolute = [&](double si) {
-      return Number{rounded(at.unit.from_si(si)), at.unit.text.empty() ? to_text(at.unit.dimension) : at.unit.text};
-    };
-    give(law.block, "lower", absolute(at.lowest));
-    give(law.block, "upper", absolute(at.highest));
+    give(law.block, "lower", level(at.lowest, at.unit));
+    give(law.block, "upper", level(at.highest, at.unit));
     // A limit at the end of the range limits nothing: held at that bound it costs no parameter.
     LawParameter lower;
     lower.path = "lower";
@@ -85,9 +82,7 @@ Effect saturation() {
     knee.free = {limit, sharpness};
     return std::vector<Law>{law, knee};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
-  };
+  e.unseen = stands_still;
   return e;
 }
 

@@ -9,23 +9,20 @@
 namespace hysteron::effects {
 namespace {
 
-/// x = (u - lowest)/range: y = u + c_2 x (x - 1) + c_3 x (x - 1) (2 x - 1), written as a polynomial in u/range. Both
-/// terms vanish at the ends of the range, so that a free gain or zero does not take their part.
+/// y = u + c_2 (u/range)^2 (+ c_3 (u/range)^3), straight on beyond twice the range.
 Law curve(const Circumstances& at, int order) {
   Law law;
   law.name = order == 2 ? "quadratic" : "cubic";
   law.block.type = "polynomial";
   const double range = at.range() > 0 ? at.range() : 1;
-  const auto unit = at.unit.text.empty() ? to_text(at.unit.dimension) : at.unit.text;
-  const auto shown = [&](double si) { return Number{rounded(at.unit.difference_from_si(si)), unit}; };
-  NumberList coefficients{shown(0), shown(range), shown(0)};
-  if (order == 3) coefficients.push_back(shown(0));
-  // What multiplies u must be exactly the reference: rounding both alike keeps the neutral curve neutral.
-  coefficients[1] = shown(range);
+  // The linear coefficient is the reference, rounded alike: the neutral curve is exactly u.
+  const Number reference = with_unit(range, at.unit), zero = with_unit(0.0, at.unit);
+  NumberList coefficients{zero, reference, zero};
+  if (order == 3) coefficients.push_back(zero);
   give(law.block, "coefficients", std::move(coefficients));
-  give(law.block, "reference", shown(range));
-  give(law.block, "lower", Number{rounded(at.unit.from_si(at.lowest - range)), unit});
-  give(law.block, "upper", Number{rounded(at.unit.from_si(at.highest + range)), unit});
+  give(law.block, "reference", reference);
+  give(law.block, "lower", level(at.lowest - range, at.unit));
+  give(law.block, "upper", level(at.highest + range, at.unit));
   for (int k = 2; k <= order; ++k) {
     LawParameter c;
     c.path = element("coefficients", k);
@@ -55,10 +52,10 @@ Effect common() {
   e.moves_zero = true;
   e.summary = curve_summary;
   e.laws = [](const Circumstances& at) { return std::vector<Law>{curve(at, 2), curve(at, 3)}; };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
-  };
+  e.unseen = stands_still;
   e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
+  e.look_alikes = {{"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
+                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
   return e;
 }
 
@@ -74,9 +71,7 @@ Effect asymmetry() {
   e.needs = "Full drive, and small motion about two or more levels.";
   e.places = {"core"};
   e.parameters.front().range = "up to 10 % of the linear part";
-  e.look_alikes = {{"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"},
-                   {"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
-                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
+  e.look_alikes.push_back({"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"});
   return e;
 }
 
@@ -90,9 +85,7 @@ Effect sensor_nonlinearity() {
   e.needs = "A second sensor for proof; without it a curve in y or a curved actuator.";
   e.places = {"measured"};
   e.parameters.front().range = "0.02 .. 1 % of full scale";
-  e.look_alikes = {{"asymmetry", "reference_sensor", "a sensor's curve has no memory"},
-                   {"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
-                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
+  e.look_alikes.push_back({"asymmetry", "reference_sensor", "a sensor's curve has no memory"});
   return e;
 }
 

@@ -16,7 +16,7 @@ Effect structural_resonance() {
   e.equation = "y = u + position*(q - u) + velocity*q'/w,  q'' + 2*damping*w*q' + w^2*q = w^2*u,  w = 2*pi*frequency";
   e.source = "EFFECTS 3, structural_resonance";
   e.residual = "Ringing after steps and corners, a gain that rises towards the frequency, the same at all amplitudes.";
-  e.needs = "Steps or corners, or motion up to the frequency, sampled five times a period.";
+  e.needs = "Steps or corners, or motion up to the frequency, sampled four times a period.";
   e.way = Way::insert;
   e.commutes = Commutes::linear;
   e.block_type = "mode";
@@ -30,12 +30,9 @@ Effect structural_resonance() {
                    {"sensor_lag", "fast_steps", "a lag creeps to the level, a resonance rings about it"},
                    {"dead_time", "fast_steps", "a delay repeats the step, a resonance rings about the level"}};
   e.family = "structural_resonance";
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances&) {
-    std::string text;
-    for (std::size_t k = 0; k + 3 < values.size() && k < law.free.size(); k += 4)
-      text += fmt::format("{}{:.4g} Hz, damping {:.2g}, {:.2g} % of the motion", k == 0 ? "" : "; ", values[k],
-                          values[k + 1], 100 * std::hypot(values[k + 2], values[k + 3]));
-    return text;
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+    return fmt::format("{:.4g} Hz, damping {:.2g}, {:.2g} % of the motion", values[0], values[1],
+                       100 * std::hypot(values[2], values[3]));
   };
   e.laws = [](const Circumstances& at) {
     Law law;
@@ -72,7 +69,7 @@ Effect structural_resonance() {
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)
       return "a temperature does not ring: conduction of heat has real poles only";
-    return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
+    return stands_still(at);
   };
   return e;
 }

@@ -40,9 +40,7 @@ Effect temperature_gain() {
     law.block.type = "temperature_gain";
     const double middle = 0.5 * (at.side_lowest + at.side_highest);
     give(law.block, "sensitivity", Number{0.001, "1/K"});
-    give(law.block, "reference",
-         at.side_unit.text.empty() ? Number{20, "degC"}
-                                   : Number{rounded(at.side_unit.from_si(middle)), at.side_unit.text});
+    give(law.block, "reference", at.side_unit.text.empty() ? Number{20, "degC"} : level(middle, at.side_unit));
     LawParameter sensitivity;
     sensitivity.path = "sensitivity";
     sensitivity.start = 0.001;

@@ -8,18 +8,20 @@
 namespace hysteron::effects {
 namespace {
 
+/// [s] where the search for the time constant of part k begins.
+double first_time(const Circumstances& at, int k) { return at.longest_recording / (k == 0 ? 10 : 100); }
+
 /// One or two parts, each late by its own time.
 Law parts(const Circumstances& at, int n) {
   Law law;
   law.name = n == 1 ? "one time constant" : "two time constants";
   law.block.type = "thermal_expansion";
   const double per_kelvin = 0.01 * std::max(at.range(), 1e-30);
-  const std::string unit = at.unit.text.empty() ? to_text(at.unit.dimension) : at.unit.text;
+  const std::string unit = unit_text(at.unit);
   NumberList coefficients, times;
   for (int k = 0; k < n; ++k) {
-    const double start = rounded(at.longest_recording / (k == 0 ? 10 : 100));
     coefficients.push_back(Number{rounded(at.unit.difference_from_si(per_kelvin)), unit.empty() ? "1/K" : unit + "/K"});
-    times.push_back(with_unit(start, parse_unit("s")));
+    times.push_back(with_unit(first_time(at, k), parse_unit("s")));
   }
   give(law.block, "coefficients", std::move(coefficients));
   give(law.block, "times", std::move(times));
@@ -32,7 +34,7 @@ Law parts(const Circumstances& at, int n) {
   for (int k = 0; k < n; ++k) {
     LawParameter time;
     time.path = element("times", k);
-    time.start = at.longest_recording / (k == 0 ? 10 : 100);
+    time.start = first_time(at, k);
     time.lower = at.shortest_step / 10;  // as good as at once
     time.upper = 30 * at.longest_recording;
     time.log_scale = true;
@@ -43,8 +45,7 @@ Law parts(const Circumstances& at, int n) {
   // Where no constant of the diagram takes up the middle, the temperature of no expansion is found too.
   if (!at.zeros.empty() || at.offset_is_free) return law;
   const double middle = 0.5 * (at.side_lowest + at.side_highest);
-  if (!at.side_unit.text.empty())
-    give(law.block, "reference", Number{rounded(at.side_unit.from_si(middle)), at.side_unit.text});
+  if (!at.side_unit.text.empty()) give(law.block, "reference", level(middle, at.side_unit));
   LawParameter reference;
   reference.path = "reference";
   reference.start = middle;

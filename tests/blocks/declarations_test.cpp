@@ -164,6 +164,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "thermal_expansion",
                                        "resonance",
                                        "mode",
+                                       "mass_with_mode",
                                        "mass_with_presliding",
                                        "tapi",
                                        "sampled_tapi_inverse"};

@@ -142,6 +142,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"offset", {{"offset", "1 um"}}},
       {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
       {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
+      {"resonance", {{"share", 0.1}, {"frequency", "3 Hz"}}},
       {"presliding", {{"contact_stiffness", "30 N/m"}, {"slip_distance", "0.02 m"}}},
       {"stops", {{"lower", "-0.04 m"}, {"upper", "0.035 m"}}},
       {"square_root_outflow", {{"law", "square_root"}}},

@@ -1,0 +1,52 @@
+// Laws of one state or none, against closed forms.
+#include "models/resonance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "models/presliding.h"
+#include "models/saturation.h"
+
+namespace hysteron {
+namespace {
+
+TEST(ResonanceModel, AnswersASineAsItsTransferFunctionSays) {
+  // The particular solution q = Im(H e^(iat)), H = w^2/(w^2 - a^2 + 2 i z w a), satisfies the law at any instant.
+  const double hertz = 3, z = 0.07, w = 2 * std::numbers::pi * hertz, a = 11;
+  const std::complex<double> i(0, 1), h = w * w / (w * w - a * a + 2.0 * i * z * w * a);
+  for (const double t : {0.0, 0.13, 0.7}) {
+    const auto q = h * std::exp(i * a * t), v = i * a * q / w;
+    const auto rate = resonance::rates(hertz, z, q.imag(), v.imag(), std::sin(a * t));
+    // Rounding of numbers of size w |v|, below 100.
+    EXPECT_NEAR(rate.q, (i * a * q).imag(), 1e-13);
+    EXPECT_NEAR(rate.v, (i * a * v).imag(), 1e-12);
+  }
+}
+
+TEST(PreslidingModel, FollowsItsExponentialAndTurnsAtTheReversal) {
+  // dz/dx along the closed form, by the law itself: z' of z = d (1 - exp(-x/d)) is exp(-x/d) v.
+  const double d = 2e-6, v = 3e-3;
+  for (const double x : {0.0, 1e-6, 5e-6}) {
+    const double deflection = presliding::deflection_after(d, x);
+    EXPECT_NEAR(presliding::deflection_rate(d, deflection, v), std::exp(-x / d) * v, 1e-15 * v + 1e-18);
+    EXPECT_LT(deflection, d);
+    EXPECT_EQ(presliding::deflection_after(d, -x), -deflection);
+  }
+  // Behind a reversal it unloads at first steeper than it was loaded: 1 + z/d against 1 - z/d.
+  EXPECT_NEAR(presliding::deflection_rate(d, d / 2, -v), -1.5 * v, 1e-18);
+}
+
+TEST(SaturationWithKnee, LeavesSmallSignalsNeverReachesTheLimitAndIsOdd) {
+  EXPECT_EQ(saturation::with_knee(5.0, 2.0, 0.0), 0);
+  EXPECT_NEAR(saturation::with_knee(5.0, 4.0, 1e-4), 1e-4, 1e-19);             // (1e-4/5)^4/4 is below rounding
+  EXPECT_NEAR(saturation::with_knee(5.0, 2.0, 5.0), 5 / std::sqrt(2), 1e-14);  // u = size: size/2^(1/n)
+  EXPECT_NEAR(saturation::with_knee(5.0, 1.0, 15.0), 15.0 / 4, 1e-14);         // n = 1: u/(1 + |u|/size)
+  EXPECT_NEAR(saturation::with_knee(5.0, 100.0, 1e6), 5, 1e-12);               // no overflow of 2e5^100
+  EXPECT_EQ(saturation::with_knee(5.0, 3.0, -7.0), -saturation::with_knee(5.0, 3.0, 7.0));
+}
+
+}  // namespace
+}  // namespace hysteron
