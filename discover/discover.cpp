@@ -475,6 +475,8 @@ class Investigation {
         d_.experiment = s.experiment;
     d_.final_diagram = current_.diagram;
     d_.final_error = current_.error_of;
+    d_.final_prediction = current_.prediction;
+    add_zeros(*base_model_, evidence_->judge(), d_.final_prediction);
     test_recordings();
     tell_noise();
     put_into_words(d_, *data_, output_unit());

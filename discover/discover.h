@@ -103,6 +103,7 @@ struct Discovery {
   std::optional<Experiment> experiment;  ///< what to record next
   Diagram base_diagram, final_diagram;
   ModelError final_error;
+  Prediction final_prediction;  ///< of the final model on train and validate recordings, zeros per recording included
   long model_runs = 0;
 };
 

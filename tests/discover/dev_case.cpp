@@ -7,6 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/hidden_case.h"
+
 namespace hysteron::testing {
 namespace {
 
@@ -15,17 +17,6 @@ using nlohmann::json;
 json read_json(const std::string& file) {
   std::ifstream in(file);
   return json::parse(in);
-}
-
-NumberList list_of(const json& values, const char* unit) {
-  NumberList list;
-  for (const auto& v : values) {
-    Number n;
-    n.value = v.get<double>();
-    if (*unit != 0) n.unit = unit;
-    list.push_back(n);
-  }
-  return list;
 }
 
 Number in(double value, const char* unit) {
@@ -48,128 +39,9 @@ DataSet data_from_json(const std::string& name, const std::string& text) {
   return read_dataset(file.string(), {shared("")});
 }
 
-namespace {
-
-Node& block(Diagram& d, const std::string& name, const std::string& type, const std::vector<std::string>& in) {
-  Node& node = d.blocks[name];
-  node.type = type;
-  for (const auto& wire : in) node.in.push_back({"", wire});
-  return node;
-}
-
-void plays(Diagram& d, const std::string& name, const json& p, const std::string& from) {
-  Node& stage = block(d, name, "prandtl_ishlinskii", {from});
-  stage.parameters["thresholds"] = Value(list_of(p.at("thresholds_V"), "V"));
-  stage.parameters["weights"] = Value(list_of(p.at("weights_um_per_V"), "um/V"));
-}
-
-void sensor(Diagram& d, const std::string& name, const json& p, const std::string& from) {
-  Node& made = block(d, name, "calibration", {from});
-  made.parameters["gain"] = Value(1.0);
-  made.parameters["offset"] = Value(in(p.at("offset_um"), "um"));
-}
-
-/// B1: a gain with dynamics.
-void dynamic_stage(Diagram& d, const json& p) {
-  Node& plant = block(d, "stage", "transfer_function", {"u"});
-  plant.parameters["gain"] = Value(in(p.at("gain_um_per_V"), "um/V"));
-  plant.parameters["num"] = Value(list_of(p.at("dynamics").at("num"), ""));
-  plant.parameters["den"] = Value(list_of(p.at("dynamics").at("den"), ""));
-  sensor(d, "sensor", p, "stage");
-  d.outputs["y"] = "sensor";
-}
-
-/// B2: play operators.
-void hysteretic_stage(Diagram& d, const json& p) {
-  plays(d, "stage", p, "u");
-  sensor(d, "sensor", p, "stage");
-  d.outputs["y"] = "sensor";
-}
-
-/// B3: two of these.
-void two_axes(Diagram& d, const json& p) {
-  d.inputs["u2"].unit = "V";
-  plays(d, "stage", p.at("axes")[0], "u");
-  plays(d, "stage2", p.at("axes")[1], "u2");
-  sensor(d, "sensor", p.at("axes")[0], "stage");
-  sensor(d, "sensor2", p.at("axes")[1], "stage2");
-  d.outputs["y"] = "sensor";
-  d.outputs["y2"] = "sensor2";
-}
-
-/// B4: a mass on a spring.
-void mass_on_spring(Diagram& d, const json& p) {
-  block(d, "force", "gain", {"u"}).parameters["gain"] = Value(in(p.at("force_per_volt_N"), "N/V"));
-  Node& stage = block(d, "stage", "mass_spring_damper", {"force"});
-  stage.parameters["mass"] = Value(in(p.at("mass_kg"), "kg"));
-  stage.parameters["damping"] = Value(in(p.at("damping_Ns_per_m"), "N*s/m"));
-  stage.parameters["stiffness"] = Value(in(p.at("stiffness_N_per_m"), "N/m"));
-  sensor(d, "sensor", p, "stage.position");
-  d.outputs["y"] = "sensor";
-}
-
-/// B5: two thermal masses.
-void heater_and_mass(Diagram& d, const json& p) {
-  d.inputs["Ta"].unit = "degC";
-  block(d, "heater", "gain", {"u"}).parameters["gain"] = Value(in(p.at("power_per_volt_W"), "W/V"));
-  const double c1 = p.at("C1_J_per_K"), c2 = p.at("C2_J_per_K"), r12 = p.at("R12_K_per_W"), r2a = p.at("R2a_K_per_W");
-  // T above ambient per watt: 1 / (C1 C2 R12 s^2 + (C1 (1 + R12/R2a) + C2) s + 1/R2a) for power into C1, and ambient
-  // alike, with both masses at ambient before.
-  const double a2 = c1 * c2 * r12 * r2a, a1 = (c1 * (r2a + r12) + c2 * r2a);
-  Node& heat = block(d, "stage", "transfer_function", {"heater"});
-  heat.parameters["gain"] = Value(in(r2a, "K/W"));
-  heat.parameters["num"] = Value(NumberList{Number{1, {}}});
-  heat.parameters["den"] = Value(NumberList{Number{a2, {}}, Number{a1, {}}, Number{1, {}}});
-  // What ambient does: Ta - its own rate through the masses, (C1 R12 s + 1)/(...).
-  Node& room = block(d, "room", "transfer_function", {"Ta"});
-  room.parameters["gain"] = Value(1.0);
-  room.parameters["num"] = Value(NumberList{Number{c1 * r12, {}}, Number{1, {}}});
-  room.parameters["den"] = Value(NumberList{Number{a2, {}}, Number{a1, {}}, Number{1, {}}});
-  block(d, "sensor", "sum", {"stage", "room"});
-  d.outputs["T"] = "sensor";
-}
-
-void base_of(Diagram& d, const json& task) {
-  const auto& p = task.at("base_parameters");
-  const std::string base = task.at("base");
-  if (base == "B1") return dynamic_stage(d, p);
-  if (base == "B2") return hysteretic_stage(d, p);
-  if (base == "B3") return two_axes(d, p);
-  if (base == "B4") return mass_on_spring(d, p);
-  heater_and_mass(d, p);
-}
-
-}  // namespace
-
 Case dev_case(const std::string& id) {
-  const std::string folder = shared("hidden-effects/dev/" + id);
-  const json task = read_json(folder + "/task.json");
-  Case c;
-  c.diagram.title = "case " + id;
-  c.diagram.inputs["u"].unit = "V";
-  base_of(c.diagram, task);
-  json data;
-  data["format"] = 1;
-  const auto& names = c.diagram.outputs.names();
-  for (const auto& name : c.diagram.inputs.names()) data["columns"][name] = {{"to", name}};
-  if (task.at("base") != "B5") data["columns"]["T"] = {{"to", "T"}};
-  const std::string unit = task.at("base") == "B5" ? "K" : "um";
-  for (const auto& name : names)
-    data["columns"][name] = {
-        {"to", name},
-        {"noise",
-         {{"white", fmt::format("{} {}", task.at("sensor").at("datasheet_noise_rms").get<double>(), unit)},
-          {"resolution", fmt::format("{} {}", task.at("sensor").at("lsb").get<double>(), unit)}}}};
-  for (const auto& f : task.at("files")) {
-    json r;
-    r["file"] = folder + "/" + f.at("file").get<std::string>();
-    r["role"] = f.at("role");
-    r["start"] = fmt::format("{} h", f.at("start_h").get<double>());
-    r["cycles_before"] = f.at("cycles_before");
-    data["recordings"].push_back(r);
-  }
-  c.data = data_from_json("dev_" + id, data.dump(1));
-  return c;
+  const HiddenCase hidden = read_hidden_case(shared("hidden-effects/dev/" + id));
+  return {hidden.diagram, data_from_json("dev_" + id, hidden.data_text)};
 }
 
 double noise_floor(const std::string& id) {

@@ -16,7 +16,7 @@ struct Case {
 
 bool shared_is_there();
 std::string shared(const std::string& path);  ///< path below ../shared
-Case dev_case(const std::string& id);         ///< "003": base models B1 and B2
+Case dev_case(const std::string& id);         ///< "003"
 double noise_floor(const std::string& id);    ///< [m] the answer's floor, for checks only
 Case piezo_stack();                           ///< gain + offset, gain free
 Case heater();                                ///< first-order plant with free gain, time constant and ambient

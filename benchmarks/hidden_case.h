@@ -1,0 +1,27 @@
+// Decides how a case of hidden effects (a folder with task.json and recordings, layout: README of the set) becomes the
+// user's diagram and a data set. Reads what the user knows, never the answer. Shared by the benchmark and the tests.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagram.h"
+#include "io/dataset.h"
+
+namespace hysteron {
+
+struct HiddenCase {
+  std::string id;
+  std::string base;                  ///< "B1" .. "B5"
+  std::vector<std::string> outputs;  ///< headers as in the recordings: "y [um]"
+  Diagram diagram;
+  std::string data_text;  ///< of a data set file, recordings by their full paths
+};
+
+/// Throws Error "no_file", "bad_case".
+HiddenCase read_hidden_case(const std::string& folder);
+
+/// The effects that may be offered for these cases.
+const std::vector<std::string>& hidden_effect_names();
+
+}  // namespace hysteron
