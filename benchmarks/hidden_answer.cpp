@@ -27,6 +27,9 @@ Unit file_unit(const DataSet& data, const std::string& column) {
   return {};
 }
 
+/// Recordings are listed by their full paths; the answer names files.
+std::string file_name(const std::string& recording) { return std::filesystem::path(recording).filename().string(); }
+
 /// The README's letters: axes are not told apart ("y2" is "y").
 std::string letter(const std::string& variable) { return variable.substr(0, 1); }
 
@@ -37,7 +40,7 @@ json location_of(const Structure& s, const DataSet& data) {
   if (s.period > 0) location["period"] = unit.difference_from_si(s.period);
   if (s.has_threshold) location["threshold"] = unit.from_si(s.threshold);
   if (!s.has_threshold)
-    for (const auto& [recording, list] : s.intervals) location["intervals"][recording] = list;
+    for (const auto& [recording, list] : s.intervals) location["intervals"][file_name(recording)] = list;
   return location;
 }
 
@@ -63,7 +66,7 @@ double write_predicted(const HiddenCase& hidden, const DataSet& data, const Disc
       }
       text += "\n";
     }
-    write_file((folder / recording.name).string(), text);
+    write_file((folder / file_name(recording.name)).string(), text);
   }
   return rows > 0 ? std::sqrt(squares / rows) : 0;
 }
@@ -93,7 +96,10 @@ void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Di
   answer["verdict"] = to_text(found.verdict);
   const bool names_effects = found.verdict == Verdict::missing_effect || found.verdict == Verdict::not_distinguishable;
   answer["effects"] = names_effects ? ranked_effects(found) : std::vector<std::string>{};
-  answer["claimed"] = names_effects ? found.steps.size() : 0;
+  // An effect at two places (each axis couples into the other) is one name.
+  std::vector<std::string> claimed;
+  for (const auto& step : found.steps) add_name(claimed, step.winner.effect);
+  answer["claimed"] = names_effects ? claimed.size() : 0;
   if (found.verdict == Verdict::unexplained && found.structure)
     answer["location"] = location_of(*found.structure, data);
   if (found.verdict == Verdict::not_distinguishable && found.experiment)
