@@ -48,11 +48,19 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
   return free;
 }
 
+/// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF.
+DataModelOptions accuracy(const Workshop& shop, Effort effort) {
+  DataModelOptions options;
+  options.max_substeps = 1024;
+  options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
+  return options;
+}
+
 /// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
 /// starts from its law instead of its values, -1 = none.
 void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
   c.program = compile(c.diagram, *shop.registry);
-  DataModel model(c.program, shop.data);
+  DataModel model(c.program, shop.data, accuracy(shop, effort));
   const std::vector<Role> judged{Role::train, Role::validate};
   const auto free = free_of(shop, c, chosen, fresh);
   if (free.empty()) {
@@ -146,6 +154,13 @@ Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, i
 }
 
 }  // namespace
+
+double row_tolerance(const DataModel& model, const NoiseModel& noise, double part) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o)
+    if (model.span(o) > 0) least = std::min(least, noise.outputs[static_cast<std::size_t>(o)].white / model.span(o));
+  return std::clamp(part * least, 1e-7, 1e-3);
+}
 
 double Contender::score() const {
   return error_of.evidence() + parameters * std::log(std::max(error_of.witnesses, 2.0));

@@ -44,8 +44,14 @@ struct Workshop {
   std::shared_ptr<const DataSet> data;
   std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
   const Evidence* evidence = nullptr;
+  /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
+  /// costs time and decides nothing.
+  double row_tolerance = 1e-6;
   std::function<bool()> stop;
 };
+
+/// `part` of the noise of the output that is measured best, as a share of its span.
+double row_tolerance(const DataModel& model, const NoiseModel& noise, double part);
 
 /// How much of a contender is fitted.
 enum class Effort {

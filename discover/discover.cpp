@@ -68,6 +68,7 @@ class Investigation {
            "cut in time");
     evidence_ = std::make_unique<Evidence>(*base_model_);
     shop_.evidence = evidence_.get();
+    shop_.row_tolerance = row_tolerance(*base_model_, evidence_->noise(), rules::of_noise);
     const Prediction as_given = base_model_->predict({}, evidence_->recordings());
     current_ = base_contender(shop_, user_, Effort::final);
     if (!current_.ok)

@@ -41,6 +41,7 @@ constexpr double share_of_rest = 0.6;    ///< a further effect removes this shar
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
 constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
+constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
 constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
 constexpr int enriched = 3;        ///< names whose richer laws are tried
 }  // namespace rules

@@ -52,6 +52,7 @@ struct DataModel::Content {
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
   std::vector<Rows> rows_of(const BoundRecording& b, const std::vector<std::vector<double>>& values) const;
   std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
+  std::vector<Rows> finer_until_finite(int r, std::span<const ParameterValue> values);
   void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,
                    std::string& error);
   std::vector<std::string> predict_trials(int r, std::span<const Trial> trials, std::vector<Prediction>& predictions);

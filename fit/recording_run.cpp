@@ -214,12 +214,26 @@ void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> 
   }
 }
 
+/// As `one`, with finer and finer substeps where nonlinear states run away: values far from those for which the
+/// substeps were chosen may be stiffer. A trial that only needs more of them is not lost.
+std::vector<Rows> DataModel::Content::finer_until_finite(int r, std::span<const ParameterValue> values) {
+  const BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const bool integrates = b.advance && not_exact.empty() && !options.force_cvode && b.advance->integrates();
+  for (int substeps = b.substeps;; substeps *= 4) {
+    try {
+      return one(r, values, substeps, options.force_cvode);
+    } catch (const Error& e) {
+      if (!integrates || 4 * substeps > options.max_substeps || e.problems.front().code != "diverged") throw;
+    }
+  }
+}
+
 /// No exception leaves: a failing simulation is a text.
 void DataModel::Content::predict_one(int r, std::span<const ParameterValue> values, bool with_initial,
                                      Prediction& prediction, std::string& error) {
   const auto k = static_cast<std::size_t>(r);
   try {
-    prediction.y[k] = one(r, values, bound[k].substeps, options.force_cvode);
+    prediction.y[k] = finer_until_finite(r, values);
     if (with_initial && data->recordings[k].initial_per_recording && !free_states.empty())
       predict_initial(r, values, prediction);
   } catch (const std::exception& e) {
@@ -263,7 +277,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
   const auto why = b.advance->each(list, b.rows, how, b.many_values);
   for (std::size_t i = 0; i < why.size(); ++i) {
     if (!why[i].empty()) {
-      say(trial_of[i], why[i]);
+      predict_one(r, trials[trial_of[i]], false, predictions[trial_of[i]], errors[trial_of[i]]);
       continue;
     }
     try {
