@@ -1,0 +1,52 @@
+"""What else explains the same recordings as well as the truth does.
+
+Decides by computing: the trace of a look-alike is fitted to the trace of the truth; what is left, over the noise, is the
+chi2 gap. Below TIE nobody can tell the two from these recordings.
+Does not decide which verdict follows from it (cases.py).
+"""
+import numpy as np
+
+from hidden import LIBRARY, draw, heights, scale, traces
+
+TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
+
+# Pairs that are easily taken for each other; the deciding feature may be missing from the recordings.
+RIVALS = dict(
+    hysteresis=("friction", "backlash", "amplifier_lag", "creep"), asymmetry=("sensor_nonlinearity", "saturation", "calibration"),
+    creep=("thermal_expansion", "hysteresis"), rate_dependence=("amplifier_lag", "dead_time"),
+    structural_resonance=("amplifier_lag", "dead_time"), amplifier_lag=("dead_time", "rate_dependence", "structural_resonance"),
+    slew_limit=("amplifier_lag", "dead_time", "saturation"), saturation=("asymmetry", "sensor_nonlinearity", "slew_limit"),
+    dead_time=("amplifier_lag", "rate_dependence", "structural_resonance"), temperature_gain=("calibration", "ageing"),
+    thermal_expansion=("creep", "calibration"), cross_coupling=("calibration",),
+    sensor_nonlinearity=("asymmetry", "saturation", "stiffening", "calibration"), friction=("hysteresis", "backlash"),
+    backlash=("hysteresis", "friction", "asymmetry"), stiffening=("sensor_nonlinearity", "asymmetry", "saturation"),
+    ageing=("temperature_gain", "calibration"), initial_remanence=("calibration",), calibration=("temperature_gain", "ageing"))
+
+
+def gap(plant, recordings, truth, name, sigma, seed=0, draws=3):
+    """chi2 left of the truth's trace after the best sum of a few differently shaped traces of the rival."""
+    if plant.base not in LIBRARY[name].plants:
+        return np.inf
+    rng = np.random.default_rng([seed, 77])
+    want = traces(plant, recordings, truth)
+    size = max(heights(want))
+    columns = []
+    for _ in range(draws):
+        rival = draw(rng, name, plant, recordings)
+        rival.axes = truth.axes
+        rival = scale(plant, recordings, rival, size, accuracy=0.25)
+        if rival is not None:
+            columns.append(flat(traces(plant, recordings, rival)))
+    if not columns:
+        return np.inf
+    y, a = flat(want) / sigma, np.array(columns).T / sigma
+    left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
+    return float(left @ left)
+
+
+def flat(trace):
+    return np.concatenate([np.ravel(one) for one in trace])
+
+
+def alternatives(plant, recordings, truth, sigma, seed=0):
+    return [name for name in RIVALS.get(truth.name, ()) if gap(plant, recordings, truth, name, sigma, seed) < TIE]

@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Tests of the case generator: physics against closed forms, layout, strength, determinism.
+
+Exits with 77 (ctest: skipped) where NumPy, SciPy or numba are absent; without numba it would take minutes.
+usage: make_cases_test.py [folder of the hidden-effect cases, whose score.py then reads generated cases]
+"""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import numba  # noqa: F401
+    import numpy as np
+    import scipy.signal  # noqa: F401
+except ImportError as missing:
+    print("skipped: %s; Debian: apt install python3-numba python3-scipy" % missing)
+    sys.exit(77)
+
+import case_files
+import cases
+import excitations
+import hidden
+import laws
+import make_cases
+from plants import Hidden, draw_plant, heater_matrices, simulate
+
+SCORE = Path(sys.argv.pop(1)) / "score.py" if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("no score.py")
+
+
+def draws(base, seed=5):
+    """A plant and short recordings of its whole menu."""
+    rng = np.random.default_rng(seed)
+    plant = draw_plant(rng, base)
+    recordings = cases.draw_recordings(rng, plant, [], words=list(cases.menu_of(base)))
+    for r in recordings:
+        r.u, r.temperature = [u[:400] for u in r.u], r.temperature[:400]
+    return rng, plant, recordings[:len(cases.menu_of(base))]
+
+
+class Laws(unittest.TestCase):
+    def test_a_lag_answers_a_ramp_as_its_closed_form(self):
+        # y = t - tau (1 - exp(-t/tau)); exact for straight lines, so rounding is all that differs.
+        t = 1e-3 * np.arange(2000)
+        self.assertLess(np.abs(laws.lag(t, 1e-3, 0.02) - (t - 0.02 * (1 - np.exp(-t / 0.02)))).max(), 1e-12)
+
+    def test_creep_after_a_step_follows_its_law(self):
+        # The step takes one row of 0.01 s, centred half a row late; far from it only that shift remains (second order).
+        h, n = 0.01, 4000
+        x = np.ones(n)
+        x[0] = 0
+        t = h * np.arange(n) - h / 2
+        want = ((1 + t / 0.02) ** 0.05 - 1) / (0.05 * np.log(10))
+        got = laws.power_law_creep(x, h, 0.02, 0.05)
+        self.assertLess(np.abs(got - want)[100:].max(), 1e-5)
+
+    def test_preisach_wipes_out_minor_loops_and_closes_them(self):
+        table = laws.everett_table(np.random.default_rng(3))
+        u = np.interp(np.arange(601), [0, 100, 200, 300, 400, 500, 600], [0, 8, 3, 6, 3, 8, 4])
+        y = laws.preisach(table, u, -0.1, 9)
+        self.assertAlmostEqual(y[200], y[400], places=12)  # the minor loop closes
+        self.assertAlmostEqual(y[100], y[500], places=12)  # return point memory
+        self.assertGreater(np.abs(y[200:301] - y[400:299:-1]).max(), 1e-3)  # and encloses an area
+
+    def test_friction_of_a_guide_reaches_its_coulomb_level_and_no_more(self):
+        x_free = np.concatenate([np.linspace(0, 10, 4000), np.linspace(10, -10, 8000)])
+        x = laws.guided(x_free, 1e-3, 0.5, 0.1, 0.0, 1.0)
+        self.assertLess(np.abs(x_free - x).max(), 0.5 + 1e-9)
+        self.assertAlmostEqual(x_free[3999] - x[3999], 0.5, places=6)
+        self.assertAlmostEqual(x_free[-1] - x[-1], -0.5, places=6)
+
+    def test_a_slew_limit_is_reached_and_an_unreached_one_does_nothing(self):
+        u = np.interp(np.arange(300), [0, 10, 299], [0, 5, 5])
+        v = laws.slew(u, 0.01, 10.0, 10.0, 4)
+        self.assertAlmostEqual(np.diff(v).max() / 0.01, 10.0, places=9)
+        np.testing.assert_allclose(laws.slew(u, 0.01, 51.0, 51.0, 4), u, atol=1e-12)
+
+    def test_a_cubic_spring_bends_the_static_gain(self):
+        # Pulled slowly to f, x + c x^3/scale^2 = f; ten thousandth of f is what slow swings leave.
+        f, c = 5.0, 0.2
+        h = 1 / (20 * 300)
+        pull = np.interp(np.arange(40000), [0, 30000, 40000], [0, f, f])
+        x = laws.mass_on_spring(pull, h, laws.propagator(20.0, 0.2, h), c, 0.0, np.zeros(5), np.zeros((3, 3)), 0.0, 0.0, 8.0)
+        self.assertAlmostEqual(x[-1] + c * x[-1] ** 3 / 64, f, delta=1e-4 * f)
+
+    def test_halving_the_step_of_a_nonlinear_mass_changes_little(self):
+        t = np.arange(6000) / 6000
+        def at(steps, **what):
+            h = 1 / (20 * 300) / steps
+            fine = np.interp(np.arange((len(t) - 1) * steps + 1) / steps, np.arange(len(t)), 6 * np.sin(2 * np.pi * 9 * t) * t)
+            friction = np.array(what.get("friction", np.zeros(5)), dtype=float)
+            return laws.mass_on_spring(fine, h, laws.propagator(20.0, 0.1, h), what.get("cubic", 0.0), 0.0, friction,
+                                       table, what.get("depth", 0.0), 0.0, 10.0)[::steps]
+        table = laws.everett_table(np.random.default_rng(3))
+        for what in (dict(cubic=0.3), dict(depth=0.03), dict(friction=[0.1, 0.2, 0.3, 20.0, 0.0])):
+            coarse, fine = at(1, **what), at(4, **what)
+            effect = np.abs(at(1) - fine).max()
+            self.assertLess(np.abs(coarse - fine).max(), 0.02 * effect, what)  # the effect is itself to 2 %
+
+
+class Plants(unittest.TestCase):
+    def test_rest_is_kept(self):
+        """At u = 0 nothing moves: all states start in equilibrium."""
+        for base in ("B1", "B2", "B3", "B4", "B5"):
+            _, plant, recordings = draws(base)
+            for r in recordings[:2]:
+                r.u = [0 * u for u in r.u]
+                r.temperature = np.full(len(r.u[0]), 22.0)
+                for y in simulate(plant, r)[0]:
+                    self.assertLess(np.ptp(y), 1e-9)
+
+    def test_a_heater_ends_at_power_times_resistance(self):
+        _, plant, recordings = draws("B5")
+        r = recordings[0]
+        r.h = -20 / max(np.linalg.eigvals(heater_matrices(plant.task)[0]).real) / 300
+        r.u, r.temperature = [np.append([0.0], np.full(399, 4.0))], np.full(400, 22.0)
+        want = 22 + 4 * plant.task["power_per_volt_W"] * plant.task["R2a_K_per_W"]
+        self.assertAlmostEqual(simulate(plant, r)[0][0][-1], want, places=6)
+
+    def test_nothing_of_an_effect_is_the_base_model(self):
+        """Amount 0 exactly, and a ten millionth of the unit to a thousandth of any noise: the law is neutral there."""
+        for base in ("B1", "B2", "B3", "B4", "B5"):
+            rng, plant, recordings = draws(base)
+            for name, law in hidden.LIBRARY.items():
+                if base not in law.plants:
+                    continue
+                e = hidden.draw(rng, name, plant, recordings)
+                half = hidden.stroke(plant, recordings)[1]
+                for amount in (0.0, 1e-7 * law.unit):
+                    trace = hidden.traces(plant, recordings[:4], hidden.with_amount(e, amount))
+                    self.assertLess(max(np.abs(x).max() for x in trace), 1e-7 * half, (base, name, amount))
+
+    def test_every_effect_shows_where_it_is_offered(self):
+        for name, law in hidden.LIBRARY.items():
+            self.assertTrue(all(law.shows[base] for base in law.plants), name)
+            self.assertTrue(set(w for base in law.plants for w in law.shows[base]) <=
+                            set(w for menu in cases.MENU.values() for w in menu), name)
+
+
+class Cases(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def make(self, kind, index, what=None, seed=7, wrong=False, into="a"):
+        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.LIBRARY), hidden.STRENGTHS, wrong))
+        return self.root / into / make_cases.number_of(seed, kind, index)
+
+    def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
+        a, b = self.make("pairs", 0), self.make("pairs", 0, into="b")
+        self.assertEqual(sorted(f.name for f in a.iterdir()), sorted(f.name for f in b.iterdir()))
+        for f in a.iterdir():
+            self.assertEqual(f.read_bytes(), (b / f.name).read_bytes(), f.name)
+        c = self.make("pairs", 0, seed=8)
+        self.assertNotEqual((a / "01.csv").read_bytes(), (c / "01.csv").read_bytes())
+
+    def test_strength_is_as_asked(self):
+        """The trace, recomputed without the search, stands above the noise by what its strength promises."""
+        for index, what in enumerate([("creep", "weak"), ("saturation", "medium"), ("backlash", "strong"), ("slew_limit", "weak")]):
+            case, _ = cases.build(7, "singles", index, what, list(hidden.LIBRARY), hidden.STRENGTHS)
+            most = 0.0
+            for r in case.recordings:
+                for y, base in zip(simulate(case.plant, r, case.effects)[0], simulate(case.plant, r)[0]):
+                    most = max(most, np.sqrt(np.mean((y - base) ** 2)))
+            low, high = hidden.TARGETS[what[1]]  # the search stops within a per cent
+            self.assertTrue(0.98 * low < most / case_files.total(case.sensor) < 1.02 * high, (what, most))
+
+    def test_noise_is_as_stated(self):
+        """White and 1/f add up to the stated rms: 2e5 samples give it to a per cent or so, 1/f to some ten."""
+        rng = np.random.default_rng(2)
+        sensor = dict(white=1.0, flicker=0.0, exponent=1.0, heavy=False)
+        self.assertAlmostEqual(np.std(case_files.noise(rng, sensor, 200000)), 1.0, delta=0.01)
+        sensor.update(white=0.0, flicker=1.0)
+        pink = np.mean([np.mean(case_files.noise(rng, sensor, 2000) ** 2) for _ in range(400)])
+        self.assertAlmostEqual(pink, 1.0, delta=0.1)
+
+    def test_the_layout(self):
+        folder = self.make("nothing", 0)
+        truth, task = (json.loads((folder / f).read_text()) for f in ("case.json", "task.json"))
+        self.assertEqual({k: truth[k] for k in task}, task)
+        self.assertTrue(2 <= len(task["files"]) <= 8)
+        self.assertEqual({f["role"] for f in task["files"]}, {"train", "validate"})
+        for entry in task["files"]:
+            head, *rows = (folder / entry["file"]).read_text().splitlines()
+            names = head.split(",")
+            table = np.array([[float(x) for x in row.split(",")] for row in rows])
+            self.assertTrue(450 <= len(table) <= 20000)
+            self.assertEqual(table[0, names.index("u [V]")], 0)
+            self.assertLess(np.ptp(np.diff(table[:, 0])), 1e-7 * table[-1, 0])
+            y = (table[:, names.index(task["outputs"][0])] - task["sensor"]["range"][0]) / task["sensor"]["lsb"]
+            self.assertLess(np.abs(y - np.round(y)).max(), 0.2)  # on the converter's grid, but for the printed digits
+        before, floor = (truth["expected"][k] for k in ("validation_rms_before", "noise_floor_rms"))
+        self.assertEqual(before, floor)  # nothing hidden: the base model leaves the noise
+
+    def test_wrong_parameters_leave_more_than_noise(self):
+        folder = self.make("nothing", 1, wrong=True)
+        e = json.loads((folder / "case.json").read_text())["expected"]
+        self.assertGreater(e["validation_rms_before"], 1.2 * e["noise_floor_rms"])
+
+    @unittest.skipUnless(SCORE.exists(), "no score.py there")
+    def test_score_takes_the_truth_as_right(self):
+        made = [self.make("singles", 0, ("creep", "medium")), self.make("pairs", 0), self.make("nothing", 0),
+                self.make("starved", 0)] + [self.make("unlisted", k) for k in range(4)]
+        results = self.root / "results"
+        results.mkdir()
+        for folder in made:
+            e = json.loads((folder / "case.json").read_text())["expected"]
+            location = dict(e.get("location", {}))
+            if "jumps" in location:
+                location["intervals"] = {k: [[x, x] for x in v] for k, v in location["jumps"].items()}
+            (results / (folder.name + ".json")).write_text(json.dumps(dict(
+                verdict=e["verdict"], effects=e["effects"], claimed=len(e["effects"]), location=location,
+                validation_rms_before=e["validation_rms_before"], validation_rms_after=e["noise_floor_rms"],
+                next_experiment=e.get("separating_experiments", [None])[0])))
+        subprocess.run([sys.executable, SCORE, "--json", self.root / "score.json", results, self.root / "a"], check=True,
+                       capture_output=True)
+        s = json.loads((self.root / "score.json").read_text())["summary"]
+        self.assertEqual(s["right"], [8, 8])
+        self.assertEqual((s["single_all"]["top1"], s["pair"]["full"], s["none"]["false_alarm"]), (1, 1, 0))
+        self.assertEqual((s["unknown"]["place"], s["starved"]["next"], s["starved"]["both"]), (1, 1, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
