@@ -12,15 +12,18 @@ TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
 
 # Pairs that are easily taken for each other; the deciding feature may be missing from the recordings.
 RIVALS = dict(
-    hysteresis=("friction", "backlash", "amplifier_lag", "creep"), asymmetry=("sensor_nonlinearity", "saturation", "calibration"),
+    hysteresis=("friction", "backlash", "amplifier_lag", "creep"),
+    asymmetry=("sensor_nonlinearity", "saturation", "calibration"),
     creep=("thermal_expansion", "hysteresis"), rate_dependence=("amplifier_lag", "dead_time"),
-    structural_resonance=("amplifier_lag", "dead_time"), amplifier_lag=("dead_time", "rate_dependence", "structural_resonance"),
+    structural_resonance=("amplifier_lag", "dead_time"),
+    amplifier_lag=("dead_time", "rate_dependence", "structural_resonance"),
     slew_limit=("amplifier_lag", "dead_time", "saturation"), saturation=("asymmetry", "sensor_nonlinearity", "slew_limit"),
     dead_time=("amplifier_lag", "rate_dependence", "structural_resonance"), temperature_gain=("calibration", "ageing"),
     thermal_expansion=("creep", "calibration"), cross_coupling=("calibration",),
     sensor_nonlinearity=("asymmetry", "saturation", "stiffening", "calibration"), friction=("hysteresis", "backlash"),
     backlash=("hysteresis", "friction", "asymmetry"), stiffening=("sensor_nonlinearity", "asymmetry", "saturation"),
-    ageing=("temperature_gain", "calibration"), initial_remanence=("calibration",), calibration=("temperature_gain", "ageing"))
+    ageing=("temperature_gain", "calibration"), initial_remanence=("calibration",),
+    calibration=("temperature_gain", "ageing"))
 
 
 def gap(plant, recordings, truth, name, sigma, seed=0, draws=3):

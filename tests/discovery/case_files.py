@@ -16,7 +16,8 @@ def draw_sensor(rng, low, high, noise=None):
     bits = int(rng.choice([14, 16, 16, 16, 18]))
     while (range_[1] - range_[0]) / 2**bits > 1.5 * white:  # a converter that suits the sensor
         bits += 1
-    return dict(range=range_, bits=bits, white=float(white), flicker=float(white * rng.choice([0.0, *rng.uniform(0.1, 0.5, 4), 0.8])),
+    flicker = float(white * rng.choice([0.0, *rng.uniform(0.1, 0.5, 4), 0.8]))
+    return dict(range=range_, bits=bits, white=float(white), flicker=flicker,
                 exponent=float(rng.choice([1.0, 1.0, rng.uniform(0.8, 1.3)])), heavy=bool(rng.random() < 0.1))
 
 

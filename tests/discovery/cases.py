@@ -164,7 +164,8 @@ def outside(rng):
     e, location = unlisted.draw(rng, kind, recordings, outputs)
     strength = str(rng.choice(["medium", "strong"]))
     size = max(hidden.heights(hidden.traces(plant, recordings, e)))
-    e = hidden.with_amount(e, case_files.total(sensor) * rng.uniform(*((2.5, 6) if strength == "medium" else (10, 30))) / size)
+    height = rng.uniform(*((2.5, 6) if strength == "medium" else (10, 30)))
+    e = hidden.with_amount(e, case_files.total(sensor) * height / size)
     e.strength = strength
     return Case(plant, recordings, [e], sensor, dict(
         verdict="unexplained", effects=[], acceptable_alternatives=[], location=location), "unknown")
@@ -174,13 +175,16 @@ def outside(rng):
 
 # truth, rival, plants, words of the few recordings, how they are spoilt, experiments that would decide
 STARVED = (
-    ("thermal_expansion", "creep", ("B1", "B2"), ("step_hold",), "self_heating", ("temperature_constant", "temperature_staircase")),
-    ("creep", "thermal_expansion", ("B1", "B2"), ("step_hold",), "self_heating", ("temperature_constant", "temperature_staircase")),
+    ("thermal_expansion", "creep", ("B1", "B2"), ("step_hold",), "self_heating",
+     ("temperature_constant", "temperature_staircase")),
+    ("creep", "thermal_expansion", ("B1", "B2"), ("step_hold",), "self_heating",
+     ("temperature_constant", "temperature_staircase")),
     ("amplifier_lag", "dead_time", ("B1", "B2"), ("sine_multiamp",), "", ("high_frequencies", "multisine", "fast_steps")),
     ("dead_time", "amplifier_lag", ("B1", "B2"), ("sine_multiamp",), "", ("high_frequencies", "multisine", "fast_steps")),
     ("cross_coupling", "calibration", ("B3",), ("sine_multiamp", "triangle"), "axes_together", ("axes_independent",)),
     ("sensor_nonlinearity", "asymmetry", ("B1",), ("freq_low", "sine_multiamp"), "", ("reference_sensor", "multisine")),
-    ("temperature_gain", "calibration", ("B1", "B2"), ("sine_multiamp", "triangle"), "warm_room", ("temperature_staircase",)),
+    ("temperature_gain", "calibration", ("B1", "B2"), ("sine_multiamp", "triangle"), "warm_room",
+     ("temperature_staircase",)),
     ("ageing", "calibration", ("B1", "B2"), ("sine_multiamp", "triangle"), "late", ("repeat_after_cycles",)),
 )
 

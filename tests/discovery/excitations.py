@@ -49,7 +49,8 @@ def segments(rng, n, h, frequencies):
     for f in frequencies:
         periods = max(1, round(share * f))
         count = max(4, round(periods / f / h))
-        pieces.append((1 if f == frequencies[-1] else rng.uniform(0.6, 1)) * (1 - np.cos(2 * np.pi * periods * np.arange(count) / count)) / 2)
+        height = 1 if f == frequencies[-1] else rng.uniform(0.6, 1)
+        pieces.append(height * (1 - np.cos(2 * np.pi * periods * np.arange(count) / count)) / 2)
     return np.concatenate(pieces)[:max(n, 500)]
 
 

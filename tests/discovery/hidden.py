@@ -93,7 +93,8 @@ def draw_sensor(rng, plant, recordings):
 def draw_calibration(rng, plant, recordings):
     kind = rng.integers(3)  # gain, offset, both
     half = stroke(plant, recordings)[1]
-    return dict(gain=0.0 if kind == 1 else 1.0, offset=0.0 if kind == 0 else half * rng.uniform(0.3, 1) * rng.choice([-1, 1]))
+    offset = half * rng.uniform(0.3, 1) * rng.choice([-1, 1])
+    return dict(gain=0.0 if kind == 1 else 1.0, offset=0.0 if kind == 0 else offset)
 
 
 def draw_mains(rng, plant, recordings):

@@ -25,9 +25,11 @@ import excitations
 import hidden
 import laws
 import make_cases
-from plants import Hidden, draw_plant, heater_matrices, simulate
+from plants import draw_plant, heater_matrices, simulate
+from read_cases import read_case
 
-SCORE = Path(sys.argv.pop(1)) / "score.py" if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("no score.py")
+GIVEN = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path("not given")
+SCORE = GIVEN / "score.py"
 
 
 def draws(base, seed=5):
@@ -118,6 +120,15 @@ class Plants(unittest.TestCase):
         r.u, r.temperature = [np.append([0.0], np.full(399, 4.0))], np.full(400, 22.0)
         want = 22 + 4 * plant.task["power_per_volt_W"] * plant.task["R2a_K_per_W"]
         self.assertAlmostEqual(simulate(plant, r)[0][0][-1], want, places=6)
+
+    @unittest.skipUnless((GIVEN / "dev").is_dir(), "no cases of others there")
+    def test_base_models_are_those_of_cases_that_others_made(self):
+        """Their residual on the validate recordings is known to five digits; half a unit of the last is 5e-5."""
+        for folder in sorted((GIVEN / "dev").iterdir()):
+            plant, recordings = read_case(folder)
+            left = [m - b for r in recordings if r.role == "validate" for m, b in zip(r.extra["measured"], r.extra["base"])]
+            want = json.loads((folder / "case.json").read_text())["expected"]["validation_rms_before"]
+            self.assertAlmostEqual(make_cases.rms(left) / want, 1, delta=1e-4, msg=folder.name)
 
     def test_nothing_of_an_effect_is_the_base_model(self):
         """Amount 0 exactly, and a ten millionth of the unit to a thousandth of any noise: the law is neutral there."""
