@@ -36,6 +36,7 @@
 #include "blocks/saturation.h"
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
+#include "blocks/slew_limit.h"
 #include "blocks/soft_saturation.h"
 #include "blocks/staircase.h"
 #include "blocks/state_space.h"
@@ -90,6 +91,7 @@ Registry all_blocks() {
   r.add(blocks::creep_block());
   r.add(blocks::dead_time_block());
   r.add(blocks::rate_limiter_block());
+  r.add(blocks::slew_limit_block());
   r.add(blocks::current_limit_block());
   r.add(blocks::tank_block());
   r.add(blocks::thermal_network_block());

@@ -75,6 +75,11 @@ std::vector<double> per_decade(double from, double to, double per_decade) {
   return values;
 }
 
+Number per_second(double si, const Unit& unit) {
+  const std::string text = unit_text(unit);
+  return {rounded(unit.difference_from_si(si)), text.find('/') == std::string::npos ? text + "/s" : "(" + text + ")/s"};
+}
+
 std::string time_text(double seconds) {
   if (seconds >= 3600) return fmt::format("{:.3g} h", seconds / 3600);
   if (seconds >= 1 || seconds == 0) return fmt::format("{:.3g} s", seconds);

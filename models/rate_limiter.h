@@ -72,4 +72,32 @@ T after_hold(const Params<T>& p, const T& y, const T& u, const T& duration) {
   return up ? T{u - left} : T{u + left};
 }
 
+/// The gap u - y after `duration` [s] in which the input went straight on with `slope` [V/s]; the follower keeps at
+/// most its rates. Exact: at a limit the gap is a straight line, between them it closes exponentially, and each piece
+/// is left once at most. A time constant of zero follows at once where the limits allow it.
+inline double gap_after_ramp(const Params<double>& p, double gap, double slope, double duration) {
+  const double most = p.time > 0 ? p.rise * p.time : 0, least = p.time > 0 ? -p.fall * p.time : 0;
+  for (int piece = 0; piece < 4 && duration > 0; ++piece) {
+    const bool up = gap > most || (gap == most && slope > p.rise);
+    const bool down = gap < least || (gap == least && slope < -p.fall);
+    if (up || down) {
+      const double growth = up ? slope - p.rise : slope + p.fall, edge = up ? most : least;
+      const double stay = up == (growth < 0) ? (edge - gap) / growth : duration;
+      if (stay >= duration) return gap + growth * duration;
+      gap = edge;
+      duration -= stay;
+      continue;
+    }
+    if (p.time == 0) return 0;  // between its limits
+    const double steady = slope * p.time;
+    const double edge = slope > p.rise ? most : least;
+    const bool leaves = slope > p.rise || slope < -p.fall;
+    const double stay = leaves ? p.time * std::log((steady - gap) / (steady - edge)) : duration;
+    if (stay >= duration) return steady + (gap - steady) * std::exp(-duration / p.time);
+    gap = edge;
+    duration -= stay;
+  }
+  return gap;
+}
+
 }  // namespace hysteron::rate_limiter

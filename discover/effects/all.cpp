@@ -13,6 +13,7 @@ Effects all_effects() {
       amplifier_lag(),
       sensor_lag(),
       dead_time(),
+      slew_limit(),
       structural_resonance(),
       saturation(),
       backlash(),

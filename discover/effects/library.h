@@ -12,6 +12,7 @@ Effect creep();
 Effect amplifier_lag();
 Effect sensor_lag();
 Effect dead_time();
+Effect slew_limit();
 Effect structural_resonance();
 Effect saturation();
 Effect backlash();
@@ -33,6 +34,8 @@ void give(Node& block, const std::string& parameter, Value value);
 std::vector<double> per_decade(double from, double to, double per_decade);
 /// `value` rounded to three significant digits.
 double rounded(double value);
+/// A rate [SI per second] of a signal in `unit`, as a parameter.
+Number per_second(double si, const Unit& unit);
 /// "0.2 ms", "16 s": a time for people.
 std::string time_text(double seconds);
 /// A unit as it is written into a file: as people wrote it, else its dimension.

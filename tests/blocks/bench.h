@@ -345,6 +345,7 @@ inline std::vector<Sample> samples() {
       {"jiles_atherton_inverse",
        {{"p_s", {56}}, {"a", {48.6}}, {"alpha", {0.25}}, {"k", {3.9}}, {"c", {0.69}}, {"origin", {1.4}}}},
       {"rate_limiter", {{"rise", {4}}, {"fall", {2}}, {"time", {0.05}}}},
+      {"slew_limit", {{"rate", {4}}, {"ratio", {0.5}}, {"time", {0.05}}}},
       {"current_limit", {{"source", {0.4}}, {"sink", {0.2}}, {"capacitance", {0.1}}, {"time", {0.05}}}},
       {"mass_spring_damper", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"initial_position", {0.3}}}},
       {"mass_on_stiffening_spring", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"stiffening", {7}}}},

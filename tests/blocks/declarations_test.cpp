@@ -143,6 +143,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "jiles_atherton_inverse",
                                        "rate_limiter",
                                        "current_limit",
+                                       "slew_limit",
                                        "tank",
                                        "thermal_network",
                                        "mass_spring_damper",

@@ -193,6 +193,44 @@ TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
   EXPECT_NEAR(d.steps.front().winner.found.at(1).estimate.used, 0.83, 2e-3);  // twice the noise of a row
 }
 
+/// y = u behind an amplifier that moves by `up` and `down` a second at most, by small steps.
+DataSet slewing(double up, double down) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 1300;
+  for (auto& m : drives()) {
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    double v = m.u.front();
+    for (std::size_t k = 0; k < m.t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 200; ++i) {
+        const double h = (m.t[k] - m.t[k - 1]) / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 1) / 200;
+        v += std::clamp(u - v, -down * h, up * h);
+      }
+      y[k] += v;
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  return data_set(list, 1e-3);
+}
+
+TEST_F(MoreEffects, ALimitedRateIsNamedWithItsRate) {
+  const Discovery d = found(plain_gain(), slewing(0.6, 0.6));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "slew_limit") << tried(d);
+  // V/s: some hundred limited rows tell a ramp of a volt to 1 mm/sqrt(100) each.
+  EXPECT_NEAR(d.steps.front().winner.found.at(0).estimate.used, 0.6, 0.006);
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
+}
+
+TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
+  const Discovery d = found(plain_gain(), slewing(0.7, 0.5));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  const auto& winner = d.steps.front().winner;
+  ASSERT_EQ(winner.effect, "slew_limit") << tried(d);
+  ASSERT_EQ(winner.law, "one rate for each way");
+  EXPECT_NEAR(winner.found.at(0).estimate.used, 0.7, 0.01);
+  EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5 / 0.7, 0.02);
+}
+
 /// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
 Diagram mass_on_spring() {
   Diagram d;

@@ -236,6 +236,37 @@ TEST(RateLimiterModel, FastTriangleIsFollowedAtTheLimitsOfEitherDirection) {
   EXPECT_EQ(walk.events.size(), 3u);
 }
 
+TEST(RateLimiterModel, ARampIsFollowedAsBySmallSteps) {
+  // Explicit steps of 1e-6 of a follower with tau = 0.05: their error is below h/2 times the largest second derivative
+  // (10/0.05) over 1 s.
+  const rate_limiter::Params<double> p{.rise = 4, .fall = 2, .time = 0.05};
+  for (const double slope : {-10.0, -2.0, -1.0, 0.0, 3.0, 4.0, 9.0})
+    for (const double begin : {-1.5, -0.1, 0.0, 0.15, 0.2, 2.0}) {
+      double gap = begin;
+      const int steps = 1000000;
+      for (int i = 0; i < steps; ++i) gap += 1e-6 * (slope - std::max(-p.fall, std::min(p.rise, gap / p.time)));
+      EXPECT_NEAR(rate_limiter::gap_after_ramp(p, begin, slope, 1), gap, 1e-4) << slope << " from " << begin;
+    }
+}
+
+TEST(RateLimiterModel, ARampMayBeCutAnywhere) {
+  const rate_limiter::Params<double> p{.rise = 4, .fall = 2, .time = 0.05};
+  for (const double slope : {-10.0, -1.0, 3.0, 9.0})
+    for (const double begin : {-1.5, -0.1, 0.15, 2.0}) {
+      const double half = rate_limiter::gap_after_ramp(p, begin, slope, 0.3);
+      EXPECT_NEAR(rate_limiter::gap_after_ramp(p, half, slope, 0.4), rate_limiter::gap_after_ramp(p, begin, slope, 0.7),
+                  1e-13);  // some roundings
+    }
+}
+
+TEST(RateLimiterModel, WithoutATimeConstantThereIsNoGapWithinTheLimits) {
+  const rate_limiter::Params<double> p{.rise = 4, .fall = 2, .time = 0};
+  EXPECT_EQ(rate_limiter::gap_after_ramp(p, 0, 3.9, 7), 0);
+  EXPECT_EQ(rate_limiter::gap_after_ramp(p, 0, 5, 7), 7);          // 5 - 4 a second
+  EXPECT_EQ(rate_limiter::gap_after_ramp(p, 0.5, 3, 0.25), 0.25);  // closes by 1 a second
+  EXPECT_EQ(rate_limiter::gap_after_ramp(p, 0.5, 3, 7), 0);
+}
+
 Walk filled(tank::Outlet law, const tank::Params<double>& p, std::function<double(double)> inflow, double level) {
   const auto mode = [](int m) { return static_cast<tank::Mode>(m); };
   modes::System s;
