@@ -25,6 +25,7 @@ void PrandtlIshlinskii::describe(Declaration& d) {
   d.list("weights", "$b/$a", "weight of each operator").linear().as_long_as("thresholds");
   d.text("sides", {"one", "two"}, "dead zone below the input only, or on both sides");
   d.parameter("before", "$a", "an input that was visited before the start").optional("0");
+  d.variation("late", "late_prandtl_ishlinskii", {{"share", "0"}});
 }
 
 Sizes PrandtlIshlinskii::sizes(const Shape& shape) {

@@ -1,5 +1,6 @@
 #include "blocks/register_all.h"
 
+#include "blocks/ageing.h"
 #include "blocks/backlash.h"
 #include "blocks/bouc_wen.h"
 #include "blocks/bouc_wen_inverse.h"
@@ -15,6 +16,8 @@
 #include "blocks/integrator.h"
 #include "blocks/jiles_atherton.h"
 #include "blocks/lag.h"
+#include "blocks/late_prandtl_ishlinskii.h"
+#include "blocks/mains.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
 #include "blocks/mass_with_mode.h"
@@ -75,6 +78,8 @@ Registry all_blocks() {
   r.add(blocks::cross_coupling_block());
   r.add(blocks::temperature_gain_block());
   r.add(blocks::thermal_expansion_block());
+  r.add(blocks::ageing_block());
+  r.add(blocks::mains_interference_block());
 
   r.add(blocks::mux_block());
   r.add(blocks::demux_block());
@@ -98,6 +103,7 @@ Registry all_blocks() {
 
   r.add(blocks::play_block());
   r.add(blocks::prandtl_ishlinskii_block());
+  r.add(blocks::late_prandtl_ishlinskii_block());
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());
   r.add(blocks::tapi_block());

@@ -99,6 +99,7 @@ class InSeries {
 
   void note(int block, Circumstances& c, bool behind_place) const {
     const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
+    if (program_.blocks[static_cast<std::size_t>(block)].kernel->uses_time) return;  // a line of the mains is no zero
     for (const auto& p : program_.parameters) {
       if (!p.linear || p.block != block) continue;
       if (!p.offset && !constant) {
@@ -163,8 +164,10 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
   Circumstances common;
   common.from_data = true;
   look_at_row_times(data, common);
-  for (const int b : program->memory_blocks)
-    common.memory_blocks.push_back(program->blocks[static_cast<std::size_t>(b)].path);
+  for (const int b : program->memory_blocks) {
+    const auto& block = program->blocks[static_cast<std::size_t>(b)];
+    if (!block.kernel->declaration.memory_port.empty()) common.memory_blocks.push_back(block.path);
+  }
   bool free_zero = false;
   for (const auto& name : program->output_names)
     if (const auto note = data.notes.find(name); note != data.notes.end() && note->second.zero_per_recording)

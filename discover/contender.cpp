@@ -10,7 +10,8 @@
 namespace hysteron {
 namespace {
 
-std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new) {
+std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
+                                       const std::vector<int>& recordings) {
   std::vector<FreeParameter> list;
   for (const auto& p : standing.law.free) {
     FreeParameter f = free_parameter(program, standing.name + "." + p.path);
@@ -23,19 +24,24 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
     if (is_new)
       for (const double v : p.scan)
         if (v >= f.lower && v <= f.upper) f.scan.push_back(v);
-    list.push_back(std::move(f));
+    if (p.per_recording)
+      for (const int r : recordings) list.emplace_back(f).recording = r;
+    else
+      list.push_back(std::move(f));
   }
   return list;
 }
 
 /// The free parameters: the user's own, and those of the chosen effects.
-std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen,
-                                   int fresh) {
+std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, int fresh,
+                                   const std::vector<int>& recordings) {
   auto free = free_parameters(*c.program, shop.free_paths);
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
     if (!chosen[i]) continue;
-    for (auto& f : free_of_law(*c.program, c.standing[i], static_cast<int>(i) == fresh)) {
-      std::erase_if(free, [&](const FreeParameter& have) { return have.parameter == f.parameter; });
+    for (auto& f : free_of_law(*c.program, c.standing[i], static_cast<int>(i) == fresh, recordings)) {
+      std::erase_if(free, [&](const FreeParameter& have) {
+        return have.parameter == f.parameter && have.recording == f.recording;
+      });
       free.push_back(std::move(f));
     }
     for (const auto& zero : c.standing[i].zeros) {
@@ -56,15 +62,45 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   return options;
 }
 
+std::vector<int> train_and_validate(const DataSet& data) {
+  std::vector<int> list;
+  for (std::size_t r = 0; r < data.recordings.size(); ++r)
+    if (data.recordings[r].role != Role::test) list.push_back(static_cast<int>(r));
+  return list;
+}
+
+/// Values of single recordings that are not free this time.
+Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
+  Trial trial;
+  for (const auto& v : c.of_recordings) {
+    if (c.program->find_parameter(v.path) == nullptr) continue;  // its effect has left
+    const int parameter = parameter_index(*c.program, v.path);
+    if (std::none_of(free.begin(), free.end(),
+                     [&](const FreeParameter& f) { return f.parameter == parameter && f.recording == v.recording; }))
+      trial.push_back({parameter, v.value, v.recording});
+  }
+  return trial;
+}
+
+void keep_of_recordings(Contender& c, const Trial& held) {
+  c.of_recordings.clear();
+  for (const auto* trial : {&held, static_cast<const Trial*>(&c.fit.values)})
+    for (const auto& v : *trial)
+      if (v.recording >= 0)
+        c.of_recordings.push_back(
+            {c.program->parameters[static_cast<std::size_t>(v.parameter)].path, v.recording, v.value});
+}
+
 /// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
 /// starts from its law instead of its values, -1 = none.
 void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
   c.program = compile(c.diagram, *shop.registry);
   DataModel model(c.program, shop.data, accuracy(shop, effort));
   const std::vector<Role> judged{Role::train, Role::validate};
-  const auto free = free_of(shop, c, chosen, fresh);
+  const auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data));
+  const Trial fixed = held(c, free);
   if (free.empty()) {
-    c.prediction = model.predict({}, model.recordings(judged));
+    c.prediction = model.predict(fixed, model.recordings(judged));
     c.ok = c.prediction.ok;
     c.error = c.prediction.error;
     c.runs += model.runs();
@@ -73,6 +109,7 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   FitOptions options;
   options.max_iterations = effort == Effort::screen ? 8 : effort == Effort::full ? 15 : 30;
   options.intervals = effort == Effort::final;
+  options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
   const NoiseModel noise = shop.evidence != nullptr ? shop.evidence->noise() : noise_before_fit(model);
   FitResult before = std::move(c.fit);
@@ -81,7 +118,10 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   c.error = c.fit.error;
   c.runs += model.runs();
   if (!c.ok) return;
-  c.prediction = model.predict(c.fit.values, model.recordings(judged));
+  keep_of_recordings(c, fixed);
+  Trial all = c.fit.values;
+  all.insert(all.end(), fixed.begin(), fixed.end());
+  c.prediction = model.predict(all, model.recordings(judged));
   c.ok = c.prediction.ok;
   c.error = c.prediction.error;
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
@@ -97,7 +137,7 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
 bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, Effort effort) {
   if (std::count(chosen.begin(), chosen.end(), true) < 2) return false;
   std::vector<int> parameters;
-  for (const auto& f : free_of(shop, c, chosen, -1)) parameters.push_back(f.parameter);
+  for (const auto& f : free_of(shop, c, chosen, -1, {})) parameters.push_back(f.parameter);
   const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
   const auto linear = std::count(affine.begin(), affine.end(), true);
   const auto searched = static_cast<std::ptrdiff_t>(affine.size()) - linear;
@@ -134,7 +174,12 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
 int spent(const Contender& c, int standing) {
   int n = 0;
   for (const auto& p : parameters_of(c, standing))
-    if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper)) ++n;
+    if (p.law->per_recording)
+      n += static_cast<int>(std::count_if(
+          c.fit.estimates.begin(), c.fit.estimates.end(),
+          [&](const ParameterEstimate& e) { return p.estimate != nullptr && e.path == p.estimate->path; }));
+    else if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper))
+      ++n;
   for (std::size_t i = 0; i < c.standing.size(); ++i)
     if (standing < 0 || standing == static_cast<int>(i)) n += static_cast<int>(c.standing[i].zeros.size());
   return n;
@@ -145,6 +190,9 @@ Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, i
     fit_contender(shop, c, effort, fresh);
     if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
     // Effects that were held keep what they spent before.
+    c.found_on_validation = 0;
+    for (const auto& v : c.of_recordings)
+      if (shop.data->recordings[static_cast<std::size_t>(v.recording)].role == Role::validate) ++c.found_on_validation;
     c.parameters = effort == Effort::screen && fresh >= 0 ? held_parameters + spent(c, fresh) : spent(c, -1);
   } catch (const Error& e) {
     c.ok = false;
@@ -179,6 +227,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
                       const Place& place, const Circumstances& at, Effort effort) {
   Contender c;
   c.standing = before.standing;
+  c.of_recordings = before.of_recordings;
   try {
     c.change = add_effect(before.diagram, *shop.registry, effect, law, place);
   } catch (const Error& e) {
@@ -201,6 +250,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   Contender c;
   c.diagram = contender.diagram;
   c.standing = contender.standing;
+  c.of_recordings = contender.of_recordings;
   c.change = contender.change;
   return guarded(shop, std::move(c), effort, -1, 0);
 }
@@ -209,10 +259,27 @@ Contender without(const Workshop& shop, const Contender& contender, std::size_t 
   Contender c;
   c.diagram = remove_effect(contender.diagram, contender.standing[index].name);
   c.standing = contender.standing;
+  c.of_recordings = contender.of_recordings;
   c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(index));
   (void)shop;
   c.ok = true;
   return c;
+}
+
+Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings) {
+  Contender c = contender;
+  c.program = compile(c.diagram, *shop.registry);
+  DataModel model(c.program, shop.data, accuracy(shop, Effort::final));
+  std::vector<FreeParameter> free;
+  for (const auto& s : c.standing)
+    for (auto& f : free_of_law(*c.program, s, false, recordings))
+      if (f.recording >= 0) free.push_back(std::move(f));
+  if (free.empty()) return model.predict({}, recordings);
+  FitOptions options;
+  options.recordings = options.judged = recordings;
+  options.intervals = false;
+  const FitResult found = fit(model, shop.evidence->noise(), free, options);
+  return found.ok ? model.predict(found.values, recordings) : model.predict({}, recordings);
 }
 
 std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing) {

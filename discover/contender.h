@@ -22,6 +22,13 @@ struct Standing {
   std::vector<std::string> zeros;  ///< the user's constants that are found anew with it (Effect::moves_zero)
 };
 
+/// A value of one recording alone: the amplitude of a line whose phase is another one in each.
+struct RecordingValue {
+  std::string path;  ///< "y_mains_interference.cosine[0]"
+  int recording = -1;
+  double value = 0;  ///< [SI]
+};
+
 struct Contender {
   bool ok = false;
   std::string error;  ///< why not ok
@@ -30,9 +37,12 @@ struct Contender {
   Added change;  ///< of the last effect
   ProgramPointer program;
   FitResult fit;
-  Prediction prediction;  ///< train and validate recordings
-  ModelError error_of;    ///< filled in by whoever holds the evidence
-  int parameters = 0;     ///< that the effects spend: of their laws, determined and not held at a bound
+  std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
+  Prediction prediction;                      ///< train and validate recordings
+  ModelError error_of;                        ///< filled in by whoever holds the evidence
+  int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
+  /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
+  int found_on_validation = 0;
   long runs = 0;
   double score() const;      ///< evidence + p ln N, N = independent witnesses
   double tie_score() const;  ///< evidence + 2 p
@@ -69,6 +79,9 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
 /// Without the effect `index`; the others keep their values.
 Contender without(const Workshop& shop, const Contender& contender, std::size_t index);
+
+/// What the contender says of other recordings, those of the test: values of single recordings are found on them.
+Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings);
 
 /// The parameters of a contender's effects (`standing` = index, or all of them with -1), with remarks for people.
 struct ParameterOfEffect {

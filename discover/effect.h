@@ -33,6 +33,7 @@ enum class Commutes {
 enum class Side {
   none,
   temperature,  ///< an input of the diagram or a column of the recordings that is a temperature and no output
+  use,          ///< what the device had behind it when a recording began: cycles_before or start of the data set
   other_axis    ///< drive or motion of another axis: an input, a column or an output's signal that this wire neither
                 ///< moves nor follows
 };
@@ -74,7 +75,9 @@ struct LawParameter {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;
-  std::vector<double> scan{};                                         ///< values at which a fit begins
+  std::vector<double> scan{};  ///< values at which a fit begins
+  /// Its value is another one in each recording and found on that recording alone, validation included; linear.
+  bool per_recording = false;
   double plausible_lower = -std::numeric_limits<double>::infinity();  ///< outside: possible, but said to be unusual
   double plausible_upper = std::numeric_limits<double>::infinity();
 };

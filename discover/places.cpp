@@ -246,13 +246,15 @@ struct SideSignal {
 };
 
 std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, const DataSet* data) {
-  const auto fits = [&](const Unit& unit) {
+  const auto fits = [&](const std::string& name, const Unit& unit) {
+    const bool use = name == column_of_cycles || name == column_of_start;
+    if (effect.side == Side::use || use) return use && effect.side == Side::use;
     if (effect.side == Side::temperature) return is_temperature(unit);
     return !is_temperature(unit) && !unit.dimension.none();
   };
   std::vector<SideSignal> list;
   for (const auto& [name, input] : w.diagram().inputs)
-    if (fits(parse_unit(input.unit))) list.push_back({name, {}});
+    if (fits(name, parse_unit(input.unit))) list.push_back({name, {}});
   if (effect.side == Side::other_axis && w.diagram().outputs.size() > 1)  // its motion, not only its drive
     for (const auto& [name, from] : w.diagram().outputs)
       if (const auto s = w.signal(from); !s.empty()) list.push_back({start_of_chain(w, before_offset(w, s)), {}});
@@ -268,7 +270,7 @@ std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, cons
         if (parse_unit(input.unit).dimension == unit.dimension) return true;
       return false;
     };
-    if (fits(unit) && (effect.side == Side::temperature || like_input())) list.push_back({name, unit});
+    if (fits(name, unit) && (effect.side != Side::other_axis || like_input())) list.push_back({name, unit});
   }
   return list;
 }
@@ -317,8 +319,10 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     if (!known) list.push_back(std::move(place));
   }
   if (effect.side != Side::none) return beside(list, effect, w, data);
-  // The zero of a sensor stands behind everything: a calibration enters at the output itself.
-  if (effect.block_type == "calibration" && diagram.places.find("measured") == nullptr) {
+  // The zero of a sensor stands behind everything, and so does what its cable picks up: they enter at the output
+  // itself.
+  if ((effect.block_type == "calibration" || effect.block_type == "mains_interference") &&
+      diagram.places.find("measured") == nullptr) {
     list.clear();
     for (const auto& [name, from] : diagram.outputs) {
       Place p = on_wire(w, registry, "measured", start_of_chain(w, w.signal(from)));
@@ -348,10 +352,12 @@ Place place_for(const Effect& effect, const Diagram& diagram, const Registry& re
   if (!places.empty()) return places.front();
   if (effect.side != Side::none)
     fail("no_side_signal", effect.id,
-         effect.side == Side::temperature
+         effect.side == Side::use ? "it reads what the device had behind it, and no recording says that"
+         : effect.side == Side::temperature
              ? "it reads a temperature, and neither an input of the diagram nor a column of the recordings is one"
              : "it reads the drive of another axis, and there is none",
-         effect.side == Side::temperature
+         effect.side == Side::use ? "write \"cycles_before\" or \"start\" at each recording of the data set"
+         : effect.side == Side::temperature
              ? "give the diagram an input in K or degC, or name recordings with such a column (--data)"
              : "give the diagram a second input, or name recordings with such a column (--data)");
   fail("unknown_place", effect.id,

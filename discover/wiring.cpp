@@ -121,7 +121,9 @@ bool Wiring::has_memory(const std::string& block) const {
     return !all_blocks(*node->nested, registry_,
                        [](const Wiring& w, const std::string& b) { return !w.has_memory(b); });
   const Kernel* k = registry_.find(node->type);
-  return k != nullptr && (k->advance != nullptr || k->declaration.is_rate_independent);
+  // What merely counts (cycles) is no memory that shapes the response.
+  const bool remembers = k != nullptr && k->advance != nullptr && !k->declaration.memory_port.empty();
+  return remembers || (k != nullptr && k->declaration.is_rate_independent);
 }
 
 bool Wiring::is_linear(const std::string& block) const {

@@ -44,7 +44,9 @@ class Builder {
 
   std::string why_not_block(const BlockInstance& b) const {
     if (b.kernel->is_sampled()) return "";
-    if (is_function_of_time(b) && program_.sampled_blocks.empty())
+    // What adds a function of time to a signal is computed at the instants, if nothing that remembers follows.
+    const bool adds = b.n_u > 0 && b.sizes.smoothness != Smoothness::no_rate;
+    if (is_function_of_time(b) && !adds && program_.sampled_blocks.empty())
       return b.n_u == 0 ? fmt::format("source {} \"{}\" is a function of time, not a recording", type_of(b), b.path)
                         : fmt::format(
                               "{} \"{}\" {}", type_of(b), b.path,

@@ -53,6 +53,11 @@ struct Recording {
   std::optional<double> cycles_before;
 };
 
+/// What a data set says of the use before each recording stands there as columns too (one value in all rows), unless
+/// the file has a column of that name: cycles, and the hour at which it began.
+inline constexpr const char* column_of_cycles = "cycles_before";
+inline constexpr const char* column_of_start = "start";
+
 struct DataSet {
   std::string title, file;
   std::map<std::string, ColumnNote> notes;  ///< by ColumnNote::to

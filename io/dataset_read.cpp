@@ -215,6 +215,7 @@ class DataSetReader {
     r.file = content->file;
     r.t = content->t;
     bind(place, *content, r);
+    note_use(r);
     read_span(place, r);
     data_.recordings.push_back(std::move(r));
   }
@@ -320,6 +321,19 @@ class DataSetReader {
                       recording.last > recording.first ? recording.last - recording.first : 0, recording.t.size()),
           fmt::format("the recording is {} s long; skip less or go on longer",
                       number_text(recording.t.back() - recording.t.front())));
+  }
+
+  /// Every row has the value that the recording has.
+  void note_use(Recording& recording) {
+    const auto column = [&](const char* name, const std::optional<double>& value, const char* unit) {
+      if (!value || recording.columns.contains(name)) return;
+      const Unit read = parse_unit(unit);
+      recording.columns[name].assign(recording.t.size(), read.to_si(*value));
+      recording.units[name] = read;
+      bound_by_name_.push_back(name);
+    };
+    column(column_of_cycles, recording.cycles_before, "");
+    column(column_of_start, recording.start_hours, "h");
   }
 
   void finish(Recording& recording) {

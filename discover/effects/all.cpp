@@ -22,6 +22,9 @@ Effects all_effects() {
       temperature_gain(),
       thermal_expansion(),
       cross_coupling(),
+      rate_dependence(),
+      ageing(),
+      mains_interference(),
       friction(),
       stiffening(),
   });

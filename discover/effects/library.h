@@ -22,6 +22,9 @@ Effect temperature_gain();
 Effect thermal_expansion();
 Effect cross_coupling();
 Effect friction();
+Effect rate_dependence();
+Effect ageing();
+Effect mains_interference();
 Effect stiffening();
 
 /// The laws that amplifier and sensor lag share: one pole, two poles.

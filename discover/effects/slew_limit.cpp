@@ -57,9 +57,9 @@ Effect slew_limit() {
   e.way = Way::insert;
   e.block_type = "slew_limit";
   e.places = {"command"};
-  e.parameters = {{"rate", "unit of the signal per s", "largest rate upwards",
-                   "60 mA into 2.6 uF: 23 V/ms; current over capacitance"},
-                  {"ratio", "", "largest rate downwards over that upwards", "0.5 .. 2"}};
+  e.parameters = {
+      {"rate", "unit of the signal per s", "largest rate upwards", "60 mA into 2.6 uF: 23 V/ms; the range within 10 s"},
+      {"ratio", "", "largest rate downwards over that upwards", "0.5 .. 2"}};
   e.look_alikes = {
       {"amplifier_lag", "sine_amplitudes", "at half the amplitude the error of a limit goes, a lag's halves"},
       {"saturation", "sine_amplitudes", "a clamp has a level, a slew limit a rate"},
@@ -69,6 +69,12 @@ Effect slew_limit() {
     std::string text = fmt::format("at most {:.4g} {}/s", at.unit.difference_from_si(values[0]), at.unit.text);
     if (law.free.size() > 1) text += fmt::format(", downwards {:.3g} times that", values[1]);
     return text;
+  };
+  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances& at) -> std::string {
+    // The weakest piezo amplifiers (2 mA) take a second to charge the largest stacks (20 uF) to 100 V.
+    const double whole = at.range() / values[0];
+    if (whole <= 10) return "";
+    return fmt::format("the range of the drive would take {}: no current limit is so slow", time_text(whole));
   };
   e.laws = [](const Circumstances& at) { return std::vector<Law>{limit(at, false), limit(at, true)}; };
   e.unseen = stands_still;

@@ -39,6 +39,8 @@ const std::map<std::string, Example>& examples() {
          {"stiffness", "50 N/m"},
          {"initial_position", "0.03 m"},
          {"initial_velocity", "-0.2 m/s"}}}},
+      {"prandtl_ishlinskii",
+       {"V", {{"thresholds", list({0, 0.8, 2}, "V")}, {"weights", list({1, 0.3, 0.2}, "um/V")}, {"before", "2 V"}}}},
       {"tank", {"l/min", {{"area", "2 m^2"}, {"outlet", "0.2 l/min"}, {"reference", "1 m"}, {"initial", "1.5 m"}}}},
       {"bouc_wen", {"V", {{"alpha", "0.6 um/V"}, {"beta", "0.24 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6 um/V"}}}},
       {"jiles_atherton",
@@ -140,6 +142,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
   // What is varied can act: a hypothesis that changes nothing could not be tested.
   static const std::map<std::string, Parameters> active{
       {"offset", {{"offset", "1 um"}}},
+      {"late", {{"share", 1.0}, {"time", "10 ms"}}},
       {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
       {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
       {"resonance", {{"share", 0.1}, {"frequency", "3 Hz"}}},

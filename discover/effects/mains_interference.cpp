@@ -1,0 +1,79 @@
+// The effect mains_interference: a line of the mains on the sensor's signal, with a phase of its own in each recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+namespace {
+
+constexpr double away = 0.2;  // [Hz] that the mains may be off in normal operation (EN 50160: 1 %, mostly 0.2 Hz)
+
+Law lines(const Circumstances& at, int harmonics) {
+  Law law;
+  law.name = harmonics == 1 ? "one line" : "a line and its harmonics";
+  law.block.type = "mains_interference";
+  give(law.block, "frequency", Number{50, "Hz"});
+  const Number none = with_unit(0.0, at.unit);
+  give(law.block, "cosine", NumberList(static_cast<std::size_t>(harmonics), none));
+  give(law.block, "sine", NumberList(static_cast<std::size_t>(harmonics), none));
+  LawParameter f;
+  f.path = "frequency";
+  f.start = 50;
+  f.lower = 50 - 5 * away;
+  f.upper = 60 + 5 * away;
+  // A recording of length T tells frequencies 1/T apart; of longer ones the local search takes care.
+  const double step = std::clamp(0.5 / at.longest_recording, 2 * away / 100, 2 * away / 8);
+  for (const double mains : {50.0, 60.0})
+    for (double d = -away; d <= away * 1.001; d += step) f.scan.push_back(mains + d);
+  law.free = {f};
+  for (int k = 0; k < harmonics; ++k)
+    for (const char* list : {"cosine", "sine"}) {
+      LawParameter a;
+      a.path = element(list, k);
+      a.per_recording = true;
+      law.free.push_back(a);
+    }
+  return law;
+}
+
+}  // namespace
+
+Effect mains_interference() {
+  Effect e;
+  e.id = e.family = "mains_interference";
+  e.title = "Interference of the mains";
+  e.cause = "Loops of ground and transformers near the sensor's cable.";
+  e.equation =
+      "y = u + sum_k cosine_k*cos(2*pi*k*f*t) + sine_k*sin(2*pi*k*f*t), amplitudes of their own in each recording";
+  e.source = "Ott, Electromagnetic Compatibility Engineering (2009), chapter 3; EN 50160 (frequency of the mains)";
+  e.residual = "A line at 50 or 60 Hz that follows neither drive nor motion, there at rest too.";
+  e.needs = "A recording sampled above 120 Hz, a second long or more.";
+  e.way = Way::insert;
+  e.block_type = "mains_interference";
+  e.places = {"measured"};
+  e.parameters = {{"frequency", "Hz", "of the mains", "50 or 60 Hz, 0.2 Hz off at most"},
+                  {"cosine, sine", "unit of the output", "amplitudes, per recording", "0.1 .. 20 nm at a sensor"}};
+  e.look_alikes = {{"structural_resonance", "zero_run", "a mode is silent where nothing moves"},
+                   {"cross_coupling", "zero_run", "another axis is silent where nothing moves"}};
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    return fmt::format("{:.5g} Hz, {:.3g} {} in the last recording", values[0],
+                       at.unit.difference_from_si(std::hypot(values[1], values[2])), at.unit.text);
+  };
+  e.laws = [](const Circumstances& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (!at.from_data) return "";
+    if (at.shortest_step > 1.0 / 120)
+      return fmt::format(
+          "no recording is sampled above 120 Hz (the quickest: every {}), so 50 Hz looks like something else",
+          time_text(at.shortest_step));
+    if (at.longest_recording < 1)
+      return fmt::format("the longest recording lasts {}, a line needs 1 s", time_text(at.longest_recording));
+    return "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects

@@ -1,0 +1,25 @@
+// Decides what the mains adds to a signal: a line and its harmonics. Does not decide where it gets in.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+namespace hysteron::mains {
+
+/// sum_k cosine_k cos(2 pi k f t) + sine_k sin(2 pi k f t), k = 1, 2, ...; f [Hz], t [s], amplitudes in the unit of the
+/// signal. Its mean square is half the sum of all squares.
+template <class T>
+T hum(const T& frequency, std::span<const T> cosine, std::span<const T> sine, const T& t) {
+  using std::cos;
+  using std::sin;
+  T sum{0};
+  for (std::size_t k = 0; k < cosine.size(); ++k) {
+    const T angle = 2 * std::numbers::pi * static_cast<double>(k + 1) * frequency * t;
+    sum += cosine[k] * cos(angle) + sine[k] * sin(angle);
+  }
+  return sum;
+}
+
+}  // namespace hysteron::mains

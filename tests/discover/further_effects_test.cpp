@@ -1,0 +1,224 @@
+// Effects of the rate, of use and of the mains, each hidden by a formula of its own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/register_all.h"
+#include "discover/discover.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+class FurtherEffects : public ::testing::Test {
+ protected:
+  Discovery found(const Diagram& d, const DataSet& data) { return diagnose(d, data, registry, effects); }
+  static std::string tried(const Discovery& d) {
+    std::string text = d.headline;
+    for (const auto& c : d.candidates)
+      text += "\n  " + c.effect + " at " + c.place + ", " + c.law + ": " + c.summary + "; " + c.reason;
+    for (const auto& r : d.refused) text += "\n  refused " + r.effect + ": " + r.reason;
+    return text;
+  }
+  std::string refusal(const Effect& e, Circumstances at) {
+    at.from_data = true;
+    return e.unseen(at);
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+/// Value of a parameter of the winner, by the end of its path.
+double value(const Discovery& d, const std::string& path) {
+  for (const auto& f : d.steps.front().winner.found)
+    if (f.estimate.path.ends_with("." + path)) return f.estimate.used;
+  return std::nan("");
+}
+
+// --- hysteresis that follows late -------------------------------------------------------------------------------
+
+const std::vector<double> thresholds{0, 0.1, 0.25, 0.5}, weights{0.7, 0.15, 0.1, 0.08};
+
+Diagram four_plays() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& stage = d.blocks["stage"];
+  stage.type = "prandtl_ishlinskii";
+  const auto list = [](const std::vector<double>& values, const char* unit) {
+    NumberList numbers;
+    for (const double v : values) numbers.push_back(Number{v, unit});
+    return Value(std::move(numbers));
+  };
+  stage.parameters["thresholds"] = list(thresholds, "V");
+  stage.parameters["weights"] = list(weights, "m/V");
+  stage.in = {{"", "u"}};
+  d.outputs["y"] = "stage";
+  return d;
+}
+
+/// Sums the plays by small steps; their sum, less the input's share, follows with time constant `tau` (0: at once).
+DataSet late_plays(double tau) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2100;
+  const auto add = [&](Role role, double step, const std::vector<double>& u) {
+    const auto t = rows(static_cast<int>(u.size()), step);
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    std::vector<double> w(thresholds.size(), 0.0);
+    double h = 0;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      for (int i = 1; i <= 100; ++i) {
+        if (k == 0 && i < 100) continue;
+        const double now = k == 0 ? u[0] : u[k - 1] + (u[k] - u[k - 1]) * i / 100;
+        double sum = 0;
+        for (std::size_t j = 1; j < w.size(); ++j) {
+          w[j] = std::max(now - thresholds[j], std::min(now, w[j]));
+          sum += weights[j] * w[j];
+        }
+        h += k == 0 ? sum : (1 - std::exp(-step / 100 / tau)) * (sum - h);
+        if (i == 100) y[k] += weights[0] * now + h;
+      }
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  };
+  const auto t = rows(800, 1e-3);
+  add(Role::train, 1e-3, several_sines(t, 1, {5, 13}));
+  add(Role::train, 1e-3, several_sines(t, 0.06, {9, 31}));  // below every threshold: nothing is late
+  add(Role::train, 1e-2, decaying_triangle(rows(800, 1e-2), 1, 5));
+  add(Role::validate, 1e-3, several_sines(t, 1, {3, 21}));
+  add(Role::validate, 1e-3, several_sines(t, 0.06, {11, 37}));
+  return data_set(list, 1e-3);
+}
+
+TEST_F(FurtherEffects, AHysteresisThatFollowsLateIsNoLagOfTheAmplifier) {
+  const Discovery d = found(four_plays(), late_plays(4e-3));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "rate_dependence") << tried(d);
+  EXPECT_NEAR(value(d, "time"), 4e-3, 2e-4);  // s: noise of 1e-3 over 2400 rows of a late part of 0.02
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
+}
+
+TEST_F(FurtherEffects, ALagOfTheAmplifierIsNoLateHysteresis) {
+  DataSet data = late_plays(1e-9);
+  for (auto& r : data.recordings) {
+    // The whole response late by 4 ms, through a lag of the output: linear parts may stand before or behind... but not
+    // across plays, so the drive is what is late.
+    const double step = r.t[1] - r.t[0];
+    auto& y = r.columns["y"];
+    const auto& u = r.columns["u"];
+    const auto n = noise(u.size(), 1e-3, 1e-4, 7);
+    std::vector<double> w(thresholds.size(), 0.0);
+    double v = u.front();
+    for (std::size_t k = 0; k < u.size(); ++k)
+      for (int i = 1; i <= 100; ++i) {
+        const double now = k == 0 ? u[0] : u[k - 1] + (u[k] - u[k - 1]) * i / 100;
+        if (k > 0) v += (1 - std::exp(-step / 100 / 4e-3)) * (now - v);
+        double sum = 0;
+        for (std::size_t j = 0; j < w.size(); ++j) {
+          w[j] = std::max(v - thresholds[j], std::min(v, w[j]));
+          sum += weights[j] * w[j];
+        }
+        if (i == 100) y[k] = sum + n[k];
+      }
+  }
+  const Discovery d = found(four_plays(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "amplifier_lag") << tried(d);
+}
+
+TEST_F(FurtherEffects, WithoutAHysteresisNothingOfItCanBeLate) {
+  const Discovery d = found(plain_gain(), late_plays(4e-3));
+  const auto refused =
+      std::find_if(d.refused.begin(), d.refused.end(), [](const Refused& r) { return r.effect == "rate_dependence"; });
+  ASSERT_NE(refused, d.refused.end());
+  EXPECT_NE(refused->reason.find("hysteresis"), std::string::npos) << refused->reason;
+}
+
+// --- ageing -----------------------------------------------------------------------------------------------------
+
+/// Sines whose gain falls by `per_decade` of cycles beyond a hundred, with those that each recording adds.
+DataSet worn(double per_decade, const std::vector<double>& cycles) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2300;
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const auto t = rows(600, 0.02);
+    const double hertz = 1.5 + 0.4 * static_cast<double>(i);
+    const auto u = sampled(t, [&](double x) { return 0.5 * (1 - std::cos(2 * pi * hertz * x)); });
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      const double n = cycles[i] + std::floor(2 * hertz * t[k]) / 2;
+      y[k] += u[k] * (1 - per_decade * std::log10(1 + n / 100));
+    }
+    list.push_back(
+        recording(std::to_string(seed++) + ".csv", i + 1 == cycles.size() ? Role::validate : Role::train, t, u, y));
+    list.back().columns["cycles_before"].assign(t.size(), cycles[i]);
+    list.back().units["cycles_before"] = parse_unit("");
+  }
+  DataSet data = data_set(list, 1e-3);
+  data.notes["cycles_before"].to = "cycles_before";
+  return data;
+}
+
+TEST_F(FurtherEffects, AGainThatFallsWithTheCyclesIsAgeing) {
+  const Discovery d = found(plain_gain(), worn(0.02, {0, 900, 30000, 400000}));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "ageing") << tried(d);
+  EXPECT_NEAR(value(d, "per_decade"), 0.02, 3e-4);  // noise of 1e-3 over 1800 rows, 0.6 rms, at up to 3.6 decades
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
+  ASSERT_NE(d.final_diagram.inputs.find("cycles_before"), nullptr) << "the diagram reads the count";
+}
+
+TEST_F(FurtherEffects, AgeingIsRefusedWhereAllRecordingsWereMadeAtOnce) {
+  const Discovery d = found(plain_gain(), worn(0.02, {0, 20, 40, 60}));
+  const auto refused =
+      std::find_if(d.refused.begin(), d.refused.end(), [](const Refused& r) { return r.effect == "ageing"; });
+  ASSERT_NE(refused, d.refused.end()) << tried(d);
+  EXPECT_NE(refused->reason.find("decades of cycles"), std::string::npos) << refused->reason;
+}
+
+// --- the mains --------------------------------------------------------------------------------------------------
+
+/// A line of 49.93 Hz with another phase in each recording.
+DataSet humming(double amplitude, double step) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2500;
+  for (const Role role : {Role::train, Role::train, Role::validate, Role::validate}) {
+    const auto t = rows(1500, step);
+    const auto u = several_sines(t, 1, {1.0 / t.back(), 4.0 / t.back()});
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    const double phase = 1.7 * static_cast<double>(seed);
+    for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + amplitude * std::sin(2 * pi * 49.93 * t[k] + phase);
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  }
+  return data_set(list, 1e-3);
+}
+
+TEST_F(FurtherEffects, ALineOfTheMainsIsNamedWithItsFrequencyWhateverItsPhase) {
+  const Discovery d = found(plain_gain(), humming(5e-4, 2e-3));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "mains_interference") << tried(d);
+  // Frequency of a line in 1500 rows of 3 s: sqrt(6)/(pi T sqrt(N)) noise/amplitude = 0.013 Hz of one recording.
+  EXPECT_NEAR(value(d, "frequency"), 49.93, 0.04);
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 5e-5) << "the phase of a validate recording is found on it";
+  int cosines = 0;
+  for (const auto& f : d.steps.front().winner.found) cosines += f.estimate.path.ends_with("cosine[0]");
+  EXPECT_EQ(cosines, 4) << "one for each recording";
+}
+
+TEST_F(FurtherEffects, WhatTheValuesOfARecordingTakeAwayByChanceIsNoLine) {
+  const Discovery d = found(plain_gain(), humming(0, 2e-3));
+  EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+}
+
+TEST_F(FurtherEffects, ALineIsRefusedWhereNoRecordingIsSampledQuicklyEnough) {
+  const Discovery d = found(plain_gain(), humming(5e-4, 0.02));
+  const auto refused = std::find_if(d.refused.begin(), d.refused.end(),
+                                    [](const Refused& r) { return r.effect == "mains_interference"; });
+  ASSERT_NE(refused, d.refused.end()) << tried(d);
+  EXPECT_NE(refused->reason.find("120 Hz"), std::string::npos) << refused->reason;
+}
+
+}  // namespace
+}  // namespace hysteron
