@@ -6,7 +6,8 @@ Does not decide which verdict follows from it (cases.py).
 """
 import numpy as np
 
-from hidden import LIBRARY, draw, heights, scale, traces
+from hidden import ELSEWHERE, LIBRARY, base_outputs, draw, heights, scale, traces
+from laws import lost_motion
 
 TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
 
@@ -26,25 +27,39 @@ RIVALS = dict(
     calibration=("temperature_gain", "ageing"))
 
 
-def gap(plant, recordings, truth, name, sigma, seed=0, draws=3):
+def gap(plant, recordings, truth, name, sigma, seed=0):
     """chi2 left of the truth's trace after the best sum of a few differently shaped traces of the rival."""
-    if plant.base not in LIBRARY[name].plants:
+    if plant.base not in LIBRARY[name].plants + ELSEWHERE.get(name, ()):
         return np.inf
-    rng = np.random.default_rng([seed, 77])
     want = traces(plant, recordings, truth)
-    size = max(heights(want))
-    columns = []
-    for _ in range(draws):
-        rival = draw(rng, name, plant, recordings)
-        rival.axes = truth.axes
-        rival = scale(plant, recordings, rival, size, accuracy=0.25)
-        if rival is not None:
-            columns.append(flat(traces(plant, recordings, rival)))
+    columns = curves_of(plant, recordings, truth, name, max(heights(want)), np.random.default_rng([seed, 77]))
     if not columns:
         return np.inf
     y, a = flat(want) / sigma, np.array(columns).T / sigma
     left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
     return float(left @ left)
+
+
+def curves_of(plant, recordings, truth, name, size, rng):
+    if name == "hysteresis" and plant.base == "B1":
+        return loops(plant, recordings)
+    columns = []
+    for _ in range(3):
+        rival = draw(rng, name, plant, recordings)
+        rival.axes = truth.axes
+        rival = scale(plant, recordings, rival, size, accuracy=0.25)
+        if rival is not None:
+            columns.append(flat(traces(plant, recordings, rival)))
+    return columns
+
+
+def loops(plant, recordings):
+    """Any hysteresis of an actuator without mass: a gain and plays of many widths, their weights free."""
+    motions = [base_outputs(plant, r)[0] - plant.task["offset_um"] for r in recordings]
+    half = max(np.abs(x).max() for x in motions) / 2
+    widths = half * np.geomspace(0.003, 0.95, 10)
+    return [np.concatenate(motions)] + [
+        np.concatenate([lost_motion(x, np.array([w]), np.ones(1)) for x in motions]) for w in widths]
 
 
 def flat(trace):

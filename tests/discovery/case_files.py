@@ -9,14 +9,14 @@ import numpy as np
 
 
 def draw_sensor(rng, low, high, noise=None):
-    """White noise log-uniform over a factor of twenty; 1/f share, its exponent, its bits vary."""
+    """White noise as asked, else log-uniform over a factor of twenty; 1/f share, its exponent and the bits vary."""
     span = high - low
     white = span * np.exp(rng.uniform(*np.log([3e-5, 6e-4]))) if noise is None else noise
     range_ = [float(np.floor(low - 0.12 * span)), float(np.ceil(high + 0.12 * span))]
     bits = int(rng.choice([14, 16, 16, 16, 18]))
     while (range_[1] - range_[0]) / 2**bits > 1.5 * white:  # a converter that suits the sensor
         bits += 1
-    flicker = float(white * rng.choice([0.0, *rng.uniform(0.1, 0.5, 4), 0.8]))
+    flicker = float(white * rng.choice([0.0, *rng.uniform(0.1, 0.5, 8), 0.8]))
     return dict(range=range_, bits=bits, white=float(white), flicker=flicker,
                 exponent=float(rng.choice([1.0, 1.0, rng.uniform(0.8, 1.3)])), heavy=bool(rng.random() < 0.1))
 

@@ -30,6 +30,7 @@ def words(actuator, mass=(), heater=()):
     return dict(B1=actuator, B2=actuator, B3=actuator, B4=mass, B5=heater)
 
 
+ELSEWHERE = dict(asymmetry=("B5",))  # plants that are not given an effect which they could well have: rivals only
 FAST, FAST_MASS = ("multisine", "freq_high", "chirp"), ("multisine", "steps", "chirp")
 LARGE, LARGE_MASS = ("sine_multiamp", "triangle"), ("sine_multiamp", "triangle")
 HEAT = ("staircase", "prbs", "steps", "sine")
@@ -59,7 +60,7 @@ def draw_hysteresis(rng, plant, recordings):
 
 def draw_asymmetry(rng, plant, recordings):
     top = swept(recordings)
-    return dict(width=top * rng.uniform(0.08, 0.3), bend=top * (rng.uniform(0.3, 0.6) if plant.base != "B4" else
+    return dict(width=top * rng.uniform(0.15, 0.4), bend=top * (rng.uniform(0.3, 0.6) if plant.base != "B4" else
                 rng.uniform(-0.2, 0.2)), lean=rng.uniform(0, 0.7), bulge=0 if plant.base == "B1" else rng.uniform(-0.3, 0.8))
 
 
@@ -72,10 +73,9 @@ def draw_friction(rng, plant, recordings):
 
 
 def draw_resonance(rng, plant, recordings):
-    if plant.base == "B4":
-        f = plant.frequency * rng.uniform(1.6, 4)
-    else:  # within a quarter of the sampling frequency of the fast recordings
-        f = rng.uniform(150, min([700] + [0.2 / r.h for r in recordings if r.word in FAST]))
+    shown = [0.2 / r.h for r in recordings if r.word in LIBRARY["structural_resonance"].shows[plant.base]]
+    low, high = (1.6 * plant.frequency, 4 * plant.frequency) if plant.base == "B4" else (100, 700)  # Hz
+    f = rng.uniform(low, max(min([high, *shown]), 1.05 * low))  # five rows to a period where it shows
     return dict(frequency=f, damping=np.exp(rng.uniform(*np.log([0.006, 0.05]))), second=f * rng.uniform(1.5, 2.6),
                 share=rng.choice([0.0, rng.uniform(0.05, 0.3)]))
 

@@ -62,7 +62,7 @@ def write(folder, case, rng, name, wrong_parameters):
     plant = case.plant
     with_force = plant.base == "B4" and rng.random() < 0.4
     thermal = {"thermal_expansion", "temperature_gain", "creep"} & set(case.expected["effects"])
-    with_temperature = bool(thermal) or rng.random() > 0.15
+    with_temperature = bool(thermal) or rng.random() > 0.08
     known = copy.deepcopy(plant)
     if wrong_parameters:
         cases.perturbed(rng, known.task)

@@ -125,7 +125,7 @@ def simulate(plant, recording, hidden=()):
     h = recording.h / steps
     temperature = np.interp(fine, t, recording.temperature)
     if plant.base == "B5":
-        outputs, force = [heat(plant, amplified(drives[0], h, hidden, 0), temperature, h)], None
+        outputs, force = [heat(plant, distorted(amplified(drives[0], h, hidden, 0), hidden, 0), temperature, h)], None
     elif plant.base == "B4":
         v = amplified(drives[0], h, hidden, 0)
         outputs, force = [swing(plant, distorted(v, hidden, 0), h, hidden)], plant.task["force_per_volt_N"] * v[::steps]
