@@ -1,7 +1,8 @@
 """What else explains the same recordings as well as the truth does.
 
 Decides by computing: the trace of a look-alike is fitted to the trace of the truth; what is left, over the noise, is the
-chi2 gap. Below TIE nobody can tell the two from these recordings.
+chi2 gap. Below TIE nobody can tell the two from these recordings, nor where the gap is no more than what a good law leaves
+of its own effect (LAW_ERROR).
 Does not decide which verdict follows from it (cases.py).
 """
 import numpy as np
@@ -10,6 +11,7 @@ from hidden import ELSEWHERE, LIBRARY, base_outputs, draw, heights, scale, trace
 from laws import lost_motion
 
 TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
+LAW_ERROR = 0.015  # of an effect's amplitude: no formula describes a device better
 
 # Pairs that are easily taken for each other; the deciding feature may be missing from the recordings.
 RIVALS = dict(
@@ -67,4 +69,6 @@ def flat(trace):
 
 
 def alternatives(plant, recordings, truth, sigma, seed=0):
-    return [name for name in RIVALS.get(truth.name, ()) if gap(plant, recordings, truth, name, sigma, seed) < TIE]
+    whole = flat(traces(plant, recordings, truth)) / sigma
+    enough = max(TIE, LAW_ERROR**2 * float(whole @ whole))
+    return [name for name in RIVALS.get(truth.name, ()) if gap(plant, recordings, truth, name, sigma, seed) < enough]
