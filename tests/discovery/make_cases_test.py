@@ -91,7 +91,8 @@ class Laws(unittest.TestCase):
         t = np.arange(6000) / 6000
         def at(steps, **what):
             h = 1 / (20 * 300) / steps
-            fine = np.interp(np.arange((len(t) - 1) * steps + 1) / steps, np.arange(len(t)), 6 * np.sin(2 * np.pi * 9 * t) * t)
+            pull = 6 * np.sin(2 * np.pi * 9 * t) * t
+            fine = np.interp(np.arange((len(t) - 1) * steps + 1) / steps, np.arange(len(t)), pull)
             friction = np.array(what.get("friction", np.zeros(5)), dtype=float)
             return laws.mass_on_spring(fine, h, laws.propagator(20.0, 0.1, h), what.get("cubic", 0.0), 0.0, friction,
                                        table, what.get("depth", 0.0), 0.0, 10.0)[::steps]
@@ -163,16 +164,16 @@ class Cases(unittest.TestCase):
         return self.root / into / make_cases.number_of(seed, kind, index)
 
     def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
-        a, b = self.make("pairs", 0), self.make("pairs", 0, into="b")
+        a, b = self.make("starved", 0), self.make("starved", 0, into="b")
         self.assertEqual(sorted(f.name for f in a.iterdir()), sorted(f.name for f in b.iterdir()))
         for f in a.iterdir():
             self.assertEqual(f.read_bytes(), (b / f.name).read_bytes(), f.name)
-        c = self.make("pairs", 0, seed=8)
+        c = self.make("starved", 0, seed=8)
         self.assertNotEqual((a / "01.csv").read_bytes(), (c / "01.csv").read_bytes())
 
     def test_strength_is_as_asked(self):
         """The trace, recomputed without the search, stands above the noise by what its strength promises."""
-        for index, what in enumerate([("creep", "weak"), ("saturation", "medium"), ("backlash", "strong"), ("slew_limit", "weak")]):
+        for index, what in enumerate([("creep", "weak"), ("calibration", "medium"), ("rate_dependence", "strong")]):
             case, _ = cases.build(7, "singles", index, what, list(hidden.LIBRARY), hidden.STRENGTHS)
             most = 0.0
             for r in case.recordings:
