@@ -6,6 +6,7 @@ of its own effect (LAW_ERROR).
 Does not decide which verdict follows from it (cases.py).
 """
 import numpy as np
+from scipy.fft import dct
 
 from hidden import ELSEWHERE, LIBRARY, base_outputs, draw, heights, scale, traces
 from laws import lost_motion
@@ -29,7 +30,7 @@ RIVALS = dict(
     calibration=("temperature_gain", "ageing"))
 
 
-def gap(plant, recordings, truth, name, sigma, seed=0):
+def gap(plant, recordings, truth, name, sensor, seed=0):
     """chi2 left of the truth's trace after the best sum of a few differently shaped traces of the rival."""
     if plant.base not in LIBRARY[name].plants + ELSEWHERE.get(name, ()):
         return np.inf
@@ -37,7 +38,7 @@ def gap(plant, recordings, truth, name, sigma, seed=0):
     columns = curves_of(plant, recordings, truth, name, max(heights(want)), np.random.default_rng([seed, 77]))
     if not columns:
         return np.inf
-    y, a = flat(want) / sigma, np.array(columns).T / sigma
+    y, a = whitened(want, sensor), np.array([whitened(c, sensor) for c in columns]).T
     left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
     return float(left @ left)
 
@@ -51,7 +52,7 @@ def curves_of(plant, recordings, truth, name, size, rng):
         rival.axes = truth.axes
         rival = scale(plant, recordings, rival, size, accuracy=0.25)
         if rival is not None:
-            columns.append(flat(traces(plant, recordings, rival)))
+            columns.append(traces(plant, recordings, rival))
     return columns
 
 
@@ -60,15 +61,22 @@ def loops(plant, recordings):
     motions = [base_outputs(plant, r)[0] - plant.task["offset_um"] for r in recordings]
     half = max(np.abs(x).max() for x in motions) / 2
     widths = half * np.geomspace(0.003, 0.95, 10)
-    return [np.concatenate(motions)] + [
-        np.concatenate([lost_motion(x, np.array([w]), np.ones(1)) for x in motions]) for w in widths]
+    columns = [motions] + [[lost_motion(x, np.array([w]), np.ones(1)) for x in motions] for w in widths]
+    return [[x[np.newaxis] for x in one] for one in columns]
 
 
-def flat(trace):
-    return np.concatenate([np.ravel(one) for one in trace])
+def whitened(trace, sensor):
+    """Over the noise, cosine by cosine: what lies below the 1/f noise is no evidence."""
+    parts = []
+    for y in trace:
+        n = y.shape[1]
+        k = np.arange(n) + 0.5
+        share = (sensor["flicker"] / sensor["white"]) ** 2
+        parts.append(dct(y, axis=1, norm="ortho") / (sensor["white"] * np.sqrt(1 + share * n / k / np.sum(1 / k))))
+    return np.concatenate([np.ravel(p) for p in parts])
 
 
-def alternatives(plant, recordings, truth, sigma, seed=0):
-    whole = flat(traces(plant, recordings, truth)) / sigma
+def alternatives(plant, recordings, truth, sensor, seed=0):
+    whole = whitened(traces(plant, recordings, truth), sensor)
     enough = max(TIE, LAW_ERROR**2 * float(whole @ whole))
-    return [name for name in RIVALS.get(truth.name, ()) if gap(plant, recordings, truth, name, sigma, seed) < enough]
+    return [name for name in RIVALS.get(truth.name, ()) if gap(plant, recordings, truth, name, sensor, seed) < enough]

@@ -121,9 +121,9 @@ def named(rng, names, strengths, group, attempt):
     recordings = draw_recordings(rng, plant, shows_of(names, plant.base))
     sensor = sensor_for(rng, plant, recordings, 1.0 if attempt < ATTEMPTS // 4 else 0.2)
     effects = hide(rng, plant, recordings, names, strengths, sensor)
-    sigma, allowed = case_files.total(sensor), []
+    allowed = []
     for e in effects:
-        others = alternatives(plant, recordings, e, sigma)
+        others = alternatives(plant, recordings, e, sensor)
         allowed += others if group == "single" else [dict(effect=o, instead_of=e.name) for o in others if o not in names]
     return Case(plant, recordings, effects, sensor, dict(
         verdict="missing_effect", effects=list(names), acceptable_alternatives=allowed), group)
@@ -224,7 +224,7 @@ def starved(rng):
     if e is None:
         raise Unsuited("too little of " + truth)
     e.strength = "medium"
-    if gap(plant, recordings, e, rival, sigma) > TIE / 2:
+    if gap(plant, recordings, e, rival, sensor) > TIE / 2:
         raise Unsuited("%s and %s can be told apart" % (truth, rival))
     return Case(plant, recordings, [e], sensor, dict(
         verdict="not_distinguishable", effects=[truth, rival], acceptable_alternatives=[],

@@ -55,7 +55,8 @@ def stroke(plant, recordings):
 
 
 def draw_hysteresis(rng, plant, recordings):
-    return dict(table=laws.everett_table(rng), slope=float(rng.choice([0.0, 0.8])))
+    """slope: how much of the loop's mean slope the user's gain or stiffness already holds, being fitted to a full stroke."""
+    return dict(table=laws.everett_table(rng), slope=rng.uniform(0.6, 1.0))
 
 
 def draw_asymmetry(rng, plant, recordings):
