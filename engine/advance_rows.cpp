@@ -1,6 +1,7 @@
 #include "engine/advance_rows.h"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/linear_part.h"
 #include "engine/steps.h"
@@ -129,19 +130,28 @@ void AdvanceRows::fill_sources(const Schedule& schedule, std::size_t first, std:
 
 void AdvanceRows::pass_linear(std::span<AdvanceState* const> states, int part, std::size_t rows,
                               const Schedule& schedule, int substeps) {
-  for (std::size_t l = 0; l < states.size(); ++l) {
-    LinearPart& p = states[l]->parts[at(part)];
-    LinearPart::RowsOfPart r;
-    r.count = static_cast<int>(rows);
-    r.stride = static_cast<std::ptrdiff_t>(lanes_);
+  LinearPart::RowsOfPart r;
+  r.count = static_cast<int>(rows);
+  r.stride = static_cast<std::ptrdiff_t>(lanes_);
+  r.w = inputs_.data();
+  r.y = outputs_.data();
+  r.kind = kinds_;
+  r.lengths = &schedule.lengths;
+  r.substeps = substeps;
+  const auto point_at_lane = [&](std::size_t l) {
+    const LinearPart& p = states[l]->parts[at(part)];
     for (std::size_t i = 0; i < p.input_signals().size(); ++i) inputs_[i] = in_[at(p.input_signals()[i])] + l;
     for (std::size_t i = 0; i < p.output_signals().size(); ++i) outputs_[i] = own_[at(p.output_signals()[i])] + l;
-    r.w = inputs_.data();
-    r.y = outputs_.data();
-    r.kind = kinds_;
-    r.lengths = &schedule.lengths;
-    r.substeps = substeps;
-    p.pass(r);
+  };
+  if (lanes_ > 1) {
+    point_at_lane(0);
+    std::array<LinearPart*, RowsView::most_lanes> parts{};
+    for (std::size_t l = 0; l < states.size(); ++l) parts[l] = &states[l]->parts[at(part)];
+    if (LinearPart::pass_lanes(std::span(parts).first(states.size()), r)) return;
+  }
+  for (std::size_t l = 0; l < states.size(); ++l) {
+    point_at_lane(l);
+    states[l]->parts[at(part)].pass(r);
   }
 }
 

@@ -190,12 +190,13 @@ void LinearPart::bind(const Program& program, const Run& run) {
     d_.row(static_cast<Eigen::Index>(i)) = rows[at(outputs_[i])].tail(m);
   }
   feeds_through_ = !d_.leftCols(m - 1).isZero(0);
-  padded_ = at(n_ + n_ % 2);
+  find_seen();
+  padded_ = seen_.size() + seen_.size() % 2;
   c_rows_.assign(outputs_.size() * padded_, 0.0);
   d_rows_.clear();
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
     const auto row = static_cast<Eigen::Index>(o);
-    for (int i = 0; i < n_; ++i) c_rows_[o * padded_ + at(i)] = c_(row, i);
+    for (std::size_t i = 0; i < seen_.size(); ++i) c_rows_[o * padded_ + i] = c_(row, seen_[i]);
     for (Eigen::Index i = 0; i < m; ++i) d_rows_.push_back(d_(row, i));
   }
   row_scratch_.assign(2 * padded_, 0.0);
@@ -232,15 +233,41 @@ void LinearPart::start(const Program& program, const Run& run, std::vector<doubl
   write_outputs(y);
 }
 
-LinearPart::Step LinearPart::make_step(double h) const {
+/// A state is seen if an output reads it, or a state that is seen does.
+void LinearPart::find_seen() {
+  std::vector<bool> is_seen(at(n_));
+  std::vector<int> open;
+  const auto add = [&](int i) {
+    if (is_seen[at(i)]) return;
+    is_seen[at(i)] = true;
+    open.push_back(i);
+  };
+  for (int i = 0; i < n_; ++i)
+    if (!c_.col(i).isZero(0)) add(i);
+  while (!open.empty()) {
+    const int reader = open.back();
+    open.pop_back();
+    for (int i = 0; i < n_; ++i)
+      if (a_(reader, i) != 0) add(i);
+  }
+  std::vector<int> seen;
+  for (int i = 0; i < n_; ++i)
+    if (is_seen[at(i)]) seen.push_back(i);
+  if (seen == seen_) return;
+  seen_ = std::move(seen);
+  packed_.clear();
+  packed_count_ = 0;
+}
+
+LinearPart::Step LinearPart::make_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h) {
   // exp of [[A, B, 0], [0, 0, I/h], [0, 0, 0]] h: the response to states, to constant inputs and to a unit ramp over h.
-  const auto m = b_.cols();
-  Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n_ + 2 * m, n_ + 2 * m);
-  big.topLeftCorner(n_, n_) = a_ * h;
-  big.block(0, n_, n_, m) = b_ * h;
-  big.block(n_, n_ + m, m, m).setIdentity();
+  const auto n = a.rows(), m = b.cols();
+  Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n + 2 * m, n + 2 * m);
+  big.topLeftCorner(n, n) = a * h;
+  big.block(0, n, n, m) = b * h;
+  big.block(n, n + m, m, m).setIdentity();
   const Eigen::MatrixXd e = big.exp();
-  return {h, e.topLeftCorner(n_, n_), e.block(0, n_, n_, m), e.block(0, n_ + m, n_, m)};
+  return {h, e.topLeftCorner(n, n), e.block(0, n, n, m), e.block(0, n + m, n, m)};
 }
 
 const LinearPart::Step& LinearPart::step_matrices(double h, double rounding) {
@@ -252,7 +279,7 @@ const LinearPart::Step& LinearPart::step_matrices(double h, double rounding) {
       return cache_[i];
     }
   if (cache_.size() >= most_steps_kept) cache_.clear();  // irregular times: do not grow without bound
-  cache_.push_back(make_step(h));
+  cache_.push_back(make_step(a_, b_, h));
   last_ = cache_.size() - 1;
   return cache_[last_];
 }

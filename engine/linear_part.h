@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/program.h"
@@ -39,7 +40,7 @@ class LinearPart {
   void refresh(std::vector<double>& y);
   /// Advances through many rows whose inputs are known. `kind`, per row: its step is lengths[kind] / substeps [s]; -1:
   /// the inputs jump, the states stand still. Values of row k at [k * stride]; row -1 of the inputs is the point
-  /// before.
+  /// before. States that no output can see are left where they are.
   struct RowsOfPart {
     int count = 0;
     std::ptrdiff_t stride = 1;
@@ -50,6 +51,10 @@ class LinearPart {
     int substeps = 1;
   };
   void pass(const RowsOfPart& rows);
+  /// The same of one part in several runs at once, `rows` being those of the first: a stride of RowsView::most_lanes,
+  /// lane l at [+ l]. Lanes without a run carry the numbers of the first. False: too many states to do so, nothing
+  /// done.
+  static bool pass_lanes(std::span<LinearPart* const> parts, const RowsOfPart& rows);
   /// Its states to where the program has them.
   void store(const Program& program, std::vector<double>& x) const;
 
@@ -61,13 +66,16 @@ class LinearPart {
   const Step& step_matrices(double h, double rounding);
   void solve_loops(const Program& program, const std::vector<BlockMatrices>& matrices,
                    std::vector<Eigen::RowVectorXd>& rows) const;
+  static constexpr std::size_t most_in_registers = 12;
   static constexpr std::size_t most_steps_kept = 1024;  // irregular times: do not grow without bound
-  Step make_step(double h) const;
+  static Step make_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h);
+  void find_seen();
   void take_inputs(const std::vector<double>& y);
   void write_outputs(std::vector<double>& y) const;
   bool is_bound_to(const Program& program, const Run& run) const;
   void remember_numbers(const Program& program, const Run& run);
   void make_packed(int kind, double h);
+  void forget_many_steps();
   template <int size>
   void pass_of(const RowsOfPart& rows);
   void pass_large(const RowsOfPart& rows);
@@ -85,15 +93,18 @@ class LinearPart {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> to_rest_;
   bool has_to_rest_ = false;
 
+  /// States that some output can see; the others are not advanced by pass(). Of parts whose weights are zero (a fit
+  /// asks for the response to one weight after the other) few are left.
+  std::vector<int> seen_;
   /// The matrices of a step as pass() reads them, columns of padded_ numbers: what constants add, per input what its
-  /// value before and its value now add, per state what it adds.
+  /// value before and its value now add, per state seen what it adds.
   struct Packed {
     double h = 0;
     std::vector<double> numbers;
   };
   std::vector<Packed> packed_;  ///< per kind; empty where not made
   std::size_t packed_count_ = 0;
-  std::size_t padded_ = 0;               ///< n_, made even
+  std::size_t padded_ = 0;               ///< number of states seen, made even
   std::vector<double> c_rows_, d_rows_;  ///< C and D row by row
   std::vector<double> row_scratch_;
 };

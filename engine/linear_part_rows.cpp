@@ -1,5 +1,5 @@
 // The linear part row after row: everything that does not change from row to row is laid out once, in the order in
-// which it is read. The states of up to eight are kept in pairs, with which processors calculate at once; sums of even
+// which it is read. The states of up to twelve are kept in pairs, with which processors calculate at once; sums of even
 // and odd columns stand side by side, so that none waits for all before it.
 #include <algorithm>
 #include <array>
@@ -28,12 +28,13 @@ void LinearPart::make_packed(int kind, double h) {
   Packed& p = packed_[at(kind)];
   if (!p.numbers.empty() && p.h == h) return;
   if (p.numbers.empty()) ++packed_count_;
-  const Step s = make_step(h);
+  const Step s = make_step(a_(seen_, seen_), b_(seen_, Eigen::all), h);
   p.h = h;
-  p.numbers.assign(padded_ * (1 + 2 * inputs_.size() + at(n_)), 0.0);
+  p.numbers.assign(padded_ * (1 + 2 * inputs_.size() + seen_.size()), 0.0);
   std::size_t column = 0;
   const auto add = [&](const auto& numbers) {
-    for (int i = 0; i < n_; ++i) p.numbers[column * padded_ + at(i)] = numbers(i);
+    for (Eigen::Index i = 0; i < numbers.size(); ++i)
+      p.numbers[column * padded_ + static_cast<std::size_t>(i)] = numbers(i);
     ++column;
   };
   add(s.input.col(s.input.cols() - 1));
@@ -41,7 +42,7 @@ void LinearPart::make_packed(int kind, double h) {
     add(s.input.col(i) - s.ramp.col(i));
     add(s.ramp.col(i));
   }
-  for (Eigen::Index i = 0; i < n_; ++i) add(s.state.col(i));
+  for (Eigen::Index i = 0; i < s.state.cols(); ++i) add(s.state.col(i));
 }
 
 template <int size>
@@ -49,7 +50,7 @@ void LinearPart::pass_of(const RowsOfPart& rows) {
   constexpr int pairs = (size + 1) / 2, padded = 2 * pairs;
   const std::size_t inputs = inputs_.size(), outputs = outputs_.size();
   std::array<double, padded> start{};
-  std::copy_n(x_.data(), size, start.begin());
+  for (int i = 0; i < size; ++i) start[at(i)] = x_[seen_[at(i)]];
   std::array<Pair, pairs> x;
   for (int j = 0; j < pairs; ++j) x[at(j)] = pair_at(start.data() + 2 * j);
   for (int k = 0; k < rows.count; ++k) {
@@ -81,15 +82,15 @@ void LinearPart::pass_of(const RowsOfPart& rows) {
       rows.y[o][place] = direct + (sum[0] + sum[1]);
     }
   }
-  for (int i = 0; i < size; ++i) x_[i] = x[at(i / 2)][i % 2];
+  for (int i = 0; i < size; ++i) x_[seen_[at(i)]] = x[at(i / 2)][i % 2];
 }
 
 /// Any number of states, none included.
 void LinearPart::pass_large(const RowsOfPart& rows) {
-  const std::size_t n = at(n_), inputs = inputs_.size(), outputs = outputs_.size();
+  const std::size_t n = seen_.size(), inputs = inputs_.size(), outputs = outputs_.size();
   double* x = row_scratch_.data();
   double* next = x + padded_;
-  std::copy_n(x_.data(), n, x);
+  for (std::size_t i = 0; i < n; ++i) x[i] = x_[seen_[i]];
   for (int k = 0; k < rows.count; ++k) {
     const std::ptrdiff_t place = k * rows.stride;
     if (const int kind = rows.kind[k]; kind >= 0 && n > 0) {
@@ -113,21 +114,24 @@ void LinearPart::pass_large(const RowsOfPart& rows) {
       rows.y[o][place] = sum;
     }
   }
-  std::copy_n(x, n, x_.data());
+  for (std::size_t i = 0; i < n; ++i) x_[seen_[i]] = x[i];
+}
+
+void LinearPart::forget_many_steps() {
+  if (packed_count_ <= most_steps_kept) return;
+  for (auto& p : packed_) p = {};
+  packed_count_ = 0;
 }
 
 void LinearPart::pass(const RowsOfPart& rows) {
-  if (packed_count_ > most_steps_kept) {
-    for (auto& p : packed_) p = {};
-    packed_count_ = 0;
-  }
-  if (n_ > 0)
+  forget_many_steps();
+  if (!seen_.empty())
     for (int k = 0, last = -1; k < rows.count; ++k)
       if (const int kind = rows.kind[k]; kind >= 0 && kind != last) {
         make_packed(kind, (*rows.lengths)[at(kind)] / rows.substeps);
         last = kind;
       }
-  switch (n_) {
+  switch (seen_.size()) {
     case 1:
       return pass_of<1>(rows);
     case 2:
@@ -144,6 +148,14 @@ void LinearPart::pass(const RowsOfPart& rows) {
       return pass_of<7>(rows);
     case 8:
       return pass_of<8>(rows);
+    case 9:
+      return pass_of<9>(rows);
+    case 10:
+      return pass_of<10>(rows);
+    case 11:
+      return pass_of<11>(rows);
+    case 12:
+      return pass_of<12>(rows);
     default:
       return pass_large(rows);
   }

@@ -80,13 +80,28 @@ void pass_group(std::size_t n, const double* thresholds, const double* weights, 
 
 /// advance() and output() for many rows of the input, one behind the other: y[k * stride] for u[k * stride], group
 /// after group of operators, those at even and odd places summed side by side. The same numbers but for rounding.
+/// Operators of weight zero, which nobody sees, are left where they are: a fit asks for the response to one weight
+/// after the other.
 inline void pass(play::Sides sides, std::span<const double> thresholds, std::span<const double> weights,
                  double* operators, const double* u, double* y, std::ptrdiff_t stride, std::ptrdiff_t rows) {
-  for (std::size_t begin = 0; begin < thresholds.size(); begin += group) {
-    const std::size_t n = std::min(group, thresholds.size() - begin);
-    const auto one = sides == play::Sides::two ? &detail::pass_group<group, play::Sides::two>
-                                               : &detail::pass_group<group, play::Sides::one>;
-    one(n, thresholds.data() + begin, weights.data() + begin, operators + begin, u, y, stride, rows, begin == 0);
+  const auto one = sides == play::Sides::two ? &detail::pass_group<group, play::Sides::two>
+                                             : &detail::pass_group<group, play::Sides::one>;
+  std::array<double, group> r, c, w;
+  std::array<std::size_t, group> place;
+  bool first = true;
+  for (std::size_t next = 0; next < weights.size();) {
+    std::size_t n = 0;
+    for (; next < weights.size() && n < group; ++next) {
+      if (weights[next] == 0) continue;
+      r[n] = thresholds[next];
+      c[n] = weights[next];
+      w[n] = operators[next];
+      place[n++] = next;
+    }
+    if (n == 0 && !first) break;
+    one(n, r.data(), c.data(), w.data(), u, y, stride, rows, first);
+    first = false;
+    for (std::size_t i = 0; i < n; ++i) operators[place[i]] = w[i];
   }
 }
 

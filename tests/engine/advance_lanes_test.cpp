@@ -88,6 +88,31 @@ TEST(AdvanceLanes, ManyRunsAreEachTheSameAsAlone) {
   }
 }
 
+TEST(AdvanceLanes, LinearPartsOfEverySizeAreTheSameAsAlone) {
+  // Two lists of amounts, some of them zero in some runs: states that no output sees there, and sizes that differ.
+  for (const std::size_t n : {1, 2, 3, 5, 6, 8, 9, 10, 12, 13, 15}) {
+    std::vector<double> amounts, times;
+    for (std::size_t i = 0; i < n; ++i) {
+      amounts.push_back(0.01 * (1 + static_cast<double>(i)));
+      times.push_back(0.003 * std::pow(1.7, static_cast<double>(i)));
+    }
+    const auto program = compiled(
+        diagram({{"creep", block("creep", {{"amounts", list(amounts, "")}, {"times", list(times, "s")}}, {"u"})},
+                 {"x", block("lag", {{"times", list({0.01, 0.003}, "s")}}, {"creep"})}},
+                {"creep", "x"}, {{"u", "V"}}));
+    std::vector<hysteron::Run> runs;
+    const auto u = wave(5);
+    for (int i = 0; i < 7; ++i) {
+      runs.push_back(start(*program));
+      bind_input(*program, runs.back(), "u", u);
+      for (std::size_t k = 0; k < n; ++k)
+        if ((static_cast<int>(k) + i) % 3 != 0 || i == 6)
+          set_parameter(*program, runs.back(), "creep.amounts[" + std::to_string(k) + "]", i == 6 ? 0 : 0.01 * i);
+    }
+    compare(program, runs, {}, std::to_string(n));
+  }
+}
+
 TEST(AdvanceLanes, HeldInputsJumpInEachOfThem) {
   const auto program = compiled(diagram({{"law", thesis_bouc_wen("u")},
                                          {"x", block("lag", {{"times", list({0.01}, "s")}}, {"law"})},

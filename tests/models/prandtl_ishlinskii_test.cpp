@@ -129,5 +129,28 @@ TEST(PrandtlIshlinskiiModel, GoldenTraceFromAnInitialStateIsReproduced) {
     ASSERT_NEAR(walk(trace.at("u [V]")[k]), trace.at("y [um]")[k], golden_tolerance) << "row " << k;
 }
 
+TEST(PrandtlIshlinskiiModel, ManyRowsAtOnceAreTheSameAndNobodySeesAnOperatorOfWeightZero) {
+  // 40 operators, more than pass together at once, two of three without weight; then none with a weight.
+  for (const auto sides : {play::Sides::one, play::Sides::two})
+    for (const int keep : {1, 3, 100}) {
+      Numbers r, c, w(40, 0.0), row_by_row(40, 0.0), moved(40), u, y(300);
+      for (int i = 0; i < 40; ++i) {
+        r.push_back(0.1 * i);
+        c.push_back(i % keep == 0 && keep < 100 ? 0.01 * (i + 1) : 0.0);
+      }
+      for (int k = 0; k < 300; ++k) u.push_back((3 + 0.005 * k) * std::sin(0.13 * k));
+      for (const int first : {0, 120})  // two chunks: what counts is remembered
+        prandtl_ishlinskii::pass(sides, r, c, w.data(), u.data() + first, y.data() + first, 1, first == 0 ? 120 : 180);
+      for (int k = 0; k < 300; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        prandtl_ishlinskii::advance(sides, std::span<const double>(r), std::span<const double>(row_by_row), u[i],
+                                    moved.data());
+        row_by_row = moved;
+        const double one = prandtl_ishlinskii::output(std::span<const double>(c), std::span<const double>(row_by_row));
+        EXPECT_NEAR(y[i], one, 1e-13) << k;  // the sum of 40 numbers below 1.5 in another order
+      }
+    }
+}
+
 }  // namespace
 }  // namespace hysteron
