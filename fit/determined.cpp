@@ -128,7 +128,9 @@ class Analysis {
         again = true;
         break;
       }
-      if (!again) write(kept, covariance, quantile);
+      if (again) continue;
+      write(kept, covariance, quantile);
+      name_loose(kept, quantile);
     }
   }
 
@@ -208,6 +210,33 @@ class Analysis {
     for (std::size_t i = 0; i < m; ++i)
       for (std::size_t j = 0; j < m; ++j) covariance(i, j) /= length_[kept[i]] * length_[kept[j]];
     return covariance;
+  }
+
+  /// The combination that the data determine least, where it can move far and its members hang together.
+  void name_loose(const std::vector<std::size_t>& kept, double quantile) {
+    constexpr double far = 0.1, together = 0.95, member = 0.2;  // relative change; correlation; share of the largest
+    const std::size_t m = kept.size();
+    if (m < 2 || coloured_ != nullptr) return;
+    const auto svd = singular_values(part(kept));
+    Vector change(m);
+    for (std::size_t i = 0; i < m; ++i)
+      change[i] = relative(columns_[kept[i]],
+                           quantile * std::sqrt(result_.s2) / svd.s[m - 1] * svd.v(i, m - 1) / length_[kept[i]]);
+    const double largest = largest_of(change);
+    if (!(largest > far)) return;
+    std::vector<std::string> paths, moves;
+    bool hang_together = false;
+    for (std::size_t i = 0; i < m; ++i) {
+      if (std::abs(change[i]) < member * largest) continue;
+      for (std::size_t j = 0; j < i; ++j)
+        hang_together = hang_together || (std::abs(change[j]) >= member * largest &&
+                                          std::abs(result_.correlation[i * m + j]) > together);
+      paths.push_back(result_.estimates[static_cast<std::size_t>(columns_[kept[i]].estimate)].path);
+      moves.push_back(fmt::format("{:+.2g} %", 100 * change[i]));
+    }
+    if (hang_together)
+      result_.remarks.push_back(fmt::format("{} are hardly told apart: moved together by {} they fit as well",
+                                            fmt::join(paths, ", "), fmt::join(moves, ", ")));
   }
 
   void write(const std::vector<std::size_t>& kept, const Dense& covariance, double quantile) {

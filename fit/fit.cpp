@@ -8,99 +8,48 @@
 #include <limits>
 #include <map>
 
-#include "fit/colour.h"
-#include "fit/determined.h"
 #include "fit/draws.h"
-#include "fit/levenberg_marquardt.h"
+#include "fit/fitting.h"
 #include "fit/profile.h"
-#include "fit/projection.h"
 
 namespace hysteron {
-namespace {
 
-/// One fit from start to result; the members are what its stages hand on.
-class Fitting {
- public:
-  Fitting(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free, const FitOptions& options)
-      : model_(model), judge_(model, noise), all_(free), options_(options) {
-    fitted_ = options.recordings.empty() ? model.recordings(Role::train) : options.recordings;
-    constexpr Role both[] = {Role::train, Role::validate};
-    judged_ = options.judged.empty() ? model.recordings(both) : options.judged;
-    // Parameters of recordings that are not fitted are found on their own, behind the others.
-    for (std::size_t i = 0; i < free.size(); ++i)
-      if (free[i].recording < 0 || contains(fitted_, free[i].recording)) {
-        free_.push_back(free[i]);
-        place_.push_back(i);
-      }
-    check();
-    affine_ = affine_of(free_);
-    projection_ = std::make_unique<Projection>(model_, judge_, free_, affine_, fitted_, options.fixed);
-  }
-
-  FitResult run() {
-    const auto begin = std::chrono::steady_clock::now();
-    runs_before_ = model_.runs();
-    failures_before_ = model_.failures();
-    prepare_result();
-    auto starts = scan();
-    search_globally(starts);
-    if (!starts.empty()) {
-      search(starts);
-      refine_substeps();
-      finish();
-    } else {
-      result_.error = first_error_.empty() ? "no start can be simulated" : first_error_;
+Fitting::Fitting(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,
+                 const FitOptions& options)
+    : model_(model), judge_(model, noise), all_(free), options_(options) {
+  fitted_ = options.recordings.empty() ? model.recordings(Role::train) : options.recordings;
+  constexpr Role both[] = {Role::train, Role::validate};
+  judged_ = options.judged.empty() ? model.recordings(both) : options.judged;
+  // Parameters of recordings that are not fitted are found on their own, behind the others.
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (free[i].recording < 0 || contains(fitted_, free[i].recording)) {
+      free_.push_back(free[i]);
+      place_.push_back(i);
     }
-    result_.runs = model_.runs() - runs_before_;
-    result_.failed_runs = model_.failures() - failures_before_;
-    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return std::move(result_);
-  }
+  check();
+  affine_ = affine_of(free_);
+  projection_ = std::make_unique<Projection>(model_, judge_, free_, affine_, fitted_, options.fixed);
+}
 
- private:
-  static bool contains(const std::vector<int>& list, int x) {
-    return std::find(list.begin(), list.end(), x) != list.end();
+FitResult Fitting::run() {
+  const auto begin = std::chrono::steady_clock::now();
+  runs_before_ = model_.runs();
+  failures_before_ = model_.failures();
+  prepare_result();
+  auto starts = scan();
+  search_globally(starts);
+  if (!starts.empty()) {
+    search(starts);
+    refine_substeps();
+    finish();
+  } else {
+    result_.error = first_error_.empty() ? "no start can be simulated" : first_error_;
   }
-  std::vector<bool> affine_of(const std::vector<FreeParameter>& free) const;
-  void check() const;
-  void prepare_result();
-  Trial start_values() const;
-  std::vector<PointPointer> scan();
-  void try_points(const std::vector<std::vector<double>>& z, std::vector<PointPointer>& points);
-  std::vector<std::vector<double>> grid(const std::vector<std::vector<double>>& values) const;
-  void scan_one_by_one(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points);
-  std::vector<std::vector<double>> spread() const;
-  void search_globally(std::vector<PointPointer>& starts);
-  void search(const std::vector<PointPointer>& starts);
-  void search_from(const std::vector<double>& start);
-  void refine_substeps();
-  void finish();
-  void write_estimates();
-  void find_intervals();
-  void find_profiles();
-  void fit_the_waiting();
-  void put_in_order();
-  bool go_on(const char* stage, double fraction = -1);
-  void keep(const PointPointer& point) {
-    if (point->ok && (!best_ || point->chi2 < best_->chi2)) best_ = point;
-    if (!point->ok && first_error_.empty()) first_error_ = point->error;
-  }
-  double tolerance() const { return model_.why_not_exact().empty() ? 1e-9 : 1e-7; }
-
-  DataModel& model_;
-  Judge judge_;
-  const std::vector<FreeParameter>& all_;
-  std::vector<FreeParameter> free_;  ///< those fitted together
-  std::vector<std::size_t> place_;   ///< of these in all_
-  std::vector<bool> affine_;
-  const FitOptions& options_;
-  std::vector<int> fitted_, judged_;
-  std::unique_ptr<Projection> projection_;
-  PointPointer best_;
-  std::string first_error_;
-  long runs_before_ = 0, failures_before_ = 0, candidates_ = 0;
-  FitResult result_;
-};
+  result_.runs = model_.runs() - runs_before_;
+  result_.failed_runs = model_.failures() - failures_before_;
+  result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return std::move(result_);
+}
 
 std::vector<bool> Fitting::affine_of(const std::vector<FreeParameter>& free) const {
   std::vector<int> parameters;
@@ -415,282 +364,9 @@ void Fitting::refine_substeps() {
   if (again->ok && projection_->n_nonlinear() > 0 && !result_.stopped) search_from(again->z);
 }
 
-// --- result
-// -----------------------------------------------------------------------------------------------------------
-
-void Fitting::write_estimates() {
-  result_.values = projection_->values(best_->z, best_->theta);
-  const auto low = projection_->lower(), high = projection_->upper();
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    auto& e = result_.estimates[i];
-    e.used = result_.values[i].value;
-    e.value = e.used;
-  }
-  for (std::size_t k = 0; k < low.size(); ++k) {
-    auto& e = result_.estimates[static_cast<std::size_t>(projection_->nonlinear()[k])];
-    const double near = 1e-9 * std::max(1.0, std::abs(best_->z[k]));
-    e.at_lower = best_->z[k] <= low[k] + near;
-    e.at_upper = !e.at_lower && best_->z[k] >= high[k] - near;
-  }
-  for (std::size_t j = 0; j < best_->bound.size(); ++j) {
-    auto& e = result_.estimates[static_cast<std::size_t>(projection_->linear()[j])];
-    e.at_lower = best_->bound[j] == Bound::lower;
-    e.at_upper = best_->bound[j] == Bound::upper;
-  }
-}
-
-/// "core.weights" of "core.weights[2]", "" for what is no element of a list.
-std::string list_of(const std::string& path) {
-  return path.empty() || path.back() != ']'
-             ? std::string{}
-             : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
-}
-
-void Fitting::find_intervals() {
-  Dense nonlinear;
-  if (!projection_->jacobian(*best_, options_.intervals, false, nonlinear)) {
-    result_.remarks.push_back("no intervals: the neighbourhood of the result cannot be simulated");
-    return;
-  }
-  const std::size_t rows = projection_->rows();
-  std::vector<Sensitive> columns;
-  Dense jacobian(rows, 0);
-  std::map<std::string, double>
-      largest;  // elements of one list share their size: a weight of zero is small against the others
-  for (const auto& e : result_.estimates)
-    if (const auto list = list_of(e.path); !list.empty()) largest[list] = std::max(largest[list], std::abs(e.used));
-  const auto add = [&](int index, const double* column, double sign) {
-    const auto& e = result_.estimates[static_cast<std::size_t>(index)];
-    if (e.at_lower || e.at_upper) return;  // held by its bound
-    Sensitive s{index, e.log_scale, e.used, std::max(std::abs(e.used), std::abs(e.start)), e.lower, e.upper};
-    if (const auto list = list_of(e.path); !list.empty()) s.size = std::max(s.size, largest[list]);
-    columns.push_back(s);
-    ++jacobian.cols;
-    for (std::size_t i = 0; i < rows; ++i) jacobian.a.push_back(sign * column[i]);
-  };
-  jacobian.a.reserve(rows * free_.size());
-  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k)
-    add(projection_->nonlinear()[k], nonlinear.col(k), 1);
-  for (std::size_t j = 0; j < projection_->linear().size(); ++j)
-    add(projection_->linear()[j], best_->columns.col(j), -1);
-  for (const double x : jacobian.a)
-    if (!std::isfinite(x)) return;
-  if (options_.intervals) {
-    // The intervals are scaled by s2, which is the data's: a prior knows its own width.
-    const double prior_scale = std::sqrt(result_.s2);
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      for (std::size_t i = projection_->data_rows(); i < rows; ++i) jacobian(i, j) *= prior_scale;
-    NormalForm normal(static_cast<int>(columns.size()));
-    normal.add(jacobian.a, best_->residual);
-    NormalForm coloured(static_cast<int>(columns.size()));
-    if (options_.residual_noise) {
-      const auto variances = row_variances(model_, judge_, *options_.residual_noise, fitted_);
-      Dense scaled = jacobian;
-      for (std::size_t j = 0; j < columns.size(); ++j)
-        for (std::size_t i = 0; i < variances.size(); ++i) scaled(i, j) *= std::sqrt(variances[i]);
-      coloured.add(scaled.a, best_->residual);
-    }
-    judge_parameters(normal, columns, model_.why_not_exact().empty(), result_,
-                     options_.residual_noise ? &coloured : nullptr);
-  }
-  if (options_.keep_neighbourhood)
-    result_.neighbourhood =
-        std::make_shared<Neighbourhood>(Neighbourhood{fitted_, best_->residual, std::move(jacobian)});
-}
-
-void Fitting::find_profiles() {
-  if (options_.profile.empty()) return;
-  ProfileTask task;
-  task.model = &model_;
-  task.judge = &judge_;
-  task.free = free_;
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    task.free[i].start = result_.values[i].value;
-    task.free[i].scan.clear();
-  }
-  task.affine = affine_;
-  task.recordings = fitted_;
-  task.fixed = options_.fixed;
-  task.chi2 = best_->chi2;
-  task.s2 = result_.s2;
-  task.max_iterations = options_.max_iterations;
-  for (std::size_t n = 0; n < options_.profile.size(); ++n) {
-    const auto place = std::find(place_.begin(), place_.end(), static_cast<std::size_t>(options_.profile[n]));
-    if (place == place_.end()) continue;
-    const int which = static_cast<int>(place - place_.begin());
-    const double fraction = static_cast<double>(n) / static_cast<double>(options_.profile.size());
-    task.go_on = [&] { return go_on("profile", fraction); };
-    if (!task.go_on()) return;
-    std::vector<double> better;
-    const auto& e = result_.estimates[static_cast<std::size_t>(which)];
-    result_.profiles.push_back(profile_of(task, which, e.sigma.value_or(0), better));
-    if (!better.empty())
-      result_.remarks.push_back(fmt::format(
-          "the profile of {} met a better fit than the result: begin from other values, or from more starts", e.path));
-  }
-}
-
-/// Parameters of single recordings that were judged and not fitted, each on its own recording with all others held.
-void Fitting::fit_the_waiting() {
-  for (const int r : judged_) {
-    std::vector<FreeParameter> waiting;
-    std::vector<std::size_t> place;
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      if (all_[i].recording == r && !contains(fitted_, r)) {
-        waiting.push_back(all_[i]);
-        place.push_back(i);
-      }
-    if (waiting.empty()) continue;
-    Trial fixed = result_.values;
-    fixed.insert(fixed.end(), options_.fixed.begin(), options_.fixed.end());
-    Projection projection(model_, judge_, waiting, affine_of(waiting), {r}, fixed);
-    bool converged = false;
-    std::string message;
-    const auto point = search_locally(
-        projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); },
-        result_.iterations, converged, message);
-    const auto values = point ? projection.values(point->z, point->theta) : Trial{};
-    for (std::size_t i = 0; i < waiting.size(); ++i) {
-      auto e = estimate_at_start(model_, waiting[i]);
-      if (point) e.value = e.used = values[i].value;
-      e.determined = point != nullptr;
-      result_.values.push_back({e.parameter, e.used, r});
-      result_.estimates.push_back(std::move(e));
-      place_.push_back(place[i]);
-    }
-  }
-}
-
-/// Estimates and values stand as the free parameters were given.
-void Fitting::put_in_order() {
-  std::vector<std::size_t> order(place_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place_[a] < place_[b]; });
-  std::vector<int> where(order.size());
-  std::vector<ParameterEstimate> estimates;
-  std::vector<ParameterValue> values;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    where[order[i]] = static_cast<int>(i);
-    estimates.push_back(std::move(result_.estimates[order[i]]));
-    values.push_back(result_.values[order[i]]);
-  }
-  result_.estimates = std::move(estimates);
-  result_.values = std::move(values);
-  for (int& c : result_.correlated) c = where[static_cast<std::size_t>(c)];
-  for (auto& p : result_.profiles) p.estimate = where[static_cast<std::size_t>(p.estimate)];
-}
-
-std::string method_text(const Projection& projection, const FitOptions& options) {
-  std::vector<std::string> parts;
-  if (projection.n_linear() > 0) parts.push_back(fmt::format("linear least squares ({})", projection.n_linear()));
-  if (projection.n_nonlinear() > 0) {
-    std::string search = options.global;
-    if (options.global.empty() || options.polish)
-      search += (search.empty() ? "" : ", then ") + std::string("Levenberg-Marquardt");
-    parts.push_back(fmt::format("{} ({})", search, projection.n_nonlinear()));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-void Fitting::finish() {
-  if (!best_) {
-    result_.error = first_error_;
-    return;
-  }
-  result_.ok = true;
-  write_estimates();
-  result_.values.resize(free_.size());  // without what was held fixed
-  result_.chi2 = best_->chi2 - best_->prior_chi2;
-  result_.prior_chi2 = best_->prior_chi2;
-  result_.n_parameters = 0;
-  for (const auto& e : result_.estimates) result_.n_parameters += e.at_lower || e.at_upper ? 0 : 1;
-  for (const int r : fitted_) {
-    double states =
-        model_.recording(r).initial_per_recording ? static_cast<double>(model_.free_initial_states().size()) : 0;
-    result_.n += model_.recording(r).weight * (static_cast<double>(judge_.size(r)) - states);
-  }
-  result_.s2 = result_.chi2 / std::max(1.0, result_.n - result_.n_parameters);
-  result_.method = method_text(*projection_, options_);
-  if ((options_.intervals || options_.keep_neighbourhood) && go_on("intervals")) find_intervals();
-  find_profiles();
-  fit_the_waiting();
-  put_in_order();
-  Trial after = result_.values;
-  after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
-  result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
-  if (result_.stopped) result_.convergence = "stopped; the best so far";
-  if (result_.chi2 > 3 * result_.n)
-    result_.remarks.push_back(
-        "the residual is far above the noise and not random: the intervals say how sure the numbers are "
-        "within this model, not that the model is right");
-}
-
-}  // namespace
-
 FitResult fit(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,
               const FitOptions& options) {
   return Fitting(model, noise, free, options).run();
-}
-
-FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& free, const FitOptions& options) {
-  FitWithNoise both;
-  both.noise = noise_before_fit(model);
-  FitOptions first_options = options;  // its intervals would be thrown away
-  first_options.intervals = false;
-  first_options.profile.clear();
-  first_options.keep_neighbourhood = true;
-  FitResult first = fit(model, both.noise, free, first_options);
-  if (!first.ok || first.stopped) {
-    both.result = std::move(first);
-    return both;
-  }
-  FitOptions second_options = options;
-  NoiseModel likely = both.noise;
-  if (first.neighbourhood) likely = noise_from_likelihood(model, Judge(model, both.noise), *first.neighbourhood);
-  const bool structured = std::any_of(likely.outputs.begin(), likely.outputs.end(), [](const NoiseOfOutput& o) {
-    return o.share_estimated && o.one_over_f > most_share_of_a_sensor;
-  });
-  if (!first.neighbourhood || structured) {
-    Trial best = first.values;
-    best.insert(best.end(), options.fixed.begin(), options.fixed.end());
-    const auto fitted = options.recordings.empty() ? model.recordings(Role::train) : options.recordings;
-    both.noise = noise_from_residual(model, both.noise, model.predict(best, fitted), fitted);
-    if (structured) second_options.residual_noise = likely;
-  } else {
-    both.noise = likely;
-  }
-  auto again = free;
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    again[i].start = first.values[i].value;
-    again[i].scan.clear();
-  }
-  second_options.starts = 0;
-  second_options.global.clear();
-  second_options.max_iterations = options.polish || options.global.empty() ? options.max_iterations : 0;
-  both.result = fit(model, both.noise, again, second_options);
-  FitResult& result = both.result;
-  for (std::size_t i = 0; i < free.size(); ++i) result.estimates[i].start = free[i].start;
-  std::vector<int> judged;
-  for (const auto& r : result.after.recordings) judged.push_back(r.recording);
-  std::vector<ParameterValue> start;
-  for (const auto& f : free) start.push_back({f.parameter, f.start, f.recording});
-  start.insert(start.end(), options.fixed.begin(), options.fixed.end());
-  result.before = Judge(model, both.noise).score(model, model.predict(start, judged), judged);
-  result.method = std::move(first.method);
-  result.global_history = std::move(first.global_history);
-  if (!result.converged && first.converged) result.convergence = std::move(first.convergence);
-  result.converged = result.converged || first.converged;
-  result.starts += first.starts;
-  if (structured)
-    result.remarks.emplace_back(
-        "what is left is slower than a sensor's noise: much of it may be what the model lacks (hysteron diagnose looks "
-        "for "
-        "it). The intervals allow for it as if it came by chance");
-  result.runs += first.runs;
-  result.failed_runs += first.failed_runs;
-  result.iterations += first.iterations;
-  result.seconds += first.seconds;
-  return both;
 }
 
 }  // namespace hysteron

@@ -57,6 +57,7 @@ DataModel& DataModel::operator=(DataModel&&) noexcept = default;
 const Program& DataModel::program() const { return *content_->program; }
 ProgramPointer DataModel::program_pointer() const { return content_->program; }
 const DataSet& DataModel::data() const { return *content_->data; }
+int DataModel::threads() const { return content_->options.threads; }
 int DataModel::n_recordings() const { return static_cast<int>(content_->data->recordings.size()); }
 const Recording& DataModel::recording(int r) const { return content_->data->recordings[static_cast<std::size_t>(r)]; }
 

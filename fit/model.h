@@ -55,6 +55,7 @@ class DataModel {
   const Program& program() const;
   ProgramPointer program_pointer() const;
   const DataSet& data() const;
+  int threads() const;  ///< recordings that it simulates side by side
   int n_recordings() const;
   const Recording& recording(int r) const;
   /// Recordings of these roles, in the order of the data set.

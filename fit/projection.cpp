@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/column_span.h"
+
 namespace hysteron {
 namespace {
 
@@ -17,7 +19,8 @@ Projection::Projection(DataModel& model, const Judge& judge, const std::vector<F
   for (std::size_t i = 0; i < free.size(); ++i) (affine[i] ? linear_ : nonlinear_).push_back(static_cast<int>(i));
   for (const int r : recordings_) {
     begin_.push_back(rows_);
-    rows_ += judge.size(r);
+    size_.push_back(judge.size(r));
+    rows_ += size_.back();
     has_initial_ = has_initial_ || (model.recording(r).initial_per_recording && !model.free_initial_states().empty());
   }
   data_rows_ = rows_;
@@ -109,45 +112,53 @@ std::vector<double> Projection::reference() const {
   return ref;
 }
 
-std::span<const int> Projection::touched(int recording) const {
-  if (recording < 0) return recordings_;
-  const auto found = std::find(recordings_.begin(), recordings_.end(), recording);
-  return found == recordings_.end() ? std::span<const int>{} : std::span<const int>(&*found, 1);
+bool Projection::touches_any(int recording) const {
+  return recording < 0 || std::find(recordings_.begin(), recordings_.end(), recording) != recordings_.end();
 }
 
-/// Simulates what is wanted, as much at once as memory allows, and hands each prediction on: what concerns all
-/// recordings first, in the order given.
+/// Simulates what is wanted, recording by recording and some at once, so that what is made of a prediction finds it in
+/// the caches; hands each prediction on, in the order given for each recording.
 void Projection::simulate(std::span<const Wanted> wanted, const Use& use) {
-  constexpr std::size_t numbers_at_once = 4'000'000;  // 32 MB of predictions
-  std::vector<int> groups{-1};
-  groups.insert(groups.end(), recordings_.begin(), recordings_.end());
-  for (const int group : groups) {
+  constexpr std::size_t numbers_at_once = 400'000;
+  const auto side_by_side = static_cast<std::size_t>(std::max(1, model_.threads()));
+  for (std::size_t k = 0; k < recordings_.size(); k += side_by_side) {
+    const std::size_t end = std::min(recordings_.size(), k + side_by_side);
+    const std::span<const int> some(recordings_.data() + k, end - k);
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (wanted[i].recording == group) members.push_back(i);
-    const auto recordings = touched(group);
-    const std::size_t rows = group < 0 ? data_rows_ : judge_.size(group);
-    const std::size_t most = std::max<std::size_t>(4, numbers_at_once / std::max<std::size_t>(1, rows));
+      if (std::any_of(some.begin(), some.end(),
+                      [&](int r) { return wanted[i].recording < 0 || wanted[i].recording == r; }))
+        members.push_back(i);
+    const std::size_t rows = *std::max_element(size_.begin() + static_cast<std::ptrdiff_t>(k),
+                                               size_.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::size_t most = std::max<std::size_t>(4, numbers_at_once / std::max<std::size_t>(1, rows) / 4 * 4);
+    std::vector<Trial> trials;
     for (std::size_t first = 0; first < members.size(); first += most) {
       const std::size_t n = std::min(most, members.size() - first);
-      std::vector<Trial> trials;
+      trials.clear();
       for (std::size_t i = 0; i < n; ++i) trials.push_back(wanted[members[first + i]].trial);
-      const auto predictions = model_.predict_each(trials, recordings);
-      for (std::size_t i = 0; i < n; ++i) use(members[first + i], predictions[i]);
+      const auto predictions = model_.predict_each(trials, some);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t r = k; r < end; ++r)
+          if (touches(wanted[members[first + i]].recording, r)) use(members[first + i], r, predictions[i]);
     }
   }
 }
 
-/// W (measured - y) of the recordings that a parameter touches, at their places in `out`.
-void Projection::whiten_residual(const Prediction& prediction, int recording, double* out) const {
-  for (std::size_t k = 0; k < recordings_.size(); ++k) {
-    const int r = recordings_[k];
-    if (recording >= 0 && recording != r) continue;
-    std::vector<Rows> rows;
-    for (int o = 0; o < static_cast<int>(model_.outputs().size()); ++o)
-      rows.push_back(residual_rows(model_, prediction, r, o));
-    judge_.whiten(r, rows, out + begin_[k]);
+/// W (measured - y) of one recording.
+void Projection::whiten_residual(const Prediction& prediction, std::size_t k, double* out) {
+  const int r = recordings_[k];
+  const auto outputs = model_.outputs().size();
+  difference_.resize(outputs);
+  for (std::size_t o = 0; o < outputs; ++o) {
+    const Rows& measured = model_.measured(r, static_cast<int>(o));
+    Rows& rows = difference_[o];
+    rows.resize(measured.size());
+    if (rows.empty()) continue;
+    const double* y = prediction.y[static_cast<std::size_t>(r)][o].data();
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = measured[i] - y[i];
   }
+  judge_.whiten(r, difference_, out);
 }
 
 /// One row per prior, behind the data.
@@ -164,8 +175,34 @@ void Projection::prior_rows(std::span<const double> z, std::span<const double> t
 void Projection::clear(const ProjectedPoint& point, double* column) const {
   for (std::size_t k = 0; k < point.initial_basis.size(); ++k) {
     clear_of(point.initial_basis[k], column);
-    column += judge_.size(recordings_[k]);
+    column += size_[k];
   }
+}
+
+void Projection::make_room(ProjectedPoint& point, std::vector<double>& residual) {
+  point.columns.rows = rows_;
+  point.columns.cols = linear_.size();
+  point.columns.a = std::exchange(spare_columns_, {});
+  residual = std::exchange(spare_residual_, {});
+  point.columns.a.resize(rows_ * linear_.size());
+  residual.resize(rows_);
+  const bool all_touched = priors_.empty() && std::all_of(linear_.begin(), linear_.end(), [&](int i) {
+                             return free_[static_cast<std::size_t>(i)].recording < 0;
+                           });
+  if (!all_touched) std::fill(point.columns.a.begin(), point.columns.a.end(), 0.0);
+}
+
+/// The last few points are kept; the memory of one that nobody else holds is used again.
+void Projection::remember(std::shared_ptr<ProjectedPoint> point) {
+  if (recent_.size() >= 3) {
+    const auto old = std::move(recent_.front());
+    recent_.erase(recent_.begin());
+    if (old.use_count() == 1) {
+      spare_columns_ = std::move(old->columns.a);
+      spare_residual_ = std::move(old->residual);
+    }
+  }
+  recent_.push_back(std::move(point));
 }
 
 /// Simulates the reference and one response per linear parameter of each point.
@@ -174,10 +211,11 @@ void Projection::responses(std::span<ProjectedPoint*> points, std::vector<std::v
   const std::size_t m = linear_.size();
   std::vector<double> step(m);
   std::vector<Wanted> wanted;
-  residuals.assign(points.size(), std::vector<double>(rows_));
-  for (auto* point : points) {
+  residuals.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto* point = points[i];
     point->ok = true;
-    point->columns = Dense(rows_, m);
+    make_room(*point, residuals[i]);
     wanted.push_back({values(point->z, ref), -1});
     for (std::size_t j = 0; j < m; ++j) {
       auto theta = ref;
@@ -187,25 +225,20 @@ void Projection::responses(std::span<ProjectedPoint*> points, std::vector<std::v
       wanted.push_back({values(point->z, theta), f.recording});
     }
   }
-  simulate(wanted, [&](std::size_t i, const Prediction& prediction) {
+  simulate(wanted, [&](std::size_t i, std::size_t k, const Prediction& prediction) {
     ProjectedPoint& point = *points[i / (m + 1)];
-    auto& residual = residuals[i / (m + 1)];
     if (!prediction.ok) {
       if (point.ok) point.error = prediction.error;
       point.ok = false;
     }
     if (!point.ok) return;
-    if (i % (m + 1) == 0) return whiten_residual(prediction, -1, residual.data());
+    double* residual = residuals[i / (m + 1)].data() + begin_[k];
+    if (i % (m + 1) == 0) return whiten_residual(prediction, k, residual);
     const std::size_t j = i % (m + 1) - 1;
-    const int recording = free_[static_cast<std::size_t>(linear_[j])].recording;
-    double* column = point.columns.col(j);
-    whiten_residual(prediction, recording, column);
-    for (const int r : touched(recording)) {
-      const auto k =
-          static_cast<std::size_t>(std::find(recordings_.begin(), recordings_.end(), r) - recordings_.begin());
-      for (std::size_t row = begin_[k]; row < begin_[k] + judge_.size(r); ++row)
-        column[row] = (residual[row] - column[row]) / step[j];
-    }
+    double* column = point.columns.col(j) + begin_[k];
+    whiten_residual(prediction, k, column);
+    const double per_step = 1 / step[j];
+    for (std::size_t row = 0; row < size_[k]; ++row) column[row] = (residual[row] - column[row]) * per_step;
   });
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i]->ok) continue;
@@ -278,6 +311,7 @@ void Projection::solve(ProjectedPoint& point, std::vector<double>& residual) {
     NormalForm normal(static_cast<int>(m));
     normal.add(point.columns.a, residual);
     solution = solve_bounded(normal, low, high, near);
+    point.triangle = std::move(normal.r);
     for (std::size_t j = 0; j < m; ++j) theta[j] = ref[j] + solution.x[j];
   }
   for (std::size_t j = 0; j < m; ++j) {  // exactly at the bound, whatever ref + (bound - ref) rounds to
@@ -287,10 +321,13 @@ void Projection::solve(ProjectedPoint& point, std::vector<double>& residual) {
   }
   point.theta = std::move(theta);
   point.bound = solution.bound;
-  for (std::size_t j = 0; j < m; ++j) {
-    const double* c = point.columns.col(j);
-    for (std::size_t i = 0; i < rows_; ++i) residual[i] -= c[i] * solution.x[j];
-  }
+  constexpr std::size_t rows_at_once = 2048;  // of the residual, which stays in the caches
+  for (std::size_t first = 0; first < rows_; first += rows_at_once)
+    for (std::size_t j = 0; j < m; ++j) {
+      const double* c = point.columns.col(j);
+      const double x = solution.x[j];
+      for (std::size_t i = first; i < std::min(rows_, first + rows_at_once); ++i) residual[i] -= c[i] * x;
+    }
   point.chi2 = dot(residual.data(), residual.data(), rows_);
   point.prior_chi2 = dot(residual.data() + data_rows_, residual.data() + data_rows_, priors_.size());
   point.residual = std::move(residual);
@@ -304,8 +341,7 @@ PointPointer Projection::at(std::span<const double> z) {
   auto point = std::make_shared<ProjectedPoint>();
   point->z.assign(z.begin(), z.end());
   evaluate(std::span(point.get(), 1));
-  if (recent_.size() >= 3) recent_.erase(recent_.begin());
-  recent_.push_back(point);
+  remember(point);
   return point;
 }
 
@@ -325,6 +361,24 @@ std::vector<PointPointer> Projection::at_each(const std::vector<std::vector<doub
     }
   }
   return list;
+}
+
+std::vector<double> Projection::chi2_of(const std::vector<Point>& points, const ProjectedPoint& best) {
+  std::vector<Wanted> wanted;
+  std::vector<double> chi2, rows(std::max(rows_ - data_rows_, *std::max_element(size_.begin(), size_.end())));
+  for (const auto& point : points) {
+    wanted.push_back({values(point.z, point.theta), -1});
+    prior_rows(point.z, point.theta, rows.data());
+    chi2.push_back(dot(rows.data(), rows.data(), priors_.size()));
+  }
+  simulate(wanted, [&](std::size_t i, std::size_t k, const Prediction& prediction) {
+    if (!prediction.ok) chi2[i] = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(chi2[i])) return;
+    whiten_residual(prediction, k, rows.data());
+    if (!best.initial_basis.empty()) clear_of(best.initial_basis[k], rows.data());
+    chi2[i] += dot(rows.data(), rows.data(), size_[k]);
+  });
+  return chi2;
 }
 
 bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns) {
@@ -361,50 +415,46 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
       z[k] = std::clamp(point.z[k] + sign * step[k], low[k], high[k]);
       if (z[k] == point.z[k]) continue;
       sides[k].z = z[k];
+      sides[k].moved = touches_any(recording_of(k));
       sides[k].residual = point.residual;
       prior_rows(z, point.theta, sides[k].residual.data() + data_rows_);
       wanted.push_back({values(z, point.theta), recording_of(k)});
       parameter.push_back(k);
     }
-    simulate(wanted, [&](std::size_t i, const Prediction& prediction) {
+    simulate(wanted, [&](std::size_t i, std::size_t r, const Prediction& prediction) {
       Side& side = sides[parameter[i]];
-      side.moved = prediction.ok;
       if (!prediction.ok) side.z = point.z[parameter[i]];
-      if (prediction.ok) {
-        whiten_residual(prediction, recording_of(parameter[i]), side.residual.data());
-        clear(point, side.residual.data());
-      }
+      side.moved = side.moved && prediction.ok;
+      if (!side.moved) return;
+      whiten_residual(prediction, r, side.residual.data() + begin_[r]);
+      if (!point.initial_basis.empty()) clear_of(point.initial_basis[r], side.residual.data() + begin_[r]);
     });
   };
   move(above, 1, [](std::size_t) { return true; });
   // One side is enough where the other cannot be had, or where speed counts.
   move(below, -1, [&](std::size_t k) { return central || !above[k].moved; });
 
-  Dense basis(rows_, 0);
-  if (projected) {
-    Dense inside(rows_, 0);
-    for (std::size_t j = 0; j < linear_.size(); ++j)
-      if (point.bound[j] == Bound::inside) {
-        inside.a.insert(inside.a.end(), point.columns.col(j), point.columns.col(j) + rows_);
-        ++inside.cols;
-      }
-    basis = orthonormal_basis(inside, dependent);
-  }
+  std::vector<double*> changes;
+  std::vector<double> before;
   for (std::size_t k = 0; k < m; ++k) {
     // A parameter whose recording is not among these changes nothing.
-    if (recording_of(k) >= 0 && touched(recording_of(k)).empty()) continue;
+    if (!touches_any(recording_of(k))) continue;
     if (!above[k].moved && !below[k].moved) return false;
     const auto& up = above[k].moved ? above[k].residual : point.residual;
     const auto& down = below[k].moved ? below[k].residual : point.residual;
     const double width = above[k].z - below[k].z;
     double* column = columns.col(k);
     for (std::size_t i = 0; i < rows_; ++i) column[i] = (up[i] - down[i]) / width;
-    if (!projected) continue;
-    const double before = length(column, rows_);
-    clear_of(basis, column);
-    // What the linear parameters make up for completely is rounding: a search must not follow it.
-    if (length(column, rows_) < (exact ? 1e-7 : 1e-4) * before) std::fill(column, column + rows_, 0.0);
+    changes.push_back(column);
+    before.push_back(length(column, rows_));
   }
+  if (!projected || linear_.empty()) return true;
+  std::vector<bool> inside;
+  for (const Bound bound : point.bound) inside.push_back(bound == Bound::inside);
+  ColumnSpan(point.columns, point.triangle, inside, dependent).clear(changes);
+  // What the linear parameters make up for completely is rounding: a search must not follow it.
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    if (length(changes[k], rows_) < (exact ? 1e-7 : 1e-4) * before[k]) std::fill_n(changes[k], rows_, 0.0);
   return true;
 }
 

@@ -34,6 +34,7 @@ struct ProjectedPoint {
   double chi2 = 0;                   ///< of all rows
   double prior_chi2 = 0;             ///< the priors' part of it
   Dense columns;                     ///< whitened responses to the linear parameters
+  std::vector<double> triangle;      ///< R of R'R = columns' columns (NormalForm::r)
   std::vector<Dense> initial_basis;  ///< per recording: orthonormal columns of the free initial states
 };
 using PointPointer = std::shared_ptr<const ProjectedPoint>;
@@ -64,6 +65,12 @@ class Projection {
   /// Many at once, for what is simulated side by side; not remembered.
   std::vector<PointPointer> at_each(const std::vector<std::vector<double>>& points);
   void forget() { recent_.clear(); }
+  /// chi2 of all rows at points near `best`, linear parameters as given instead of at their best; infinite where the
+  /// model cannot be simulated. A point is one simulation.
+  struct Point {
+    std::vector<double> z, theta;
+  };
+  std::vector<double> chi2_of(const std::vector<Point>& points, const ProjectedPoint& best);
 
   /// dr/dz (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
   /// had.
@@ -78,15 +85,19 @@ class Projection {
     Trial trial;
     int recording = -1;
   };
-  using Use = std::function<void(std::size_t, const Prediction&)>;
+  /// Which of what was wanted, the place in recordings_, and what the model says.
+  using Use = std::function<void(std::size_t, std::size_t, const Prediction&)>;
   void simulate(std::span<const Wanted> wanted, const Use& use);
-  std::span<const int> touched(int recording) const;
+  bool touches(int recording, std::size_t k) const { return recording < 0 || recording == recordings_[k]; }
+  bool touches_any(int recording) const;
 
   void evaluate(std::span<ProjectedPoint> points);
+  void make_room(ProjectedPoint& point, std::vector<double>& residual);
+  void remember(std::shared_ptr<ProjectedPoint> point);
   void responses(std::span<ProjectedPoint*> points, std::vector<std::vector<double>>& residuals);
   void solve(ProjectedPoint& point, std::vector<double>& residual);
   void clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta);
-  void whiten_residual(const Prediction& prediction, int recording, double* out) const;
+  void whiten_residual(const Prediction& prediction, std::size_t k, double* out);
   void prior_rows(std::span<const double> z, std::span<const double> theta, double* out) const;
   void clear(const ProjectedPoint& point, double* column) const;
   std::vector<double> reference() const;
@@ -96,7 +107,8 @@ class Projection {
   const std::vector<FreeParameter>& free_;
   std::vector<int> recordings_;
   Trial fixed_;
-  std::vector<std::size_t> begin_;  ///< per entry of recordings_: its first row
+  std::vector<std::size_t> begin_, size_;  ///< per entry of recordings_: its first row, its rows
+  std::vector<Rows> difference_;           ///< workspace, per output
   std::vector<int> linear_, nonlinear_;
   std::vector<double> delta_;  ///< per linear parameter: step between the two simulations
   bool from_zero_ = true;      ///< reference: zero where the bounds allow it, else the start
@@ -108,7 +120,9 @@ class Projection {
     double mean = 0, sigma = 1;
   };
   std::vector<PriorRow> priors_;
-  std::vector<PointPointer> recent_;
+  std::vector<std::shared_ptr<ProjectedPoint>> recent_;
+  // Of a point that nobody holds any more: its memory, which is tens of megabytes, is used again.
+  std::vector<double> spare_columns_, spare_residual_;
 };
 
 }  // namespace hysteron

@@ -79,8 +79,10 @@ void Judge::whiten(int recording, const std::vector<Rows>& rows, double* out) co
   const auto& list = whiteners_[static_cast<std::size_t>(recording)];
   const double weight = root_weight_[static_cast<std::size_t>(recording)];
   for (std::size_t o = 0; o < list.size(); ++o) {
+    const std::size_t n = list[o].size();
     list[o].apply(rows[o], out);
-    for (std::size_t i = 0; i < list[o].size(); ++i) *out++ *= weight;
+    for (std::size_t i = 0; i < n && weight != 1; ++i) out[i] *= weight;
+    out += n;
   }
 }
 

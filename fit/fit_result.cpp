@@ -1,0 +1,319 @@
+// What a fit says of its result: estimates, intervals, profiles, and parameters of recordings that were only judged.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "fit/colour.h"
+#include "fit/curvature.h"
+#include "fit/determined.h"
+#include "fit/fitting.h"
+#include "fit/profile.h"
+
+namespace hysteron {
+
+void Fitting::write_estimates() {
+  result_.values = projection_->values(best_->z, best_->theta);
+  const auto low = projection_->lower(), high = projection_->upper();
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    auto& e = result_.estimates[i];
+    e.used = result_.values[i].value;
+    e.value = e.used;
+  }
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    auto& e = result_.estimates[static_cast<std::size_t>(projection_->nonlinear()[k])];
+    const double near = 1e-9 * std::max(1.0, std::abs(best_->z[k]));
+    e.at_lower = best_->z[k] <= low[k] + near;
+    e.at_upper = !e.at_lower && best_->z[k] >= high[k] - near;
+  }
+  for (std::size_t j = 0; j < best_->bound.size(); ++j) {
+    auto& e = result_.estimates[static_cast<std::size_t>(projection_->linear()[j])];
+    e.at_lower = best_->bound[j] == Bound::lower;
+    e.at_upper = best_->bound[j] == Bound::upper;
+  }
+}
+
+/// "core.weights" of "core.weights[2]", "" for what is no element of a list.
+static std::string list_of(const std::string& path) {
+  return path.empty() || path.back() != ']'
+             ? std::string{}
+             : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
+}
+
+/// A column of the Jacobian where it stands: derivatives of the residual are `sign` times its numbers.
+struct Fitting::Column {
+  Sensitive of;
+  const double* numbers = nullptr;
+  double sign = 1;
+  std::size_t linear = 0;  ///< its place among the linear parameters, if it is one
+};
+
+/// What is not held by a bound: those searched, then the linear ones.
+std::vector<Fitting::Column> Fitting::columns_at_result(const Dense& nonlinear) const {
+  std::map<std::string, double>
+      largest;  // elements of one list share their size: a weight of zero is small against the others
+  for (const auto& e : result_.estimates)
+    if (const auto list = list_of(e.path); !list.empty()) largest[list] = std::max(largest[list], std::abs(e.used));
+  std::vector<Column> columns;
+  const auto add = [&](int index, const double* numbers, double sign, std::size_t linear) {
+    const auto& e = result_.estimates[static_cast<std::size_t>(index)];
+    if (e.at_lower || e.at_upper) return;
+    Sensitive s{index, e.log_scale, e.used, std::max(std::abs(e.used), std::abs(e.start)), e.lower, e.upper};
+    if (const auto list = list_of(e.path); !list.empty()) s.size = std::max(s.size, largest[list]);
+    columns.push_back({s, numbers, sign, linear});
+  };
+  for (std::size_t k = 0; k < nonlinear.cols; ++k) add(projection_->nonlinear()[k], nonlinear.col(k), 1, 0);
+  for (std::size_t j = 0; j < best_->columns.cols; ++j) add(projection_->linear()[j], best_->columns.col(j), -1, j);
+  return columns;
+}
+
+/// Of linear parameters alone the triangle is known since they were found.
+NormalForm Fitting::known_triangle(const std::vector<Column>& columns) const {
+  const std::size_t n = best_->columns.cols;
+  Dense part(n, columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t i = 0; i < n; ++i) part(i, k) = columns[k].sign * best_->triangle[columns[k].linear * n + i];
+  triangularize(part);
+  NormalForm normal(static_cast<int>(columns.size()));
+  normal.r = std::move(part.a);
+  return normal;
+}
+
+void Fitting::find_intervals() {
+  Dense nonlinear;
+  if (!projection_->jacobian(*best_, options_.intervals, false, nonlinear)) {
+    result_.remarks.push_back("no intervals: the neighbourhood of the result cannot be simulated");
+    return;
+  }
+  const std::size_t rows = projection_->rows();
+  const auto columns = columns_at_result(nonlinear);
+  std::vector<Sensitive> of;
+  for (const auto& c : columns) of.push_back(c.of);
+  const bool exact = model_.why_not_exact().empty();
+  const bool only_linear = nonlinear.cols == 0 && projection_->data_rows() == rows;
+  if (only_linear && !options_.residual_noise && !options_.keep_neighbourhood)
+    return judge_parameters(known_triangle(columns), of, exact, result_);
+
+  Dense jacobian(rows, columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t i = 0; i < rows; ++i) jacobian(i, k) = columns[k].sign * columns[k].numbers[i];
+  for (const double x : jacobian.a)
+    if (!std::isfinite(x)) return;
+  if (options_.intervals) {
+    // The intervals are scaled by s2, which is the data's: a prior knows its own width.
+    const double prior_scale = std::sqrt(result_.s2);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      for (std::size_t i = projection_->data_rows(); i < rows; ++i) jacobian(i, j) *= prior_scale;
+    NormalForm normal(static_cast<int>(columns.size()));
+    normal.add(jacobian.a, best_->residual);
+    NormalForm coloured(static_cast<int>(columns.size()));
+    if (options_.residual_noise) {
+      const auto variances = row_variances(model_, judge_, *options_.residual_noise, fitted_);
+      Dense scaled = jacobian;
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        for (std::size_t i = 0; i < variances.size(); ++i) scaled(i, j) *= std::sqrt(variances[i]);
+      coloured.add(scaled.a, best_->residual);
+    }
+    judge_parameters(normal, of, exact, result_, options_.residual_noise ? &coloured : nullptr);
+  }
+  if (options_.keep_neighbourhood)
+    result_.neighbourhood =
+        std::make_shared<Neighbourhood>(Neighbourhood{fitted_, best_->residual, std::move(jacobian)});
+}
+
+ProfileTask Fitting::profile_task() {
+  ProfileTask task;
+  task.model = &model_;
+  task.judge = &judge_;
+  task.free = free_;
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    task.free[i].start = result_.values[i].value;
+    task.free[i].scan.clear();
+  }
+  task.affine = affine_;
+  task.recordings = fitted_;
+  task.fixed = options_.fixed;
+  task.chi2 = best_->chi2;
+  task.s2 = result_.s2;
+  task.max_iterations = options_.max_iterations;
+  return task;
+}
+
+/// The profile of a free parameter, made once.
+const Profile& Fitting::profile(int which, double fraction) {
+  const auto known = profiles_.find(which);
+  if (known != profiles_.end()) return known->second;
+  auto task = profile_task();
+  task.go_on = [&] { return go_on("profile", fraction); };
+  std::vector<double> better;
+  const auto& e = result_.estimates[static_cast<std::size_t>(which)];
+  const Profile& made = profiles_[which] = profile_of(task, which, e.sigma.value_or(0), better);
+  if (!better.empty())
+    result_.remarks.push_back(fmt::format(
+        "the profile of {} met a better fit than the result: begin from other values, or from more starts", e.path));
+  return made;
+}
+
+void Fitting::find_profiles() {
+  for (std::size_t n = 0; n < options_.profile.size(); ++n) {
+    const auto place = std::find(place_.begin(), place_.end(), static_cast<std::size_t>(options_.profile[n]));
+    if (place == place_.end()) continue;
+    const double fraction = static_cast<double>(n) / static_cast<double>(options_.profile.size());
+    if (!go_on("profile", fraction)) return;
+    result_.profiles.push_back(profile(static_cast<int>(place - place_.begin()), fraction));
+  }
+}
+
+/// Where the linearization does not hold over an interval, the profile says where it ends.
+void Fitting::bend_intervals() {
+  // With weights that are not those of the noise, a rise of chi2 says nothing of an interval.
+  if (!options_.intervals || options_.residual_noise || result_.correlated.empty()) return;
+  const auto curved = curved_estimates(*projection_, *best_, result_);
+  if (curved.empty()) return;
+  std::vector<std::string> paths;
+  for (const int i : curved) paths.push_back(result_.estimates[static_cast<std::size_t>(i)].path);
+  if (!model_.why_not_exact().empty()) {  // a profile is some hundred simulations: cheap ones only, unasked
+    result_.remarks.push_back(
+        fmt::format("the model bends over the intervals of {}: ask for their profiles", fmt::join(paths, ", ")));
+    return;
+  }
+  for (std::size_t n = 0; n < curved.size(); ++n) {
+    const double fraction = static_cast<double>(n) / static_cast<double>(curved.size());
+    if (!go_on("profile", fraction)) return;
+    take_interval(curved[n], profile(curved[n], fraction));
+  }
+  result_.remarks.push_back(
+      fmt::format("the model bends over the intervals of {}: they are taken from profiles", fmt::join(paths, ", ")));
+}
+
+/// An open end reaches to the bound; what is open on both sides, or without a bound there, has no value.
+void Fitting::take_interval(int which, const Profile& from) {
+  if (result_.stopped) return;  // an end that was not reached is no open end
+  auto& e = result_.estimates[static_cast<std::size_t>(which)];
+  e.low95 = from.low95.value_or(e.lower);
+  e.high95 = from.high95.value_or(e.upper);
+  if ((from.low95 || from.high95) && std::isfinite(*e.low95) && std::isfinite(*e.high95)) return;
+  result_.undetermined.push_back(
+      {{e.path},
+       {1.0},
+       fmt::format(
+           "{} has no value: with the other parameters fitted again it can be moved {} and the fit stays as good",
+           e.path,
+           from.low95    ? "up as far as one likes"
+           : from.high95 ? "down as far as one likes"
+                         : "over all that its bounds allow")});
+  e.determined = false;
+  e.value.reset();
+  e.sigma.reset();
+  e.low95.reset();
+  e.high95.reset();
+  --result_.n_parameters;
+  const auto row = static_cast<std::size_t>(std::find(result_.correlated.begin(), result_.correlated.end(), which) -
+                                            result_.correlated.begin());
+  const std::size_t n = result_.correlated.size();
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (i != row && j != row) kept.push_back(result_.correlation[i * n + j]);
+  result_.correlation = std::move(kept);
+  result_.correlated.erase(result_.correlated.begin() + static_cast<std::ptrdiff_t>(row));
+}
+
+/// Parameters of single recordings that were judged and not fitted, each on its own recording with all others held.
+void Fitting::fit_the_waiting() {
+  for (const int r : judged_) {
+    std::vector<FreeParameter> waiting;
+    std::vector<std::size_t> place;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (all_[i].recording == r && !contains(fitted_, r)) {
+        waiting.push_back(all_[i]);
+        place.push_back(i);
+      }
+    if (waiting.empty()) continue;
+    Trial fixed = result_.values;
+    fixed.insert(fixed.end(), options_.fixed.begin(), options_.fixed.end());
+    Projection projection(model_, judge_, waiting, affine_of(waiting), {r}, fixed);
+    bool converged = false;
+    std::string message;
+    const auto point = search_locally(
+        projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); },
+        result_.iterations, converged, message);
+    const auto values = point ? projection.values(point->z, point->theta) : Trial{};
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      auto e = estimate_at_start(model_, waiting[i]);
+      if (point) e.value = e.used = values[i].value;
+      e.determined = point != nullptr;
+      result_.values.push_back({e.parameter, e.used, r});
+      result_.estimates.push_back(std::move(e));
+      place_.push_back(place[i]);
+    }
+  }
+}
+
+/// Estimates and values stand as the free parameters were given.
+void Fitting::put_in_order() {
+  std::vector<std::size_t> order(place_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place_[a] < place_[b]; });
+  std::vector<int> where(order.size());
+  std::vector<ParameterEstimate> estimates;
+  std::vector<ParameterValue> values;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    where[order[i]] = static_cast<int>(i);
+    estimates.push_back(std::move(result_.estimates[order[i]]));
+    values.push_back(result_.values[order[i]]);
+  }
+  result_.estimates = std::move(estimates);
+  result_.values = std::move(values);
+  for (int& c : result_.correlated) c = where[static_cast<std::size_t>(c)];
+  for (auto& p : result_.profiles) p.estimate = where[static_cast<std::size_t>(p.estimate)];
+}
+
+static std::string method_text(const Projection& projection, const FitOptions& options) {
+  std::vector<std::string> parts;
+  if (projection.n_linear() > 0) parts.push_back(fmt::format("linear least squares ({})", projection.n_linear()));
+  if (projection.n_nonlinear() > 0) {
+    std::string search = options.global;
+    if (options.global.empty() || options.polish)
+      search += (search.empty() ? "" : ", then ") + std::string("Levenberg-Marquardt");
+    parts.push_back(fmt::format("{} ({})", search, projection.n_nonlinear()));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void Fitting::finish() {
+  if (!best_) {
+    result_.error = first_error_;
+    return;
+  }
+  result_.ok = true;
+  write_estimates();
+  result_.values.resize(free_.size());  // without what was held fixed
+  result_.chi2 = best_->chi2 - best_->prior_chi2;
+  result_.prior_chi2 = best_->prior_chi2;
+  result_.n_parameters = 0;
+  for (const auto& e : result_.estimates) result_.n_parameters += e.at_lower || e.at_upper ? 0 : 1;
+  for (const int r : fitted_) {
+    double states =
+        model_.recording(r).initial_per_recording ? static_cast<double>(model_.free_initial_states().size()) : 0;
+    result_.n += model_.recording(r).weight * (static_cast<double>(judge_.size(r)) - states);
+  }
+  result_.s2 = result_.chi2 / std::max(1.0, result_.n - result_.n_parameters);
+  result_.method = method_text(*projection_, options_);
+  if ((options_.intervals || options_.keep_neighbourhood) && go_on("intervals")) find_intervals();
+  bend_intervals();
+  find_profiles();
+  fit_the_waiting();
+  put_in_order();
+  Trial after = result_.values;
+  after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
+  result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
+  if (result_.stopped) result_.convergence = "stopped; the best so far";
+  if (result_.chi2 > 3 * result_.n)
+    result_.remarks.push_back(
+        "the residual is far above the noise and not random: the intervals say how sure the numbers are "
+        "within this model, not that the model is right");
+}
+
+}  // namespace hysteron
