@@ -118,7 +118,8 @@ LIBRARY = dict(
     creep=Law(ACTUATORS, words(("step_hold",)), lambda rng, *_: dict(
         t0=np.exp(rng.uniform(*np.log([2e-3, 0.05]))), power=rng.uniform(0.01, 0.08)), 1e-3, 0.15, linear=True),
     rate_dependence=Law(("B2", "B3"), words(("freq_high", "multisine", "chirp")),
-                        lambda rng, *_: dict(power=rng.uniform(0, 1.2)), 1e-5, 0.03),
+                        lambda rng, *_: dict(power=rng.uniform(0, 1.2), part=str(rng.choice(["operator", "gap"]))),
+                        1e-5, 0.03),
     structural_resonance=Law(("B1", "B2", "B3", "B4"), words(("multisine", "steps"), ("multisine", "steps")),
                              draw_resonance, 1e-4, 0.4, linear=True),
     amplifier_lag=Law(("B1", "B2", "B3", "B4"), words(FAST, FAST_MASS), draw_lag, 1e-6, 0.03),

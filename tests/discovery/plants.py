@@ -194,10 +194,11 @@ def core(plant, p, v, h, hidden, axis):
         v = distorted(v, hidden, axis)
     rows = laws.plays(v, thresholds, start, bulge)
     if (e := of(hidden, "rate_dependence", axis)) and e.amount > 0:
-        for i in range(len(thresholds)):  # each relaxes towards its static value; wider ones take longer
+        for i in range(len(thresholds)):  # each, or its gap to the drive, relaxes; wide ones take longer
             if thresholds[i] > 0:
                 tau = e.amount * (thresholds[i] / thresholds[-1]) ** e.shape["power"]
-                rows[i] = v + laws.lag(rows[i] - v, h, tau)
+                before = v if e.shape["part"] == "gap" else 0.0
+                rows[i] = before + laws.lag(rows[i] - before, h, tau)
     return weights @ rows
 
 
