@@ -82,5 +82,31 @@ TEST(DataModel, WhatIsTooStiffForRowsIsIntegrated) {
     EXPECT_NEAR(prediction.y[0][0][i], 1e-6 * r.columns.at("u")[i], 5e-11) << r.t[i];
 }
 
+TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
+  Diagram d = lab::diagram("y");
+  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
+  auto& mass = lab::add(d, "mass", "mass_on_stiffening_spring", "force");
+  mass.parameters["mass"] = "1 kg";
+  mass.parameters["damping"] = "40 N*s/m";
+  mass.parameters["stiffness"] = "1e3 N/m";
+  mass.parameters["stiffening"] = "1 N/m^3";
+  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
+  const auto program = compile(d, lab::registry());
+  DataModel model(program, lab::shared(recordings(0.01, 300)));
+  const std::vector<int> both{0, 1};
+  ASSERT_TRUE(model.predict({}, both).ok);
+  const int chosen = model.substeps(0);
+  // At 6 N the spring of the trial is as stiff as 3 (6 N)^(2/3) (1e17 N/m^3)^(1/3) = 4.6e6 N/m: 2100 rad/s, of which an
+  // explicit step of a few milliseconds makes infinity.
+  const Trial stiff{{parameter_index(*program, "mass.stiffening"), 1e17}};
+  ASSERT_GT(0.01 / chosen * 2100, 2.8) << chosen;
+  const auto one = model.predict(stiff, both);
+  ASSERT_TRUE(one.ok) << one.error;
+  const auto many = model.predict_each(std::vector<Trial>{stiff, {}}, both);
+  ASSERT_TRUE(many[0].ok && many[1].ok) << many[0].error;
+  EXPECT_EQ(many[0].y, one.y);
+  EXPECT_EQ(model.substeps(0), chosen) << "the others are simulated as before";
+}
+
 }  // namespace
 }  // namespace hysteron
