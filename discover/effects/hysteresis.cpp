@@ -41,8 +41,48 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
   return law;
 }
 
+/// Elements that stick and slip beside the spring of a mass: Maxwell's slip, each with Dahl's smooth transition. They
+/// follow the motion, as the loss in a flexure or a piezo stack does; plays on the drive would ring along with the
+/// mass.
+Law slip_elements(const Circumstances& at) {
+  const double range = at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6;
+  const double force = at.range() > 0 ? at.range() : 1;
+  Law law;
+  law.name = "6 slip elements in the spring";
+  law.block.type = at.by;
+  NumberList stiffness, distance;
+  for (const double part : {0.004, 0.012, 0.035, 0.1, 0.25, 0.6}) {
+    const int i = static_cast<int>(distance.size());
+    distance.push_back(with_unit(part * range, parse_unit("um")));
+    LawParameter k;
+    k.path = element("contact_stiffness", i);
+    k.start = 0.02 * force / range;
+    k.lower = 0;
+    k.upper = 100 * force / range;
+    stiffness.push_back(with_unit(k.start, parse_unit("N/m")));
+    law.free.push_back(k);
+  }
+  give(law.block, "contact_stiffness", std::move(stiffness));
+  give(law.block, "slip_distance", std::move(distance));
+  return law;
+}
+
+/// Work that the elements take from one slow cycle over the whole travel, over that of the drive's rectangle.
+std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  const auto* list = std::get_if<NumberList>(&law.block.parameters.find("slip_distance")->content);
+  const double range = at.travel_highest - at.travel_lowest;
+  if (list == nullptr || list->size() != values.size() || !(range > 0) || !(at.range() > 0)) return "";
+  double force = 0;  // an element holds back k d (1 - exp(-travel/d)) at the end of a stroke
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double d = (*list)[i].value * 1e-6;
+    force += values[i] * d * -std::expm1(-range / d);
+  }
+  return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
+}
+
 /// Width of the largest loop over the stroke: at half the range a rising branch lags by min(r, R - r) for each play.
 std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  if (!at.by.empty()) return slip_summary(law, values, at);
   const double range = at.range();
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
   const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
@@ -95,9 +135,11 @@ Effect hysteresis() {
       {"creep", "sine_amplitudes", "phase of a loop grows with the amplitude, that of creep does not"},
       {"initial_remanence", "precycle", "everywhere against first cycle only"}};
   e.family = "hysteresis";
-  e.contains = {"calibration"};
+  e.contains = {"calibration", "friction"};
+  e.variation = "presliding";
   e.summary = loop_width;
   e.laws = [](const Circumstances& at) {
+    if (!at.by.empty()) return std::vector<Law>{slip_elements(at)};
     return std::vector<Law>{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
                             plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
                             plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
