@@ -9,6 +9,8 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
       .variation("presliding", "mass_with_presliding", {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
+      .variation("hysteretic_spring", "mass_on_hysteretic_spring",
+                 {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
       .variation("resonance", "mass_with_mode", {{"share", "0"}, {"frequency", "1 Hz"}})
       .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
   describe_motion(spec);

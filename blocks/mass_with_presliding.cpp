@@ -4,16 +4,9 @@
 
 namespace hysteron::blocks {
 
-void MassWithPresliding::describe(Declaration& d) {
-  d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force");
-  d.law(
-       "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v - |v| "
-       "z_i/slip_distance_i")
-      .from(
-          "Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, PhysCon (2003) "
-          "1170-1178");
-  d.remark("One element is a guide with friction; several, soft and stiff ones, are a spring with hysteresis.");
-  d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
+namespace {
+
+void describe_elements(Declaration& d) {
   describe_motion(d);
   d.state("deflection", "m", "deflection of each element");
   d.list("contact_stiffness", "N/m", "stiffness of each element while it sticks").not_negative();
@@ -24,7 +17,36 @@ void MassWithPresliding::describe(Declaration& d) {
   describe_start(d);
 }
 
-Sizes MassWithPresliding::sizes(const Shape& shape) {
+}  // namespace
+
+template <>
+void MassWithElements<DahlElement>::describe(Declaration& d) {
+  d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force");
+  d.law(
+       "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v - |v| "
+       "z_i/slip_distance_i")
+      .from(
+          "Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, PhysCon (2003) "
+          "1170-1178");
+  d.remark("One element is a guide with friction.");
+  d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
+  describe_elements(d);
+}
+
+template <>
+void MassWithElements<SlipElement>::describe(Declaration& d) {
+  d.name("mass_on_hysteretic_spring", "one mass on a spring that remembers turning points, driven by a force");
+  d.law(
+       "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v (1 - "
+       "(z_i/slip_distance_i)^4) while v z_i > 0, else v")
+      .from("Iwan, J. Appl. Mech. 33 (1966) 893-900: elements that yield, in parallel");
+  d.remark("Several elements, soft and stiff ones, close their loops at turning points, as plays do.");
+  d.remark("contact_stiffness 0 gives mass_spring_damper.");
+  describe_elements(d);
+}
+
+template <class Element>
+Sizes MassWithElements<Element>::sizes(const Shape& shape) {
   Sizes s;
   const int n = shape.length("contact_stiffness");
   s.states = 2 + n;
@@ -35,6 +57,7 @@ Sizes MassWithPresliding::sizes(const Shape& shape) {
   return s;
 }
 
-Kernel mass_with_presliding_block() { return kernel<MassWithPresliding>(); }
+Kernel mass_with_presliding_block() { return kernel<MassWithElements<DahlElement>>(); }
+Kernel mass_on_hysteretic_spring_block() { return kernel<MassWithElements<SlipElement>>(); }
 
 }  // namespace hysteron::blocks

@@ -1,5 +1,5 @@
-// Decides the block "mass_with_presliding": a mass on a spring beside which elements stick and slip. Does not decide
-// their law: models/presliding.h. One element is a guide with friction, several are a spring with hysteresis.
+// Decides the blocks "mass_with_presliding" (a guide with friction) and "mass_on_hysteretic_spring": a mass on a spring
+// beside which elements stick and slip. Does not decide their laws: models/presliding.h.
 #pragma once
 
 #include <string>
@@ -10,7 +10,21 @@
 
 namespace hysteron::blocks {
 
-struct MassWithPresliding {
+struct DahlElement {
+  template <class T>
+  static T rate(const T& distance, const T& z, const T& velocity) {
+    return presliding::deflection_rate(distance, z, velocity);
+  }
+};
+struct SlipElement {
+  template <class T>
+  static T rate(const T& distance, const T& z, const T& velocity) {
+    return presliding::slip_rate(distance, z, velocity);
+  }
+};
+
+template <class Element>
+struct MassWithElements {
   enum Parameter { mass, damping, stiffness, contact_stiffness, slip_distance, initial_position, initial_velocity };
 
   static void describe(Declaration& d);
@@ -27,7 +41,7 @@ struct MassWithPresliding {
     T force = v.u[0];
     for (std::size_t i = 0; i < k.size(); ++i) {
       force -= k[i] * v.x[i + 2];
-      v.out[i + 2] = presliding::deflection_rate(distance[i], v.x[i + 2], velocity);
+      v.out[i + 2] = Element::rate(T(distance[i]), T(v.x[i + 2]), velocity);
     }
     const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
     v.out[0] = velocity;
@@ -46,5 +60,6 @@ struct MassWithPresliding {
 };
 
 Kernel mass_with_presliding_block();
+Kernel mass_on_hysteretic_spring_block();
 
 }  // namespace hysteron::blocks

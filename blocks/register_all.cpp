@@ -118,6 +118,7 @@ Registry all_blocks() {
   r.add(blocks::mass_with_friction_block());
   r.add(blocks::mass_with_mode_block());
   r.add(blocks::mass_with_presliding_block());
+  r.add(blocks::mass_on_hysteretic_spring_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());
 

@@ -91,13 +91,49 @@ void keep_of_recordings(Contender& c, const Trial& held) {
             {c.program->parameters[static_cast<std::size_t>(v.parameter)].path, v.recording, v.value});
 }
 
+/// Steps that may be spent on screening one candidate: some seconds. Only what stands behind nonlinear states in slow
+/// recordings comes near.
+constexpr double screening_steps = 5e6;
+
+/// At most `most` combinations of scanned values, spread evenly over their lists.
+void thin_scans(std::vector<FreeParameter>& free, double most) {
+  double all = 1, lists = 0;
+  for (const auto& f : free) {
+    all *= static_cast<double>(std::max<std::size_t>(f.scan.size(), 1));
+    lists += f.scan.size() > 1 ? 1 : 0;
+  }
+  if (all <= most) return;
+  const auto keep = static_cast<std::size_t>(std::max(2.0, std::floor(std::pow(most, 1 / lists))));
+  for (auto& f : free) {
+    if (f.scan.size() <= keep) continue;
+    std::vector<double> some;
+    for (std::size_t k = 0; k < keep; ++k) some.push_back(f.scan[k * (f.scan.size() - 1) / (keep - 1)]);
+    f.scan = std::move(some);
+  }
+}
+
+/// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.
+void spend_less(const Contender& c, std::vector<FreeParameter>& free, FitOptions& options) {
+  options.max_iterations = 5;
+  options.refine = 1;
+  if (c.steps <= 0) return;
+  const double simulations = screening_steps / c.steps;
+  std::vector<int> parameters;
+  for (const auto& f : free) parameters.push_back(f.parameter);
+  const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
+  const auto linear = static_cast<double>(std::count(affine.begin(), affine.end(), true));
+  const auto searched = static_cast<double>(affine.size()) - linear;
+  thin_scans(free, std::max(4.0, simulations / 2 / (1 + linear)));
+  options.max_iterations = static_cast<int>(std::clamp(simulations / 2 / (1 + linear + searched), 2.0, 5.0));
+}
+
 /// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
 /// starts from its law instead of its values, -1 = none.
 void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
   c.program = compile(c.diagram, *shop.registry);
   DataModel model(c.program, shop.data, accuracy(shop, effort));
   const std::vector<Role> judged{Role::train, Role::validate};
-  const auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data));
+  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data));
   const Trial fixed = held(c, free);
   if (free.empty()) {
     c.prediction = model.predict(fixed, model.recordings(judged));
@@ -107,7 +143,8 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
     return;
   }
   FitOptions options;
-  options.max_iterations = effort == Effort::screen ? 8 : effort == Effort::full ? 15 : 30;
+  options.max_iterations = effort == Effort::full ? 15 : 30;
+  if (effort == Effort::screen) spend_less(c, free, options);
   options.intervals = effort == Effort::final;
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
@@ -117,6 +154,9 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
+  c.steps = 0;
+  for (const int r : model.recordings(Role::train))
+    c.steps += static_cast<double>(model.times(r).size()) * model.substeps(r);
   if (!c.ok) return;
   keep_of_recordings(c, fixed);
   Trial all = c.fit.values;
@@ -228,6 +268,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   Contender c;
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;
+  c.steps = before.steps;
   try {
     c.change = add_effect(before.diagram, *shop.registry, effect, law, place);
   } catch (const Error& e) {

@@ -230,11 +230,11 @@ class Investigation {
   /// Further effects were screened with the earlier ones held: the best few are fitted together with them.
   void refit_best(std::vector<Tried>& tried, double first_fall, double bar) {
     auto order = ranking(tried);
+    std::vector<std::size_t> screened_out;
     for (std::size_t k = 0; k < order.size() && !stopped(); ++k) {
       Tried& t = tried[order[k]];
-      if (k >= 4) {
-        t.admitted = false;
-        if (t.reason.empty()) t.reason = "screened";
+      if (k >= 4 || !within_reach(t, first_fall)) {
+        screened_out.push_back(order[k]);
         continue;
       }
       progress("together with what was found: " + t.effect->id, bar);
@@ -243,7 +243,15 @@ class Investigation {
       if (better.ok) t.contender = std::move(better);
     }
     compare_all(tried, first_fall);
-    for (std::size_t k = 4; k < order.size(); ++k) tried[order[k]].admitted = false;
+    for (const std::size_t i : screened_out) tried[i].admitted = false;
+  }
+
+  /// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
+  /// magnitude: what stays far below the least fall of a claim needs no fit of everything.
+  bool within_reach(const Tried& t, double first_fall) const {
+    const double least = std::max(rules::claim_fall, rules::own_law_left * rules::own_law_left * first_fall);
+    const double fall = current_.error_of.chi2_validate - t.contender.error_of.chi2_validate;
+    return fall > rules::screened_part * least;
   }
 
   /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
@@ -257,6 +265,7 @@ class Investigation {
       if (!far && k >= static_cast<std::size_t>(rules::enriched)) break;
       Tried& t = tried[order[k]];
       if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
+      if (step > 1 && !within_reach(t, first_fall)) continue;
       for (std::size_t law = 1; law < t.laws.size(); ++law) {
         progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
         Contender richer = with_effect(shop_, current_, *t.effect, started_from(t, law), t.place, t.circumstances,

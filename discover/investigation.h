@@ -35,6 +35,8 @@ constexpr double pieces_tell = 2;       ///< standard deviations: with structure
 constexpr double exchange = 6;          ///< fall of the score for which a look-alike is taken instead
 constexpr double floor_gate = 1.12;     ///< chi2/N on validation below which only noise is left: 6 % in rms
 constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms
+constexpr double screened_part =
+    0.2;  ///< of the least fall of a claim: below, a candidate is not fitted with the others
 constexpr double share_of_first =
     0.5;  ///< the first effect removes this share of the excess: listed ones alone 79-100 %, in unlisted cases 0-47 %
 constexpr double share_of_rest = 0.6;    ///< a further effect removes this share of the excess ...

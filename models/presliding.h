@@ -15,6 +15,18 @@ T deflection_rate(const T& distance, const T& z, const T& velocity) {
   return velocity - abs(velocity) * z / distance;
 }
 
+/// The same for an element that yields at its distance and is elastic on the way back (Maxwell's slip, rounded): dz/dt
+/// = v (1 - (z/distance)^4) while the motion loads it, v while it unloads. Elements with several distances in parallel
+/// are a spring whose loops close at their turning points, as plays do (Masing's rules); Dahl's are not. The exponent
+/// rounds the corner: large ones are sharper, and stiffer to integrate. Source: Iwan, J. Appl. Mech. 33 (1966) 893-900;
+/// transition as in Bouc-Wen's law with beta = gamma, n = 4.
+template <class T>
+T slip_rate(const T& distance, const T& z, const T& velocity) {
+  if (!(z * velocity > 0)) return velocity;
+  const T part = z / distance * (z / distance);
+  return velocity * (1.0 - part * part);
+}
+
 /// Deflection [m] after a steady motion by x [m] from z = 0 in one direction: distance (1 - exp(-|x|/distance))
 /// sign(x).
 inline double deflection_after(double distance, double x) {

@@ -41,9 +41,8 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
   return law;
 }
 
-/// Elements that stick and slip beside the spring of a mass: Maxwell's slip, each with Dahl's smooth transition. They
-/// follow the motion, as the loss in a flexure or a piezo stack does; plays on the drive would ring along with the
-/// mass.
+/// Elements that yield beside the spring of a mass. They follow the motion, as the loss in a flexure or a piezo stack
+/// does; plays on the drive would ring along with the mass.
 Law slip_elements(const Circumstances& at) {
   const double range = at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6;
   const double force = at.range() > 0 ? at.range() : 1;
@@ -51,7 +50,7 @@ Law slip_elements(const Circumstances& at) {
   law.name = "6 slip elements in the spring";
   law.block.type = at.by;
   NumberList stiffness, distance;
-  for (const double part : {0.004, 0.012, 0.035, 0.1, 0.25, 0.6}) {
+  for (const double part : {0.01, 0.025, 0.06, 0.12, 0.22, 0.4}) {
     const int i = static_cast<int>(distance.size());
     distance.push_back(with_unit(part * range, parse_unit("um")));
     LawParameter k;
@@ -67,16 +66,13 @@ Law slip_elements(const Circumstances& at) {
   return law;
 }
 
-/// Work that the elements take from one slow cycle over the whole travel, over that of the drive's rectangle.
+/// Force by which the elements hold the mass back, over that of the drive.
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("slip_distance")->content);
   const double range = at.travel_highest - at.travel_lowest;
   if (list == nullptr || list->size() != values.size() || !(range > 0) || !(at.range() > 0)) return "";
-  double force = 0;  // an element holds back k d (1 - exp(-travel/d)) at the end of a stroke
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double d = (*list)[i].value * 1e-6;
-    force += values[i] * d * -std::expm1(-range / d);
-  }
+  double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
+  for (std::size_t i = 0; i < values.size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);
   return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
 }
 
@@ -136,7 +132,7 @@ Effect hysteresis() {
       {"initial_remanence", "precycle", "everywhere against first cycle only"}};
   e.family = "hysteresis";
   e.contains = {"calibration", "friction"};
-  e.variation = "presliding";
+  e.variation = "hysteretic_spring";
   e.summary = loop_width;
   e.laws = [](const Circumstances& at) {
     if (!at.by.empty()) return std::vector<Law>{slip_elements(at)};

@@ -170,6 +170,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mode",
                                        "mass_with_mode",
                                        "mass_with_presliding",
+                                       "mass_on_hysteretic_spring",
                                        "tapi",
                                        "sampled_tapi_inverse"};
   EXPECT_EQ(found, expected);

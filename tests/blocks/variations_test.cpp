@@ -147,6 +147,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},
       {"resonance", {{"share", 0.1}, {"frequency", "3 Hz"}}},
       {"presliding", {{"contact_stiffness", "30 N/m"}, {"slip_distance", "0.02 m"}}},
+      {"hysteretic_spring", {{"contact_stiffness", "30 N/m"}, {"slip_distance", "0.02 m"}}},
       {"stops", {{"lower", "-0.04 m"}, {"upper", "0.035 m"}}},
       {"square_root_outflow", {{"law", "square_root"}}},
       {"overflow", {{"brim", "1.500001 m"}}},
