@@ -40,7 +40,7 @@ void MassWithElements<SlipElement>::describe(Declaration& d) {
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v (1 - "
        "(z_i/slip_distance_i)^4) while v z_i > 0, else v")
       .from("Iwan, J. Appl. Mech. 33 (1966) 893-900: elements that yield, in parallel");
-  d.remark("Several elements, soft and stiff ones, close their loops at turning points, as plays do.");
+  d.remark("Several elements, soft and stiff ones, nearly close their loops at turning points, as plays do.");
   d.remark("contact_stiffness 0 gives mass_spring_damper.");
   describe_elements(d);
 }

@@ -350,19 +350,33 @@ class Investigation {
     return ties;
   }
 
+  static bool is_of_sensor(const Effect& e) {
+    return e.places == std::vector<std::string>{"measured"} && e.id != "calibration";
+  }
+
+  /// Compiled anew: fitted values stand in the diagram. `motion`: without the last effect where it is the sensor's.
+  ProgramPointer rival(const Tried& t, bool motion) const {
+    const Contender& c = t.contender;
+    return compile(motion && is_of_sensor(*t.effect) ? remove_effect(c.diagram, c.standing.back().name) : c.diagram,
+                   registry_);
+  }
+
   std::optional<Experiment> experiment_between(const Tried& a, const Tried& b) {
-    std::vector<std::string> preferred;
-    for (const auto& l : a.effect->look_alikes)
-      if (l.effect == b.effect->id) preferred.push_back(l.experiment);
-    for (const auto& l : b.effect->look_alikes)
-      if (l.effect == a.effect->id) preferred.push_back(l.experiment);
+    Rivals rivals{rival(a, false), rival(b, false), {}, {}, {}, {}};
+    for (const auto* t : {&a, &b}) {
+      if (!t->place.side.empty()) rivals.sides.push_back({t->place.side, t->effect->side});
+      for (const auto& l : t->effect->look_alikes)
+        if (l.effect == (t == &a ? b : a).effect->id) rivals.preferred.push_back(l.experiment);
+    }
+    if (is_of_sensor(*a.effect) != is_of_sensor(*b.effect)) {
+      rivals.motion_a = rival(a, true);
+      rivals.motion_b = rival(b, true);
+    }
     std::vector<bool> free_zero;
     for (int o = 0; o < static_cast<int>(base_model_->outputs().size()); ++o)
       free_zero.push_back(base_model_->zero_per_recording(o));
-    // Compiled anew: fitted values stand in the diagram.
-    auto e = separate(compile(a.contender.diagram, registry_), compile(b.contender.diagram, registry_),
-                      base_model_->outputs(), device_of(base_model_->program(), *data_), evidence_->noise().white(),
-                      free_zero, preferred);
+    auto e = separate(rivals, base_model_->outputs(), device_of(base_model_->program(), *data_),
+                      evidence_->noise().white(), free_zero);
     if (e) e->between = a.effect->id + " and " + b.effect->id;
     return e;
   }

@@ -33,7 +33,23 @@ class Menu {
     slowest_ = std::min(2 / d.longest_recording, fastest_ / 10);
   }
 
-  std::vector<Protocol> all() {
+  std::vector<Protocol> all(const std::vector<SideRead>& sides) {
+    bool uncontrolled = false;
+    for (const auto& side : sides) {
+      if (side.kind == Side::temperature) {
+        temperature_staircase(side.name);
+        temperature_constant(side.name);
+      }
+      if (side.kind == Side::other_axis) axes_independent();
+      if (is_use(side)) repeat_after_cycles(side.name);
+      uncontrolled = uncontrolled || side.kind == Side::temperature || is_use(side);
+    }
+    if (!uncontrolled) drives();
+    return std::move(list_);
+  }
+
+ private:
+  void drives() {
     triangle();
     sines("sine_amplitudes", {std::sqrt(fastest_ * slowest_)}, {0.05, 0.25, 1});
     sines("low_frequencies",
@@ -42,10 +58,8 @@ class Menu {
     multisine();
     steps("step_hold", {0, 0.5, 1, 0.5, 0}, std::max(d_.longest_recording / 4, 200 * d_.shortest_step));
     steps("fast_steps", {0, 0.1, 0, 0.5, 0, 1, 0}, 200 * d_.shortest_step);
-    return std::move(list_);
   }
 
- private:
   double level(double part) const { return d_.lowest + part * (d_.highest - d_.lowest); }
   std::string value(double si) const { return fmt::format("{:.3g} {}", d_.unit.from_si(si), d_.unit.text); }
   std::string size(double si) const { return fmt::format("{:.3g} {}", d_.unit.difference_from_si(si), d_.unit.text); }
@@ -55,8 +69,99 @@ class Menu {
     p.word = word;
     p.text = std::move(text);
     p.t = t;
-    p.drive.t = std::move(t);
-    p.drive.v = std::move(v);
+    p.moves[d_.input] = {std::move(t), std::move(v), Between::linear};
+    list_.push_back(std::move(p));
+  }
+
+  /// What the device had behind it when a recording began (a data set's cycles_before, start).
+  static bool is_use(const SideRead& side) { return side.name == "cycles_before" || side.name == "start"; }
+
+  void repeat_after_cycles(const std::string& use) {
+    if (d_.recorded_times.empty()) return;
+    const auto range = d_.ranges.find(use);
+    const double most = range == d_.ranges.end() ? 0 : range->second.second;
+    const bool cycles = use == "cycles_before";
+    const double later = cycles ? 10 * most + 1e5 : 10 * most + 30 * 86400.0;
+    Protocol p;
+    p.word = "repeat_after_cycles";
+    p.text = cycles ? fmt::format("the longest recording again after {:.2g} cycles", later)
+                    : fmt::format("the longest recording again after {:.2g} days of use", later / 86400);
+    p.t = d_.recorded_times;
+    p.moves = d_.recorded;
+    p.moves[use] = {{0.0}, {later}, Between::hold};
+    list_.push_back(std::move(p));
+  }
+
+  double start_of(const std::string& signal) const {
+    const auto found = d_.levels.find(signal);
+    return found == d_.levels.end() ? 0 : found->second;
+  }
+
+  /// Three plateaus; on each a sine over the whole range, then a hold.
+  void temperature_staircase(const std::string& temperature) {
+    const double from = start_of(temperature);
+    const auto range = d_.ranges.find(temperature);
+    const double rise = std::max(10.0, range == d_.ranges.end() ? 0 : 2 * (range->second.second - range->second.first));
+    const double plateau = rounded(d_.longest_recording / 2);
+    Protocol p;
+    p.word = "temperature_staircase";
+    Series drive, warm;
+    const int rows = 200;
+    for (int k = 0; k < 3 * rows; ++k) {
+      const int step = k / rows;
+      const double part = static_cast<double>(k % rows) / rows;
+      p.t.push_back((step + part) * plateau);
+      drive.v.push_back(part < 0.5 ? level(0) + half_ * (1 - std::cos(8 * pi * part)) : level(0));
+      warm.v.push_back(from + rise * step / 2);
+    }
+    drive.t = warm.t = p.t;
+    p.moves = {{d_.input, std::move(drive)}, {temperature, std::move(warm)}};
+    p.text = fmt::format(
+        "temperature {0:.3g} K, {1:.3g} K above today's on plateaus of {2} or more; on each, and before, "
+        "two sines over the whole range and a hold",
+        rise / 2, rise, time_text(plateau));
+    list_.push_back(std::move(p));
+  }
+
+  void temperature_constant(const std::string& temperature) {
+    if (d_.recorded_times.empty()) return;
+    Protocol p;
+    p.word = "temperature_constant";
+    p.text = fmt::format("the longest recording ({}) again, the temperature held, or at another time of the day",
+                         time_text(d_.longest_recording));
+    p.t = d_.recorded_times;
+    p.moves = d_.recorded;
+    p.moves.erase(temperature);
+    list_.push_back(std::move(p));
+  }
+
+  /// A drive that has stood still while this one moves, and the other way round.
+  void axes_independent() {
+    std::vector<std::string> axes{d_.input};
+    for (const auto& [name, range] : d_.ranges)
+      if (name != d_.input && std::find(d_.drives.begin(), d_.drives.end(), name) != d_.drives.end() &&
+          range.second > range.first)
+        axes.push_back(name);
+    if (axes.size() < 2) return;
+    Protocol p;
+    p.word = "axes_independent";
+    p.text = fmt::format("a triangle over the whole range of {} with the others still, one after the other",
+                         fmt::join(axes, ", "));
+    const double period = rounded(std::max(d_.longest_recording / 10, 200 * d_.shortest_step));
+    const int rows = 200;
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+      for (int k = 0; k < rows; ++k)
+        p.t.push_back((static_cast<double>(axis) + static_cast<double>(k) / rows) * period);
+    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+      Series s;
+      s.t = p.t;
+      const auto [low, high] = d_.ranges.at(axes[axis]);
+      for (std::size_t k = 0; k < p.t.size(); ++k) {
+        const double phase = static_cast<double>(k % rows) / rows;
+        s.v.push_back(k / rows != axis ? low : low + (high - low) * (phase < 0.5 ? 2 * phase : 2 - 2 * phase));
+      }
+      p.moves[axes[axis]] = std::move(s);
+    }
     list_.push_back(std::move(p));
   }
 
@@ -171,79 +276,117 @@ double rms_difference(std::vector<double> a, const std::vector<double>& b, bool 
 
 }  // namespace
 
+namespace {
+
+double median_step(const std::vector<double>& t) {
+  std::vector<double> dt;
+  for (std::size_t k = 1; k < t.size(); ++k) dt.push_back(t[k] - t[k - 1]);
+  std::nth_element(dt.begin(), dt.begin() + static_cast<std::ptrdiff_t>(dt.size() / 2), dt.end());
+  return dt[dt.size() / 2];
+}
+
+void note_range(Device& d, const std::string& name, const std::vector<double>& v) {
+  const auto [a, b] = std::minmax_element(v.begin(), v.end());
+  const auto [at, is_new] = d.ranges.try_emplace(name, *a, *b);
+  at->second = {std::min(at->second.first, *a), std::max(at->second.second, *b)};
+  d.levels[name] = v.front();
+}
+
+/// Columns that a program may read: its inputs, and what it does not measure.
+std::map<std::string, Series> moved_in(const Device& d, const Program& program, const DataSet& data,
+                                       const Recording& r) {
+  std::map<std::string, Series> list;
+  for (const auto& name : d.drives) list[name] = *input_series(data, r, name);
+  for (const auto& [name, column] : r.columns)
+    if (!list.contains(name) &&
+        std::find(program.output_names.begin(), program.output_names.end(), name) == program.output_names.end())
+      list[name] = {r.t, column, Between::linear};
+  return list;
+}
+
+}  // namespace
+
 Device device_of(const Program& program, const DataSet& data) {
   Device d;
   d.shortest_step = std::numeric_limits<double>::infinity();
   d.longest_recording = 0;
-  std::vector<double> low(program.input_names.size(), std::numeric_limits<double>::infinity());
-  std::vector<double> high(program.input_names.size(), -std::numeric_limits<double>::infinity());
-  d.others.assign(program.input_names.size(), 0.0);
+  d.drives = program.input_names;
   for (const auto& r : data.recordings) {
     if (r.role == Role::test || r.last < 2) continue;
-    std::vector<double> dt;
-    for (std::size_t k = 1; k < r.last; ++k) dt.push_back(r.t[k] - r.t[k - 1]);
-    std::nth_element(dt.begin(), dt.begin() + static_cast<std::ptrdiff_t>(dt.size() / 2), dt.end());
-    d.shortest_step = std::min(d.shortest_step, dt[dt.size() / 2]);
-    d.longest_recording = std::max(d.longest_recording, r.t[r.last - 1] - r.t.front());
-    for (std::size_t i = 0; i < low.size(); ++i) {
-      const auto series = input_series(data, r, program.input_names[i]);
-      const auto [a, b] = std::minmax_element(series->v.begin(), series->v.end());
-      low[i] = std::min(low[i], *a);
-      high[i] = std::max(high[i], *b);
-      d.others[i] = series->v.front();
-    }
+    d.shortest_step = std::min(d.shortest_step, median_step({r.t.begin(), r.t.begin() + static_cast<long>(r.last)}));
+    auto moved = moved_in(d, program, data, r);
+    for (const auto& [name, series] : moved) note_range(d, name, series.v);
+    const double duration = r.t[r.last - 1] - r.t.front();
+    if (duration <= d.longest_recording) continue;
+    d.longest_recording = duration;
+    d.recorded_times = r.t;
+    d.recorded = std::move(moved);
   }
-  for (std::size_t i = 0; i < low.size(); ++i)
-    if (i == 0 || high[i] - low[i] > 0) {
-      const bool moves_first = i == 0 || d.highest <= d.lowest;
-      if (!moves_first) continue;
-      d.input = program.input_names[i];
-      d.input_index = static_cast<int>(i);
-      d.unit = program.input_units[i];
-      d.lowest = low[i];
-      d.highest = high[i];
-    }
+  // The first input that moves.
+  for (std::size_t i = 0; i < d.drives.size(); ++i) {
+    const auto [low, high] = d.ranges[d.drives[i]];
+    if (i > 0 && (!(high > low) || d.highest > d.lowest)) continue;
+    d.input = d.drives[i];
+    d.unit = program.input_units[i];
+    d.lowest = low;
+    d.highest = high;
+  }
   return d;
 }
 
-std::vector<Protocol> menu(const Device& device) {
+std::vector<Protocol> menu(const Device& device, const std::vector<SideRead>& sides) {
   if (device.input.empty() || !(device.highest > device.lowest)) return {};
-  return Menu(device).all();
+  return Menu(device).all(sides);
 }
 
-std::optional<Experiment> separate(const ProgramPointer& a, const ProgramPointer& b,
-                                   const std::vector<std::string>& outputs, const Device& device,
-                                   const std::vector<double>& noise, const std::vector<bool>& free_zero,
-                                   const std::vector<std::string>& preferred) {
-  const auto signals_of = [&](const Program& p) {
-    std::vector<int> list;
-    for (const auto& name : outputs)
-      for (std::size_t o = 0; o < p.output_names.size(); ++o)
-        if (p.output_names[o] == name) list.push_back(p.output_signals[o]);
-    return list;
-  };
+namespace {
+
+/// What the outputs of a program do in an experiment; what it does not move stays where recordings start.
+std::vector<std::vector<double>> answer(const ProgramPointer& program, const Protocol& protocol, const Device& device,
+                                        const std::vector<std::string>& outputs) {
+  std::vector<int> signals;
+  for (const auto& name : outputs)
+    for (std::size_t o = 0; o < program->output_names.size(); ++o)
+      if (program->output_names[o] == name) signals.push_back(program->output_signals[o]);
+  std::vector<SeriesPointer> inputs;
+  for (const auto& name : program->input_names) {
+    const auto moves = protocol.moves.find(name);
+    const auto level = device.levels.find(name);
+    inputs.push_back(std::make_shared<const Series>(
+        moves != protocol.moves.end()
+            ? moves->second
+            : Series{{0.0}, {level == device.levels.end() ? 0.0 : level->second}, Between::hold}));
+  }
+  return simulate_rows(program, inputs, protocol.t, signals, true);
+}
+
+}  // namespace
+
+std::optional<Experiment> separate(const Rivals& rivals, const std::vector<std::string>& outputs, const Device& device,
+                                   const std::vector<double>& noise, const std::vector<bool>& free_zero) {
   std::optional<Experiment> best, wanted;
-  for (auto& protocol : menu(device)) {
-    std::vector<SeriesPointer> inputs;
-    for (const double level : device.others)
-      inputs.push_back(std::make_shared<const Series>(Series{{0.0}, {level}, Between::hold}));
-    // A drive that starts away from its lowest level starts at rest there.
-    inputs[static_cast<std::size_t>(device.input_index)] = std::make_shared<const Series>(protocol.drive);
+  const auto offer = [&](const Protocol& protocol, const std::string& word, const std::string& text,
+                         const ProgramPointer& a, const ProgramPointer& b) {
     Experiment e;
-    e.word = protocol.word;
-    e.text = protocol.text;
+    e.word = word;
+    e.text = text;
     try {
-      const auto ya = simulate_rows(a, inputs, protocol.t, signals_of(*a), true);
-      const auto yb = simulate_rows(b, inputs, protocol.t, signals_of(*b), true);
+      const auto ya = answer(a, protocol, device, outputs), yb = answer(b, protocol, device, outputs);
       for (std::size_t o = 0; o < ya.size(); ++o)
         e.separation = std::max(e.separation, rms_difference(ya[o], yb[o], free_zero[o]) / noise[o]);
     } catch (const Error&) {
-      continue;  // a model that cannot follow this drive says nothing about it
+      return;  // a model that cannot follow this drive says nothing about it
     }
-    if (!std::isfinite(e.separation)) continue;
-    const bool asked = std::find(preferred.begin(), preferred.end(), e.word) != preferred.end();
+    if (!std::isfinite(e.separation)) return;
+    const bool asked = std::find(rivals.preferred.begin(), rivals.preferred.end(), e.word) != rivals.preferred.end();
     if (asked && e.separation >= 2 && (!wanted || e.separation > wanted->separation)) wanted = e;
     if (!best || e.separation > best->separation) best = e;
+  };
+  for (const auto& protocol : menu(device, rivals.sides)) {
+    offer(protocol, protocol.word, protocol.text, rivals.a, rivals.b);
+    if (protocol.word == "triangle" && rivals.motion_a && rivals.motion_b)
+      offer(protocol, "reference_sensor", protocol.text + ", measured by a second, independent sensor besides",
+            rivals.motion_a, rivals.motion_b);
   }
   return wanted ? wanted : best;
 }

@@ -303,7 +303,7 @@ inline std::vector<Sample> samples() {
         {"damping", {0.8}},
         {"stiffness", {50}},
         {"contact_stiffness", {20, 9}},
-        {"slip_distance", {0.1, 0.4}}}},
+        {"slip_distance", {1.5, 4}}}},
       {"integrator", {{"initial", {0.6}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 3}}, {"den", {0.5, 2, 8}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 0.2, 3}}, {"den", {0.5, 2, 8}}}},

@@ -39,6 +39,27 @@ TEST(PreslidingModel, FollowsItsExponentialAndTurnsAtTheReversal) {
   EXPECT_NEAR(presliding::deflection_rate(d, d / 2, -v), -1.5 * v, 1e-18);
 }
 
+TEST(PreslidingModel, AYieldingElementIsElasticOnItsWayBackAndHoldsAtItsDistance) {
+  // Integrated over the path, where velocity times time is the way.
+  const double d = 2e-6, step = d / 20000;
+  const auto over = [&](auto rate, double z, double length) {
+    const int n = static_cast<int>(std::lround(std::fabs(length) / step));
+    for (int i = 0; i < n; ++i) {
+      const double h = length / n;
+      z += rate(d, z + rate(d, z, h) / 2, h);  // midpoint rule
+    }
+    return z;
+  };
+  const auto slip = [](double a, double z, double v) { return presliding::slip_rate(a, z, v); };
+  const double left = over(slip, 0, 1.5 * d);
+  EXPECT_GT(left, 0.9 * d);
+  EXPECT_LT(left, d);
+  const double turned = over(slip, left, -0.8 * d);
+  EXPECT_NEAR(turned, left - 0.8 * d, 1e-6 * d) << "elastic";
+  EXPECT_NEAR(over(slip, -left, 3 * d), over(slip, 0, 3 * d), 0.02 * d) << "yields at its distance";
+  EXPECT_LT(over(slip, 0, 50 * d), d * (1 + 1e-9));
+}
+
 TEST(SaturationWithKnee, LeavesSmallSignalsNeverReachesTheLimitAndIsOdd) {
   EXPECT_EQ(saturation::with_knee(5.0, 2.0, 0.0), 0);
   EXPECT_NEAR(saturation::with_knee(5.0, 4.0, 1e-4), 1e-4, 1e-19);             // (1e-4/5)^4/4 is below rounding
