@@ -15,11 +15,11 @@ T deflection_rate(const T& distance, const T& z, const T& velocity) {
   return velocity - abs(velocity) * z / distance;
 }
 
-/// The same for an element that yields at its distance and is elastic on the way back (Maxwell's slip, rounded): dz/dt
-/// = v (1 - (z/distance)^4) while the motion loads it, v while it unloads. Elements with several distances in parallel
-/// are a spring whose loops close at their turning points, as plays do (Masing's rules); Dahl's are not. The exponent
-/// rounds the corner: large ones are sharper, and stiffer to integrate. Source: Iwan, J. Appl. Mech. 33 (1966) 893-900;
-/// transition as in Bouc-Wen's law with beta = gamma, n = 4.
+/// The same for an element that yields at its distance and is elastic on the way back (Maxwell's slip with a rounded
+/// corner): dz/dt = v (1 - (z/distance)^4) while the motion loads it, v while it unloads. With sharp corners elements
+/// of several distances in parallel are a spring whose loops close at their turning points, as plays do (Masing's
+/// rules), and so nearly do these; Dahl's do not. A higher exponent is a sharper corner, and stiffer to integrate.
+/// Source: Iwan, J. Appl. Mech. 33 (1966) 893-900; transition as in Bouc-Wen's law with beta = gamma, n = 4.
 template <class T>
 T slip_rate(const T& distance, const T& z, const T& velocity) {
   if (!(z * velocity > 0)) return velocity;
