@@ -136,7 +136,7 @@ std::string data_text(const Diagram& d, const json& task, const std::filesystem:
   json data;
   data["format"] = 1;
   for (const auto& name : d.inputs.names()) data["columns"][name] = {{"to", name}};
-  if (!thermal) data["columns"]["T"] = {{"to", "T"}};
+  if (!thermal) data["columns"]["T"] = {{"to", "T"}, {"optional", true}};  // not every rig logs it
   for (const auto& name : d.outputs.names()) data["columns"][name] = output_column(task, name, thermal ? "K" : "um");
   for (const auto& f : task.at("files"))
     data["recordings"].push_back({{"file", (folder / f.at("file").get<std::string>()).string()},

@@ -30,10 +30,12 @@ struct Tried {
 namespace rules {
 constexpr double claim_fall =
     10;  ///< validation evidence must fall by this: nothing-hidden cases reached 1.8, true ones start at 14.5
-constexpr double tie = 7;               ///< in evidence + 2p
-constexpr double pieces_tell = 2;       ///< standard deviations: with structure left, less is a tie (Vuong)
-constexpr double exchange = 6;          ///< fall of the score for which a look-alike is taken instead
-constexpr double floor_gate = 1.12;     ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double tie = 7;            ///< in evidence + 2p
+constexpr double pieces_tell = 2;    ///< standard deviations: with structure left, less is a tie (Vuong)
+constexpr double exchange = 6;       ///< fall of the score for which a look-alike is taken instead
+constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double slow_noise =
+    2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white
 constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms
 constexpr double screened_part =
     0.2;  ///< of the least fall of a claim: below, a candidate is not fitted with the others

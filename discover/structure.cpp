@@ -13,6 +13,7 @@
 #include <functional>
 #include <numbers>
 
+#include "discover/investigation.h"
 #include "fit/branches.h"
 
 namespace hysteron {
@@ -63,7 +64,9 @@ class Search {
     jumps();
     if (!best_ || best_->fall_validate <= 0) return std::nullopt;
     best_->output = model_.outputs()[static_cast<std::size_t>(output_)];
-    const double excess = before_ - floor_;
+    best_->beyond_calibration = beyond_;
+    // Where a gain and an offset leave hardly more than noise, there is nothing that a structure could hold.
+    const double excess = beyond_ > rules::floor_gate * floor_ ? beyond_ - floor_ : before_ - floor_;
     best_->share_removed = excess > 0 ? std::min(1.0, best_->fall_validate / excess) : 0;
     best_->sentence = sentence(*best_);
     return best_;
@@ -273,9 +276,8 @@ class Search {
     if (!(high > low)) return;
     double best_level = 0;
     double best_fall = 0;
-    for (int i = 2; i < 39; ++i) {
-      const double level = low + (high - low) * i / 40;
-      const double fall = judged([&](const Part& p) {
+    const auto fall_at = [&](double level) {
+      return judged([&](const Part& p) {
         const auto& x = of_input ? p.u : p.y;
         Rows step(x.size()), slope(x.size());
         for (std::size_t k = 0; k < x.size(); ++k) {
@@ -284,8 +286,19 @@ class Search {
         }
         return std::vector<Rows>{Rows(x.size(), 1.0), x, step, slope};
       });
-      if (fall > best_fall) best_level = level, best_fall = fall;
-    }
+    };
+    const double width = (high - low) / 40;
+    for (int i = 2; i < 39; ++i)
+      if (const double fall = fall_at(low + i * width); fall > best_fall)
+        best_level = low + i * width, best_fall = fall;
+    // A step of many times the noise is placed to a row: half a division off, it explains half of itself.
+    for (double w = width / 2; best_fall > 0 && w > width / 200; w /= 2)
+      for (const int side : {-1, 1})
+        if (const double fall = fall_at(best_level + side * w); fall > best_fall) {
+          best_level += side * w;
+          best_fall = fall;
+          break;
+        }
     if (best_fall <= 0) return;
     Structure s;
     s.kind = "kink_at_level";

@@ -21,8 +21,9 @@ struct Structure {
   bool has_threshold = false;
   Unit unit;                                                                              ///< of the variable
   std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
-  double fall_validate = 0;  ///< of chi2 on validation recordings, beyond a free gain and offset
-  double share_removed = 0;  ///< of the excess over the noise there
+  double fall_validate = 0;       ///< of chi2 on validation recordings, beyond a free gain and offset
+  double beyond_calibration = 0;  ///< chi2 there with the best gain and offset: what the fall is counted from
+  double share_removed = 0;       ///< of the excess over the noise there
   std::string sentence;
 };
 
