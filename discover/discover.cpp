@@ -526,8 +526,10 @@ class Investigation {
     const bool base_is_off = d_.base.over_floor() > rules::floor_gate;
     std::optional<Structure> structure;
     if (base_is_off) structure = find_structure(*evidence_, base_.prediction);
+    // A clamp is a kink at a level too: what effects explain down to the noise needs no structure.
+    const bool effects_suffice = !d_.steps.empty() && floor <= rules::floor_gate;
     const bool structure_wins =
-        structure && structure->share_removed > rules::structure_share &&
+        structure && !effects_suffice && structure->share_removed > rules::structure_share &&
         structure->fall_validate > std::max(removed_beyond_calibration(*structure), rules::claim_fall);
     if (structure_wins) {
       d_.verdict = Verdict::unexplained;
