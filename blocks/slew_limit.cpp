@@ -7,7 +7,7 @@ void SlewLimit::describe(Declaration& d) {
       .in_group("continuous")
       .elementwise()
       .at("command");
-  d.law("dy/dt = max(-rate ratio, min(rate, (u - y)/time))").from("current of a capacitor, I = C dU/dt");
+  d.law("dy/dt = max(-fall, min(rise, (u - y)/time))").from("current of a capacitor, I = C dU/dt");
   d.remark(
       "Exact for an input that moves in straight lines between the rows of a recording. For an input that is a "
       "formula, "
@@ -16,8 +16,9 @@ void SlewLimit::describe(Declaration& d) {
   d.input("u", "$a", "the signal");
   d.output("y", "$a", "the follower");
   d.state("y", "$a", "the follower");
-  d.parameter("rate", "$a/s", "largest rate upwards: current over capacitance").positive();
-  d.parameter("ratio", "", "largest rate downwards over that upwards").optional("1").positive();
+  d.parameter("rate", "$a/s", "largest rate both ways: current over capacitance").positive();
+  d.parameter("rise", "$a/s", "another one upwards; 0 = rate").optional("0").not_negative();
+  d.parameter("fall", "$a/s", "another one downwards; 0 = rate").optional("0").not_negative();
   d.parameter("time", "s", "time constant with which a small gap closes").optional("1 us").positive();
 }
 

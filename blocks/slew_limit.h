@@ -8,13 +8,14 @@
 namespace hysteron::blocks {
 
 struct SlewLimit {
-  enum Parameter { rate, ratio, time };
+  enum Parameter { rate, rise, fall, time };
 
   static void describe(Declaration& d);
   static Sizes sizes(const Shape& shape);
   template <class T>
   static rate_limiter::Params<T> law(const View<T>& v) {
-    return {v.parameter(rate), T{v.parameter(rate) * v.parameter(ratio)}, v.parameter(time)};
+    const auto of_way = [&](int own) { return value_of(v.parameter(own)) > 0 ? v.parameter(own) : v.parameter(rate); };
+    return {of_way(rise), of_way(fall), v.parameter(time)};
   }
   template <class T>
   static void output(const View<T>& v) {

@@ -1,4 +1,4 @@
-// Decides how a hysteretic part that follows late moves over a straight piece of way. Does not decide what that part
+// Decides how a part that follows late moves over a straight piece of way. Does not decide what that part
 // is.
 #pragma once
 

@@ -35,7 +35,9 @@ Effect initial_remanence() {
     before.path = "before";
     // Both signs: beyond a threshold the value no longer matters, so a fit sees no gradient there and must be scanned.
     const double range = std::max(at.range(), 1e-30);
-    for (const double f : {-1.0, -0.6, -0.3, -0.1, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.1})
+    // Small ones too: at zero itself a one-sided operator feels one sign only.
+    for (const double f : {-1.0, -0.6, -0.3, -0.1, -0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03, 0.1, 0.2,
+                           0.35, 0.5, 0.7, 0.9, 1.1})
       before.scan.push_back(f * range);
     before.lower = -1.5 * range;
     before.upper = 1.5 * range;

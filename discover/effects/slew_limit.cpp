@@ -1,6 +1,7 @@
 // The effect slew_limit: the drive cannot move faster than the amplifier's current charges the actuator.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discover/effects/library.h"
@@ -16,28 +17,22 @@ Law limit(const Circumstances& at, bool each_way) {
   // At the quickest motion of the drive it limits nothing: held at that bound it costs no parameter.
   const double quickest = at.range() > 0 && at.quickest > 0 ? at.range() * at.quickest : 1;
   give(law.block, "rate", per_second(quickest, at.unit));
-  LawParameter rate;
-  rate.path = "rate";
-  rate.start = quickest;
-  rate.lower = 1e-6 * quickest;
-  rate.upper = quickest;
-  rate.log_scale = true;
-  // A step of one row is far quicker than a sine: the rates that limit the one and not the other lie decades apart.
-  rate.scan = per_decade(1e-5 * quickest, 0.7 * quickest, 5);
-  for (const double share : {0.8, 0.88, 0.94, 0.97, 0.99}) rate.scan.push_back(share * quickest);
-  law.free = {rate};
-  if (!each_way) return law;
-  give(law.block, "ratio", 1.0);
-  LawParameter ratio;
-  ratio.path = "ratio";
-  ratio.start = 1;
-  ratio.lower = 0.1;
-  ratio.upper = 10;
-  ratio.log_scale = true;
-  ratio.scan = {0.8, 0.97, 1.03, 1.25};
-  ratio.plausible_lower = 0.5;  // sink and source of one output stage are of one size
-  ratio.plausible_upper = 2;
-  law.free.push_back(ratio);
+  const auto rates = each_way ? std::vector<std::string>{"rise", "fall"} : std::vector<std::string>{"rate"};
+  for (const auto& path : rates) {
+    if (each_way) give(law.block, path, per_second(quickest, at.unit));
+    LawParameter rate;
+    rate.path = path;
+    rate.start = quickest;
+    rate.lower = 1e-6 * quickest;
+    rate.upper = quickest;
+    rate.log_scale = true;
+    // A step of one row is far quicker than a sine: the rates that limit the one and not the other lie decades apart.
+    // Near the quickest motion a limit acts on the largest steps alone, and no slope leads there from below.
+    rate.scan = per_decade(1e-5 * quickest, 0.5 * quickest, 5);
+    for (const double share : {0.6, 0.7, 0.78, 0.84, 0.88, 0.91, 0.94, 0.96, 0.975, 0.985, 0.993})
+      rate.scan.push_back(share * quickest);
+    law.free.push_back(std::move(rate));
+  }
   return law;
 }
 
@@ -48,7 +43,7 @@ Effect slew_limit() {
   e.id = e.family = "slew_limit";
   e.title = "Limited rate of the drive";
   e.cause = "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C.";
-  e.equation = "dv/dt = max(-rate*ratio, min(rate, (u - v)/time)), time = 1 us";
+  e.equation = "dv/dt = max(-fall, min(rise, (u - v)/time)), time = 1 us";
   e.source =
       "Fleming, Moheimani, IEEE Trans. Control Syst. Technol. 13 (2005) 33 (current of a capacitive load); PI E-617 "
       "manual; Thorlabs, piezo driver bandwidth (f_max = I/(pi C Vpp))";
@@ -57,9 +52,9 @@ Effect slew_limit() {
   e.way = Way::insert;
   e.block_type = "slew_limit";
   e.places = {"command"};
-  e.parameters = {
-      {"rate", "unit of the signal per s", "largest rate upwards", "60 mA into 2.6 uF: 23 V/ms; the range within 10 s"},
-      {"ratio", "", "largest rate downwards over that upwards", "0.5 .. 2"}};
+  e.parameters = {{"rate", "unit of the signal per s", "largest rate both ways",
+                   "60 mA into 2.6 uF: 23 V/ms; the range within 10 s"},
+                  {"rise, fall", "unit of the signal per s", "largest rate of each way", "of one size"}};
   e.look_alikes = {
       {"amplifier_lag", "sine_amplitudes", "at half the amplitude the error of a limit goes, a lag's halves"},
       {"saturation", "sine_amplitudes", "a clamp has a level, a slew limit a rate"},
@@ -67,12 +62,12 @@ Effect slew_limit() {
       {"structural_resonance", "fast_steps", "a resonance rings about the level, a limit makes a ramp"}};
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
     std::string text = fmt::format("at most {:.4g} {}/s", at.unit.difference_from_si(values[0]), at.unit.text);
-    if (law.free.size() > 1) text += fmt::format(", downwards {:.3g} times that", values[1]);
+    if (law.free.size() > 1) text += fmt::format(" upwards, {:.4g} downwards", at.unit.difference_from_si(values[1]));
     return text;
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances& at) -> std::string {
     // The weakest piezo amplifiers (2 mA) take a second to charge the largest stacks (20 uF) to 100 V.
-    const double whole = at.range() / values[0];
+    const double whole = at.range() / *std::min_element(values.begin(), values.end());
     if (whole <= 10) return "";
     return fmt::format("the range of the drive would take {}: no current limit is so slow", time_text(whole));
   };

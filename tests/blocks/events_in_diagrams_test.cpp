@@ -190,7 +190,7 @@ TEST(RowsOfRecordings, AreTheSameAsTheirIntegration) {
   // Blocks that pass rows by a closed form, against BDF on their rates (1e-9 of tolerance, some thousand steps).
   const std::vector<double> t{0, 0.1, 0.2, 0.5, 0.6, 1.0, 1.3}, u{0, 1, 0.2, 0.3, 1.4, -0.5, 0.1};
   const std::vector<std::pair<Node, double>> blocks{
-      {block("slew_limit", {{"rate", "4 V/s"}, {"ratio", 0.5}, {"time", "20 ms"}}, {"u"}), 1e-6},
+      {block("slew_limit", {{"rate", "4 V/s"}, {"fall", "2 V/s"}, {"time", "20 ms"}}, {"u"}), 1e-6},
       {block("late_prandtl_ishlinskii",
              {{"thresholds", list({0, 0.3, 0.6}, "V")}, {"weights", list({1, 0.3, 0.2}, "V/V")}, {"time", "50 ms"}},
              {"u"}),

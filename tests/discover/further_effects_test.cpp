@@ -96,7 +96,8 @@ TEST_F(FurtherEffects, AHysteresisThatFollowsLateIsNoLagOfTheAmplifier) {
   const Discovery d = found(four_plays(), late_plays(4e-3));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "rate_dependence") << tried(d);
-  EXPECT_NEAR(value(d, "time"), 4e-3, 2e-4);  // s: noise of 1e-3 over 2400 rows of a late part of 0.02
+  EXPECT_NEAR(value(d, "time"), 4e-3,
+              4e-4);  // s: noise of 1e-3 over 2400 rows of a late part of 0.02, and ahead found too
   EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
 }
 
