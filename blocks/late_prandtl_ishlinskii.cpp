@@ -1,5 +1,7 @@
 #include "blocks/late_prandtl_ishlinskii.h"
 
+#include <vector>
+
 namespace hysteron::blocks {
 
 void LatePrandtlIshlinskii::describe(Declaration& d) {
@@ -35,12 +37,15 @@ void LatePrandtlIshlinskii::rows(const RowsView& r) {
     double* x = r.x + lane * v.n_x;
     v.m = m;
     v.x = x;
+    std::vector<double> times;
+    for (std::size_t i = 0; i < threshold.size(); ++i) times.push_back(threshold[i] > 0 ? time_of(v, i) : 0);
     for (std::ptrdiff_t k = 0; k < r.count; ++k) {
       const double u = r.u[0][k * r.lanes + lane], u_before = r.u[0][(k - 1) * r.lanes + lane];
       for (std::size_t i = 0; i < threshold.size(); ++i) {
-        const double before = late_part(v, m[i], u_before);
-        m[i] = play::follow(sides_of(v), threshold[i], m[i], u);
-        if (threshold[i] > 0) x[i] = late::after_ramp(time_of(v, i), x[i], before, late_part(v, m[i], u), r.h[k]);
+        const double before = m[i];
+        m[i] = play::follow(sides_of(v), threshold[i], before, u);
+        if (threshold[i] > 0)
+          x[i] = late::after_row(times[i], x[i], v.parameter(ahead), before, m[i], u_before, u, r.h[k]);
       }
       v.u = &u;
       v.out = r.y[0] + k * r.lanes + lane;

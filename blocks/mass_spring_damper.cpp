@@ -7,6 +7,7 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
   spec.law("mass dv/dt = force - damping v - stiffness x, dx/dt = v").from("Newton's second law");
   spec.remark("A piezo actuator of free displacement d is the force stiffness d, with its own stiffness counted in.");
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
+      .variation("drag", "mass_with_drag", {{"drag", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
       .variation("presliding", "mass_with_presliding", {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
       .variation("hysteretic_spring", "mass_on_hysteretic_spring",
@@ -19,13 +20,25 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
 
 void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
   spec.name("mass_on_stiffening_spring", "one mass on a spring with a cubic part, driven by a force");
-  spec.law("mass dv/dt = force - damping v - stiffness x - stiffening x^3, dx/dt = v")
+  spec.law("mass dv/dt = force - damping v - stiffness x - quadratic x^2 - stiffening x^3 - quintic x^5, dx/dt = v")
       .from("Duffing's oscillator; Nayfeh, Mook, Nonlinear Oscillations (1979)");
   spec.remark(
       "stiffening 0 gives mass_spring_damper. Negative values soften: then keep x below sqrt(stiffness/(3 "
       "|stiffening|)).");
   describe_motion(spec);
   spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic part of the spring").optional("0");
+  spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "part by which it is harder one way than the other")
+      .optional("0");
+  spec.param(&Params<double>::quintic, "quintic", "N/m^5", "part of large travel").optional("0");
+  describe_start(spec);
+}
+
+void MassWithDrag::describe(BlockSpec<MassWithDrag>& spec) {
+  spec.name("mass_with_drag", "one mass on a spring in a fast flow, driven by a force");
+  spec.law("mass dv/dt = force - damping v - drag v |v| - stiffness x, dx/dt = v")
+      .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
+  describe_motion(spec);
+  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed").optional("0");
   describe_start(spec);
 }
 
@@ -47,5 +60,6 @@ void describe_start(Declaration& d) {
 
 Kernel mass_spring_damper_block() { return kernel<MassSpringDamper>(); }
 Kernel mass_on_stiffening_spring_block() { return kernel<MassOnStiffeningSpring>(); }
+Kernel mass_with_drag_block() { return kernel<MassWithDrag>(); }
 
 }  // namespace hysteron::blocks

@@ -1,4 +1,4 @@
-// Decides the blocks "mass_spring_damper" and "mass_on_stiffening_spring". Does not decide their law:
+// Decides the blocks "mass_spring_damper", "mass_on_stiffening_spring" and "mass_with_drag". Does not decide their law:
 // models/mass_spring_damper.h.
 #pragma once
 
@@ -57,16 +57,39 @@ struct MassSpringDamper : Mass {
 struct MassOnStiffeningSpring : Mass {
   template <class T>
   struct Params {
-    T mass, damping, stiffness, stiffening, initial_position, initial_velocity;
+    T mass, damping, stiffness, stiffening, quadratic, quintic, initial_position, initial_velocity;
   };
   static void describe(BlockSpec<MassOnStiffeningSpring>& spec);
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
-    const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, p.stiffening};
-    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, in.force)};
+    return {s.velocity, mass_spring_damper::acceleration(law(p), s.position, s.velocity, in.force)};
   }
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
-    return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, p.stiffening}, in.force), 0};
+    return {mass_spring_damper::rest(law(p), in.force), 0};
+  }
+
+ private:
+  template <class T>
+  static mass_spring_damper::Params<T> law(const Params<T>& p) {
+    return {p.mass, p.damping, p.stiffness, p.stiffening, p.quadratic, p.quintic};
+  }
+};
+
+/// The drag of a body in a fluid grows with the square of its speed.
+struct MassWithDrag : Mass {
+  template <class T>
+  struct Params {
+    T mass, damping, stiffness, drag, initial_position, initial_velocity;
+  };
+  static void describe(BlockSpec<MassWithDrag>& spec);
+  template <class T>
+  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
+    const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, T{0}};
+    const T force = in.force - mass_spring_damper::drag(p.drag, s.velocity);
+    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, force)};
+  }
+  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
+    return {mass_spring_damper::rest({p.mass, p.damping, p.stiffness, 0}, in.force), 0};
   }
 };
 
@@ -78,5 +101,6 @@ void describe_start(Declaration& d);
 
 Kernel mass_spring_damper_block();
 Kernel mass_on_stiffening_spring_block();
+Kernel mass_with_drag_block();
 
 }  // namespace hysteron::blocks

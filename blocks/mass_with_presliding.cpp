@@ -14,6 +14,10 @@ void describe_elements(Declaration& d) {
       .positive()
       .difference()
       .as_long_as("contact_stiffness");
+  d.parameter("excess", "", "by how much more it holds before it slides fast, over its friction")
+      .optional("0")
+      .not_negative();
+  d.parameter("stribeck_velocity", "m/s", "speed at which that is gone").optional("1 m/s").positive();
   describe_start(d);
 }
 
@@ -24,10 +28,10 @@ void MassWithElements<DahlElement>::describe(Declaration& d) {
   d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v - |v| "
-       "z_i/slip_distance_i")
+       "z_i/(slip_distance_i (1 + excess exp(-(v/stribeck_velocity)^2)))")
       .from(
           "Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, PhysCon (2003) "
-          "1170-1178");
+          "1170-1178; excess: Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425");
   d.remark("One element is a guide with friction.");
   d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
   describe_elements(d);
@@ -38,7 +42,7 @@ void MassWithElements<SlipElement>::describe(Declaration& d) {
   d.name("mass_on_hysteretic_spring", "one mass on a spring that remembers turning points, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v (1 - "
-       "(z_i/slip_distance_i)^4) while v z_i > 0, else v")
+       "(z_i/slip_distance_i)^4) while v z_i > 0, else v; excess as in mass_with_presliding")
       .from("Iwan, J. Appl. Mech. 33 (1966) 893-900: elements that yield, in parallel");
   d.remark("Several elements, soft and stiff ones, nearly close their loops at turning points, as plays do.");
   d.remark("contact_stiffness 0 gives mass_spring_damper.");

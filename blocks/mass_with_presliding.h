@@ -25,7 +25,17 @@ struct SlipElement {
 
 template <class Element>
 struct MassWithElements {
-  enum Parameter { mass, damping, stiffness, contact_stiffness, slip_distance, initial_position, initial_velocity };
+  enum Parameter {
+    mass,
+    damping,
+    stiffness,
+    contact_stiffness,
+    slip_distance,
+    excess,
+    stribeck_velocity,
+    initial_position,
+    initial_velocity
+  };
 
   static void describe(Declaration& d);
   static Sizes sizes(const Shape& shape);
@@ -38,10 +48,11 @@ struct MassWithElements {
   static void derivative(const View<T>& v) {
     const auto k = v.list(contact_stiffness), distance = v.list(slip_distance);
     const T velocity = v.x[1];
+    const T level = presliding::stribeck_level(v.parameter(excess), v.parameter(stribeck_velocity), velocity);
     T force = v.u[0];
     for (std::size_t i = 0; i < k.size(); ++i) {
       force -= k[i] * v.x[i + 2];
-      v.out[i + 2] = Element::rate(T(distance[i]), T(v.x[i + 2]), velocity);
+      v.out[i + 2] = Element::rate(T(distance[i] * level), T(v.x[i + 2]), velocity);
     }
     const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
     v.out[0] = velocity;

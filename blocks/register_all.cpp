@@ -17,6 +17,7 @@
 #include "blocks/jiles_atherton.h"
 #include "blocks/lag.h"
 #include "blocks/late_prandtl_ishlinskii.h"
+#include "blocks/load_dependence.h"
 #include "blocks/mains.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
@@ -33,10 +34,12 @@
 #include "blocks/product.h"
 #include "blocks/rate_limiter.h"
 #include "blocks/recorded.h"
+#include "blocks/rectifier.h"
 #include "blocks/relay.h"
 #include "blocks/resonance.h"
 #include "blocks/sampled_pid.h"
 #include "blocks/saturation.h"
+#include "blocks/sensor_drift.h"
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
 #include "blocks/slew_limit.h"
@@ -79,6 +82,9 @@ Registry all_blocks() {
   r.add(blocks::temperature_gain_block());
   r.add(blocks::thermal_expansion_block());
   r.add(blocks::ageing_block());
+  r.add(blocks::load_dependence_block());
+  r.add(blocks::sensor_drift_block());
+  r.add(blocks::rectifier_block());
   r.add(blocks::mains_interference_block());
 
   r.add(blocks::mux_block());
@@ -115,6 +121,7 @@ Registry all_blocks() {
 
   r.add(blocks::mass_spring_damper_block());
   r.add(blocks::mass_on_stiffening_spring_block());
+  r.add(blocks::mass_with_drag_block());
   r.add(blocks::mass_with_friction_block());
   r.add(blocks::mass_with_mode_block());
   r.add(blocks::mass_with_presliding_block());

@@ -19,7 +19,7 @@ void SlewLimit::describe(Declaration& d) {
   d.parameter("rate", "$a/s", "largest rate both ways: current over capacitance").positive();
   d.parameter("rise", "$a/s", "another one upwards; 0 = rate").optional("0").not_negative();
   d.parameter("fall", "$a/s", "another one downwards; 0 = rate").optional("0").not_negative();
-  d.parameter("time", "s", "time constant with which a small gap closes").optional("1 us").positive();
+  d.parameter("time", "s", "time constant with which a small gap closes").optional("1 ns").positive();
 }
 
 Sizes SlewLimit::sizes(const Shape&) {

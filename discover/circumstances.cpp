@@ -140,6 +140,18 @@ class InSeries {
   std::vector<const ParameterInfo*> free_;
 };
 
+/// Linear parameters of the blocks with memory that this signal moves.
+std::vector<std::string> weights_behind(const Program& program, int signal) {
+  std::vector<std::string> list;
+  const auto below = program.downstream_of(program.signals[static_cast<std::size_t>(signal)].block);
+  for (const auto& p : program.parameters) {
+    const auto block = static_cast<std::size_t>(p.block);
+    if (p.block >= 0 && below[block] && p.linear && !program.blocks[block].kernel->declaration.memory_port.empty())
+      list.push_back(p.path);
+  }
+  return list;
+}
+
 void look_at_row_times(const DataSet& data, Circumstances& c) {
   c.shortest_step = std::numeric_limits<double>::infinity();
   c.longest_step = c.longest_recording = 0;
@@ -226,6 +238,7 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
     c.unit = program->signals[static_cast<std::size_t>(signals[i])].unit;
     c.offset_is_free = free_zero;
     in_series.look(signals[i], c);
+    c.weights = weights_behind(*program, signals[i]);
     span(i, c.lowest, c.highest);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto& v = rows[r][i];

@@ -277,6 +277,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   }
   c.diagram = c.change.diagram;
   c.standing.push_back({&effect, law, place, c.change.name, effect.moves_zero ? at.zeros : std::vector<std::string>{}});
+  if (law.reweighs) c.standing.back().zeros.insert(c.standing.back().zeros.end(), at.weights.begin(), at.weights.end());
   const int fresh = static_cast<int>(c.standing.size()) - 1;
   try {
     if (before.program) refuse_new_loop(*before.program, *compile(c.diagram, *shop.registry), place.at);

@@ -33,6 +33,7 @@ enum class Commutes {
 enum class Side {
   none,
   temperature,  ///< an input of the diagram or a column of the recordings that is a temperature and no output
+  force,        ///< an input of the diagram or a column of the recordings that is a force
   use,          ///< what the device had behind it when a recording began: cycles_before or start of the data set
   other_axis    ///< drive or motion of another axis: an input, a column or an output's signal that this wire neither
                 ///< moves nor follows
@@ -60,6 +61,7 @@ struct Circumstances {
   bool offset_is_free = false;  ///< a free offset behind the place (or a free zero of each recording)
   /// Program paths of the constants that add to the signal behind the place ("sensor.offset"), free or not.
   std::vector<std::string> zeros;
+  std::vector<std::string> weights;        ///< program paths of the weights of operators behind the place
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
   Unit side_unit;                          ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
@@ -87,6 +89,7 @@ struct Law {
   std::string name;  ///< "one pole", "two poles": shown to people, unique within the effect
   Node block;        ///< type and parameters as they are written into the file (start values)
   std::vector<LawParameter> free;
+  bool reweighs = false;  ///< the weights of the operators behind the place are found anew with it
 };
 
 /// One parameter as people read about it.

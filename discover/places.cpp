@@ -249,6 +249,7 @@ std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, cons
   const auto fits = [&](const std::string& name, const Unit& unit) {
     const bool use = name == column_of_cycles || name == column_of_start;
     if (effect.side == Side::use || use) return use && effect.side == Side::use;
+    if (effect.side == Side::force) return unit.dimension == parse_unit("N").dimension;
     if (effect.side == Side::temperature) return is_temperature(unit);
     return !is_temperature(unit) && !unit.dimension.none();
   };
@@ -353,10 +354,13 @@ Place place_for(const Effect& effect, const Diagram& diagram, const Registry& re
   if (effect.side != Side::none)
     fail("no_side_signal", effect.id,
          effect.side == Side::use ? "it reads what the device had behind it, and no recording says that"
+         : effect.side == Side::force
+             ? "it reads a force, and neither an input of the diagram nor a column of the recordings is one"
          : effect.side == Side::temperature
              ? "it reads a temperature, and neither an input of the diagram nor a column of the recordings is one"
              : "it reads the drive of another axis, and there is none",
-         effect.side == Side::use ? "write \"cycles_before\" or \"start\" at each recording of the data set"
+         effect.side == Side::use     ? "write \"cycles_before\" or \"start\" at each recording of the data set"
+         : effect.side == Side::force ? "give the diagram an input in N, or name recordings with such a column (--data)"
          : effect.side == Side::temperature
              ? "give the diagram an input in K or degC, or name recordings with such a column (--data)"
              : "give the diagram a second input, or name recordings with such a column (--data)");

@@ -15,4 +15,16 @@ inline double after_ramp(double tau, double h, double before, double now, double
   return (now - tau * slope) + (h - (before - tau * slope)) * keep;
 }
 
+/// The same for a part w - ahead u of an operator that stands still until it is taken along: over a row in which u
+/// moves straight from u0 to u1 it keeps w0 at first and then goes with u to w1. Exact.
+inline double after_row(double tau, double h, double ahead, double w0, double w1, double u0, double u1,
+                        double duration) {
+  const double way = u1 - u0, moved = w1 - w0;
+  // The operator moves as fast as u, in the last part of the row.
+  const double still = way != 0 ? std::fmax(0.0, 1 - std::fmin(1.0, moved / way)) : 1.0;
+  const double u_taken = u0 + still * way;
+  h = after_ramp(tau, h, w0 - ahead * u0, w0 - ahead * u_taken, still * duration);
+  return after_ramp(tau, h, w0 - ahead * u_taken, w1 - ahead * u1, (1 - still) * duration);
+}
+
 }  // namespace hysteron::late

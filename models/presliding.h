@@ -27,6 +27,16 @@ T slip_rate(const T& distance, const T& z, const T& velocity) {
   return velocity * (1.0 - part * part);
 }
 
+/// How much more the element holds before it slides fast: 1 + e exp(-(v/v_s)^2); its slip distance is as much longer.
+/// e = F_s/F_c - 1, v_s [m/s] > 0. Source: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40
+/// (1995) 419-425.
+template <class T>
+T stribeck_level(const T& excess, const T& stribeck_velocity, const T& velocity) {
+  using std::exp;
+  const T ratio = velocity / stribeck_velocity;
+  return 1.0 + excess * exp(-(ratio * ratio));
+}
+
 /// Deflection [m] after a steady motion by x [m] from z = 0 in one direction: distance (1 - exp(-|x|/distance))
 /// sign(x).
 inline double deflection_after(double distance, double x) {

@@ -25,7 +25,12 @@ Effects all_effects() {
       rate_dependence(),
       ageing(),
       mains_interference(),
+      load_dependence(),
+      sensor_drift(),
+      rectification(),
       friction(),
+      stribeck_friction(),
+      quadratic_drag(),
       stiffening(),
   });
 }

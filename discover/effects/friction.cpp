@@ -15,6 +15,31 @@ double travel(const Circumstances& at) {
   return range > 0 ? range : 1e-6;
 }
 
+/// Holds more before it slides fast.
+Law with_excess(Law law, const Circumstances& at) {
+  law.name = "presliding with Stribeck's excess (LuGre)";
+  give(law.block, "excess", 0.0);
+  LawParameter excess;
+  excess.path = "excess";
+  excess.lower = 0;
+  excess.upper = 3;
+  excess.scan = {0.2, 0.7};
+  excess.plausible_upper = 1;  // breakaway over Coulomb friction: 1 .. 2
+  // Speeds from the whole travel in a row downwards.
+  const double fast = travel(at) / std::max(at.shortest_step, 1e-9);
+  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, parse_unit("m/s")));
+  LawParameter speed;
+  speed.path = "stribeck_velocity";
+  speed.start = 1e-3 * fast;
+  speed.lower = 1e-8 * fast;
+  speed.upper = fast;
+  speed.log_scale = true;
+  speed.scan = {1e-5 * fast, 1e-4 * fast, 1e-3 * fast, 1e-2 * fast};
+  law.free.push_back(excess);
+  law.free.push_back(speed);
+  return law;
+}
+
 }  // namespace
 
 Effect friction() {
@@ -61,10 +86,74 @@ Effect friction() {
     for (const double f : {0.003, 0.02, 0.1}) d.scan.push_back(f * range);
     d.plausible_upper = 50e-6;
     law.free = {k, d};
-    return std::vector<Law>{law};
+    return std::vector<Law>{law, with_excess(law, at)};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     return at.from_data && at.reversals < 2 ? "the force does not turn twice" : "";
+  };
+  return e;
+}
+
+Effect stribeck_friction() {
+  Effect e = friction();
+  e.id = "stribeck_friction";  // the same family: one guide has one friction
+  e.title = "Friction that falls with speed";
+  e.cause = "A guide whose lubricant film builds up with speed.";
+  e.equation = "F = stiffness*z,  z' = v - |v|*z/(distance*(1 + excess*exp(-(v/stribeck_velocity)^2)))";
+  e.source =
+      "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419; Makkar, Dixon, Sawyer, "
+      "Hu, "
+      "AIM (2005)";
+  e.residual = "A force error of the sign of the velocity that falls where the motion gets faster.";
+  e.needs = "Motion at six speeds or more of both signs, some of them slow.";
+  e.contains = {"friction"};
+  e.parameters.push_back({"excess", "", "breakaway over Coulomb friction less one", "0 .. 1"});
+  e.parameters.push_back({"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"});
+  e.look_alikes = {{"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
+                   {"backlash", "triangle", "lost motion is the same at all amplitudes"},
+                   {"hysteresis", "load_pair", "friction grows with the load and needs a guide"}};
+  e.laws = [plain = e.laws](const Circumstances& at) { return std::vector<Law>{plain(at).back()}; };
+  return e;
+}
+
+Effect quadratic_drag() {
+  Effect e;
+  e.id = e.family = "quadratic_drag";
+  e.title = "Drag of a fluid";
+  e.cause = "A body that moves fast through air or liquid, a flow through an orifice.";
+  e.equation = "F = drag*v*|v|";
+  e.source = "Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11";
+  e.residual = "In proportion to v*|v|: odd harmonics only, a third of a fifth of its own fundamental.";
+  e.needs = "Speeds that span 3:1.";
+  e.way = Way::vary;
+  e.variation = "drag";
+  e.parameters = {{"drag", "N s^2/m^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
+  e.look_alikes = {{"friction", "triangle", "friction does not grow with the speed"},
+                   {"stribeck_friction", "triangle", "friction falls with the speed"},
+                   {"stiffening", "low_frequencies", "a spring acts at rest too"}};
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+    return fmt::format("{:.3g} N at 1 m/s", values[0]);
+  };
+  e.laws = [](const Circumstances& at) {
+    Law law;
+    law.name = "square of the speed";
+    law.block.type = "mass_with_drag";
+    // As much force as the drive has, at the whole travel in ten rows.
+    const double speed = travel(at) / std::max(10 * at.shortest_step, 1e-9);
+    const double unit = std::max(at.range(), 1e-30) / (speed * speed);
+    give(law.block, "drag", with_unit(0.01 * unit, parse_unit("N*s^2/m^2")));
+    LawParameter c;
+    c.path = "drag";
+    c.start = 0.01 * unit;
+    c.lower = 1e-9 * unit;
+    c.upper = 1e9 * unit;
+    c.log_scale = true;
+    c.scan = per_decade(1e-3 * unit, 1e6 * unit, 2);
+    law.free = {c};
+    return std::vector<Law>{law};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";
   };
   return e;
 }
@@ -106,7 +195,22 @@ Effect stiffening() {
     for (const double f : {-0.05, 0.01, 0.1, 0.5}) k3.scan.push_back(f * unit);
     k3.plausible_upper = unit;
     law.free = {k3};
-    return std::vector<Law>{law};
+
+    // Harder one way than the other, and harder still at large travel; as much force at the largest travel each.
+    Law more = law;
+    more.name = "quadratic, cubic and quintic";
+    const auto further = [&](const char* path, double size, const char* written) {
+      give(more.block, path, with_unit(0.0, parse_unit(written)));
+      LawParameter p;
+      p.path = path;
+      p.lower = -3 * size;
+      p.upper = 3 * size;
+      p.scan = {-0.1 * size, 0.1 * size};
+      more.free.push_back(p);
+    };
+    further("quadratic", unit * x, "N/m^2");
+    further("quintic", unit / (x * x), "N/m^5");
+    return std::vector<Law>{law, more};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";

@@ -43,7 +43,7 @@ Effect slew_limit() {
   e.id = e.family = "slew_limit";
   e.title = "Limited rate of the drive";
   e.cause = "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C.";
-  e.equation = "dv/dt = max(-fall, min(rise, (u - v)/time)), time = 1 us";
+  e.equation = "dv/dt = max(-fall, min(rise, (u - v)/time)), time = 1 ns";
   e.source =
       "Fleming, Moheimani, IEEE Trans. Control Syst. Technol. 13 (2005) 33 (current of a capacitive load); PI E-617 "
       "manual; Thorlabs, piezo driver bandwidth (f_max = I/(pi C Vpp))";

@@ -36,6 +36,14 @@ Law curve(const Circumstances& at, int order) {
   return law;
 }
 
+/// The curve before the operators, and other weights of these: what bends the drive bends the loops too.
+Law reweighed(const Circumstances& at) {
+  Law law = curve(at, 3);
+  law.name = "cubic, with other weights of the operators";
+  law.reweighs = true;
+  return law;
+}
+
 std::string curve_summary(const Law&, const std::vector<double>& values, const Circumstances& at) {
   std::string text;
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -70,6 +78,11 @@ Effect asymmetry() {
   e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
   e.needs = "Full drive, and small motion about two or more levels.";
   e.places = {"core"};
+  e.laws = [](const Circumstances& at) {
+    std::vector<Law> laws{curve(at, 2), curve(at, 3)};
+    if (!at.weights.empty()) laws.push_back(reweighed(at));
+    return laws;
+  };
   e.parameters.front().range = "up to 10 % of the linear part";
   e.look_alikes.push_back({"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"});
   return e;

@@ -142,6 +142,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
   // What is varied can act: a hypothesis that changes nothing could not be tested.
   static const std::map<std::string, Parameters> active{
       {"offset", {{"offset", "1 um"}}},
+      {"drag", {{"drag", "3 N*s^2/m^2"}}},
       {"late", {{"share", 1.0}, {"time", "10 ms"}}},
       {"stiffening", {{"stiffening", "1e5 N/m^3"}}},
       {"friction", {{"coulomb", "0.5 N"}, {"breakaway", "1 N"}}},

@@ -16,7 +16,11 @@ using std::numbers::pi;
 
 class FurtherEffects : public ::testing::Test {
  protected:
-  Discovery found(const Diagram& d, const DataSet& data) { return diagnose(d, data, registry, effects); }
+  Discovery found(const Diagram& d, const DataSet& data, std::vector<std::string> only = {}) {
+    DiscoverOptions options;
+    options.only = std::move(only);
+    return diagnose(d, data, registry, effects, options);
+  }
   static std::string tried(const Discovery& d) {
     std::string text = d.headline;
     for (const auto& c : d.candidates)
@@ -219,6 +223,156 @@ TEST_F(FurtherEffects, ALineIsRefusedWhereNoRecordingIsSampledQuicklyEnough) {
                                     [](const Refused& r) { return r.effect == "mains_interference"; });
   ASSERT_NE(refused, d.refused.end()) << tried(d);
   EXPECT_NE(refused->reason.find("120 Hz"), std::string::npos) << refused->reason;
+}
+
+// --- static laws and masses -------------------------------------------------------------------------------------
+
+struct Bent {
+  Role role;
+  std::vector<double> t, u;
+};
+std::vector<Bent> both_signs() {
+  std::vector<Bent> list;
+  for (const auto& [role, hertz] : {std::pair{Role::train, 0.9}, {Role::train, 1.7}, {Role::validate, 1.2}}) {
+    const auto t = rows(700, 0.01);
+    list.push_back(
+        {role, t, sampled(t, [h = hertz](double x) { return std::sin(2 * pi * h * x) * std::sin(0.7 * x); })});
+  }
+  return list;
+}
+
+TEST_F(FurtherEffects, ARectifiedPartIsNamedAndAOneSidedDriveCannotShowIt) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2700;
+  for (auto& m : both_signs()) {
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += m.u[k] < 0 ? 0.6 * m.u[k] : m.u[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "rectification") << tried(d);
+  EXPECT_NEAR(value(d, "mix"), 0.2, 1e-3);  // 0.6 = 1 - 2 mix; noise of 1e-3 over 700 negative rows of 0.5
+  Circumstances above;
+  EXPECT_NE(refusal(effects.get("rectification"), above), "") << "0 .. 1 has one sign";
+}
+
+TEST_F(FurtherEffects, AnActuatorThatGivesWayToAForceIsNamedWithItsCompliance) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2800;
+  for (auto& m : both_signs()) {
+    const auto force = sampled(m.t, [&](double x) { return 3 + 2 * std::cos(5.3 * x + static_cast<double>(seed)); });
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += m.u[k] - 0.01 * force[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+    list.back().columns["F"] = force;
+    list.back().units["F"] = parse_unit("N");
+  }
+  DataSet data = data_set(list, 1e-3);
+  data.notes["F"].to = "F";
+  const Discovery d = found(plain_gain(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "load_dependence") << tried(d);
+  EXPECT_NEAR(value(d, "compliance"), 0.01, 1e-4);  // m/N: noise of 1e-3 over 1400 rows of 3 N
+  Circumstances still;
+  still.side_lowest = still.side_highest = 3;
+  EXPECT_NE(refusal(effects.get("load_dependence"), still).find("does not move"), std::string::npos);
+}
+
+TEST_F(FurtherEffects, AReadingThatRunsAwayIsADriftInTenMinutesAndNotInOne) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2900;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(900, 1);
+    const auto u = several_sines(t, 1, {0.01, 0.027});
+    auto y = noise(t.size(), 1e-3, 1e-5, seed);
+    const double rate = 2e-5 * std::cos(static_cast<double>(seed));
+    for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + rate * t[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3, 0.01));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "sensor_drift") << tried(d);
+  Circumstances brief;
+  brief.longest_recording = 60;
+  EXPECT_NE(refusal(effects.get("sensor_drift"), brief).find("10 min"), std::string::npos);
+}
+
+/// 1 kg on 400 N/m with 4 N s/m under 10 N/V and a further force(x, v), by small semi-implicit Euler steps.
+template <class Force>
+DataSet mass_under(Force force) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 3100;
+  for (auto& m : both_signs()) {
+    auto y = noise(m.t.size(), 1e-5, 1e-6, seed);
+    double x = 0, v = 0;
+    for (std::size_t k = 0; k < m.t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 200; ++i) {
+        const double h = 0.01 / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 0.5) / 200;
+        v += h * (10 * u - 400 * x - 4 * v - force(x, v));
+        x += h * v;
+      }
+      y[k] += x;
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  return data_set(list, 1e-5);
+}
+Diagram mass_on_spring() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& force = d.blocks["force"];
+  force.type = "gain";
+  force.parameters["gain"] = Value("10 N/V");
+  force.in = {{"", "u"}};
+  Node& stage = d.blocks["stage"];
+  stage.type = "mass_spring_damper";
+  stage.parameters["mass"] = Value("1 kg");
+  stage.parameters["stiffness"] = Value("400 N/m");
+  stage.parameters["damping"] = Value("4 N s/m");
+  stage.in = {{"", "force"}};
+  d.outputs["y"] = "stage.position";
+  return d;
+}
+
+TEST_F(FurtherEffects, ADragOfTheSquareOfTheSpeedIsNoFriction) {
+  const Discovery d = found(mass_on_spring(), mass_under([](double, double v) { return 2 * v * std::abs(v); }),
+                            {"quadratic_drag", "friction", "stiffening"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "quadratic_drag") << tried(d);
+  EXPECT_NEAR(value(d, "drag"), 2, 0.1);  // N s^2/m^2: Euler steps of 0.05 ms leave less than a twentieth
+}
+
+TEST_F(FurtherEffects, ASpringThatIsHarderOneWayTakesTheRicherLaw) {
+  const Discovery d = found(mass_on_spring(),
+                            mass_under([](double x, double) { return 2e3 * x * x + 8e4 * x * x * x; }), {"stiffening"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "quadratic, cubic and quintic");
+  EXPECT_NEAR(value(d, "quadratic"), 2e3, 200);  // the quintic part takes a little of the others
+}
+
+TEST_F(FurtherEffects, OperatorsBehindABentDriveGetOtherWeights) {
+  // The drive is bent and the weights of the operators are others than the model's.
+  std::vector<Recording> list;
+  std::uint64_t seed = 3300;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(800, 0.01);
+    const auto u =
+        role == Role::validate ? several_sines(t, 1, {0.4, 1.1}) : decaying_triangle(t, 1, seed == 3300 ? 5 : 8);
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    std::vector<double> w(thresholds.size(), 0.0);
+    for (std::size_t k = 0; k < t.size(); ++k)
+      for (std::size_t j = 0; j < w.size(); ++j) {
+        const double v = u[k] + 0.08 * u[k] * u[k];
+        w[j] = std::max(v - thresholds[j], std::min(v, w[j]));
+        y[k] += weights[j] * (1 + 0.3 * static_cast<double>(j)) * w[j];
+      }
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  }
+  const Discovery d = found(four_plays(), data_set(list, 1e-3), {"asymmetry"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "cubic, with other weights of the operators") << tried(d);
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4) << tried(d);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Laws of ageing, of what follows late, and of the mains: closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -45,6 +46,19 @@ TEST(LateModel, ARampMayBeCutAnywhereAndNoTimeChangesNothing) {
   const double half = late::after_ramp(0.2, 0.7, 1, 1.3, 0.1);
   EXPECT_NEAR(late::after_ramp(0.2, half, 1.3, 1.9, 0.2), late::after_ramp(0.2, 0.7, 1, 1.9, 0.3), 1e-15);
   EXPECT_EQ(late::after_ramp(0.2, 0.7, 1, 5, 0), 0.7);
+}
+
+TEST(LateModel, AnOperatorThatIsTakenAlongWithinARowIsFollowedAsBySmallSteps) {
+  // A play of 0.4 at w = 0 while u goes from 0.1 to 1.1 in 2 s: it stands still for 0.6 s, then goes with u.
+  const double tau = 0.3, ahead = 0.4;
+  double h = 0.2;
+  const int steps = 2000000;
+  for (int i = 0; i < steps; ++i) {
+    const double u = 0.1 + (i + 0.5) / steps, w = std::max(u - 0.4, 0.0);
+    h += 2.0 / steps / tau * (w - ahead * u - h);
+  }
+  // Steps of 1e-6 s: half a step times the rate, below 1, over tau.
+  EXPECT_NEAR(late::after_row(tau, 0.2, ahead, 0, 0.7, 0.1, 1.1, 2), h, 2e-6);
 }
 
 TEST(MainsModel, MeanSquareIsHalfTheSquaresOfTheAmplitudes) {
