@@ -55,7 +55,8 @@ Effect amplifier_lag() {
   e.title = "Lag of the amplifier";
   e.cause = "The amplifier's bandwidth, and its output resistance into the capacitance of the actuator.";
   e.equation = "tau*dv/dt = u - v (one pole), two such in series (two poles)";
-  e.source = "EFFECTS 3, amplifier_lag";
+  e.source =
+      "Devasia, Eleftheriou, Moheimani, IEEE Trans. Control Syst. Technol. 15 (2007) 802 (bandwidth of the drive)";
   e.residual =
       "In proportion to the rate of the drive at all amplitudes; phase in proportion to frequency, no harmonics.";
   e.needs = "Motion at a twentieth of the corner frequency or faster.";

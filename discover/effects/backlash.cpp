@@ -11,7 +11,7 @@ Effect backlash() {
   e.title = "Backlash";
   e.cause = "Clearance between drive and load: a lead screw, a coupling, a loose clamp.";
   e.equation = "y = max(u - gap/2, min(u + gap/2, y before))";
-  e.source = "EFFECTS 3, backlash";
+  e.source = "Nordin, Gutman, Automatica 38 (2002) 1633";
   e.residual = "A dead band of the same width after every reversal, whatever the amplitude.";
   e.needs = "Reversals at amplitudes that differ five times.";
   e.way = Way::insert;

@@ -13,15 +13,15 @@ Effect calibration() {
   e.title = "Calibration of the sensor";
   e.cause = "The sensor's sensitivity or zero differs from the value in the model, or a unit was mistaken.";
   e.equation = "y = gain*x + offset";
-  e.source = "EFFECTS 3, calibration";
+  e.source = "Tan, Clevy, Laurent, Chaillet, calibration of nanopositioning stages, Micromachines 6 (2015)";
   e.residual = "A straight line of the residual against the output, the same at all frequencies and amplitudes.";
   e.needs = "Nothing. Always tried first.";
   e.way = Way::insert;
   e.block_type = "calibration";
   e.places = {"measured"};
-  e.parameters = {{"gain", "", "measured over true change",
-                   "0.98 .. 1.02 usually; 1000, 0.1, 2 pi or sqrt(2) is a mistaken unit (EFFECTS 3)"},
-                  {"offset", "unit of the output", "reading at zero", "any"}};
+  e.parameters = {
+      {"gain", "", "measured over true change", "0.98 .. 1.02 usually; 1000, 0.1, 2 pi or sqrt(2) is a mistaken unit"},
+      {"offset", "unit of the output", "reading at zero", "any"}};
   e.look_alikes = {};
   e.family = "calibration";
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
@@ -31,7 +31,7 @@ Effect calibration() {
       text += (text.empty() ? "" : ", ") +
               (gain ? fmt::format("gain {:.5g}", values[i])
                     : fmt::format("offset {:.4g} {}", at.unit.difference_from_si(values[i]), at.unit.text));
-      // A factor of these sizes is no tired sensor but a mistaken unit (EFFECTS 3).
+      // A factor of these sizes is no tired sensor but a mistaken unit.
       for (const auto& [factor, name] : {std::pair{1000.0, "1000"},
                                          {1e6, "1e6"},
                                          {0.1, "0.1"},

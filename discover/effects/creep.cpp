@@ -14,7 +14,7 @@ Effect creep() {
   e.title = "Creep";
   e.cause = "Polarisation goes on changing slowly after a change of the drive.";
   e.equation = "y = u + sum c_k*x_k,  tau_k*x_k' = u - x_k,  c_k >= 0: together about gamma*log10(t) after a step";
-  e.source = "Croft, Shed, Devasia, JDSMC 123 (2001) 35; EFFECTS 3, creep";
+  e.source = "Croft, Shed, Devasia, JDSMC 123 (2001) 35; Jung, Gweon, Rev. Sci. Instrum. 71 (2000) 1896";
   e.residual =
       "During holds the residual drifts on in the direction of the last move, linearly in log t, in proportion to the "
       "move.";

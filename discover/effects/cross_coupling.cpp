@@ -13,7 +13,7 @@ Effect cross_coupling() {
   e.title = "Coupling from another axis";
   e.cause = "Skewed axes, parasitic motion of flexures, a shared frame, crosstalk of the cables.";
   e.equation = "y = u + coefficient*other";
-  e.source = "EFFECTS 3, cross_coupling";
+  e.source = "Rana, Pota, Petersen, American Control Conference (2014) (coupled axes of a scanner)";
   e.residual = "Coherent with the other axis while this one stands still.";
   e.needs = "The other axis recorded, and not in proportion to this one.";
   e.way = Way::insert;

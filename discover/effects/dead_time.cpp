@@ -14,7 +14,7 @@ Effect dead_time() {
   e.cause =
       "Converters, sample-and-hold, a field bus, transport of heat or matter, or a column written one sample late.";
   e.equation = "y(t) = u(t - delay)";
-  e.source = "EFFECTS 3, dead_time";
+  e.source = "Ljung, System Identification (1999), section 4.2";
   e.residual = "The rate of the output times the delay.";
   e.needs = "Motion at a fiftieth of 1/delay or faster.";
   e.way = Way::insert;
@@ -22,7 +22,7 @@ Effect dead_time() {
   e.block_type = "dead_time";
   e.places = {"command", "measured"};
   e.parameters = {{"delay", "s", "",
-                   "half a sample to three samples for converters, 20 us .. 5 ms for piezo rigs (EFFECTS 3); as many "
+                   "half a sample to three samples for converters, 20 us .. 5 ms for piezo rigs; as many "
                    "samples at every sample rate is a fact of the file, not of the device"}};
   e.look_alikes = {{"amplifier_lag", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},
                    {"sensor_lag", "multisine", "gain drops with the phase of a lag, and stays 1 with a delay"},

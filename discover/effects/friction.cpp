@@ -48,7 +48,7 @@ Effect friction() {
   e.title = "Friction";
   e.cause = "Guideways, cables, wipers. Flexure stages have none.";
   e.equation = "F = stiffness*z,  z' = v - |v|*z/distance: sticks like a spring, slips at stiffness*distance";
-  e.source = "Dahl, AIAA J. 14 (1976) 1675; EFFECTS 3, friction";
+  e.source = "Dahl, AIAA J. 14 (1976) 1675";
   e.residual = "A force error of the sign of the velocity, with spikes where the motion turns.";
   e.needs = "Several reversals, slow and fast ones.";
   e.way = Way::vary;
@@ -164,7 +164,7 @@ Effect stiffening() {
   e.title = "Stiffening spring";
   e.cause = "Flexures and membranes get harder with travel.";
   e.equation = "F = stiffness*x + stiffening*x^3";
-  e.source = "EFFECTS 3, stiffening; Nayfeh, Mook, Nonlinear Oscillations (1979)";
+  e.source = "Nayfeh, Mook, Nonlinear Oscillations (1979)";
   e.residual = "In proportion to x^3; the resonance moves with the amplitude.";
   e.needs = "Three amplitudes, ideally near the resonance.";
   e.way = Way::vary;

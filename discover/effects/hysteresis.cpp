@@ -107,7 +107,7 @@ Effect hysteresis() {
   e.equation =
       "y = w0*u + sum w_i*z_i;  one-sided play z = max(u - r, min(u, z)), two-sided z = max(u - r, min(u + r, z)),  "
       "w_i >= 0";
-  e.source = "Prandtl-Ishlinskii; EFFECTS 3, hysteresis; thesis Eqs. 2.15-2.19";
+  e.source = "Kuhnen, Eur. J. Control 9 (2003) 407; thesis Eqs. 2.15-2.19";
   e.residual =
       "A lens of the residual against the drive, closed at turning points, that shrinks with the amplitude; odd "
       "harmonics only.";

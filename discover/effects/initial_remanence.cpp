@@ -13,7 +13,7 @@ Effect initial_remanence() {
       "What the actuator went through before the recording still shows: its domains do not start from the virgin "
       "state.";
   e.equation = "the memory starts as after a visit to the input value `before`";
-  e.source = "EFFECTS 3, initial_remanence";
+  e.source = "Brokate, Sprekels, Hysteresis and Phase Transitions (1996), chapter 2 (memory of the past)";
   e.residual = "Only until the first full pair of reversals; exactly zero afterwards. Up to half the loop.";
   e.needs = "A block with memory in the diagram.";
   e.way = Way::vary;

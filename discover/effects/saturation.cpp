@@ -14,7 +14,7 @@ Effect saturation() {
   e.title = "Saturation";
   e.cause = "Limits of a supply, a converter, a servo's output or a sensor's range.";
   e.equation = "y = max(lower, min(upper, u)), or with a knee u/(1 + |u/limit|^n)^(1/n)";
-  e.source = "EFFECTS 3, saturation";
+  e.source = "Rapp, ESA SP-332 (1991) 179 (knee); PI E-617 manual (limits of a piezo amplifier)";
   e.residual = "Nothing until a level is passed, then all that goes beyond it: flat tops.";
   e.needs = "At least 3 % of the rows beyond the limit.";
   e.way = Way::insert;

@@ -9,7 +9,7 @@ Effect sensor_lag() {
   e.title = "Lag of the sensor";
   e.cause = "The sensor's bandwidth, or the time that heat needs to reach it.";
   e.equation = "tau*dy/dt = x - y (one pole), two such in series (two poles)";
-  e.source = "EFFECTS 3, sensor_lag";
+  e.source = "Fleming, Sens. Actuators A 190 (2013) 106 (bandwidth of position sensors)";
   e.residual = "In proportion to the rate of the output, at all amplitudes.";
   e.needs = "Motion at a twentieth of the corner frequency or faster.";
   e.way = Way::insert;

@@ -74,7 +74,7 @@ Effect asymmetry() {
   e.id = e.family = "asymmetry";
   e.title = "Asymmetry";
   e.cause = "Unipolar drive: the low and the high end of the drive, and so both branches, respond differently.";
-  e.source = "EFFECTS 3, asymmetry; Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
+  e.source = "Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
   e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
   e.needs = "Full drive, and small motion about two or more levels.";
   e.places = {"core"};
@@ -93,7 +93,7 @@ Effect sensor_nonlinearity() {
   e.id = e.family = "sensor_nonlinearity";
   e.title = "Curvature of the sensor";
   e.cause = "Tilt and fringes of a capacitive sensor, a bridge, the ends of an LVDT.";
-  e.source = "EFFECTS 3, sensor_nonlinearity";
+  e.source = "Fleming, Sens. Actuators A 190 (2013) 106 (linearity of position sensors)";
   e.residual = "One curve over the output, the same on rising and falling branches.";
   e.needs = "A second sensor for proof; without it a curve in y or a curved actuator.";
   e.places = {"measured"};

@@ -14,7 +14,7 @@ Effect structural_resonance() {
   e.title = "Resonance of the structure";
   e.cause = "The mass of the stage on the stiffness of actuator and flexures.";
   e.equation = "y = u + position*(q - u) + velocity*q'/w,  q'' + 2*damping*w*q' + w^2*q = w^2*u,  w = 2*pi*frequency";
-  e.source = "EFFECTS 3, structural_resonance";
+  e.source = "Devasia, Eleftheriou, Moheimani, IEEE Trans. Control Syst. Technol. 15 (2007) 802";
   e.residual = "Ringing after steps and corners, a gain that rises towards the frequency, the same at all amplitudes.";
   e.needs = "Steps or corners, or motion up to the frequency, sampled four times a period.";
   e.way = Way::insert;

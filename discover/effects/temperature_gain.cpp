@@ -13,7 +13,8 @@ Effect temperature_gain() {
   e.title = "Gain that depends on temperature";
   e.cause = "The piezoelectric coefficient grows with temperature.";
   e.equation = "y = u*(1 + sensitivity*(T - T0))";
-  e.source = "EFFECTS 3, temperature_gain";
+  e.source =
+      "Zheng, Takahashi, Yoshikawa, Uchino, J. Am. Ceram. Soc. 79 (1996) (heat and gain of multilayer actuators)";
   e.residual = "In proportion to (T - T0) times the signal; nothing where the signal is zero.";
   e.needs = "A temperature column that spans 3 K or more, with motion at each temperature.";
   e.way = Way::insert;
@@ -21,9 +22,9 @@ Effect temperature_gain() {
   e.places = {"core"};
   e.behind_core = true;
   e.side = Side::temperature;
-  e.parameters = {{"sensitivity", "1/K", "relative change of the gain per kelvin",
-                   "0.05 .. 0.5 %/K near room temperature (EFFECTS 3)"},
-                  {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"}};
+  e.parameters = {
+      {"sensitivity", "1/K", "relative change of the gain per kelvin", "0.05 .. 0.5 %/K near room temperature"},
+      {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"}};
   e.look_alikes = {{"thermal_expansion", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"},
                    {"calibration", "temperature_staircase", "a calibration does not change with temperature"},
                    {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};

@@ -63,7 +63,7 @@ Effect thermal_expansion() {
   e.title = "Thermal expansion";
   e.cause = "Stack, frame and sensor mount expand differently, and heat takes its time to reach them.";
   e.equation = "y = u + sum coefficients[k]*(w_k - T0),  times[k]*w_k' = T - w_k";
-  e.source = "EFFECTS 3, thermal_expansion";
+  e.source = "PI Ceramic tutorial, section 4.36 (expansion of piezo ceramics)";
   e.residual = "Slow, independent of the drive, follows the filtered temperature.";
   e.needs = "A temperature column that spans 0.5 K or more.";
   e.way = Way::insert;
@@ -72,10 +72,9 @@ Effect thermal_expansion() {
   e.behind_core = true;
   e.side = Side::temperature;
   e.moves_zero = true;
-  e.parameters = {
-      {"coefficients", "unit of the signal per K", "length times difference of the expansions",
-       "-3.5e-6 /K (multilayer stack) .. 23e-6 /K (aluminium) times the length (PI tutorial 4.36; EFFECTS 3)"},
-      {"times", "s", "with which the parts warm up", "30 s .. 2 h"}};
+  e.parameters = {{"coefficients", "unit of the signal per K", "length times difference of the expansions",
+                   "-3.5e-6 /K (multilayer stack) .. 23e-6 /K (aluminium) times the length (PI tutorial 4.36)"},
+                  {"times", "s", "with which the parts warm up", "30 s .. 2 h"}};
   e.look_alikes = {{"creep", "temperature_constant", "creep follows the last step, expansion the temperature"},
                    {"sensor_drift", "zero_run", "a drift follows neither drive nor temperature"},
                    {"temperature_gain", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"}};
