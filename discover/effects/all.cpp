@@ -29,7 +29,6 @@ Effects all_effects() {
       sensor_drift(),
       rectification(),
       friction(),
-      stribeck_friction(),
       quadratic_drag(),
       stiffening(),
   });

@@ -48,16 +48,21 @@ Effect friction() {
   e.title = "Friction";
   e.cause = "Guideways, cables, wipers. Flexure stages have none.";
   e.equation = "F = stiffness*z,  z' = v - |v|*z/distance: sticks like a spring, slips at stiffness*distance";
-  e.source = "Dahl, AIAA J. 14 (1976) 1675";
+  e.source =
+      "Dahl, AIAA J. 14 (1976) 1675; richer: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 "
+      "(1995) 419";
   e.residual = "A force error of the sign of the velocity, with spikes where the motion turns.";
   e.needs = "Several reversals, slow and fast ones.";
   e.way = Way::vary;
   e.variation = "presliding";
   e.is_memory = true;
   e.parameters = {{"contact_stiffness", "N/m", "while it sticks", ""},
-                  {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"}};
+                  {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
+                  {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
+                  {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},
                    {"backlash", "triangle", "lost motion is the same at all amplitudes"},
+                   {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
     return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1],
@@ -94,28 +99,6 @@ Effect friction() {
   return e;
 }
 
-Effect stribeck_friction() {
-  Effect e = friction();
-  e.id = "stribeck_friction";  // the same family: one guide has one friction
-  e.title = "Friction that falls with speed";
-  e.cause = "A guide whose lubricant film builds up with speed.";
-  e.equation = "F = stiffness*z,  z' = v - |v|*z/(distance*(1 + excess*exp(-(v/stribeck_velocity)^2)))";
-  e.source =
-      "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419; Makkar, Dixon, Sawyer, "
-      "Hu, "
-      "AIM (2005)";
-  e.residual = "A force error of the sign of the velocity that falls where the motion gets faster.";
-  e.needs = "Motion at six speeds or more of both signs, some of them slow.";
-  e.contains = {"friction"};
-  e.parameters.push_back({"excess", "", "breakaway over Coulomb friction less one", "0 .. 1"});
-  e.parameters.push_back({"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"});
-  e.look_alikes = {{"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
-                   {"backlash", "triangle", "lost motion is the same at all amplitudes"},
-                   {"hysteresis", "load_pair", "friction grows with the load and needs a guide"}};
-  e.laws = [plain = e.laws](const Circumstances& at) { return std::vector<Law>{plain(at).back()}; };
-  return e;
-}
-
 Effect quadratic_drag() {
   Effect e;
   e.id = e.family = "quadratic_drag";
@@ -129,7 +112,6 @@ Effect quadratic_drag() {
   e.variation = "drag";
   e.parameters = {{"drag", "N s^2/m^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
   e.look_alikes = {{"friction", "triangle", "friction does not grow with the speed"},
-                   {"stribeck_friction", "triangle", "friction falls with the speed"},
                    {"stiffening", "low_frequencies", "a spring acts at rest too"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
     return fmt::format("{:.3g} N at 1 m/s", values[0]);

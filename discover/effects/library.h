@@ -22,7 +22,6 @@ Effect temperature_gain();
 Effect thermal_expansion();
 Effect cross_coupling();
 Effect friction();
-Effect stribeck_friction();
 Effect quadratic_drag();
 Effect load_dependence();
 Effect sensor_drift();
