@@ -119,7 +119,7 @@ bool Projection::touches_any(int recording) const {
 /// Simulates what is wanted, recording by recording and some at once, so that what is made of a prediction finds it in
 /// the caches; hands each prediction on, in the order given for each recording.
 void Projection::simulate(std::span<const Wanted> wanted, const Use& use) {
-  constexpr std::size_t numbers_at_once = 400'000;
+  constexpr std::size_t numbers_at_once = 80'000;
   const auto side_by_side = static_cast<std::size_t>(std::max(1, model_.threads()));
   for (std::size_t k = 0; k < recordings_.size(); k += side_by_side) {
     const std::size_t end = std::min(recordings_.size(), k + side_by_side);
