@@ -41,8 +41,14 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
                        {"beta", 0.5},
                        {"a", "0.02 V/K"}},
                       {"u", "warm"})},
+       {"used", block("constant", {{"value", 10.0}})},
+       {"aged", block("ageing", {{"per_decade", 0.02}, {"first", 100.0}, {"swing", "0.5 V"}}, {"u", "used"})},
+       {"behind",
+        block("late_prandtl_ishlinskii",
+              {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, 0.2}, "um/V")}, {"time", "0.2 s"}},
+              {"u"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"two", "one", "joint", "tapi", "late"}, {{"u", "V"}});
+      {"two", "one", "joint", "tapi", "aged", "behind", "late"}, {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;
