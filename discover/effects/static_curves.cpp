@@ -9,7 +9,9 @@
 namespace hysteron::effects {
 namespace {
 
-/// y = u + c_2 (u/range)^2 (+ c_3 (u/range)^3), straight on beyond twice the range.
+/// y = c_1 u/range + c_2 (u/range)^2 (+ c_3 (u/range)^3), straight on beyond twice the range. What a curve is bent
+/// about is its best straight line (Fleming, section 2), whose slope the user's gain stands for: from the rest
+/// position, c_1 is free with it unless a gain behind it is; its constant is the user's zero (moves_zero).
 Law curve(const Circumstances& at, int order) {
   Law law;
   law.name = order == 2 ? "quadratic" : "cubic";
@@ -33,6 +35,13 @@ Law curve(const Circumstances& at, int order) {
     c.plausible_upper = 0.15 * range;
     law.free.push_back(c);
   }
+  if (at.gain_is_free) return law;
+  LawParameter slope;
+  slope.path = element("coefficients", 1);
+  slope.start = range;
+  slope.lower = 0.5 * range;
+  slope.upper = 1.5 * range;
+  law.free.push_back(slope);
   return law;
 }
 
@@ -44,9 +53,9 @@ Law reweighed(const Circumstances& at) {
   return law;
 }
 
-std::string curve_summary(const Law&, const std::vector<double>& values, const Circumstances& at) {
+std::string curve_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   std::string text;
-  for (std::size_t k = 0; k < values.size(); ++k)
+  for (std::size_t k = 0; k < values.size() && law.free[k].path != element("coefficients", 1); ++k)
     text += fmt::format("{}{:.2g} % {}", k == 0 ? "" : ", ", 100 * values[k] / std::max(at.range(), 1e-300),
                         k == 0 ? "quadratic" : "cubic");
   return text + " over the range";
@@ -59,7 +68,8 @@ Effect common() {
   e.equation = "y = u + p2*u^2 + p3*u^3";
   e.moves_zero = true;
   e.summary = curve_summary;
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{curve(at, 2), curve(at, 3)}; };
+  // The cubic first: an S about the middle has nothing quadratic to begin with.
+  e.laws = [](const Circumstances& at) { return std::vector<Law>{curve(at, 3), curve(at, 2)}; };
   e.unseen = stands_still;
   e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
   e.look_alikes = {{"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
@@ -79,7 +89,7 @@ Effect asymmetry() {
   e.needs = "Full drive, and small motion about two or more levels.";
   e.places = {"core"};
   e.laws = [](const Circumstances& at) {
-    std::vector<Law> laws{curve(at, 2), curve(at, 3)};
+    std::vector<Law> laws{curve(at, 3), curve(at, 2)};
     if (!at.weights.empty()) laws.push_back(reweighed(at));
     return laws;
   };
