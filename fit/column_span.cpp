@@ -49,14 +49,18 @@ void ColumnSpan::solve(std::vector<double>& b) const {
   for (std::size_t j = 0; j < k; ++j) b[j] /= length_[j];
 }
 
-void ColumnSpan::clear(std::span<double* const> list) const {
+std::vector<std::vector<double>> ColumnSpan::clear(std::span<double* const> list) const {
   const std::size_t k = kept_.size(), rows = columns_.rows;
-  if (k == 0) return;
+  std::vector<std::vector<double>> all(list.size(), std::vector<double>(columns_.cols, 0.0));
+  if (k == 0) return all;
   std::vector<std::vector<double>> taken(list.size()), seen(list.size(), std::vector<double>(k));
   for (int round = 0; round <= 2; ++round) {
     if (round > 0) {
       taken = seen;
-      for (auto& t : taken) solve(t);
+      for (std::size_t x = 0; x < list.size(); ++x) {
+        solve(taken[x]);
+        for (std::size_t j = 0; j < k; ++j) all[x][kept_[j]] += taken[x][j];
+      }
       for (auto& s : seen) std::fill(s.begin(), s.end(), 0.0);
     }
     for (std::size_t first = 0; first < rows; first += rows_at_once) {
@@ -72,6 +76,7 @@ void ColumnSpan::clear(std::span<double* const> list) const {
       }
     }
   }
+  return all;
 }
 
 }  // namespace hysteron

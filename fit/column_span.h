@@ -15,10 +15,10 @@ class ColumnSpan {
   /// before it explain to `tolerance` is left out.
   ColumnSpan(const Dense& columns, std::span<const double> triangle, const std::vector<bool>& used, double tolerance);
 
-  /// x - C (C'C)^-1 C' x for each x. The second time corrects what rounding left in the first: the error falls with the
-  /// square of the columns' condition times rounding ("corrected seminormal equations", Bjorck, Linear Algebra Appl.
-  /// 88/89 (1987) 31-48).
-  void clear(std::span<double* const> list) const;
+  /// x - C (C'C)^-1 C' x for each x; returns (C'C)^-1 C' x, per column of C, zero for those left out. The second time
+  /// corrects what rounding left in the first: the error falls with the square of the columns' condition times rounding
+  /// ("corrected seminormal equations", Bjorck, Linear Algebra Appl. 88/89 (1987) 31-48).
+  std::vector<std::vector<double>> clear(std::span<double* const> list) const;
 
  private:
   void solve(std::vector<double>& right_side) const;

@@ -41,65 +41,75 @@ static std::string list_of(const std::string& path) {
              : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
 }
 
-/// A column of the Jacobian where it stands: derivatives of the residual are `sign` times its numbers.
+/// A parameter that no bound holds, and its column of a linear model over [linear, searched].
 struct Fitting::Column {
   Sensitive of;
-  const double* numbers = nullptr;
-  double sign = 1;
-  std::size_t linear = 0;  ///< its place among the linear parameters, if it is one
+  std::size_t place = 0;
+  bool linear = false;
 };
 
-/// What is not held by a bound: those searched, then the linear ones.
-std::vector<Fitting::Column> Fitting::columns_at_result(const Dense& nonlinear) const {
+std::vector<Fitting::Column> Fitting::columns_at_result() const {
   std::map<std::string, double>
       largest;  // elements of one list share their size: a weight of zero is small against the others
   for (const auto& e : result_.estimates)
     if (const auto list = list_of(e.path); !list.empty()) largest[list] = std::max(largest[list], std::abs(e.used));
   std::vector<Column> columns;
-  const auto add = [&](int index, const double* numbers, double sign, std::size_t linear) {
+  const auto add = [&](int index, std::size_t place) {
     const auto& e = result_.estimates[static_cast<std::size_t>(index)];
     if (e.at_lower || e.at_upper) return;
     Sensitive s{index, e.log_scale, e.used, std::max(std::abs(e.used), std::abs(e.start)), e.lower, e.upper};
     if (const auto list = list_of(e.path); !list.empty()) s.size = std::max(s.size, largest[list]);
-    columns.push_back({s, numbers, sign, linear});
+    columns.push_back({s, place, e.linear});
   };
-  for (std::size_t k = 0; k < nonlinear.cols; ++k) add(projection_->nonlinear()[k], nonlinear.col(k), 1, 0);
-  for (std::size_t j = 0; j < best_->columns.cols; ++j) add(projection_->linear()[j], best_->columns.col(j), -1, j);
+  const auto& linear = projection_->linear();
+  for (std::size_t k = 0; k < projection_->nonlinear().size(); ++k) add(projection_->nonlinear()[k], linear.size() + k);
+  for (std::size_t j = 0; j < linear.size(); ++j) add(linear[j], j);
   return columns;
 }
 
-/// Of linear parameters alone the triangle is known since they were found.
-NormalForm Fitting::known_triangle(const std::vector<Column>& columns) const {
-  const std::size_t n = best_->columns.cols;
-  Dense part(n, columns.size());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    for (std::size_t i = 0; i < n; ++i) part(i, k) = columns[k].sign * best_->triangle[columns[k].linear * n + i];
-  triangularize(part);
-  NormalForm normal(static_cast<int>(columns.size()));
-  normal.r = std::move(part.a);
-  return normal;
-}
-
 void Fitting::find_intervals() {
-  Dense nonlinear;
-  if (!projection_->jacobian(*best_, options_.intervals, false, nonlinear)) {
-    result_.remarks.push_back("no intervals: the neighbourhood of the result cannot be simulated");
-    return;
-  }
-  const std::size_t rows = projection_->rows();
-  const auto columns = columns_at_result(nonlinear);
+  const auto columns = columns_at_result();
   std::vector<Sensitive> of;
   for (const auto& c : columns) of.push_back(c.of);
   const bool exact = model_.why_not_exact().empty();
-  const bool only_linear = nonlinear.cols == 0 && projection_->data_rows() == rows;
-  if (only_linear && !options_.residual_noise && !options_.keep_neighbourhood)
-    return judge_parameters(known_triangle(columns), of, exact, result_);
+  const bool priors = projection_->data_rows() < projection_->rows();
+  bool had = false;
+  if (!priors && !options_.residual_noise && !options_.keep_neighbourhood) {
+    // The triangle of the linear ones is known since they were found: no other is made of all rows.
+    LinearModel model;
+    had = projection_->linear_model(*best_, true, model);
+    if (had) {
+      const auto n = static_cast<std::size_t>(model.form.n);
+      Dense part(n, columns.size());
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        for (std::size_t i = 0; i < n; ++i)
+          part(i, k) = (columns[k].linear ? -1 : 1) * model.form.r[columns[k].place * n + i];
+      for (const double x : part.a)
+        if (!std::isfinite(x)) return;
+      triangularize(part);
+      NormalForm normal(static_cast<int>(columns.size()));
+      normal.r = std::move(part.a);
+      judge_parameters(normal, of, exact, result_);
+    }
+  } else {
+    had = intervals_by_rows(columns, of, exact);
+  }
+  if (!had) result_.remarks.push_back("no intervals: the neighbourhood of the result cannot be simulated");
+}
 
+/// Where rows count differently, or are wanted themselves.
+bool Fitting::intervals_by_rows(const std::vector<Column>& columns, const std::vector<Sensitive>& of, bool exact) {
+  Dense nonlinear;
+  if (!projection_->jacobian(*best_, options_.intervals, nonlinear)) return false;
+  const std::size_t rows = projection_->rows();
   Dense jacobian(rows, columns.size());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    for (std::size_t i = 0; i < rows; ++i) jacobian(i, k) = columns[k].sign * columns[k].numbers[i];
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double* from = columns[k].linear ? best_->columns.col(columns[k].place)
+                                           : nonlinear.col(columns[k].place - projection_->linear().size());
+    for (std::size_t i = 0; i < rows; ++i) jacobian(i, k) = (columns[k].linear ? -1 : 1) * from[i];
+  }
   for (const double x : jacobian.a)
-    if (!std::isfinite(x)) return;
+    if (!std::isfinite(x)) return true;
   if (options_.intervals) {
     // The intervals are scaled by s2, which is the data's: a prior knows its own width.
     const double prior_scale = std::sqrt(result_.s2);
@@ -120,6 +130,7 @@ void Fitting::find_intervals() {
   if (options_.keep_neighbourhood)
     result_.neighbourhood =
         std::make_shared<Neighbourhood>(Neighbourhood{fitted_, best_->residual, std::move(jacobian)});
+  return true;
 }
 
 ProfileTask Fitting::profile_task() {

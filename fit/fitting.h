@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/determined.h"
 #include "fit/fit.h"
 #include "fit/profile.h"
 #include "fit/projection.h"
@@ -41,9 +42,9 @@ class Fitting {
   void finish();
   void write_estimates();
   struct Column;
-  std::vector<Column> columns_at_result(const Dense& nonlinear) const;
-  NormalForm known_triangle(const std::vector<Column>& columns) const;
+  std::vector<Column> columns_at_result() const;
   void find_intervals();
+  bool intervals_by_rows(const std::vector<Column>& columns, const std::vector<Sensitive>& of, bool exact);
   ProfileTask profile_task();
   const Profile& profile(int which, double fraction);
   void find_profiles();

@@ -69,45 +69,58 @@ class Search {
 
   /// Triangular factor of [J r], and what the undamped step inside the bounds would gain.
   bool linearize() {
-    Dense columns;
-    if (!problem_.jacobian(z_, columns) || !all_finite(columns.a)) return false;
-    for (std::size_t k = 0; k < n_; ++k) longest_[k] = std::max(longest_[k], length(columns.col(k), columns.rows));
-    std::vector<double> target(residual_);
-    for (double& x : target) x = -x;
-    linear_ = NormalForm(static_cast<int>(n_));
-    linear_.add(columns.a, target);
-    low_.resize(n_);
-    high_.resize(n_);
+    LinearModel model;
+    if (!(problem_.linear_model ? problem_.linear_model(z_, model) : plain_model(model)) || !all_finite(model.form.r))
+      return false;
+    linear_ = std::move(model.form);
+    low_ = std::move(model.low);
+    high_ = std::move(model.high);
+    inner_ = low_.size();
+    const auto n = static_cast<std::size_t>(linear_.n);
     for (std::size_t k = 0; k < n_; ++k) {
-      low_[k] = problem_.lower[k] - z_[k];
-      high_[k] = problem_.upper[k] - z_[k];
-      if (problem_.largest_step.empty()) continue;
-      low_[k] = std::max(low_[k], -problem_.largest_step[k]);
-      high_[k] = std::min(high_[k], problem_.largest_step[k]);
+      // Of a column what the inner unknowns cannot make up for.
+      const double* column = linear_.r.data() + (inner_ + k) * n;
+      longest_[k] = std::max(longest_[k], length(column + inner_, n_));
+      double low = problem_.lower[k] - z_[k], high = problem_.upper[k] - z_[k];
+      if (!problem_.largest_step.empty()) {
+        low = std::max(low, -problem_.largest_step[k]);
+        high = std::min(high, problem_.largest_step[k]);
+      }
+      low_.push_back(low);
+      high_.push_back(high);
     }
     const auto undamped = solve_bounded(linear_, low_, high_);
     to_gain_ = error_ - undamped.squared_error;
-    to_go_ = relative_size(undamped.x);
+    to_go_ = relative_size(step_of(undamped));
     return true;
   }
 
-  std::vector<double> damped_step() const {
-    NormalForm damped = linear_;
-    Dense rows(n_, n_);
-    for (std::size_t k = 0; k < n_; ++k) rows(k, k) = std::sqrt(damping_) * longest_[k];
-    damped.add(rows.a, std::vector<double>(n_, 0.0));
-    return solve_bounded(damped, low_, high_).x;
+  /// No inner unknowns.
+  bool plain_model(LinearModel& model) const {
+    Dense columns;
+    if (!problem_.jacobian(z_, columns) || !all_finite(columns.a)) return false;
+    std::vector<double> target(residual_);
+    for (double& x : target) x = -x;
+    model.form = NormalForm(static_cast<int>(n_));
+    model.form.add(columns.a, target);
+    return true;
   }
 
-  /// |J p + r|^2
-  double predicted(const std::vector<double>& p) const {
-    double sum = linear_.rest;
-    for (std::size_t i = 0; i < n_; ++i) {
-      double e = linear_.d[i];
-      for (std::size_t k = i; k < n_; ++k) e -= linear_.r[k * n_ + i] * p[k];
-      sum += e * e;
-    }
-    return sum;
+  std::vector<double> step_of(const LinearSolution& solution) const {
+    return {solution.x.begin() + static_cast<std::ptrdiff_t>(inner_), solution.x.end()};
+  }
+
+  /// The step, and what the linear model says of the squared error behind it.
+  std::pair<std::vector<double>, double> damped_step() const {
+    NormalForm damped = linear_;
+    Dense rows(n_, inner_ + n_);
+    for (std::size_t k = 0; k < n_; ++k) rows(k, inner_ + k) = std::sqrt(damping_) * longest_[k];
+    damped.add(rows.a, std::vector<double>(n_, 0.0));
+    const auto solution = solve_bounded(damped, low_, high_);
+    auto p = step_of(solution);
+    double predicted = solution.squared_error;
+    for (std::size_t k = 0; k < n_; ++k) predicted -= damping_ * std::pow(longest_[k] * p[k], 2);
+    return {std::move(p), predicted};
   }
 
   /// Even the undamped step would gain next to nothing, or lead nowhere: along a flat valley a damped one always looks
@@ -128,8 +141,8 @@ class Search {
   Step improve() {
     double growth = 2;
     for (int failures = 0; result_.trials < max_iterations_;) {
-      const auto p = damped_step();
-      const double foreseen = error_ - predicted(p);
+      const auto [p, predicted] = damped_step();
+      const double foreseen = error_ - predicted;
       if (relative_size(p) <= std::min(1e-10, tolerance_) || !(foreseen > 0))
         return near_minimum(error_) ? Step::converged : Step::stuck;
       auto trial = z_;
@@ -170,6 +183,7 @@ class Search {
   double tolerance_;
   std::vector<double> z_, residual_, longest_, low_, high_;
   NormalForm linear_;
+  std::size_t inner_ = 0;
   double error_ = infinity, to_gain_ = 0, to_go_ = infinity, damping_ = first_damping;
   LeastSquaresResult result_;
 };

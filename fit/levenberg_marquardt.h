@@ -13,8 +13,15 @@
 #include <vector>
 
 #include "fit/dense.h"
+#include "fit/linear.h"
 
 namespace hysteron {
+
+/// |A x - b|^2 over [inner unknowns, z], A and b as a triangle, and the bounds of the inner ones.
+struct LinearModel {
+  NormalForm form;
+  std::vector<double> low, high;
+};
 
 struct LeastSquares {
   std::vector<double> lower, upper;  ///< per unknown, may be infinite
@@ -25,6 +32,10 @@ struct LeastSquares {
   /// Derivatives of the residual, one column per unknown, at a z whose residual was asked for before. False: not to be
   /// had.
   std::function<bool(std::span<const double> z, Dense& columns)> jacobian;
+  /// In place of `jacobian`, where residuals are linear in further unknowns that are at their best within bounds
+  /// wherever a residual is asked for: |r + C s + J p|^2 over [s, p], and how far each s may go. Which of them a bound
+  /// holds back changes along a step, and the step knows.
+  std::function<bool(std::span<const double> z, LinearModel& model)> linear_model{};
   std::function<bool()> go_on{};  ///< asked after each trial; false = stop with what was reached
 };
 

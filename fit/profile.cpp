@@ -134,8 +134,8 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
     if (point->ok) residual = point->residual;
     return point->ok;
   };
-  problem.jacobian = [&](std::span<const double> at, Dense& columns) {
-    return projection.jacobian(*projection.at(at), false, true, columns);
+  problem.linear_model = [&](std::span<const double> at, LinearModel& model) {
+    return projection.linear_model(*projection.at(at), false, model);
   };
   problem.go_on = go_on;
   const auto found = minimize(problem, std::move(z), max_iterations, tolerance);

@@ -381,7 +381,7 @@ std::vector<double> Projection::chi2_of(const std::vector<Point>& points, const 
   return chi2;
 }
 
-bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns) {
+bool Projection::jacobian(const ProjectedPoint& point, bool central, Dense& columns) {
   const auto low = lower(), high = upper();
   const std::size_t m = nonlinear_.size();
   columns = Dense(rows_, m);
@@ -434,8 +434,6 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
   // One side is enough where the other cannot be had, or where speed counts.
   move(below, -1, [&](std::size_t k) { return central || !above[k].moved; });
 
-  std::vector<double*> changes;
-  std::vector<double> before;
   for (std::size_t k = 0; k < m; ++k) {
     // A parameter whose recording is not among these changes nothing.
     if (!touches_any(recording_of(k))) continue;
@@ -445,16 +443,52 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, bool projec
     const double width = above[k].z - below[k].z;
     double* column = columns.col(k);
     for (std::size_t i = 0; i < rows_; ++i) column[i] = (up[i] - down[i]) / width;
-    changes.push_back(column);
-    before.push_back(length(column, rows_));
   }
-  if (!projected || linear_.empty()) return true;
-  std::vector<bool> inside;
-  for (const Bound bound : point.bound) inside.push_back(bound == Bound::inside);
-  ColumnSpan(point.columns, point.triangle, inside, dependent).clear(changes);
+  return true;
+}
+
+/// r + C s + J p with s = -(change of theta): C = Q R, J = C X + J', r = C x + r', J' and r' orthogonal to C. In rows
+/// of Q: R (s + X p + x), behind them J' p + r'.
+bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearModel& model) {
+  Dense jacobian_columns;
+  if (!jacobian(point, central, jacobian_columns)) return false;
+  const bool exact = model_.why_not_exact().empty();
+  const std::size_t m = linear_.size(), k = nonlinear_.size(), n = m + k;
+  auto residual = point.residual;
+  std::vector<double*> list;
+  std::vector<double> before;
+  for (std::size_t j = 0; j < k; ++j) {
+    list.push_back(jacobian_columns.col(j));
+    before.push_back(length(list.back(), rows_));
+  }
+  list.push_back(residual.data());
+  const auto made_up = ColumnSpan(point.columns, point.triangle, std::vector<bool>(m, true), dependent).clear(list);
   // What the linear parameters make up for completely is rounding: a search must not follow it.
-  for (std::size_t k = 0; k < changes.size(); ++k)
-    if (length(changes[k], rows_) < (exact ? 1e-7 : 1e-4) * before[k]) std::fill_n(changes[k], rows_, 0.0);
+  for (std::size_t j = 0; j < k; ++j)
+    if (length(list[j], rows_) < (exact ? 1e-7 : 1e-4) * before[j]) std::fill_n(list[j], rows_, 0.0);
+  for (double& x : residual) x = -x;
+  NormalForm rest(static_cast<int>(k));
+  rest.add(jacobian_columns.a, residual);
+
+  model.form = NormalForm(static_cast<int>(n));
+  const auto times_triangle = [&](const std::vector<double>& x, double sign, double* to) {
+    for (std::size_t j = 0; j < m; ++j)
+      for (std::size_t i = 0; i <= j; ++i) to[i] += sign * point.triangle[j * m + i] * x[j];
+  };
+  for (std::size_t j = 0; j < m; ++j) std::copy_n(point.triangle.data() + j * m, j + 1, model.form.r.data() + j * n);
+  for (std::size_t j = 0; j < k; ++j) {
+    double* column = model.form.r.data() + (m + j) * n;
+    times_triangle(made_up[j], 1, column);
+    std::copy_n(rest.r.data() + j * k, j + 1, column + m);
+  }
+  times_triangle(made_up[k], -1, model.form.d.data());
+  std::copy(rest.d.begin(), rest.d.end(), model.form.d.begin() + static_cast<std::ptrdiff_t>(m));
+  model.form.rest = rest.rest;
+  for (std::size_t j = 0; j < m; ++j) {
+    const auto& f = free_[static_cast<std::size_t>(linear_[j])];
+    model.low.push_back(point.theta[j] - f.upper);
+    model.high.push_back(point.theta[j] - f.lower);
+  }
   return true;
 }
 

@@ -4,9 +4,10 @@
 //   y(z, theta) = y(z, ref) + sum_j (theta_j - ref_j) c_j(z)      exactly, for parameters proved jointly affine
 //   r(z) = min over theta within bounds of |W (measured - y(z, theta))|
 // c_j is the difference of two simulations. A parameter of one recording alone has zeros in the others, which are not
-// simulated for it. A prior is one more row: (mean - value) / sigma. dr/dz is taken at fixed theta and cleared of the
-// free columns (Kaufman, BIT 15 (1975) 49): the gradient is exact, and a Jacobian costs one simulation per nonlinear
-// parameter instead of one for each of the linear ones as well.
+// simulated for it. A prior is one more row: (mean - value) / sigma. dr/dz is taken at fixed theta, and a step is
+// searched in z and theta together (after Kaufman, BIT 15 (1975) 49, but with the bounds of theta): the gradient is
+// exact, and a linearization costs one simulation per nonlinear parameter instead of one for each of the linear ones as
+// well.
 #pragma once
 
 #include <functional>
@@ -17,6 +18,7 @@
 
 #include "fit/dense.h"
 #include "fit/free_parameter.h"
+#include "fit/levenberg_marquardt.h"
 #include "fit/linear.h"
 #include "fit/model.h"
 #include "fit/score.h"
@@ -72,9 +74,10 @@ class Projection {
   };
   std::vector<double> chi2_of(const std::vector<Point>& points, const ProjectedPoint& best);
 
-  /// dr/dz (rows x n_nonlinear). `projected`: cleared of the free linear columns. False: not to be
-  /// had.
-  bool jacobian(const ProjectedPoint& point, bool central, bool projected, Dense& columns);
+  /// dr/dz (rows x n_nonlinear) at fixed theta. False: not to be had.
+  bool jacobian(const ProjectedPoint& point, bool central, Dense& columns);
+  /// The residual near a point, linear in theta and z: which bounds hold theta back may change on the way.
+  bool linear_model(const ProjectedPoint& point, bool central, LinearModel& model);
 
   /// All free parameters at a point, then the fixed ones, for DataModel::predict.
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
