@@ -194,7 +194,7 @@ void Projection::make_room(ProjectedPoint& point, std::vector<double>& residual)
 
 /// The last few points are kept; the memory of one that nobody else holds is used again.
 void Projection::remember(std::shared_ptr<ProjectedPoint> point) {
-  if (recent_.size() >= 3) {
+  if (recent_.size() >= 2) {
     const auto old = std::move(recent_.front());
     recent_.erase(recent_.begin());
     if (old.use_count() == 1) {
@@ -461,7 +461,9 @@ bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearM
     list.push_back(jacobian_columns.col(j));
     before.push_back(length(list.back(), rows_));
   }
-  list.push_back(residual.data());
+  // What no bound holds has taken its part out of the residual already.
+  const bool held = std::any_of(point.bound.begin(), point.bound.end(), [](Bound b) { return b != Bound::inside; });
+  if (held) list.push_back(residual.data());
   const auto made_up = ColumnSpan(point.columns, point.triangle, std::vector<bool>(m, true), dependent).clear(list);
   // What the linear parameters make up for completely is rounding: a search must not follow it.
   for (std::size_t j = 0; j < k; ++j)
@@ -481,7 +483,7 @@ bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearM
     times_triangle(made_up[j], 1, column);
     std::copy_n(rest.r.data() + j * k, j + 1, column + m);
   }
-  times_triangle(made_up[k], -1, model.form.d.data());
+  if (held) times_triangle(made_up[k], -1, model.form.d.data());
   std::copy(rest.d.begin(), rest.d.end(), model.form.d.begin() + static_cast<std::ptrdiff_t>(m));
   model.form.rest = rest.rest;
   for (std::size_t j = 0; j < m; ++j) {
