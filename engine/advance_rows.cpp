@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "engine/linear_part.h"
 #include "engine/steps.h"
@@ -248,6 +250,14 @@ void AdvanceRows::keep_last_row(std::size_t rows) {
   }
 }
 
+/// Every run has a wanted signal that is no number any more: the rows behind would only say so again.
+bool AdvanceRows::has_run_away(std::span<Values* const> values) const {
+  if (next_instant_ == 0) return false;
+  return std::all_of(values.begin(), values.end(), [&](const Values* run) {
+    return std::any_of(run->begin(), run->end(), [&](const auto& v) { return !std::isfinite(v[next_instant_ - 1]); });
+  });
+}
+
 void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedule& schedule, int substeps,
                              std::span<Values* const> values) {
   const std::size_t points_at_once = std::max<std::size_t>(1, chunk / at(substeps));
@@ -272,6 +282,13 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
         for (std::size_t l = 0; l < states.size(); ++l) pass_loop(*states[l], l, loop, rows);
     }
     record(schedule, first, points, values);
+    if (has_run_away(values)) {
+      for (auto* run : values)
+        for (auto& v : *run)
+          std::fill(v.begin() + static_cast<std::ptrdiff_t>(next_instant_), v.end(),
+                    std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
     keep_last_row(rows);
   }
 }

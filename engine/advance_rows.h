@@ -38,6 +38,7 @@ class AdvanceRows {
   void pass_loop(AdvanceState& state, std::size_t lane, int loop, std::size_t rows);
   void record(const Schedule& schedule, std::size_t first, std::size_t points, std::span<Values* const> values);
   void keep_last_row(std::size_t rows);
+  bool has_run_away(std::span<Values* const> values) const;
 
   const AdvancePlan& plan_;
   const Program& program_;

@@ -10,12 +10,9 @@ constexpr std::size_t rows_at_once = 1024;  // a block of all columns stays in t
 
 }  // namespace
 
-ColumnSpan::ColumnSpan(const Dense& columns, std::span<const double> triangle, const std::vector<bool>& used,
-                       double tolerance)
-    : columns_(columns) {
+ColumnSpan::ColumnSpan(const Dense& columns, std::span<const double> triangle, double tolerance) : columns_(columns) {
   const std::size_t n = columns.cols;
-  for (std::size_t j = 0; j < n; ++j)
-    if (used[j]) kept_.push_back(j);
+  for (std::size_t j = 0; j < n; ++j) kept_.push_back(j);
   for (bool again = true; again;) {
     again = false;
     triangle_ = Dense(n, kept_.size());

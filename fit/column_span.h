@@ -11,9 +11,9 @@ namespace hysteron {
 
 class ColumnSpan {
  public:
-  /// `triangle`: R of R'R = C'C over all columns (NormalForm::r); `used`: which of them count. One that the others
-  /// before it explain to `tolerance` is left out.
-  ColumnSpan(const Dense& columns, std::span<const double> triangle, const std::vector<bool>& used, double tolerance);
+  /// `triangle`: R of R'R = C'C (NormalForm::r). A column that those before it explain to `tolerance` is left out.
+  /// The columns must outlive this.
+  ColumnSpan(const Dense& columns, std::span<const double> triangle, double tolerance);
 
   /// x - C (C'C)^-1 C' x for each x; returns (C'C)^-1 C' x, per column of C, zero for those left out. The second time
   /// corrects what rounding left in the first: the error falls with the square of the columns' condition times rounding

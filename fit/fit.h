@@ -35,8 +35,10 @@ struct FitOptions {
   int max_iterations = 40;  ///< of the local search, per start
   int refine = 2;           ///< scan points that are searched from
   int max_scan = 64;        ///< points of a grid over several scanned parameters; beyond, one parameter after the other
-  bool intervals = true;    ///< covariance, intervals, undetermined combinations (one more Jacobian)
-  int starts = 0;           ///< further points spread evenly over the box, tried like those of a scan
+  /// Covariance, intervals, undetermined combinations: one more Jacobian and two points per parameter searched; where
+  /// the model bends over an interval and is advanced exactly, profiles besides.
+  bool intervals = true;
+  int starts = 0;  ///< further points spread evenly over the box, tried like those of a scan
   /// A method of global.h that looks for a start before the local search; "" = none. Needs finite bounds.
   std::string global{};
   long global_runs = 505;                ///< its budget of points
@@ -71,7 +73,8 @@ struct ParameterEstimate {
   std::optional<std::pair<double, double>> prior{};  ///< as given
   std::optional<double> value{};                     ///< the estimate; absent if not determined
   std::optional<double> sigma{};                     ///< standard deviation (of ln value times value for log scale)
-  std::optional<double> low95{}, high95{};           ///< 95 % interval, inside the bounds
+  /// 95 % interval, inside the bounds: of the linearization, or of the profile where the model bends over it.
+  std::optional<double> low95{}, high95{};
 };
 
 /// Parameters of which the data fix at most a combination.

@@ -12,6 +12,28 @@
 #include "fit/profile.h"
 
 namespace hysteron {
+namespace {
+
+/// "core.weights" of "core.weights[2]", "" for what is no element of a list.
+std::string list_of(const std::string& path) {
+  return path.empty() || path.back() != ']'
+             ? std::string{}
+             : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
+}
+
+std::string method_text(const Projection& projection, const FitOptions& options) {
+  std::vector<std::string> parts;
+  if (projection.n_linear() > 0) parts.push_back(fmt::format("linear least squares ({})", projection.n_linear()));
+  if (projection.n_nonlinear() > 0) {
+    std::string search = options.global;
+    if (options.global.empty() || options.polish)
+      search += (search.empty() ? "" : ", then ") + std::string("Levenberg-Marquardt");
+    parts.push_back(fmt::format("{} ({})", search, projection.n_nonlinear()));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
 
 void Fitting::write_estimates() {
   result_.values = projection_->values(best_->z, best_->theta);
@@ -32,13 +54,6 @@ void Fitting::write_estimates() {
     e.at_lower = best_->bound[j] == Bound::lower;
     e.at_upper = best_->bound[j] == Bound::upper;
   }
-}
-
-/// "core.weights" of "core.weights[2]", "" for what is no element of a list.
-static std::string list_of(const std::string& path) {
-  return path.empty() || path.back() != ']'
-             ? std::string{}
-             : path.substr(0, path.find('[', path.rfind('.') == std::string::npos ? 0 : path.rfind('.')));
 }
 
 /// A parameter that no bound holds, and its column of a linear model over [linear, searched].
@@ -279,18 +294,6 @@ void Fitting::put_in_order() {
   result_.values = std::move(values);
   for (int& c : result_.correlated) c = where[static_cast<std::size_t>(c)];
   for (auto& p : result_.profiles) p.estimate = where[static_cast<std::size_t>(p.estimate)];
-}
-
-static std::string method_text(const Projection& projection, const FitOptions& options) {
-  std::vector<std::string> parts;
-  if (projection.n_linear() > 0) parts.push_back(fmt::format("linear least squares ({})", projection.n_linear()));
-  if (projection.n_nonlinear() > 0) {
-    std::string search = options.global;
-    if (options.global.empty() || options.polish)
-      search += (search.empty() ? "" : ", then ") + std::string("Levenberg-Marquardt");
-    parts.push_back(fmt::format("{} ({})", search, projection.n_nonlinear()));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void Fitting::finish() {

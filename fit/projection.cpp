@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fit/column_span.h"
 
@@ -116,49 +117,44 @@ bool Projection::touches_any(int recording) const {
   return recording < 0 || std::find(recordings_.begin(), recordings_.end(), recording) != recordings_.end();
 }
 
-/// Simulates what is wanted, recording by recording and some at once, so that what is made of a prediction finds it in
-/// the caches; hands each prediction on, in the order given for each recording.
+/// Simulates what is wanted, recording by recording and some trials at once, so that what is made of a prediction finds
+/// it in the caches; hands each prediction on: what concerns all recordings first, in the order given.
 void Projection::simulate(std::span<const Wanted> wanted, const Use& use) {
-  constexpr std::size_t numbers_at_once = 80'000;
   const auto side_by_side = static_cast<std::size_t>(std::max(1, model_.threads()));
   for (std::size_t k = 0; k < recordings_.size(); k += side_by_side) {
     const std::size_t end = std::min(recordings_.size(), k + side_by_side);
-    const std::span<const int> some(recordings_.data() + k, end - k);
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (std::any_of(some.begin(), some.end(),
-                      [&](int r) { return wanted[i].recording < 0 || wanted[i].recording == r; }))
-        members.push_back(i);
-    const std::size_t rows = *std::max_element(size_.begin() + static_cast<std::ptrdiff_t>(k),
-                                               size_.begin() + static_cast<std::ptrdiff_t>(end));
-    const std::size_t most = std::max<std::size_t>(4, numbers_at_once / std::max<std::size_t>(1, rows) / 4 * 4);
-    std::vector<Trial> trials;
-    for (std::size_t first = 0; first < members.size(); first += most) {
-      const std::size_t n = std::min(most, members.size() - first);
-      trials.clear();
-      for (std::size_t i = 0; i < n; ++i) trials.push_back(wanted[members[first + i]].trial);
-      const auto predictions = model_.predict_each(trials, some);
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t r = k; r < end; ++r)
-          if (touches(wanted[members[first + i]].recording, r)) use(members[first + i], r, predictions[i]);
-    }
+    simulate_on(k, end, -1, wanted, use);
+    for (std::size_t r = k; r < end; ++r) simulate_on(r, r + 1, recordings_[r], wanted, use);
+  }
+}
+
+/// On the recordings at places [begin, end): what was wanted of `recording` (-1: of all of them).
+void Projection::simulate_on(std::size_t begin, std::size_t end, int recording, std::span<const Wanted> wanted,
+                             const Use& use) {
+  constexpr std::size_t numbers_at_once = 80'000;  // of predictions: 640 kB, which a core's cache holds
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (wanted[i].recording == recording) members.push_back(i);
+  const std::size_t rows = *std::max_element(size_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                             size_.begin() + static_cast<std::ptrdiff_t>(end));
+  const std::size_t most = std::max<std::size_t>(4, numbers_at_once / std::max<std::size_t>(1, rows) / 4 * 4);
+  std::vector<Trial> trials;
+  for (std::size_t first = 0; first < members.size(); first += most) {
+    const std::size_t n = std::min(most, members.size() - first);
+    trials.clear();
+    for (std::size_t i = 0; i < n; ++i) trials.push_back(wanted[members[first + i]].trial);
+    const auto predictions = model_.predict_each(trials, std::span(recordings_).subspan(begin, end - begin));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t r = begin; r < end; ++r) use(members[first + i], r, predictions[i]);
   }
 }
 
 /// W (measured - y) of one recording.
 void Projection::whiten_residual(const Prediction& prediction, std::size_t k, double* out) {
-  const int r = recordings_[k];
-  const auto outputs = model_.outputs().size();
-  difference_.resize(outputs);
-  for (std::size_t o = 0; o < outputs; ++o) {
-    const Rows& measured = model_.measured(r, static_cast<int>(o));
-    Rows& rows = difference_[o];
-    rows.resize(measured.size());
-    if (rows.empty()) continue;
-    const double* y = prediction.y[static_cast<std::size_t>(r)][o].data();
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = measured[i] - y[i];
-  }
-  judge_.whiten(r, difference_, out);
+  difference_.resize(model_.outputs().size());
+  for (std::size_t o = 0; o < difference_.size(); ++o)
+    residual_rows(model_, prediction, recordings_[k], static_cast<int>(o), difference_[o]);
+  judge_.whiten(recordings_[k], difference_, out);
 }
 
 /// One row per prior, behind the data.
@@ -464,7 +460,7 @@ bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearM
   // What no bound holds has taken its part out of the residual already.
   const bool held = std::any_of(point.bound.begin(), point.bound.end(), [](Bound b) { return b != Bound::inside; });
   if (held) list.push_back(residual.data());
-  const auto made_up = ColumnSpan(point.columns, point.triangle, std::vector<bool>(m, true), dependent).clear(list);
+  const auto made_up = ColumnSpan(point.columns, point.triangle, dependent).clear(list);
   // What the linear parameters make up for completely is rounding: a search must not follow it.
   for (std::size_t j = 0; j < k; ++j)
     if (length(list[j], rows_) < (exact ? 1e-7 : 1e-4) * before[j]) std::fill_n(list[j], rows_, 0.0);

@@ -91,7 +91,7 @@ class Projection {
   /// Which of what was wanted, the place in recordings_, and what the model says.
   using Use = std::function<void(std::size_t, std::size_t, const Prediction&)>;
   void simulate(std::span<const Wanted> wanted, const Use& use);
-  bool touches(int recording, std::size_t k) const { return recording < 0 || recording == recordings_[k]; }
+  void simulate_on(std::size_t begin, std::size_t end, int recording, std::span<const Wanted> wanted, const Use& use);
   bool touches_any(int recording) const;
 
   void evaluate(std::span<ProjectedPoint> points);

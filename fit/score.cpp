@@ -142,12 +142,17 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
 }
 
 Rows residual_rows(const DataModel& model, const Prediction& prediction, int recording, int output) {
-  const Rows& measured = model.measured(recording, output);
-  Rows rows(measured.size());
-  if (rows.empty()) return rows;
-  const Rows& y = prediction.y[static_cast<std::size_t>(recording)][static_cast<std::size_t>(output)];
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = measured[i] - y[i];
+  Rows rows;
+  residual_rows(model, prediction, recording, output, rows);
   return rows;
+}
+
+void residual_rows(const DataModel& model, const Prediction& prediction, int recording, int output, Rows& rows) {
+  const Rows& measured = model.measured(recording, output);
+  rows.resize(measured.size());
+  if (rows.empty()) return;
+  const double* y = prediction.y[static_cast<std::size_t>(recording)][static_cast<std::size_t>(output)].data();
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = measured[i] - y[i];
 }
 
 double rms(const DataModel& model, const Prediction& prediction, std::span<const int> recordings, int output) {

@@ -59,6 +59,8 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
 
 /// Measured minus predicted on the judged rows [SI].
 Rows residual_rows(const DataModel& model, const Prediction& prediction, int recording, int output);
+/// The same into `rows`, whose memory is used again.
+void residual_rows(const DataModel& model, const Prediction& prediction, int recording, int output, Rows& rows);
 
 /// rms of measured minus predicted over the judged rows of these recordings [SI], all rows counted alike.
 double rms(const DataModel& model, const Prediction& prediction, std::span<const int> recordings, int output);

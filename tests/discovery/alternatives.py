@@ -8,7 +8,7 @@ Does not decide which verdict follows from it (cases.py).
 import numpy as np
 from scipy.fft import dct
 
-from hidden import ELSEWHERE, LIBRARY, base_outputs, draw, heights, scale, traces
+from hidden import ELSEWHERE, EFFECTS, base_outputs, draw, heights, scale, traces
 from laws import lost_motion
 
 TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
@@ -32,7 +32,7 @@ RIVALS = dict(
 
 def gap(plant, recordings, truth, name, sensor, seed=0):
     """chi2 left of the truth's trace after the best sum of a few differently shaped traces of the rival."""
-    if plant.base not in LIBRARY[name].plants + ELSEWHERE.get(name, ()):
+    if plant.base not in EFFECTS[name].plants + ELSEWHERE.get(name, ()):
         return np.inf
     want = traces(plant, recordings, truth)
     columns = curves_of(plant, recordings, truth, name, max(heights(want)), np.random.default_rng([seed, 77]))

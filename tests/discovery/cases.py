@@ -78,7 +78,7 @@ def fit_to_stroke(rng, plant, recordings):
 
 
 def shows_of(names, base):
-    return [hidden.LIBRARY[n].shows[base] for n in names]
+    return [hidden.EFFECTS[n].shows[base] for n in names]
 
 
 def by_role(recordings, values, role):
@@ -114,7 +114,7 @@ def sensor_for(rng, plant, recordings, quieter=1.0):
 
 def named(rng, names, strengths, group, attempt):
     """Singles, pairs, triples."""
-    plants = [b for b in hidden.LIBRARY[names[0]].plants if all(b in hidden.LIBRARY[n].plants for n in names)]
+    plants = [b for b in hidden.EFFECTS[names[0]].plants if all(b in hidden.EFFECTS[n].plants for n in names)]
     if not plants:
         raise Unsuited("no plant holds all of " + ", ".join(names))
     plant = draw_plant(rng, str(rng.choice(plants)))
@@ -134,7 +134,7 @@ def draw_names(rng, count, offered):
     while True:
         names = [str(x) for x in rng.choice(offered, count, replace=False)]
         alike = any(len(group & set(names)) > 1 for group in hidden.LOOK_ALIKE)
-        if not alike and set.intersection(*(set(hidden.LIBRARY[n].plants) for n in names)):
+        if not alike and set.intersection(*(set(hidden.EFFECTS[n].plants) for n in names)):
             return names
 
 
@@ -147,7 +147,7 @@ def several(rng, count, offered, strengths, attempt):
 
 def nothing(rng):
     plant = draw_plant(rng, "B%d" % rng.integers(1, 6))
-    candidates = [n for n in hidden.LIBRARY if plant.base in hidden.LIBRARY[n].plants]
+    candidates = [n for n in hidden.EFFECTS if plant.base in hidden.EFFECTS[n].plants]
     recordings = draw_recordings(rng, plant, shows_of([str(rng.choice(candidates))], plant.base))
     return Case(plant, recordings, [], sensor_for(rng, plant, recordings),
                 dict(verdict="adequate", effects=[], acceptable_alternatives=[]), "none")

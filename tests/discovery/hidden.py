@@ -74,7 +74,7 @@ def draw_friction(rng, plant, recordings):
 
 
 def draw_resonance(rng, plant, recordings):
-    shown = [0.2 / r.h for r in recordings if r.word in LIBRARY["structural_resonance"].shows[plant.base]]
+    shown = [0.2 / r.h for r in recordings if r.word in EFFECTS["structural_resonance"].shows[plant.base]]
     low, high = (1.6 * plant.frequency, 4 * plant.frequency) if plant.base == "B4" else (100, 700)  # Hz
     f = rng.uniform(low, max(min([high, *shown]), 1.05 * low))  # five rows to a period where it shows
     return dict(frequency=f, damping=np.exp(rng.uniform(*np.log([0.006, 0.05]))), second=f * rng.uniform(1.5, 2.6),
@@ -112,7 +112,7 @@ def draw_limit(rng, plant, recordings):
     return dict(inverse=1 / swept(recordings), sharpness=float(rng.choice([0, 6, 14, 30])))
 
 
-LIBRARY = dict(
+EFFECTS = dict(
     hysteresis=Law(("B1", "B4"), words(LARGE, LARGE_MASS), draw_hysteresis, 1e-3, 0.6),
     asymmetry=Law(("B1", "B2", "B3", "B4"), words(LARGE, LARGE_MASS), draw_asymmetry, 1e-3, 0.5),
     creep=Law(ACTUATORS, words(("step_hold",)), lambda rng, *_: dict(
@@ -152,7 +152,7 @@ LOOK_ALIKE = [{"amplifier_lag", "dead_time", "rate_dependence", "slew_limit"}, {
 
 
 def draw(rng, name, plant, recordings):
-    law = LIBRARY[name]
+    law = EFFECTS[name]
     axes = (0,)
     if plant.base == "B3":
         axes = (0, 1) if name in BOTH_AXES or rng.random() < 0.5 else (int(rng.integers(2)),)
@@ -182,7 +182,7 @@ def heights(trace):
 
 def scale(plant, recordings, hidden, target, accuracy=0.01):
     """The amount that makes the effect `target` [um] rms in its most visible recording; None where there is none."""
-    law = LIBRARY[hidden.name]
+    law = EFFECTS[hidden.name]
 
     def height(amount):
         reached = max(heights(traces(plant, recordings, with_amount(hidden, amount))))

@@ -124,7 +124,7 @@ def main():
     ap.add_argument("--wrong-parameters", action="store_true")
     ap.add_argument("--jobs", type=int, default=1)
     a = ap.parse_args()
-    offered = choice_of(a.effects, hidden.LIBRARY, "the effect")
+    offered = choice_of(a.effects, hidden.EFFECTS, "the effect")
     strengths = choice_of(a.strength, hidden.STRENGTHS, "the strength")
     jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters)
             for seed in seeds_of(a.seeds) for kind in choice_of(a.kind, cases.KINDS, "the kind")

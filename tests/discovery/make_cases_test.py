@@ -135,7 +135,7 @@ class Plants(unittest.TestCase):
         """Amount 0 exactly, and a ten millionth of the unit to a thousandth of any noise: the law is neutral there."""
         for base in ("B1", "B2", "B3", "B4", "B5"):
             rng, plant, recordings = draws(base)
-            for name, law in hidden.LIBRARY.items():
+            for name, law in hidden.EFFECTS.items():
                 if base not in law.plants:
                     continue
                 e = hidden.draw(rng, name, plant, recordings)
@@ -145,7 +145,7 @@ class Plants(unittest.TestCase):
                     self.assertLess(max(np.abs(x).max() for x in trace), 1e-7 * half, (base, name, amount))
 
     def test_every_effect_shows_where_it_is_offered(self):
-        for name, law in hidden.LIBRARY.items():
+        for name, law in hidden.EFFECTS.items():
             self.assertTrue(all(law.shows[base] for base in law.plants), name)
             self.assertTrue(set(w for base in law.plants for w in law.shows[base]) <=
                             set(w for menu in cases.MENU.values() for w in menu), name)
@@ -160,7 +160,7 @@ class Cases(unittest.TestCase):
         self.folder.cleanup()
 
     def make(self, kind, index, what=None, seed=7, wrong=False, into="a"):
-        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.LIBRARY), hidden.STRENGTHS, wrong))
+        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.EFFECTS), hidden.STRENGTHS, wrong))
         return self.root / into / make_cases.number_of(seed, kind, index)
 
     def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
@@ -174,7 +174,7 @@ class Cases(unittest.TestCase):
     def test_strength_is_as_asked(self):
         """The trace, recomputed without the search, stands above the noise by what its strength promises."""
         for index, what in enumerate([("creep", "weak"), ("calibration", "medium"), ("rate_dependence", "strong")]):
-            case, _ = cases.build(7, "singles", index, what, list(hidden.LIBRARY), hidden.STRENGTHS)
+            case, _ = cases.build(7, "singles", index, what, list(hidden.EFFECTS), hidden.STRENGTHS)
             most = 0.0
             for r in case.recordings:
                 for y, base in zip(simulate(case.plant, r, case.effects)[0], simulate(case.plant, r)[0]):
