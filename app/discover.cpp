@@ -19,11 +19,16 @@ constexpr char help[] =
     "  hysteron discover stage.json --data dataset.json\n"
     "  hysteron discover stage.json --data lab.csv -o out --steps 1\n"
     "  hysteron discover stage.json --data dataset.json --only creep --only hysteresis\n"
-    "  hysteron discover stage.json --data dataset.json --check     exit code 0 only if the model is adequate\n\n"
+    "  hysteron discover model.json --data new.csv --check      a test for machines: is it still explained?\n\n"
+    "--check holds every parameter of the model (only a sensor's zero per recording, where the data set says so, is\n"
+    "found anew) and judges as above. Where the recordings are not explained it says what is new: \"parameters\" "
+    "where\n"
+    "other values of the free ones would do, else the effects; \"check\" in result.json has explained, named.\n"
+    "Recordings that all have one role are cut in time: 60 % for fitting what is new, the rest to judge it.\n\n"
     "Writes into the folder: result.json (every decision with its numbers), traces/*.csv, report.html, and the\n"
     "diagram of each step (step1_creep.json ... final.json).\n"
     "Ctrl-C ends with the steps found so far.\n"
-    "Exit codes: 0 done, 1 with --check: any other verdict than adequate, 2 wrong input, 3 numerics failed,\n"
+    "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";
 
 int discover(const Arguments& arguments) { return look("discover", arguments); }
@@ -33,7 +38,9 @@ int discover(const Arguments& arguments) { return look("discover", arguments); }
 Verb discover_verb() {
   auto list = look_options();
   list.push_back({"--steps", "N", "add at most so many effects (default 3)", false, false});
-  list.push_back({"--check", "", "exit with 1 unless the model is adequate", false, false});
+  list.push_back({"--check", "",
+                  "do the recordings still follow the model as it stands? Exit code 1 if not, and the name", false,
+                  false});
   return {"discover", "the whole loop, step by step, until only noise is left", help, list, discover};
 }
 

@@ -154,4 +154,8 @@ Facts discovery_facts(const Discovery& found, const Unit& unit, const std::strin
   return facts;
 }
 
+Facts check_facts(const Check& answer) {
+  return Facts::object({{"explained", answer.explained}, {"parameters_moved", answer.moved}, {"named", answer.named}});
+}
+
 }  // namespace hysteron

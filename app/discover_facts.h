@@ -5,12 +5,14 @@
 #include <string>
 
 #include "app/facts.h"
-#include "discover/discover.h"
+#include "discover/check.h"
 
 namespace hysteron {
 
 /// `unit`: in which errors are given.
 Facts discovery_facts(const Discovery& found, const Unit& unit, const std::string& diagram_file,
                       const std::string& data_file);
+/// The answer to --check.
+Facts check_facts(const Check& answer);
 
 }  // namespace hysteron

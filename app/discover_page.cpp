@@ -266,11 +266,11 @@ Comparison comparison_of(const Diagram& diagram, const std::shared_ptr<const Dat
 }  // namespace
 
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const DiscoveryFiles& files) {
+                            const DiscoveryFiles& files, const Check* answer) {
   Document document;
   document.verb = verb;
   document.title = found.base_diagram.title;
-  document.headline = found.headline;
+  document.headline = answer != nullptr ? answer->sentence : found.headline;
   document.verdict = to_text(found.verdict);
   document.sentences = found.sentences;
   document.warnings = found.warnings;
@@ -294,7 +294,9 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sections.push_back(data_section(found));
   document.sections.insert(document.sections.end(), recordings.begin(), recordings.end());
   add_diagrams(document, found, files.folder);
-  document.facts = to_json(discovery_facts(found, seen.unit, files.diagram_file, files.data_file));
+  Facts facts = discovery_facts(found, seen.unit, files.diagram_file, files.data_file);
+  if (answer != nullptr) facts.set("check", check_facts(*answer));
+  document.facts = to_json(facts);
   return document;
 }
 

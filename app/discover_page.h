@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "discover/discover.h"
+#include "discover/check.h"
 #include "io/result.h"
 
 namespace hysteron {
@@ -17,7 +17,8 @@ struct DiscoveryFiles {
 
 /// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and
 /// after, candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
+/// The answer to --check, where that was asked, stands before everything else.
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const DiscoveryFiles& files);
+                            const DiscoveryFiles& files, const Check* answer = nullptr);
 
 }  // namespace hysteron

@@ -4,12 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "app/discover_facts.h"
 #include "app/discover_page.h"
 #include "app/interrupt.h"
 #include "app/load.h"
 #include "app/progress.h"
 #include "app/publish.h"
-#include "discover/discover.h"
+#include "discover/check.h"
 #include "engine/error.h"
 
 namespace hysteron {
@@ -28,6 +29,19 @@ int max_steps(const Arguments& arguments) {
   return static_cast<int>(steps);
 }
 
+/// What --json prints: the answer; all its numbers stand in result.json.
+Facts short_answer(const Document& document, const Discovery& found, const Check* answer, const std::string& folder) {
+  std::vector<std::string> effects;
+  for (const auto& step : found.steps) effects.push_back(step.winner.effect);
+  Facts facts = Facts::object({{"verdict", document.verdict},
+                               {"headline", document.headline},
+                               {"effects", effects},
+                               {"warnings", document.warnings},
+                               {"result", folder + "/result.json"}});
+  if (answer != nullptr) facts.set("check", check_facts(*answer));
+  return facts;
+}
+
 }  // namespace
 
 int look(const std::string& verb, const Arguments& arguments) {
@@ -38,32 +52,46 @@ int look(const std::string& verb, const Arguments& arguments) {
   settings.max_steps = max_steps(arguments);
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
-  const DataSet data = load_data(arguments, *program);
+  const bool is_check = arguments.has("--check");
+  const DataSet given = load_data(arguments, *program);
+  const DataSet data = is_check ? with_both_roles(given) : given;
 
   const DeferInterrupts defer;
   Progress progress(arguments.quiet());
   settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
   settings.stop = [] { return interrupted(); };
   Discovery found;
+  std::optional<Check> answer;
   with_lines_of(diagram, [&] {
-    found = verb == "discover" ? discover(diagram, data, registry(), effects, settings)
-                               : diagnose(diagram, data, registry(), effects, settings);
+    if (is_check) {
+      answer = check(diagram, data, registry(), effects, settings);
+      found = answer->discovery;
+    } else {
+      found = verb == "discover" ? discover(diagram, data, registry(), effects, settings)
+                                 : diagnose(diagram, data, registry(), effects, settings);
+    }
   });
   progress.clear();
   const bool stopped = interrupted();
   const std::string folder = result_folder(arguments, verb);
-  Document document =
-      discovery_document(verb, found, data, {arguments.text("diagram"), arguments.text("--data"), folder});
+  Document document = discovery_document(
+      verb, found, data, {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
-  publish(arguments, folder, document);
+  if (arguments.has("--json")) {
+    write_results(folder, document);
+    fmt::print("{}\n", json_text(short_answer(document, found, answer ? &*answer : nullptr, folder)));
+  } else {
+    publish(arguments, folder, document);
+  }
   if (stopped) throw Interrupted("interrupted; what was found so far is in " + folder);
-  return arguments.has("--check") && found.verdict != Verdict::adequate ? exit_code::no : exit_code::done;
+  return answer && !answer->explained ? exit_code::no : exit_code::done;
 }
 
 std::vector<OptionSpec> look_options() {
   return {options::diagram(),
           options::data(true),
           {"--only", "EFFECT", "consider only this effect (and those of further --only)", false, true},
+          {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           options::output_folder(),
           options::set(),

@@ -25,13 +25,15 @@ void print_answer(const Arguments& arguments, const Document& document,
 
 }  // namespace
 
+void write_results(const std::string& folder, const Document& document) {
+  const std::string page = report_html(document);
+  const DeferInterrupts until_in_place(true);
+  write_result(folder, document, page);
+}
+
 void publish(const Arguments& arguments, const std::string& folder, const Document& document,
              const std::vector<std::string>& said_here_only) {
-  const std::string page = report_html(document);
-  {
-    const DeferInterrupts until_in_place(true);
-    write_result(folder, document, page);
-  }
+  write_results(folder, document);
   print_answer(arguments, document, said_here_only);
   fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
              folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);

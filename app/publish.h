@@ -10,6 +10,9 @@
 
 namespace hysteron {
 
+/// The folder of results alone; nothing is printed.
+void write_results(const std::string& folder, const Document& document);
+
 /// Writes `folder` whole or not at all, then prints headline, sentences, warnings, what is said here only (times, which
 /// no result may depend on) and, on the last line, the verdict and where report.html lies.
 void publish(const Arguments& arguments, const std::string& folder, const Document& document,

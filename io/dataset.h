@@ -73,6 +73,10 @@ struct DataSet {
 /// file, line and cure.
 DataSet read_dataset(const std::string& file, const std::vector<std::string>& allowed = {});
 
+/// Cuts one recording in time: its first 60 % train, the rest, as a further recording, validates. It is said in remarks.
+/// Throws Error "too_few_rows".
+void cut_in_time(DataSet& data, std::size_t recording);
+
 /// Checks that the data set offers what the program's inputs need and at least one of its outputs, with fitting units.
 /// Single CSVs bind by name; a time base that does not fit, a missing column, a wrong unit are errors with a cure.
 void check_binding(const DataSet& data, const Program& program);

@@ -56,36 +56,8 @@ std::string unique_name(const std::string& file, const std::vector<Recording>& b
 
 /// One recording only: its first 60 % train, the rest validates, and the user is told.
 void cut_single(DataSet& data) {
-  Recording& train = data.recordings.front();
-  const double begin = train.t[train.first], end = train.t[train.last - 1];
-  const double cut = begin + train_share * (end - begin);
-  const auto row = static_cast<std::size_t>(std::upper_bound(train.t.begin(), train.t.end(), cut) - train.t.begin());
-  if (row < train.first + fewest_rows || train.last < row + fewest_rows)
-    throw Error(
-        Fault::input,
-        {{"too_few_rows", train.name,
-          fmt::format(
-              "the recording has {} rows to judge, too few to be cut into a part that trains and one that validates",
-              train.last - train.first),
-          "record longer, or list a second recording", data.file, 0}});
-  Recording validate = train;
-  validate.role = Role::validate;
-  validate.name = unique_name(train.name, data.recordings);
-  train.last = row;
-  validate.first = row;
-  const auto span = [](const Recording& r) {
-    return fmt::format("{:.6g} s to {:.6g} s", r.t[r.first], r.t[r.last - 1]);
-  };
-  const auto note = [](Recording& r, const char* text) {
-    r.remark += (r.remark.empty() ? "" : "; ") + std::string(text);
-  };
   data.single = true;
-  data.remarks.push_back(
-      fmt::format("There is a single recording, {}: the first 60 % of its time ({}) trains, the rest ({}) validates.",
-                  train.name, span(train), span(validate)));
-  note(train, "first 60 % of the time");
-  note(validate, "last 40 % of the time");
-  data.recordings.push_back(std::move(validate));
+  cut_in_time(data, 0);
 }
 
 class DataSetReader {
@@ -380,6 +352,39 @@ bool is_json(const std::string& file) {
 }
 
 }  // namespace
+
+void cut_in_time(DataSet& data, std::size_t recording) {
+  Recording& train = data.recordings[recording];
+  const double begin = train.t[train.first], end = train.t[train.last - 1];
+  const double cut = begin + train_share * (end - begin);
+  const auto row = static_cast<std::size_t>(std::upper_bound(train.t.begin(), train.t.end(), cut) - train.t.begin());
+  if (row < train.first + fewest_rows || train.last < row + fewest_rows)
+    throw Error(
+        Fault::input,
+        {{"too_few_rows", train.name,
+          fmt::format(
+              "the recording has {} rows to judge, too few to be cut into a part that trains and one that validates",
+              train.last - train.first),
+          "record longer, or list a second recording", data.file, 0}});
+  Recording validate = train;
+  train.role = Role::train;
+  validate.role = Role::validate;
+  validate.name = unique_name(train.name, data.recordings);
+  train.last = row;
+  validate.first = row;
+  const auto span = [](const Recording& r) {
+    return fmt::format("{:.6g} s to {:.6g} s", r.t[r.first], r.t[r.last - 1]);
+  };
+  const auto note = [](Recording& r, const char* text) {
+    r.remark += (r.remark.empty() ? "" : "; ") + std::string(text);
+  };
+  data.remarks.push_back(fmt::format("{}, {}: the first 60 % of its time ({}) trains, the rest ({}) validates.",
+                                     data.single ? "There is a single recording" : "A recording is cut in time",
+                                     train.name, span(train), span(validate)));
+  note(train, "first 60 % of the time");
+  note(validate, "last 40 % of the time");
+  data.recordings.push_back(std::move(validate));
+}
 
 std::string to_text(Role role) {
   switch (role) {

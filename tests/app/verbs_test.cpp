@@ -467,6 +467,24 @@ TEST_F(Verbs, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOneThatDoe
   const Outcome missing = hysteron(folder_.path(), words);
   EXPECT_EQ(missing.code, 1) << missing.out << missing.err;
   EXPECT_NE(missing.out.find("lag"), std::string::npos) << missing.out;
+  EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
+}
+
+TEST_F(Verbs, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
+  std::string data = lab::dataset();
+  data.replace(data.find("1 nm"), 4, "5 nm");
+  folder_.write("dataset.json", data);
+  folder_.write("a.csv", lab::noisy_recording(1));
+  folder_.write("b.csv", lab::noisy_recording(2));
+  // 5 % less than the recordings have, though free: a plain discovery fits it, a check does not.
+  const std::vector<std::string> words{"discover", "diagram.json", "--data",          "dataset.json", "--check",
+                                       "--json",   "--set",        "gain=1.425 um/V", "-o",           "out"};
+  const Outcome moved = hysteron(folder_.path(), words);
+  EXPECT_EQ(moved.code, 1) << moved.out << moved.err;
+  EXPECT_TRUE(moved.out.starts_with("{")) << moved.out;
+  for (const char* said : {"\"explained\": false", "\"parameters_moved\": true", "\"parameters\"", "(was 1.425)"})
+    EXPECT_NE(moved.out.find(said), std::string::npos) << said << " in " << moved.out;
+  EXPECT_TRUE(folder_.has("out/result.json"));
 }
 
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
