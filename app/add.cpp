@@ -33,7 +33,7 @@ constexpr char help[] =
     "Exit codes: 0 done, 2 the diagram, the effect or the place is wrong.";
 
 int add(const Arguments& arguments) {
-  const Effects library = all_effects();
+  const Effects library = load_effects(arguments);
   const Effect& effect = library.get(arguments.text("effect"));
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
@@ -66,6 +66,7 @@ Verb add_verb() {
            options::diagram(),
            {"--at", "SIGNAL", "where it enters: a signal or an input port", false, false},
            options::data(false),
+           options::effects(),
            options::output_file(),
            options::allow()},
           add};

@@ -19,6 +19,7 @@ constexpr char help[] =
     "  hysteron discover stage.json --data dataset.json\n"
     "  hysteron discover stage.json --data lab.csv -o out --steps 1\n"
     "  hysteron discover stage.json --data dataset.json --only creep --only hysteresis\n"
+    "  hysteron discover stage.json --data dataset.json --effects own/    with effects of your own\n"
     "  hysteron discover model.json --data new.csv --check      a test for machines: is it still explained?\n\n"
     "--check holds every parameter of the model (only a sensor's zero per recording, where the data set says so, is\n"
     "found anew) and judges as above. Where the recordings are not explained it says what is new: \"parameters\" "

@@ -245,6 +245,9 @@ void add_diagrams(Document& document, const Discovery& found, const std::string&
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     const auto& change = found.steps[i].change;
     nested.insert(nested.end(), change.nested.begin(), change.nested.end());
+    for (const auto& part : change.parts)  // an effect that enters twice is one file
+      if (std::none_of(nested.begin(), nested.end(), [&](const auto& n) { return n.first == part.first; }))
+        nested.push_back(part);
     const std::string name = fmt::format("step{}_{}.json", i + 1, change.effect);
     document.files.emplace_back(name, text_in_folder(change.diagram, folder, name, nested));
   }

@@ -39,9 +39,11 @@ std::vector<std::string> effect_parameters(const Diagram& diagram, const Program
     const Effect* effect = effects.find(id);
     if (effect == nullptr) continue;  // put there by a newer hysteron, or by hand
     for (const auto& [name, first] : freed_by(*effect, at)) {
-      const std::string path = block + "." + name;
-      if (program.find_parameter(path) != nullptr) paths.push_back(path);
-      for (int k = first; program.find_parameter(element(path, k)) != nullptr; ++k) paths.push_back(element(path, k));
+      for (const char* joint : {".", "/"}) {  // of a user's own effect they are parameters of its diagram
+        const std::string path = block + joint + name;
+        if (program.find_parameter(path) != nullptr) paths.push_back(path);
+        for (int k = first; program.find_parameter(element(path, k)) != nullptr; ++k) paths.push_back(element(path, k));
+      }
     }
   }
   return paths;
@@ -54,8 +56,9 @@ std::vector<std::string> unusual_values(const Diagram& diagram, const FitResult&
     if (effect == nullptr) continue;
     for (const auto& e : result.estimates)
       for (const auto& law : effect->laws(Circumstances{})) {
-        const auto p = std::find_if(law.free.begin(), law.free.end(),
-                                    [&, name = block](const auto& l) { return e.path == name + "." + l.path; });
+        const auto p = std::find_if(law.free.begin(), law.free.end(), [&, name = block](const auto& l) {
+          return e.path == parameter_path(name, law, l);
+        });
         if (p == law.free.end() || !e.value) continue;
         const bool high = *e.value > p->plausible_upper, low = *e.value < p->plausible_lower;
         if (high || low)

@@ -14,7 +14,8 @@ constexpr char help[] =
     "Answers: which effects can be named as missing, what is their law, which data show them, what looks alike.\n\n"
     "Examples:\n"
     "  hysteron effects           all of them\n"
-    "  hysteron effects creep     one in full\n\n"
+    "  hysteron effects creep     one in full\n"
+    "  hysteron effects --effects own/              with those of your own: a file each, or a folder\n\n"
     "Prints to the terminal, writes no files.\n"
     "Exit codes: 0 done, 2 there is no such effect.";
 
@@ -33,6 +34,7 @@ void print_part(const std::string& title, const std::string& text) {
 std::string way_text(const Effect& effect) {
   const std::string places =
       effect.places.empty() ? "" : fmt::format(" Kinds of place: {}.", fmt::join(effect.places, ", "));
+  if (!effect.file.empty()) return fmt::format("The diagram {} is put on a wire.{}", effect.file, places);
   if (effect.way == Way::insert)
     return fmt::format("A block of type {} is put on a wire.{}", effect.block_type, places);
   if (effect.way == Way::vary)
@@ -63,7 +65,7 @@ void print_one(const Effect& effect) {
 }
 
 int effects(const Arguments& arguments) {
-  const Effects library = all_effects();
+  const Effects library = load_effects(arguments);
   if (!arguments.has("effect"))
     print_all(library);
   else
@@ -77,7 +79,7 @@ Verb effects_verb() {
   return {"effects",
           "which effects can be missing, and how they are told apart",
           help,
-          {{"effect", "ID", "the effect to show in full", false, false}},
+          {{"effect", "ID", "the effect to show in full", false, false}, options::effects(), options::allow()},
           effects};
 }
 

@@ -560,7 +560,8 @@ int fit_verb_acts(const Arguments& arguments) {
     program = compile_file(diagram);
     wanted.push_back(job.thresholds->block.text + ".weights");
   }
-  for (const auto& path : effect_parameters(diagram, *program, all_effects())) wanted.push_back(path);
+  const Effects effects = load_effects(arguments);
+  for (const auto& path : effect_parameters(diagram, *program, effects)) wanted.push_back(path);
   for (const auto& path : arguments.list("--free")) wanted.push_back(path);
   const FitProblem problem = with_lines_of_job(job, [&] { return problem_of(job, *program, *data, wanted); });
   const auto& free = problem.free;
@@ -590,7 +591,7 @@ int fit_verb_acts(const Arguments& arguments) {
                                                interval == "-" ? "" : fmt::format(" (95 %: {})", interval)));
     }
   for (const auto& u : result.undetermined) document.warnings.push_back(u.sentence);
-  for (const auto& sentence : unusual_values(diagram, result, all_effects())) document.warnings.push_back(sentence);
+  for (const auto& sentence : unusual_values(diagram, result, effects)) document.warnings.push_back(sentence);
   for (const auto& n : fitted.noise.outputs)
     if (!n.remark.empty()) document.warnings.push_back(n.remark);
   if (std::any_of(free.begin(), free.end(), [](const FreeParameter& f) { return f.recording >= 0; }))
@@ -641,6 +642,7 @@ Verb fit_verb() {
       help,
       {{"diagram", "FILE.json", "the diagram, or a job (\"do\": \"fit\") that names it", true, false},
        options::data(false),
+       options::effects(),
        {"--free", "PATH", "also find this parameter, e.g. core.weights (all its elements)", false, true},
        {"--method", "NAME", "search (default), a global method before it, or slopes, tapi; several are compared", false,
         true},

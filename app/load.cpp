@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "blocks/register_all.h"
+#include "discover/effect_file.h"
 #include "engine/error.h"
 #include "io/diagram_file.h"
 
@@ -61,6 +62,10 @@ DataSet load_data(const Arguments& arguments, const Program& program) {
   DataSet data = read_dataset(arguments.text("--data"), arguments.list("--allow"));
   check_binding(data, program);
   return data;
+}
+
+Effects load_effects(const Arguments& arguments) {
+  return with_own_effects(all_effects(), arguments.list("--effects"), registry(), arguments.list("--allow"));
 }
 
 Run start_recording(const Program& program, const DataSet& data, const Recording& recording) {

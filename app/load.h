@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/verb.h"
+#include "discover/effect.h"
 #include "engine/program.h"
 #include "io/dataset.h"
 
@@ -27,6 +28,9 @@ ProgramPointer compile_file(const Diagram& diagram);
 
 /// The data set of the arguments, bound to the program.
 DataSet load_data(const Arguments& arguments, const Program& program);
+
+/// The library of effects and the user's own ones (--effects).
+Effects load_effects(const Arguments& arguments);
 
 /// A run at its start with the inputs of one recording bound.
 Run start_recording(const Program& program, const DataSet& data, const Recording& recording);

@@ -45,7 +45,7 @@ Facts short_answer(const Document& document, const Discovery& found, const Check
 }  // namespace
 
 int look(const std::string& verb, const Arguments& arguments) {
-  const Effects effects = all_effects();
+  const Effects effects = load_effects(arguments);
   DiscoverOptions settings;
   settings.only = wanted_effects(arguments, effects);
   settings.free_paths = arguments.list("--free");
@@ -93,6 +93,7 @@ std::vector<OptionSpec> look_options() {
           {"--only", "EFFECT", "consider only this effect (and those of further --only)", false, true},
           {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
+          options::effects(),
           options::output_folder(),
           options::set(),
           options::choose(),

@@ -20,7 +20,7 @@ constexpr char help[] =
     "They are made from the same declarations that \"hysteron check\" uses.\n\n"
     "Examples:\n"
     "  hysteron schema -o schema/\n\n"
-    "Writes diagram.schema.json, dataset.schema.json, job.schema.json and result.schema.json; a file\n"
+    "Writes diagram, dataset, job, result and effect (.schema.json); a file\n"
     "names its schema with \"$schema\": \"../schema/diagram.schema.json\".\n"
     "Exit codes: 0 done, 2 the folder cannot be written.";
 
@@ -39,6 +39,7 @@ int schema(const Arguments& arguments) {
   write("dataset.schema.json", dataset_schema());
   write("job.schema.json", job_schema());
   write("result.schema.json", result_schema());
+  write("effect.schema.json", effect_schema(registry()));
   return exit_code::done;
 }
 
@@ -46,7 +47,7 @@ int schema(const Arguments& arguments) {
 
 Verb schema_verb() {
   return {"schema",
-          "write the JSON Schemas of diagrams, data sets, jobs and results",
+          "write the JSON Schemas of diagrams, data sets, jobs, effects and results",
           help,
           {{"-o", "FOLDER", "where they go; default: schema", false, false}},
           schema};

@@ -61,6 +61,7 @@ OptionSpec output_file();
 OptionSpec set();
 OptionSpec choose();
 OptionSpec allow();
+OptionSpec effects();
 }  // namespace options
 
 Verb new_verb();

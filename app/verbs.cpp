@@ -70,6 +70,10 @@ OptionSpec choose() {
 OptionSpec allow() {
   return {"--allow", "FOLDER", "also read files of this folder (else only those inside the project)", false, true};
 }
+OptionSpec effects() {
+  return {"--effects", "FILE", "effects of your own: an effect file (docs/adding-an-effect.md), or a folder of them",
+          false, true};
+}
 
 }  // namespace options
 }  // namespace hysteron

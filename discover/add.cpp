@@ -76,8 +76,16 @@ void place_node(Ordered<Node>& blocks, const std::string& source, const std::str
 /// Marks an input that an effect brought into the diagram, so that it leaves with it.
 std::string side_remark(const std::string& effect) { return "read by " + effect; }
 
+/// An effect file as a diagram names it.
+std::string seen_from(const Diagram& diagram, const std::string& file) {
+  namespace fs = std::filesystem;
+  if (diagram.file.empty()) return file;
+  const auto folder = fs::weakly_canonical(fs::absolute(diagram.file)).parent_path();
+  return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).generic_string();
+}
+
 std::string insert(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
-                   const std::string& at, const Place& place) {
+                   const std::string& at, const Place& place, Added& added) {
   const Wiring w(diagram, registry);
   const std::string signal = w.signal(at);
   const Spot spot = signal.empty() ? spot_before(w, at) : spot_behind(w, signal);
@@ -94,7 +102,12 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
     if (w.signal(place.side).empty()) diagram.inputs[place.side] = {place.side_unit.text, side_remark(effect.id), 0};
   }
   choice.from["off"].type = "pass";
-  choice.from["on"] = law.block;
+  Node& on = choice.from["on"];
+  on = law.block;
+  if (on.nested) {
+    on.file = seen_from(diagram, on.file);
+    added.parts.emplace_back(on.file, *on.nested);
+  }
   const std::string name = unused_name(diagram, spot.wire + "_" + effect.id);
   const std::string source = w.source(w.signal(spot.from));
   for (const auto& reader : spot.readers) {
@@ -151,7 +164,7 @@ std::string add_at(Diagram& diagram, const Registry& registry, const Effect& eff
   const auto slash = at.find('/');
   if (slash == std::string::npos)
     return effect.way == Way::vary || !place.by.empty() ? vary(diagram, effect, law, at)
-                                                        : insert(diagram, registry, effect, law, at, place);
+                                                        : insert(diagram, registry, effect, law, at, place, added);
   const std::string head = at.substr(0, slash);
   Node* node = diagram.blocks.find(head);
   if (node != nullptr && !node->from.empty()) node = node->from.find(node->choose);
@@ -245,7 +258,7 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
   added.at = place.at;
   added.law = law.name;
   added.name = add_at(added.diagram, registry, effect, law, place.at, place, added);
-  for (const auto& p : law.free) added.free.push_back(added.name + "." + p.path);
+  for (const auto& p : law.free) added.free.push_back(parameter_path(added.name, law, p));
   return added;
 }
 

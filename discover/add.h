@@ -24,6 +24,9 @@ struct Added {
   /// Nested diagrams that changed: file name as now written in the diagram, and content. The caller writes them beside
   /// it.
   std::vector<std::pair<std::string, Diagram>> nested;
+  /// Diagrams that a user's own effect consists of, unchanged: file name as written in the diagram, and content. Where
+  /// the diagram goes to another folder, they may go along.
+  std::vector<std::pair<std::string, Diagram>> parts;
   std::vector<std::string> remarks;  ///< what was assumed, for the user
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/rows.h"
+#include "discover/wiring.h"
 #include "engine/program.h"
 #include "fit/branches.h"
 #include "fit/free_parameter.h"
@@ -187,13 +188,14 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
 
   std::vector<int> signals;
   for (const auto& p : places) {
-    const int first = program->find_signal(p.wire + "[0]");  // of a vector the first element speaks for all
-    signals.push_back(first >= 0 ? first : program->signal(p.wire));
+    const std::string wire = program_signal(diagram, registry, p.wire);
+    const int first = program->find_signal(wire + "[0]");  // of a vector the first element speaks for all
+    signals.push_back(first >= 0 ? first : program->signal(wire));
   }
   const std::size_t n = signals.size();
   std::vector<int> side_signal;  // per place: its row among `signals`, -1 = none
   for (const auto& p : places) {
-    const int signal = p.side.empty() ? -1 : program->find_signal(p.side);
+    const int signal = p.side.empty() ? -1 : program->find_signal(program_signal(diagram, registry, p.side));
     side_signal.push_back(signal < 0 ? -1 : static_cast<int>(signals.size()));
     if (signal >= 0) signals.push_back(signal);
   }

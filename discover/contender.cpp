@@ -14,7 +14,7 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
                                        const std::vector<int>& recordings) {
   std::vector<FreeParameter> list;
   for (const auto& p : standing.law.free) {
-    FreeParameter f = free_parameter(program, standing.name + "." + p.path);
+    FreeParameter f = free_parameter(program, parameter_path(standing.name, standing.law, p));
     f.lower = std::max(f.lower, p.lower);
     f.upper = std::min(f.upper, p.upper);
     if (is_new) f.start = p.start;
@@ -333,7 +333,7 @@ std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int sta
       ParameterOfEffect one;
       one.law = &p;
       for (const auto& e : contender.fit.estimates)
-        if (e.path == s.name + "." + p.path) one.estimate = &e;
+        if (e.path == parameter_path(s.name, s.law, p)) one.estimate = &e;
       list.push_back(one);
     }
   }

@@ -12,6 +12,7 @@
 
 #include "discover/circumstances.h"
 #include "discover/investigation.h"
+#include "discover/wiring.h"
 #include "engine/error.h"
 
 namespace hysteron {
@@ -207,8 +208,9 @@ class Investigation {
   }
 
   /// Outputs that a wire moves, as indices of the program's outputs.
-  std::vector<int> moved_by(const std::string& wire) const {
+  std::vector<int> moved_by(const std::string& written) const {
     const Program& p = *current_.program;
+    const std::string wire = program_signal(current_.diagram, *shop_.registry, written);
     int signal = p.find_signal(wire);
     if (signal < 0) signal = p.find_signal(wire + "[0]");
     std::vector<int> list;

@@ -22,6 +22,10 @@ std::string to_text(Way way) {
   return "";
 }
 
+std::string parameter_path(const std::string& choice, const Law& law, const LawParameter& parameter) {
+  return choice + (law.block.nested ? "/" : ".") + parameter.path;
+}
+
 Effects::Effects(std::vector<Effect> list) : list_(std::move(list)) {}
 
 const Effect* Effects::find(const std::string& id) const {

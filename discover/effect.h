@@ -92,6 +92,10 @@ struct Law {
   bool reweighs = false;  ///< the weights of the operators behind the place are found anew with it
 };
 
+/// Path of a law's parameter in the program of a diagram in which the law stands as `choice`: "drive_lag.times[0]"; of
+/// a law that is a diagram itself "drive_own/tau".
+std::string parameter_path(const std::string& choice, const Law& law, const LawParameter& parameter);
+
 /// One parameter as people read about it.
 struct EffectParameter {
   std::string name, unit, meaning;
@@ -113,6 +117,7 @@ struct Effect {
   Way way = Way::insert;
   std::string block_type;  ///< the block that it inserts (insert); the registry knows it
   std::string parameter;   ///< the parameter that it sets (vary, data)
+  std::string file{};      ///< where a user's own effect was read from (effect_file.h); "" = of the library
   /// A block that offers this variation may be replaced by its richer type besides: the law is then that type.
   std::string variation;
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)

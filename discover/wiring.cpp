@@ -20,6 +20,27 @@ bool all_blocks(const Diagram& diagram, const Registry& registry, Test test) {
 
 }  // namespace
 
+std::string program_signal(const Diagram& diagram, const Registry& registry, const std::string& signal) {
+  const auto slash = signal.find('/');
+  const Wiring w(diagram, registry);
+  const Node* node = w.body(slash == std::string::npos ? w.source(signal) : signal.substr(0, slash));
+  if (node == nullptr || !node->nested) return signal;
+  if (slash != std::string::npos)
+    return signal.substr(0, slash + 1) + program_signal(*node->nested, registry, signal.substr(slash + 1));
+  const std::string block = w.source(signal);
+  const std::string port = signal == block || node->nested->outputs.empty() ? "" : signal.substr(block.size() + 1);
+  const std::string* inside = port.empty() ? &node->nested->outputs.begin()->second : node->nested->outputs.find(port);
+  if (inside == nullptr) return signal;
+  const Wiring nested(*node->nested, registry);
+  if (!nested.is_input(*inside)) return block + "/" + program_signal(*node->nested, registry, nested.signal(*inside));
+  const Node* wires = diagram.blocks.find(block);  // handed through
+  const auto names = node->nested->inputs.names();
+  for (std::size_t i = 0; i < wires->in.size() && i < names.size(); ++i)
+    if (wires->in[i].port.empty() ? names[i] == *inside : wires->in[i].port == *inside)
+      return program_signal(diagram, registry, w.signal(wires->in[i].from));
+  return signal;
+}
+
 Wiring::Wiring(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
 
 const Node* Wiring::body(const std::string& block) const {

@@ -20,6 +20,10 @@ struct Reader {
   std::string element{};  ///< "[1]" where only that element of the signal is read
 };
 
+/// The path under which the compiled program knows a signal of the diagram: what a nested diagram hands on is a signal
+/// of a block inside it.
+std::string program_signal(const Diagram& diagram, const Registry& registry, const std::string& signal);
+
 class Wiring {
  public:
   Wiring(const Diagram& diagram, const Registry& registry);

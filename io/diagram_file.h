@@ -32,6 +32,8 @@ void locate_problems(Error& error, const std::string& file);
 
 /// JSON Schemas, written from the declarations.
 std::string diagram_schema(const Registry& registry);
+/// Of an effect file: a diagram and what it means where it is put on a wire (discover/effect_file.h).
+std::string effect_schema(const Registry& registry);
 std::string dataset_schema();
 std::string result_schema();
 

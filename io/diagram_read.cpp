@@ -39,7 +39,10 @@ class DiagramReader {
     if (!root.expect_object("{\"format\": 1, \"blocks\": {...}}")) file_.throw_if_any();
     check_format(root, "diagram");
     root.only({"$schema", "format", "title", "source", "remark", "parameters", "inputs", "blocks", "outputs", "record",
-               "places", "simulate"});
+               "places", "simulate", "effect"});
+    // "effect" is what a diagram means where it is put on a wire (discover/effect_file.h); as a diagram it runs
+    // without.
+    if (const auto effect = root.find("effect")) effect->expect_object("{\"id\": \"my_effect\"}");
     diagram_.file = file_.file();
     diagram_.schema = text_member(root, "$schema");
     diagram_.title = text_member(root, "title");
