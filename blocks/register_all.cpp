@@ -43,6 +43,7 @@
 #include "blocks/sensor_noise.h"
 #include "blocks/sine.h"
 #include "blocks/slew_limit.h"
+#include "blocks/sliding_friction.h"
 #include "blocks/soft_saturation.h"
 #include "blocks/staircase.h"
 #include "blocks/state_space.h"
@@ -125,6 +126,7 @@ Registry all_blocks() {
   r.add(blocks::mass_with_friction_block());
   r.add(blocks::mass_with_mode_block());
   r.add(blocks::mass_with_presliding_block());
+  r.add(blocks::sliding_friction_block());
   r.add(blocks::mass_on_hysteretic_spring_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());

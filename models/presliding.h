@@ -37,6 +37,26 @@ T stribeck_level(const T& excess, const T& stribeck_velocity, const T& velocity)
   return 1.0 + excess * exp(-(ratio * ratio));
 }
 
+/// Rate [1/s] of the share s = z/distance of its largest force that an element holds which yields below sliding too:
+/// ds/dt = (v - sqrt(v^2 + v_c^2) s)/distance. At a steady velocity s = v/sqrt(v^2 + v_c^2): the curve of a fluid that
+/// flows before it yields, and Dahl's element for a crossover v_c = 0. |s| <= 1.
+/// v [m/s], distance [m] > 0, v_c [m/s] >= 0.
+/// Source: Dahl (as above), with Maxwell's relaxation at rest, time distance/v_c; curve of a damper with a yield force:
+/// Spencer, Dyke, Sain, Carlson, J. Eng. Mech. 123 (1997) 230-238.
+template <class T>
+T yield_rate(const T& distance, const T& crossover, const T& share, const T& velocity) {
+  using std::abs;
+  using std::sqrt;
+  const T speed = crossover > 0.0 ? T(sqrt(velocity * velocity + crossover * crossover)) : T(abs(velocity));
+  return (velocity - speed * share) / distance;
+}
+
+/// The share [-] at which it settles at a steady velocity [m/s].
+inline double sliding_share(double crossover, double velocity) {
+  const double speed = std::hypot(velocity, crossover);
+  return speed > 0 ? velocity / speed : 0;
+}
+
 /// Deflection [m] after a steady motion by x [m] from z = 0 in one direction: distance (1 - exp(-|x|/distance))
 /// sign(x).
 inline double deflection_after(double distance, double x) {

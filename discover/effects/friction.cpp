@@ -40,6 +40,46 @@ Law with_excess(Law law, const Circumstances& at) {
   return law;
 }
 
+/// On a wire that carries a speed: the dashpot behind it makes a force of it. `flows`: it yields below sliding too.
+Law on_a_speed(const Circumstances& at, bool flows) {
+  Law law;
+  law.name = flows ? "sticks, flows and slides" : "sticks and slides (Dahl)";
+  law.block.type = "sliding_friction";
+  const double fast = std::max({std::abs(at.lowest), std::abs(at.highest), 1e-30});
+  // The way in one row at full speed: what is much shorter is a switch between two rows.
+  const double way = fast * at.shortest_step;
+  const Unit distance = parse_unit(fmt::format("({})*s", unit_text(at.unit)));
+  LawParameter level;
+  level.path = "level";
+  level.start = 0.1 * fast;
+  level.lower = 0;  // it takes energy
+  give(law.block, "level", with_unit(level.start, at.unit));
+  LawParameter slip;
+  slip.path = "slip_distance";
+  slip.start = way;
+  slip.lower = 1e-3 * way;
+  slip.upper = 1e3 * way;
+  slip.log_scale = true;
+  slip.scan = per_decade(0.03 * way, 10 * way, 2);
+  give(law.block, "slip_distance", with_unit(slip.start, distance));
+  law.free = {level, slip};
+  if (!flows) return law;
+  LawParameter crossover;
+  crossover.path = "crossover";
+  crossover.start = 0.1 * fast;
+  crossover.lower = 1e-5 * fast;
+  crossover.upper = fast;
+  crossover.log_scale = true;
+  crossover.scan = {0.003 * fast, 0.03 * fast, 0.3 * fast};
+  give(law.block, "crossover", with_unit(crossover.start, at.unit));
+  law.free.push_back(crossover);
+  return law;
+}
+
+bool is_speed(const Unit& unit) {
+  return unit.dimension == parse_unit("m/s").dimension || unit.dimension == parse_unit("rad/s").dimension;
+}
+
 }  // namespace
 
 Effect friction() {
@@ -53,22 +93,31 @@ Effect friction() {
       "(1995) 419";
   e.residual = "A force error of the sign of the velocity, with spikes where the motion turns.";
   e.needs = "Several reversals, slow and fast ones.";
-  e.way = Way::vary;
+  e.way = Way::insert;
+  e.block_type = "sliding_friction";
+  e.places = {"command"};
   e.variation = "presliding";
   e.is_memory = true;
   e.parameters = {{"contact_stiffness", "N/m", "while it sticks", ""},
                   {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
                   {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
-                  {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"}};
+                  {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
+                  {"level", "m/s", "on a wire that carries a speed: friction over the damping behind it", ""},
+                  {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},
+                   {"saturation", "triangle", "friction has a loop where the motion turns, a clamp has none"},
                    {"backlash", "triangle", "lost motion is the same at all amplitudes"},
                    {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    if (at.by.empty())
+      return fmt::format("as much as the damping at {:.3g} % of the largest speed",
+                         100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
     return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1],
                        100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
   };
   e.laws = [](const Circumstances& at) {
+    if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     Law law;
     law.name = "presliding (Dahl)";
     law.block.type = "mass_with_presliding";
@@ -94,7 +143,8 @@ Effect friction() {
     return std::vector<Law>{law, with_excess(law, at)};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && at.reversals < 2 ? "the force does not turn twice" : "";
+    if (at.by.empty() && !is_speed(at.unit)) return "friction needs a mass, or a wire that carries a speed";
+    return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";
   };
   return e;
 }

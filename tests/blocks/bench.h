@@ -311,6 +311,7 @@ inline std::vector<Sample> samples() {
         {"stiffness", {50}},
         {"contact_stiffness", {20, 9}},
         {"slip_distance", {1.5, 4}}}},
+      {"sliding_friction", {{"level", {0.7}}, {"slip_distance", {0.3}}, {"crossover", {0.4}}}},
       {"integrator", {{"initial", {0.6}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 3}}, {"den", {0.5, 2, 8}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 0.2, 3}}, {"den", {0.5, 2, 8}}}},

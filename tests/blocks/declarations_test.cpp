@@ -175,6 +175,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mass_with_mode",
                                        "mass_with_presliding",
                                        "mass_on_hysteretic_spring",
+                                       "sliding_friction",
                                        "tapi",
                                        "sampled_tapi_inverse"};
   EXPECT_EQ(found, expected);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "blocks/register_all.h"
 #include "discover/discover.h"
@@ -255,6 +257,90 @@ TEST_F(FurtherEffects, ARectifiedPartIsNamedAndAOneSidedDriveCannotShowIt) {
   EXPECT_NEAR(value(d, "mix"), 0.2, 1e-3);  // 0.6 = 1 - 2 mix; noise of 1e-3 over 700 negative rows of 0.5
   Circumstances above;
   EXPECT_NE(refusal(effects.get("rectification"), above), "") << "0 .. 1 has one sign";
+}
+
+/// Stroke [m] and speed [m/s] in, force [N] out: spring and dashpot.
+Diagram damper() {
+  Diagram d;
+  d.inputs["u"].unit = "m";
+  d.inputs["v"].unit = "m/s";
+  for (const auto& [name, in, gain] : {std::tuple{"spring", "u", "5 N/m"}, {"dashpot", "v", "2 N*s/m"}}) {
+    d.parameters[name].value = Value(gain);
+    d.parameters[name].free = true;
+    Node& node = d.blocks[name];
+    node.type = "gain";
+    node.parameters["gain"] = Value(Reference{name});
+    node.in = {{"", in}};
+  }
+  Node& sum = d.blocks["force"];
+  sum.type = "sum";
+  sum.in = {{"", "spring"}, {"", "dashpot"}};
+  d.outputs["y"] = "force";
+  return d;
+}
+
+/// A friction of 1.5 N beside 5 N/m and 2 N s/m: `law` gives its share from the rows of position and speed.
+DataSet rubbed(const std::function<std::vector<double>(const std::vector<double>&, const std::vector<double>&)>& law) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 2750;
+  for (const auto& [role, hertz] : {std::pair{Role::train, 0.9}, {Role::validate, 1.3}, {Role::validate, 0.7}}) {
+    const auto t = rows(800, 0.005);
+    // The amplitude grows and falls: a damper has no memory of it, a spring with slip elements would.
+    const auto x = sampled(t, [h = hertz](double s) { return 0.1 * std::sin(2 * pi * h * s) * (1 + std::sin(s)); });
+    const auto v = sampled(t, [h = hertz](double s) {
+      return 0.1 * (2 * pi * h * std::cos(2 * pi * h * s) * (1 + std::sin(s)) + std::sin(2 * pi * h * s) * std::cos(s));
+    });
+    const auto share = law(x, v);
+    auto y = noise(t.size(), 1e-2, 1e-3, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += 5 * x[k] + 2 * v[k] + 1.5 * share[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, x, y));
+    list.back().columns["v"] = v;
+    list.back().units["u"] = parse_unit("m");
+    list.back().units["v"] = parse_unit("m/s");
+    list.back().units["y"] = parse_unit("N");
+  }
+  DataSet data = data_set(list, 1e-2);
+  data.notes["v"].to = "v";
+  return data;
+}
+
+TEST_F(FurtherEffects, ADamperThatHoldsBeforeItSlidesHasFrictionAndNoClampOfItsForce) {
+  // By the way, where Dahl's law is linear: ds/dx = sign(v) - s over 5 mm, from row to row.
+  const auto dahl = [](const std::vector<double>& x, const std::vector<double>&) {
+    std::vector<double> s{0.0};
+    for (std::size_t k = 1; k < x.size(); ++k) {
+      const double way = x[k] - x[k - 1], to = way > 0 ? 1 : -1;
+      s.push_back(to + (s.back() - to) * std::exp(-std::abs(way) / 5e-3));
+    }
+    return s;
+  };
+  const Discovery d = found(damper(), rubbed(dahl));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.place, "v") << tried(d);
+  EXPECT_NEAR(value(d, "level"), 0.75, 0.04) << "1.5 N over 2 N s/m; the rows cut the corners of a turn";
+  EXPECT_NEAR(value(d, "slip_distance"), 5e-3, 1e-3);
+  EXPECT_LT(d.final_error.rms_validate, 0.1 * d.base.rms_validate);
+}
+
+TEST_F(FurtherEffects, ADamperThatFlowsBeforeItYieldsTakesTheRicherLawOfFriction) {
+  const auto smooth = [](const std::vector<double>&, const std::vector<double>& v) {
+    return sampled(v, [](double speed) { return std::tanh(speed / 0.1); });
+  };
+  const Discovery d = found(damper(), rubbed(smooth));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "sticks, flows and slides") << tried(d);
+  EXPECT_NEAR(value(d, "level"), 0.75, 0.1) << "another curve than the hidden one: tanh";
+}
+
+TEST_F(FurtherEffects, FrictionNeedsAMassOrASpeed) {
+  Circumstances volts;
+  volts.unit = parse_unit("V");
+  EXPECT_NE(refusal(effects.get("friction"), volts).find("speed"), std::string::npos);
+  volts.unit = parse_unit("mm/s");
+  volts.reversals = 5;
+  EXPECT_EQ(refusal(effects.get("friction"), volts), "");
 }
 
 TEST_F(FurtherEffects, AnActuatorThatGivesWayToAForceIsNamedWithItsCompliance) {

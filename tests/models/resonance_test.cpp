@@ -39,6 +39,21 @@ TEST(PreslidingModel, FollowsItsExponentialAndTurnsAtTheReversal) {
   EXPECT_NEAR(presliding::deflection_rate(d, d / 2, -v), -1.5 * v, 1e-18);
 }
 
+TEST(PreslidingModel, AnElementThatFlowsSettlesOnItsCurveAndRelaxesAtRest) {
+  const double d = 0.2, crossover = 0.3;
+  for (const double v : {-2.0, -0.1, 0.0, 0.4, 5.0}) {
+    const double share = presliding::sliding_share(crossover, v);
+    EXPECT_NEAR(share, v / std::sqrt(v * v + crossover * crossover), 1e-15);
+    EXPECT_NEAR(presliding::yield_rate(d, crossover, share, v), 0, 1e-14) << "steady at " << v;
+  }
+  // At rest s' = -(v_c/d) s: the time constant of a Maxwell element.
+  EXPECT_NEAR(presliding::yield_rate(d, crossover, 0.7, 0.0), -crossover / d * 0.7, 1e-15);
+  // Without a crossover it is Dahl's element in other words: z = d s.
+  for (const double v : {-1.5, 0.6})
+    EXPECT_NEAR(d * presliding::yield_rate(d, 0.0, 0.7, v), presliding::deflection_rate(d, 0.7 * d, v), 1e-15);
+  EXPECT_EQ(presliding::sliding_share(0.0, 0.0), 0) << "it holds nothing at rest";
+}
+
 TEST(PreslidingModel, AYieldingElementIsElasticOnItsWayBackAndHoldsAtItsDistance) {
   // Integrated over the path, where velocity times time is the way.
   const double d = 2e-6, step = d / 20000;
