@@ -85,6 +85,36 @@ class Investigation {
     d_.base_diagram = current_.diagram;
     d_.data_remarks = data_->remarks;
     for (const auto& r : base_model_->remarks()) d_.data_remarks.push_back(r);
+    tell_between_samples();
+  }
+
+  /// How an input moves between its samples is the user's word. Where the other way fits better the recordings are
+  /// asked to speak: it is half a sample of delay, which would be sold as an effect.
+  void tell_between_samples() {
+    for (const auto& input : base_model_->program().input_names) {
+      if (stopped()) return;
+      const auto note = data_->notes.find(input);
+      if (note == data_->notes.end()) continue;
+      DataSet other = *data_;
+      auto& between = other.notes[input].between;
+      between = between == Between::hold ? Between::linear : Between::hold;
+      Workshop shop = shop_;
+      shop.data = std::make_shared<const DataSet>(std::move(other));
+      const Contender c = base_contender(shop, user_, Effort::full);
+      d_.model_runs += c.runs;
+      if (!c.ok) continue;
+      const ModelError& was = base_.error_of;
+      const bool better = was.evidence_train - c.error_of.evidence_train > rules::claim_fall &&
+                          was.evidence_validate - c.error_of.evidence_validate > rules::claim_fall &&
+                          c.error_of.excess_validate() < (1 - rules::structure_share) * was.excess_validate();
+      if (!better) continue;
+      const bool held = note->second.between == Between::hold;
+      d_.warnings.push_back(fmt::format(
+          "{} {}, not as the data set says: the error of the model as it is would be {:.3g} % instead of {:.3g} %. A "
+          "dead time of half a sample looks the same.",
+          input, held ? "moves linearly between its samples" : "is held between its samples",
+          100 * c.error_of.nrmse_validate, 100 * was.nrmse_validate));
+    }
   }
 
   /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units.
@@ -105,7 +135,7 @@ class Investigation {
       progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.at),
                bar(0.6 * static_cast<double>(i) / static_cast<double>(tried.size())));
       t.contender = with_effect(shop_, current_, *t.effect, t.laws.front(), t.place, t.circumstances,
-                                step == 1 ? Effort::full : Effort::screen);
+                                step == 1 || taken_up(*t.effect) ? Effort::full : Effort::screen);
       d_.model_runs += t.contender.runs;
     }
     compare_all(tried, first_fall);
@@ -125,6 +155,13 @@ class Investigation {
       d_.candidates.push_back(std::move(c));
     }
     return winner >= 0;
+  }
+
+  /// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
+  /// with these held it would not be seen.
+  bool taken_up(const Effect& effect) const {
+    return std::any_of(current_.standing.begin(), current_.standing.end(),
+                       [&](const Standing& s) { return look_alike(*s.effect, effect); });
   }
 
   /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
@@ -172,6 +209,9 @@ class Investigation {
       }
       kept.push_back(std::move(t));
     }
+    for (auto& t : kept)
+      for (const int o : moved_by(t.place.wire))
+        t.outputs.push_back(base_model_->program().output_names[static_cast<std::size_t>(o)]);
     return kept;
   }
 

@@ -25,6 +25,17 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
   return train && validate;
 }
 
+/// chi2 above one per row on validation, of the outputs that the place moves: one axis cannot take away what another
+/// one leaves.
+double excess_of(const ModelError& error, const std::vector<std::string>& outputs) {
+  double excess = 0;
+  for (const auto& r : error.recordings)
+    if (r.role == Role::validate &&
+        (outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end()))
+      excess += r.excess();
+  return excess;
+}
+
 }  // namespace
 
 std::vector<double> own_values(const Tried& tried) {
@@ -56,7 +67,8 @@ void judge(Tried& tried, const Contender& before, double first_fall) {
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
   const double plain = was.chi2_validate - is.chi2_validate;
-  tried.share = was.excess_validate() > 0 ? plain / was.excess_validate() : 0;
+  const double excess = excess_of(was, tried.outputs);
+  tried.share = excess > 0 ? (excess - excess_of(is, tried.outputs)) / excess : 0;
   if (!(tried.fall_validate > rules::claim_fall)) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
