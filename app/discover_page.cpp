@@ -188,11 +188,11 @@ Section residual_section(const Seen& seen, const std::string& title, const Compa
   return section;
 }
 
-Section data_section(const Discovery& found) {
-  Section section;
-  section.title = "The data";
-  section.text = found.data_remarks;
+Section data_section(const Discovery& found, const Inspected& inspected) {
+  Section section = inspection_section(inspected);
+  section.text.insert(section.text.end(), found.data_remarks.begin(), found.data_remarks.end());
   Table table;
+  table.title = "Noise, as it was judged";
   table.columns = {"output", "white noise, rms", "1/f share", "from", "remark"};
   for (const auto& n : found.noise)
     table.rows.push_back(
@@ -269,7 +269,7 @@ Comparison comparison_of(const Diagram& diagram, const std::shared_ptr<const Dat
 }  // namespace
 
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const DiscoveryFiles& files, const Check* answer) {
+                            const Inspected& inspected, const DiscoveryFiles& files, const Check* answer) {
   Document document;
   document.verb = verb;
   document.title = found.base_diagram.title;
@@ -286,6 +286,7 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   const Seen seen{found, *final_model, after, before, output_unit(*final_model, 0)};
 
   const auto recordings = recording_sections(document, seen);
+  document.sections.push_back(data_section(found, inspected));
   document.sections.push_back(steps_section(document, seen));
   document.sections.push_back(errors_section(seen));
   document.sections.push_back(residual_section(seen, "Residual before: where the base model fails", before));
@@ -294,10 +295,12 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sections.push_back(next_section(found));
   document.sections.push_back(change_section(found));
   document.sections.push_back(candidates_section(seen));
-  document.sections.push_back(data_section(found));
   document.sections.insert(document.sections.end(), recordings.begin(), recordings.end());
   add_diagrams(document, found, files.folder);
+  const auto& faults = inspected.data.faults;
+  document.warnings.insert(document.warnings.end(), faults.begin(), faults.end());
   Facts facts = discovery_facts(found, seen.unit, files.diagram_file, files.data_file);
+  facts.set("inspection", inspection_facts(inspected));
   if (answer != nullptr) facts.set("check", check_facts(*answer));
   document.facts = to_json(facts);
   return document;

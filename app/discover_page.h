@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "app/inspection_page.h"
 #include "discover/check.h"
 #include "io/result.h"
 
@@ -17,8 +18,8 @@ struct DiscoveryFiles {
 
 /// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and
 /// after, candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
-/// The answer to --check, where that was asked, stands before everything else.
+/// `inspected` is its first page. The answer to --check, where that was asked, stands before everything else.
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const DiscoveryFiles& files, const Check* answer = nullptr);
+                            const Inspected& inspected, const DiscoveryFiles& files, const Check* answer = nullptr);
 
 }  // namespace hysteron

@@ -73,9 +73,13 @@ int look(const std::string& verb, const Arguments& arguments) {
   });
   progress.clear();
   const bool stopped = interrupted();
+  // Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data.
+  DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(given));
+  const Inspected inspected = inspect_data(found.base_diagram, model, effects, settings.free_paths);
   const std::string folder = result_folder(arguments, verb);
-  Document document = discovery_document(
-      verb, found, data, {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
+  Document document =
+      discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
+                         answer ? &*answer : nullptr);
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
   if (arguments.has("--json")) {
     write_results(folder, document);

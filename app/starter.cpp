@@ -25,21 +25,6 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// A column's name as a diagram may write it: [a-z][a-z0-9_]*.
-std::string diagram_name(const std::string& column) {
-  std::string name;
-  for (const char c : lower_case(column)) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (plain)
-      name += c;
-    else if (!name.empty() && name.back() != '_')
-      name += '_';
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
-  if (name.empty() || !(name.front() >= 'a' && name.front() <= 'z')) name = "column_" + name;
-  return name;
-}
-
 bool is_one_of(const std::string& name, std::initializer_list<const char*> words) {
   return std::any_of(words.begin(), words.end(), [&](const char* word) { return name == word; });
 }
@@ -212,6 +197,20 @@ std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const
 }
 
 }  // namespace
+
+std::string diagram_name(const std::string& column) {
+  std::string name;
+  for (const char c : lower_case(column)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (plain)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  if (name.empty() || !(name.front() >= 'a' && name.front() <= 'z')) name = "column_" + name;
+  return name;
+}
 
 StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<std::string>& assumed) {
   check_columns(table, given.inputs, "--input");

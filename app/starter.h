@@ -22,6 +22,9 @@ struct Starter {
   std::vector<std::string> assumed;  ///< everything that was guessed, for the user
 };
 
+/// A column's name as a diagram may write it: [a-z][a-z0-9_]*.
+std::string diagram_name(const std::string& column);
+
 /// Which columns are time, inputs and outputs. Throws Error "unclear_columns" where nothing tells, "missing_column".
 StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<std::string>& assumed);
 

@@ -72,6 +72,7 @@ Verb draw_verb();
 Verb linearize_verb();
 Verb blocks_verb();
 Verb effects_verb();
+Verb inspect_verb();
 Verb compare_verb();
 Verb diagnose_verb();
 Verb add_verb();

@@ -8,6 +8,7 @@
 #include "discover/wiring.h"
 #include "engine/program.h"
 #include "fit/branches.h"
+#include "fit/excitation.h"
 #include "fit/free_parameter.h"
 
 namespace hysteron {
@@ -26,25 +27,6 @@ double median_step(const std::vector<double>& t) {
   if (steps.empty()) return 0;
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
   return steps[steps.size() / 2];
-}
-
-/// Longest stay of the drive at one level (within 0.5 % of its range) after a move of at least 5 %.
-double longest_hold(const std::vector<double>& t, const std::vector<double>& u, double range) {
-  double longest = 0;
-  double low = u.front();
-  double high = u.front();
-  for (std::size_t i = 0; i < u.size();) {
-    std::size_t end = i;
-    while (end + 1 < u.size() && std::abs(u[end + 1] - u[i]) <= 0.005 * range) ++end;
-    const bool moved = std::max(high - u[i], u[i] - low) >= 0.05 * range;
-    if (moved) longest = std::max(longest, t[end] - t[i]);
-    for (std::size_t k = i; k <= end; ++k) {
-      low = std::min(low, u[k]);
-      high = std::max(high, u[k]);
-    }
-    i = end + 1;
-  }
-  return longest;
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -281,7 +263,7 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
       for (std::size_t r = 0; r < rows.size() && high > low; ++r) {
         const std::vector<double> t(trains[r]->t.begin(),
                                     trains[r]->t.begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
-        const double hold = longest_hold(t, rows[r][s], high - low);
+        const double hold = longest_hold(t, rows[r][s], high - low).length;
         const double step = median_step(t);
         // The longest one that shows two decades of time; where none does, the one that shows most.
         const bool shows = hold >= 100 * step;

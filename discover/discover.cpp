@@ -12,6 +12,7 @@
 
 #include "discover/circumstances.h"
 #include "discover/investigation.h"
+#include "discover/visible.h"
 #include "discover/wiring.h"
 #include "engine/error.h"
 
@@ -213,19 +214,6 @@ class Investigation {
       for (const int o : moved_by(t.place.wire))
         t.outputs.push_back(base_model_->program().output_names[static_cast<std::size_t>(o)]);
     return kept;
-  }
-
-  static std::string why_no_place(const Effect& e) {
-    if (!e.variation.empty())
-      return fmt::format("no block of the diagram offers the variation \"{}\" ({})", e.variation,
-                         e.variation == "late" ? "a hysteresis" : "a mass on a spring");
-    if (e.way == Way::vary)
-      return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
-    if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";
-    if (e.side == Side::force) return "no force is recorded";
-    if (e.side == Side::use) return "no recording says what the device had behind it (cycles_before, start)";
-    if (e.side == Side::other_axis) return "no other axis is recorded";
-    return "the diagram has no place where it could enter";
   }
 
   bool standing(const Effect& e) const {

@@ -14,8 +14,9 @@ namespace {
 using process::Folder;
 using process::Outcome;
 
-const std::vector<std::string> verbs{"new", "run",    "check", "explain",  "draw",   "linearize", "compare", "diagnose",
-                                     "add", "remove", "fit",   "discover", "blocks", "effects",   "schema"};
+const std::vector<std::string> verbs{"new",      "run",     "check",    "explain", "draw",   "linearize",
+                                     "inspect",  "compare", "diagnose", "add",     "remove", "fit",
+                                     "discover", "blocks",  "effects",  "schema"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);

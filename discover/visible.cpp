@@ -1,0 +1,54 @@
+#include "discover/visible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/circumstances.h"
+#include "discover/places.h"
+
+namespace hysteron {
+
+std::string why_no_place(const Effect& e) {
+  if (!e.variation.empty())
+    return fmt::format("no block of the diagram offers the variation \"{}\" ({})", e.variation,
+                       e.variation == "late" ? "a hysteresis" : "a mass on a spring");
+  if (e.way == Way::vary)
+    return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
+  if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";
+  if (e.side == Side::force) return "no force is recorded";
+  if (e.side == Side::use) return "no recording says what the device had behind it (cycles_before, start)";
+  if (e.side == Side::other_axis) return "no other axis is recorded";
+  return "the diagram has no place where it could enter";
+}
+
+std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data, const Registry& registry,
+                                     const Effects& effects, const std::vector<std::string>& free_paths) {
+  std::vector<Visible> list;
+  std::vector<Place> places;
+  std::vector<std::size_t> of;  // per place: its effect in `list`
+  for (const auto& e : effects.list()) {
+    list.push_back({e.id, e.title, {}, {}, false});
+    for (auto& p : places_of(e, diagram, registry, &data)) {
+      of.push_back(list.size() - 1);
+      places.push_back(std::move(p));
+    }
+    if (!of.empty() && of.back() == list.size() - 1) continue;
+    list.back().reason = why_no_place(e);
+    list.back().needs_block = e.way == Way::vary || !e.variation.empty();
+  }
+  if (places.empty()) return list;
+  const auto seen = circumstances_at(diagram, registry, data, places, free_paths);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Visible& v = list[of[i]];
+    const std::string why = effects.list()[of[i]].unseen(seen[i]);
+    const bool known = std::find(v.places.begin(), v.places.end(), places[i].at) != v.places.end();
+    if (why.empty() && !known) v.places.push_back(places[i].at);
+    if (!why.empty() && v.reason.empty()) v.reason = why;
+  }
+  for (auto& v : list)
+    if (v.can()) v.reason.clear();
+  return list;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,569 @@
+#include "fit/inspection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "fit/branches.h"
+#include "fit/score.h"
+
+namespace hysteron {
+namespace {
+
+/// Rows [first, last) of a recording of the data set. A single recording that was cut in two is one again here.
+struct Part {
+  int recording = 0;
+  std::size_t first = 0, last = 0;
+  std::string name;
+};
+
+std::vector<Part> parts_of(const DataModel& model) {
+  std::vector<Part> parts;
+  for (int r = 0; r < model.n_recordings(); ++r) {
+    const Recording& recording = model.recording(r);
+    if (recording.role == Role::test) continue;
+    if (model.data().single && !parts.empty())
+      parts.front().last = recording.last;
+    else
+      parts.push_back({r, recording.first, recording.last, recording.name});
+  }
+  return parts;
+}
+
+std::span<const double> rows_of(const DataModel& model, const Part& part, const std::string& column) {
+  const auto& columns = model.recording(part.recording).columns;
+  const auto found = columns.find(column);
+  if (found == columns.end()) return {};
+  return std::span(found->second).subspan(part.first, part.last - part.first);
+}
+
+std::span<const double> times_of(const DataModel& model, const Part& part) {
+  return std::span(model.recording(part.recording).t).subspan(part.first, part.last - part.first);
+}
+
+double median(std::vector<double> v) {
+  if (v.empty()) return 0;
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+double range_of(std::span<const double> v) {
+  if (v.empty()) return 0;
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  return *high - *low;
+}
+
+std::string in_unit(double number, const Unit& unit) {
+  const std::string text = fmt::format("{:.3g}", std::abs(number) < 1e-300 ? 0.0 : number);
+  return unit.text.empty() ? text : text + " " + unit.text;
+}
+std::string size_text(double si, const Unit& unit) { return in_unit(unit.difference_from_si(si), unit); }
+std::string level_text(double si, const Unit& unit) { return in_unit(unit.from_si(si), unit); }
+std::string range_text(double low, double high, const Unit& unit) {
+  return fmt::format("{:.3g} .. {}", unit.from_si(low), level_text(high, unit));
+}
+std::string time_text(double s) {
+  return s >= 3600             ? fmt::format("{:.3g} h", s / 3600)
+         : s >= 1              ? fmt::format("{:.3g} s", s)
+         : s >= 1e-3 || s == 0 ? fmt::format("{:.3g} ms", s * 1e3)
+                               : fmt::format("{:.3g} us", s * 1e6);
+}
+std::string count(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+std::string share_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+/// "01.csv", "01.csv and 02.csv", "01.csv, 02.csv and 5 more".
+std::string list_text(const std::vector<std::string>& names) {
+  if (names.size() == 1) return names[0];
+  if (names.size() == 2) return names[0] + " and " + names[1];
+  return fmt::format("{}, {} and {} more", names[0], names[1], names.size() - 2);
+}
+
+class Inspector {
+ public:
+  Inspector(DataModel& model, bool diagram_is_meant)
+      : model_(model), diagram_is_meant_(diagram_is_meant), parts_(parts_of(model)) {}
+
+  Inspection run() {
+    columns();
+    recordings();
+    against_the_diagram();
+    rows();
+    repeats();
+    lines();
+    sentences();
+    return std::move(seen_);
+  }
+
+ private:
+  const Program& program() const { return model_.program(); }
+  Unit unit_of(const std::string& column) const {
+    for (const auto& part : parts_)
+      if (const auto& units = model_.recording(part.recording).units; units.contains(column)) return units.at(column);
+    return {};
+  }
+  std::string role_of(const std::string& column) const {
+    const auto is_one_of = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), column) != names.end();
+    };
+    return is_one_of(program().input_names) ? "input" : is_one_of(model_.outputs()) ? "output" : "beside";
+  }
+
+  void columns() {
+    std::set<std::string> names;
+    for (const auto& part : parts_)
+      for (const auto& [name, rows] : model_.recording(part.recording).columns) names.insert(name);
+    for (const auto& role : {"input", "output", "beside"})
+      for (const auto& name : names) {
+        if (role_of(name) != role || name == column_of_cycles || name == column_of_start) continue;
+        InspectedColumn c{name, role, unit_of(name)};
+        c.lowest = std::numeric_limits<double>::infinity();
+        c.highest = -c.lowest;
+        std::vector<double> rough, finest;
+        for (const auto& part : parts_) {
+          const auto rows = rows_of(model_, part, name);
+          if (rows.empty()) continue;
+          const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+          c.lowest = std::min(c.lowest, *low);
+          c.highest = std::max(c.highest, *high);
+          rough.push_back(roughness(rows));
+          if (const double q = finest_step(rows); q > 0) finest.push_back(q);
+        }
+        c.roughness = median(rough);
+        if (!finest.empty()) c.finest = *std::min_element(finest.begin(), finest.end());
+        seen_.columns.push_back(std::move(c));
+      }
+  }
+  const InspectedColumn* column(const std::string& name) const {
+    for (const auto& c : seen_.columns)
+      if (c.name == name) return &c;
+    return nullptr;
+  }
+
+  /// Inputs that move in this part, with their rows.
+  std::vector<std::pair<std::string, std::span<const double>>> drives_of(const Part& part) const {
+    std::vector<std::pair<std::string, std::span<const double>>> drives;
+    for (const auto& name : program().input_names)
+      if (const auto rows = rows_of(model_, part, name); range_of(rows) > 0) drives.emplace_back(name, rows);
+    return drives;
+  }
+
+  void recordings() {
+    for (const auto& part : parts_) {
+      const auto t = times_of(model_, part);
+      InspectedRecording r;
+      r.name = part.name;
+      r.role = model_.recording(part.recording).role;
+      r.rows = t.size();
+      r.duration = t.empty() ? 0 : t.back() - t.front();
+      r.clock = clock_of(t);
+      for (const auto& [name, u] : drives_of(part)) {
+        InspectedDrive d;
+        d.input = name;
+        d.unit = unit_of(name);
+        const auto [low, high] = std::minmax_element(u.begin(), u.end());
+        d.lowest = *low;
+        d.highest = *high;
+        for (std::size_t i = 1; i < u.size(); ++i)
+          if (t[i] > t[i - 1]) d.fastest = std::max(d.fastest, std::abs(u[i] - u[i - 1]) / (t[i] - t[i - 1]));
+        if (r.clock.regular) d.band = band_of(u, r.clock.step);
+        d.reversals = turning_points(u, turning_threshold(u)).size();
+        d.swings = swing_sizes(u).size();
+        d.hold = longest_hold(t, u, range_of(u));
+        if (r.clock.regular && r.clock.gaps.empty()) d.period = period_of(u);
+        r.drives.push_back(std::move(d));
+      }
+      seen_.recordings.push_back(std::move(r));
+    }
+  }
+
+  // --- what the diagram tells of the data -----------------------------------------------------------------------
+
+  /// Each output takes the gain and the offset that fit it best: a wrong calibration is no fault of the data.
+  void calibrate(Prediction& prediction) const {
+    for (std::size_t o = 0; o < model_.outputs().size(); ++o) {
+      double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+      const auto each = [&](auto&& action) {
+        for (const auto r : judged_) {
+          auto& rows = prediction.y[static_cast<std::size_t>(r)][o];
+          const Rows& measured = model_.measured(r, static_cast<int>(o));
+          for (std::size_t i = 0; i < std::min(rows.size(), measured.size()); ++i) action(rows[i], measured[i]);
+        }
+      };
+      each([&](double p, double m) { n += 1, x += p, y += m; });
+      if (!(n > 0)) continue;
+      each([&](double p, double m) { xx += (p - x / n) * (p - x / n), xy += (p - x / n) * (m - y / n); });
+      const double gain = xx > 0 && xy > 0 ? xy / xx : 1, offset = y / n - gain * x / n;
+      each([&](double& p, double) { p = gain * p + offset; });
+    }
+  }
+
+  void against_the_diagram() {
+    for (int r = 0; r < model_.n_recordings(); ++r)
+      if (model_.recording(r).role != Role::test) judged_.push_back(r);
+    prediction_ = model_.predict({}, judged_, false);
+    if (!prediction_.ok) {
+      seen_.notes.push_back("The diagram cannot be simulated on these recordings (" + prediction_.error +
+                            "): shift, lines and the way between samples were judged without it.");
+      return;
+    }
+    calibrate(prediction_);
+    const Judge judge(model_, noise_before_fit(model_));
+    if (!diagram_is_meant_) return;
+    seen_.delays = find_delays(model_, judge, prediction_);
+    for (const auto& d : seen_.delays)
+      if (!d.sentence.empty()) (d.kind == DelayKind::samples ? seen_.faults : seen_.notes).push_back(d.sentence + ".");
+    between_samples(judge);
+  }
+
+  void between_samples(const Judge& judge) {
+    const Score given = judge.score(model_, prediction_, judged_);
+    for (const auto& name : program().input_names) {
+      const bool moves = std::any_of(parts_.begin(), parts_.end(),
+                                     [&](const Part& part) { return range_of(rows_of(model_, part, name)) > 0; });
+      if (!moves || !given.ok) continue;
+      auto other_data = std::make_shared<DataSet>(model_.data());
+      auto& note = other_data->notes[name];
+      note.to = name;
+      const Between before = note.between;
+      note.between = before == Between::linear ? Between::hold : Between::linear;
+      DataModel other(model_.program_pointer(), other_data);
+      Prediction prediction = other.predict({}, judged_, false);
+      if (!prediction.ok) continue;
+      calibrate(prediction);
+      const Score score = judge.score(other, prediction, judged_);
+      const double fall = given.chi2() > 0 ? 1 - score.chi2() / given.chi2() : 0;
+      const double floor = score.chi2() / std::max(1.0, score.n());
+      // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance.
+      if (!(fall > 0.1) || given.chi2() - score.chi2() < 25 * std::max(1.0, floor)) continue;
+      seen_.between.push_back({name, before, fall});
+      if (before == Between::hold)
+        seen_.faults.push_back(fmt::format(
+            "{0} is said to be held between samples, but the diagram comes nearer where it moves along a straight line "
+            "({1:.0f} % of the squared error go): write \"between_samples\": \"linear\" at its column.",
+            name, 100 * fall));
+      else
+        seen_.notes.push_back(
+            fmt::format("Held between samples, {0} would take {1:.0f} % of the squared error away; so may a lag or a "
+                        "delay of half a "
+                        "sample. If the drive is known to be held, write \"between_samples\": \"hold\" at its column.",
+                        name, 100 * fall));
+    }
+  }
+
+  // --- rows -----------------------------------------------------------------------------------------------------
+
+  /// Per row: a drive moves there by more than 0.5 % of its range within two rows on each side.
+  std::vector<bool> moving(const Part& part) const {
+    std::vector<bool> rows(part.last - part.first, false);
+    for (const auto& [name, u] : drives_of(part)) {
+      const double least = 0.005 * range_of(u);
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        const std::size_t a = i > 1 ? i - 2 : 0, b = std::min(i + 2, u.size() - 1);
+        rows[i] = rows[i] || range_of(u.subspan(a, b - a + 1)) > least;
+      }
+    }
+    return rows;
+  }
+
+  void rows() {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      clock_faults(seen_.recordings[k]);
+      lost_and_repeated(parts_[k]);
+      for (const auto& output : model_.outputs()) ends(parts_[k], output);
+    }
+    units();
+    for (const auto& c : seen_.columns) {
+      // With fewer levels the noise is no longer white and the high band shows less than there is.
+      constexpr double few_levels = 300;
+      if (c.role == "output" && c.finest > 0 && (c.highest - c.lowest) / c.finest < few_levels &&
+          c.roughness < c.finest)
+        seen_.notes.push_back(fmt::format(
+            "{} has {} levels only, {} apart: nothing finer can be seen, and noise of at least {} rms is in it.",
+            c.name, std::lround((c.highest - c.lowest) / c.finest) + 1, size_text(c.finest, c.unit),
+            size_text(c.finest / std::sqrt(12.0), c.unit)));
+    }
+  }
+
+  void clock_faults(const InspectedRecording& r) {
+    const Clock& c = r.clock;
+    if (!c.gaps.empty())
+      seen_.faults.push_back(fmt::format("{}: {} missing, in {} of its clock; the first at {} (after the first row).",
+                                         r.name, count(static_cast<std::size_t>(c.missing()), "row"),
+                                         count(c.gaps.size(), "gap"),
+                                         time_text(c.gaps.front().time - begin_of(r.name))));
+    if (!c.regular)
+      seen_.notes.push_back(fmt::format("{}: time is not uniform, {} to {} between rows; no spectrum is read from it.",
+                                        r.name, time_text(c.shortest), time_text(c.longest)));
+    else if (!c.uniform)
+      seen_.notes.push_back(fmt::format("{}: the clock jitters by up to {} of its step of {}.", r.name,
+                                        share_text(c.jitter), time_text(c.step)));
+  }
+  double begin_of(const std::string& name) const {
+    for (const auto& part : parts_)
+      if (part.name == name) return model_.recording(part.recording).t.front();
+    return 0;
+  }
+
+  void lost_and_repeated(const Part& part) {
+    std::map<std::size_t, std::size_t> repeated;  // row: columns that repeat there
+    std::size_t judged = 0;
+    for (const auto& c : seen_.columns) {
+      if (c.role == "beside") continue;
+      const auto rows = rows_of(model_, part, c.name);
+      if (range_of(rows) <= 0) continue;
+      ++judged;
+      const auto stuck = repeats_in_motion(rows, c.finest);
+      for (const auto row : stuck) ++repeated[row];
+      if (const auto leaps = leaps_in_motion(rows, c.finest); c.role == "input" && !leaps.empty())
+        seen_.faults.push_back(fmt::format(
+            "{}: {} leaps at {} by twice its pace and more, the first at {}: rows before them may be lost though the "
+            "clock does not show it.",
+            part.name, c.name, count(leaps.size(), "row"), when(part, leaps.front())));
+      if (c.role == "output")
+        if (const long more = unexplained_repeats(rows, c.finest); more > 0)
+          seen_.faults.push_back(
+              fmt::format("{}: at about {} ({}) {} repeats the value before exactly, more often than "
+                          "its noise explains: those readings were not fetched anew.",
+                          part.name, count(static_cast<std::size_t>(more), "row"),
+                          share_text(static_cast<double>(more) / static_cast<double>(rows.size())), c.name));
+    }
+    std::vector<std::size_t> whole;
+    for (const auto& [row, columns] : repeated)
+      if (everything_repeats(part, row)) whole.push_back(row);
+    if (!whole.empty())
+      seen_.faults.push_back(fmt::format("{}: {} whole, though the signals move; the first at {}.", part.name,
+                                         whole.size() == 1 ? "one row repeats the one before"
+                                                           : fmt::format("{} rows repeat the one before", whole.size()),
+                                         when(part, whole.front())));
+    else if (!repeated.empty() && judged > 0)
+      seen_.faults.push_back(fmt::format("{}: a column repeats its value in motion at {}, the first at {}.", part.name,
+                                         count(repeated.size(), "row"), when(part, repeated.begin()->first)));
+  }
+  bool everything_repeats(const Part& part, std::size_t row) const {
+    return std::all_of(seen_.columns.begin(), seen_.columns.end(), [&](const InspectedColumn& c) {
+      const auto rows = rows_of(model_, part, c.name);
+      return row >= rows.size() || rows[row] == rows[row - 1];
+    });
+  }
+  std::string when(const Part& part, std::size_t row) const {
+    return time_text(times_of(model_, part)[row] - model_.recording(part.recording).t.front());
+  }
+
+  void ends(const Part& part, const std::string& output) {
+    const auto rows = rows_of(model_, part, output);
+    if (rows.empty()) return;
+    const auto moves = moving(part);
+    const auto say = [&](const Plateau& p, const char* which) {
+      if (p.found)
+        seen_.faults.push_back(fmt::format(
+            "{}: {} stays at its {} value {} in {} while the drive moves on: the sensor or the converter clips, or the "
+            "device has come to a stop.",
+            part.name, output, which, level_text(p.level, unit_of(output)), count(p.rows, "row")));
+    };
+    const double finest = column(output)->finest;
+    say(plateau_at_top(rows, finest, moves), "highest");
+    say(plateau_at_bottom(rows, finest, moves), "lowest");
+  }
+
+  void units() {
+    std::vector<std::string> without;
+    for (const auto& c : seen_.columns)
+      if (c.unit.text.empty() && c.role != "beside") without.push_back(c.name);
+    if (!without.empty())
+      seen_.notes.push_back(fmt::format("No unit is written for {}: taken as plain numbers.", list_text(without)));
+  }
+
+  // --- what repeats ---------------------------------------------------------------------------------------------
+
+  void repeats() {
+    for (const auto& output : model_.outputs()) {
+      std::vector<InspectedRepeat> found;
+      for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const auto y = rows_of(model_, parts_[k], output);
+        const auto period = common_period(seen_.recordings[k]);
+        if (y.empty() || !period.found()) continue;
+        found.push_back(
+            {output, fmt::format("{:.3g} periods in {}", period.count(), parts_[k].name), unit_of(output),
+             between_periods(y, rows_of(model_, parts_[k], seen_.recordings[k].drives.front().input), period)});
+      }
+      for (std::size_t a = 0; a < parts_.size(); ++a)
+        for (std::size_t b = a + 1; b < parts_.size(); ++b)
+          if (driven_alike(parts_[a], parts_[b]))
+            found.push_back({output, fmt::format("{} and {}, driven alike", parts_[a].name, parts_[b].name),
+                             unit_of(output),
+                             between_takes(rows_of(model_, parts_[a], output), rows_of(model_, parts_[b], output))});
+      std::erase_if(found, [](const InspectedRepeat& r) { return !r.floor.found(); });
+      std::stable_sort(found.begin(), found.end(),
+                       [](const auto& a, const auto& b) { return a.floor.rms < b.floor.rms; });
+      seen_.repeats.insert(seen_.repeats.end(), found.begin(), found.end());
+    }
+  }
+  /// The period of the only drive that moves; several drives repeat together only where their periods are equal.
+  static Period common_period(const InspectedRecording& r) {
+    if (r.drives.empty()) return {};
+    Period p = r.drives.front().period;
+    for (const auto& d : r.drives) {
+      if (!d.period.found() || std::abs(d.period.rows - p.rows) > 0.5) return {};
+      p.first = std::max(p.first, d.period.first);
+      p.last = std::min(p.last, d.period.last);
+    }
+    return p.last > p.first && p.count() >= 2 ? p : Period{};
+  }
+  bool driven_alike(const Part& a, const Part& b) const {
+    const auto ta = times_of(model_, a), tb = times_of(model_, b);
+    if (ta.size() != tb.size() || ta.size() < 2) return false;
+    if (std::abs((ta.back() - ta.front()) - (tb.back() - tb.front())) > 1e-3 * (ta.back() - ta.front())) return false;
+    const auto& names = program().input_names;
+    return !drives_of(a).empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      if (name == column_of_cycles || name == column_of_start) return true;
+      return same_drive(rows_of(model_, a, name), rows_of(model_, b, name));
+    });
+  }
+
+  // --- lines ----------------------------------------------------------------------------------------------------
+
+  void lines() {
+    for (std::size_t o = 0; o < model_.outputs().size(); ++o) {
+      const auto& output = model_.outputs()[o];
+      std::vector<InspectedLine> found;
+      std::size_t looked = 0;
+      for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const Clock& clock = seen_.recordings[k].clock;
+        if (!clock.regular || !clock.gaps.empty()) continue;
+        const Part& part = parts_[k];
+        const auto y = rows_of(model_, part, output);
+        if (y.empty()) continue;
+        ++looked;
+        std::vector<std::span<const double>> drives;
+        for (const auto& [name, u] : drives_of(part)) drives.push_back(u);
+        const auto residual = residual_of(part, o, y);
+        for (const auto& line : lines_of(residual.empty() ? y : std::span<const double>(residual), drives, clock.step))
+          add_line(found, {output, unit_of(output), line.frequency, line.amplitude, {part.name}, !residual.empty()},
+                   1 / seen_.recordings[k].duration);
+      }
+      // What is in the laboratory is in most of its recordings; a single sight must be the only one there could be.
+      for (auto& line : found)
+        if (line.recordings.size() >= std::min<std::size_t>(2, looked)) seen_.lines.push_back(std::move(line));
+    }
+    for (const auto& line : seen_.lines)
+      seen_.notes.push_back(fmt::format(
+          "{} carries a line at {:.6g} Hz of {} (amplitude, in {}) that no input makes: interference, or its alias "
+          "where the rows are further apart than half its period.",
+          line.output, line.frequency, size_text(line.amplitude, line.unit), list_text(line.recordings)));
+  }
+  static void add_line(std::vector<InspectedLine>& found, const InspectedLine& line, double width) {
+    for (auto& other : found)
+      if (std::abs(other.frequency - line.frequency) < 2 * width) {
+        other.amplitude = std::max(other.amplitude, line.amplitude);
+        other.recordings.push_back(line.recordings.front());
+        return;
+      }
+    found.push_back(line);
+  }
+  std::vector<double> residual_of(const Part& part, std::size_t o, std::span<const double> y) const {
+    std::vector<double> rows;
+    if (!prediction_.ok) return rows;
+    // The parts of a recording that was cut follow each other.
+    for (const int r : judged_)
+      if (r == part.recording || model_.data().single) {
+        const auto& predicted = prediction_.y[static_cast<std::size_t>(r)][o];
+        rows.insert(rows.end(), predicted.begin(), predicted.end());
+      }
+    if (rows.size() != y.size()) return {};
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = y[i] - rows[i];
+    return rows;
+  }
+
+  // --- words ----------------------------------------------------------------------------------------------------
+
+  void sentences() {
+    std::size_t rows = 0;
+    double duration = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const auto& r : seen_.recordings) {
+      rows += r.rows;
+      duration += r.duration;
+      shortest = std::min(shortest, r.clock.step);
+      longest = std::max(longest, r.clock.step);
+    }
+    if (seen_.recordings.empty()) return;
+    const std::string steps =
+        longest > 1.01 * shortest ? time_text(shortest) + " to " + time_text(longest) : time_text(longest);
+    seen_.sentences.push_back(fmt::format("{} with {} rows, {} between rows, {} in all.",
+                                          count(seen_.recordings.size(), "recording"), rows, steps,
+                                          time_text(duration)));
+    for (const auto& name : program().input_names) drive_sentence(name);
+    for (const auto& name : model_.outputs()) output_sentence(name);
+    if (seen_.repeats.empty())
+      seen_.sentences.emplace_back(
+          "Nothing was recorded twice, neither a period nor a recording: the floor of the measurement cannot be read "
+          "off, only guessed from how rough the rows are.");
+  }
+
+  void drive_sentence(const std::string& name) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = 0;
+    std::size_t reversals = 0, swings = 0;
+    Hold hold;
+    std::string held_in;
+    for (const auto& r : seen_.recordings)
+      for (const auto& d : r.drives) {
+        if (d.input != name) continue;
+        low = std::min(low, d.lowest);
+        high = std::max(high, d.highest);
+        if (d.band.highest > 0) {
+          band_low = std::min(band_low, d.band.lowest);
+          band_high = std::max(band_high, d.band.highest);
+        }
+        reversals += d.reversals;
+        swings = std::max(swings, d.swings);
+        if (d.hold.length > hold.length) {
+          hold = d.hold;
+          held_in = r.name;
+        }
+      }
+    const Unit unit = unit_of(name);
+    if (high < low) {
+      if (column(name) != nullptr) seen_.sentences.push_back(fmt::format("{} does not move.", name));
+      return;
+    }
+    std::string text = fmt::format("{} moves over {}", name, range_text(low, high, unit));
+    if (band_high > 0) text += fmt::format(", excites {:.3g} .. {:.4g} Hz", band_low, band_high);
+    text += fmt::format(", turns {}", reversals == 1 ? "once" : fmt::format("{} times", reversals));
+    if (swings > 0)
+      text += fmt::format(" with up to {} of swing in a recording", swings == 1 ? "one size" : count(swings, "size"));
+    text += hold.length > 0 ? fmt::format("; longest hold {} ({}).", time_text(hold.length), held_in)
+                            : "; it is never held.";
+    seen_.sentences.push_back(text);
+  }
+
+  void output_sentence(const std::string& name) {
+    const InspectedColumn* c = column(name);
+    if (c == nullptr) return;
+    std::string text = fmt::format("{} was measured over {}", name, range_text(c->lowest, c->highest, c->unit));
+    if (c->finest > 0) text += fmt::format(" in steps of {}", size_text(c->finest, c->unit));
+    text += fmt::format(", rough by {}", size_text(c->roughness, c->unit));
+    for (const auto& r : seen_.repeats)
+      if (r.output == name) {
+        text += fmt::format("; it repeats to {} rms ({})", size_text(r.floor.rms, c->unit), r.what);
+        break;
+      }
+    seen_.sentences.push_back(text + ".");
+  }
+
+  DataModel& model_;
+  bool diagram_is_meant_ = true;
+  std::vector<Part> parts_;
+  std::vector<int> judged_;
+  Prediction prediction_;
+  Inspection seen_;
+};
+
+}  // namespace
+
+Inspection inspect(DataModel& model, bool diagram_is_meant) { return Inspector(model, diagram_is_meant).run(); }
+
+}  // namespace hysteron
