@@ -107,7 +107,7 @@ int inspect_verb_acts(const Arguments& arguments) {
   DataModelOptions options;
   options.threads = 2;
   DataModel model(compile_file(subject.diagram), std::make_shared<const DataSet>(subject.data), options);
-  const Inspected seen = inspect_data(subject.diagram, model, all_effects(), {}, named);
+  const Inspected seen = inspect_data(subject.diagram, model, load_effects(arguments), {}, named);
 
   Facts facts = Facts::object({{"data", arguments.text("data")}});
   if (named) facts.set("diagram", arguments.text("--diagram"));
@@ -146,6 +146,7 @@ Verb inspect_verb() {
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},
            {"--output", "COLUMN", "this column was measured (else guessed from the names)", false, true},
            {"--json", "", "print the facts as JSON", false, false},
+           options::effects(),
            folder,
            options::set(),
            options::choose(),

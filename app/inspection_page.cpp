@@ -7,6 +7,7 @@
 
 #include "app/load.h"
 #include "app/numbers.h"
+#include "discover/check.h"
 
 namespace hysteron {
 namespace {
@@ -153,7 +154,8 @@ Facts facts_of(const InspectedColumn& c) {
 
 Inspected inspect_data(const Diagram& diagram, DataModel& model, const Effects& effects,
                        const std::vector<std::string>& free_paths, bool diagram_is_meant) {
-  return {inspect(model, diagram_is_meant), visible_effects(diagram, model.data(), registry(), effects, free_paths)};
+  return {inspect(model, diagram_is_meant),
+          visible_effects(diagram, with_both_roles(model.data()), registry(), effects, free_paths)};
 }
 
 std::string inspection_headline(const Inspected& seen) {

@@ -74,7 +74,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   progress.clear();
   const bool stopped = interrupted();
   // Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data.
-  DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(given));
+  DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(data));
   const Inspected inspected = inspect_data(found.base_diagram, model, effects, settings.free_paths);
   const std::string folder = result_folder(arguments, verb);
   Document document =

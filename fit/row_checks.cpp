@@ -210,11 +210,12 @@ long unexplained_repeats(std::span<const double> values, double finest) {
   if (!(noise > 2 * finest)) return 0;  // on few levels a repeat is the rule
   if (finest == 0 && meets_its_values_again(values)) return 0;
   const double level = finest > 0 ? finest : noise * 1e-3;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
   double none = 0, next = 0;
-  for (const double d : differences(values)) {
-    const double k = std::abs(d) / level;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double d = values[i] - values[i - 1], k = std::abs(d) / level;
     if (k < 0.5 && (finest > 0 || d == 0))
-      none += 1;
+      none += values[i] == *low || values[i] == *high ? 0 : 1;  // what clips repeats as well, and is told apart
     else if (k < 2.5)
       next += 1;
   }

@@ -1,0 +1,162 @@
+// A data set inspected against a diagram: what was spoilt is told, what is sound is not suspected.
+#include "fit/inspection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fit/lab.h"
+
+namespace hysteron {
+namespace {
+
+ProgramPointer program_of(const std::string& type) {
+  Diagram d = lab::diagram("g");
+  lab::add(d, type == "gain" ? "g" : "lag", type == "gain" ? "gain" : "lag", "u");
+  if (type == "gain") {
+    d.blocks["g"].parameters["gain"] = "1 um/V";
+  } else {
+    d.blocks["lag"].parameters["times"] = NumberList{Number{5, "ms"}};
+    lab::add(d, "g", "gain", "lag").parameters["gain"] = "1 um/V";
+  }
+  return compile(d, lab::registry());
+}
+
+/// Noise through a filter of some rows: a broad drive that never repeats.
+lab::Signal broad(unsigned seed, double step, std::size_t rows) {
+  auto values = std::make_shared<std::vector<double>>();
+  lab::Noise random(seed);
+  double u = 0;
+  for (std::size_t i = 0; i <= rows; ++i) values->push_back(u = 0.9 * u + random());
+  return [values, step](double t) { return (*values)[static_cast<std::size_t>(std::lround(t / step))]; };
+}
+
+DataSet data_set(const ProgramPointer& program, std::size_t rows, const std::vector<lab::Signal>& drives) {
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["y"].to = "y";
+  for (std::size_t k = 0; k < drives.size(); ++k)
+    data.recordings.push_back(
+        lab::recording("r" + std::to_string(k), k == 0 ? Role::train : Role::validate, 1e-3, rows, drives[k]));
+  lab::measure(data, program, 2e-9, 7);
+  return data;
+}
+
+Inspection inspected(const ProgramPointer& program, const DataSet& data) {
+  DataModel model(program, lab::shared(data));
+  return inspect(model);
+}
+
+bool tells(const std::vector<std::string>& list, const std::string& words) {
+  return std::any_of(list.begin(), list.end(), [&](const auto& s) { return s.find(words) != std::string::npos; });
+}
+
+class Inspecting : public testing::Test {
+ protected:
+  ProgramPointer gain_ = program_of("gain");
+  DataSet data_ = data_set(gain_, 5000, {broad(1, 1e-3, 5000), broad(2, 1e-3, 5000)});
+  Rows& y(std::size_t r) { return data_.recordings[r].columns["y"]; }
+};
+
+TEST_F(Inspecting, AHundredThousandSoundRowsRaiseNoSuspicion) {
+  const auto data = data_set(gain_, 100000, {broad(3, 1e-3, 100000)});
+  const Inspection seen = inspected(gain_, data);
+  EXPECT_TRUE(seen.faults.empty()) << seen.faults.front();
+  EXPECT_TRUE(seen.notes.empty()) << seen.notes.front();
+  EXPECT_TRUE(tells(seen.sentences, "Nothing was recorded twice"));
+}
+
+TEST_F(Inspecting, SaysWhatTheColumnsAre) {
+  const Inspection seen = inspected(gain_, data_);
+  ASSERT_EQ(seen.columns.size(), 2U);
+  EXPECT_EQ(seen.columns[0].role, "input");
+  EXPECT_EQ(seen.columns[1].role, "output");
+  EXPECT_EQ(seen.columns[1].unit.text, "um");
+  ASSERT_EQ(seen.recordings.size(), 2U);
+  ASSERT_EQ(seen.recordings[0].drives.size(), 1U);
+  EXPECT_GT(seen.recordings[0].drives[0].band.highest, 400);  // up to half of 1 kHz
+  EXPECT_GT(seen.recordings[0].drives[0].reversals, 200U);    // one in some ten rows, but for those too small
+}
+
+TEST_F(Inspecting, TellsRowsThatAreMissingRepeatedOrClipped) {
+  auto& first = data_.recordings[0];
+  const auto take_out = [&](auto& rows) { rows.erase(rows.begin() + 1000, rows.begin() + 1004); };
+  take_out(first.t);
+  for (auto& [name, rows] : first.columns) take_out(rows);
+  first.last = first.t.size();
+  for (double& v : y(1)) v = std::min(v, 2e-6);
+  for (std::size_t i = 10; i < 4000; i += 40) y(0)[i] = y(0)[i - 1];
+  const Inspection seen = inspected(gain_, data_);
+  EXPECT_TRUE(tells(seen.faults, "r0: 4 rows missing, in 1 gap of its clock; the first at 1 s"));
+  EXPECT_TRUE(tells(seen.faults, "y repeats the value before exactly"));
+  EXPECT_TRUE(tells(seen.faults, "r1: y stays at its highest value 2 um"));
+  EXPECT_EQ(seen.faults.size(), 3U);
+}
+
+TEST_F(Inspecting, TellsAnOutputThatIsOneSampleLate) {
+  for (auto& r : data_.recordings) {
+    auto& rows = r.columns["y"];
+    rows.insert(rows.begin(), rows.front());
+    rows.pop_back();
+  }
+  const Inspection seen = inspected(gain_, data_);
+  ASSERT_EQ(seen.delays.size(), 1U);
+  EXPECT_EQ(seen.delays[0].kind, DelayKind::tie);  // one rate: samples and seconds are the same
+  EXPECT_NEAR(seen.delays[0].samples, 1, 0.01);
+  EXPECT_TRUE(tells(seen.notes, "y comes 1 samples"));
+}
+
+TEST_F(Inspecting, TellsALineThatNoInputMakesInTheRecordingsThatHaveIt) {
+  for (std::size_t r = 0; r < 2; ++r)
+    for (std::size_t i = 0; i < y(r).size(); ++i)
+      y(r)[i] += 1e-9 * std::sin(2 * std::numbers::pi * 0.05 * static_cast<double>(i) + static_cast<double>(r));
+  const Inspection seen = inspected(gain_, data_);
+  ASSERT_EQ(seen.lines.size(), 1U);
+  EXPECT_NEAR(seen.lines[0].frequency, 50, 0.02);
+  EXPECT_NEAR(seen.lines[0].amplitude, 1e-9, 0.2e-9);  // five times 2 nm sqrt(2 / 5000)
+  EXPECT_EQ(seen.lines[0].recordings.size(), 2U);
+}
+
+TEST_F(Inspecting, ALineInOneRecordingOfTwoIsNotTold) {
+  for (std::size_t i = 0; i < y(0).size(); ++i)
+    y(0)[i] += 1e-9 * std::sin(2 * std::numbers::pi * 0.05 * static_cast<double>(i));
+  EXPECT_TRUE(inspected(gain_, data_).lines.empty());
+}
+
+TEST_F(Inspecting, ReadsTheFloorFromRecordingsThatWereDrivenAlike) {
+  const auto data = data_set(gain_, 5000, {broad(4, 1e-3, 5000), broad(4, 1e-3, 5000)});
+  const Inspection seen = inspected(gain_, data);
+  ASSERT_EQ(seen.repeats.size(), 1U);
+  EXPECT_EQ(seen.repeats[0].what, "r0 and r1, driven alike");
+  EXPECT_NEAR(seen.repeats[0].floor.rms, 2e-9, 0.1e-9);  // 1 / sqrt(2 * 5000) = 1 %
+}
+
+TEST_F(Inspecting, KnowsAnInputThatIsSaidToBeHeldAndIsNot) {
+  const auto lag = program_of("lag");
+  auto data = data_set(lag, 5000, {broad(5, 1e-3, 5000), broad(6, 1e-3, 5000)});
+  EXPECT_TRUE(inspected(lag, data).between.empty());
+  data.notes["u"].between = Between::hold;
+  const Inspection seen = inspected(lag, data);
+  ASSERT_EQ(seen.between.size(), 1U);
+  EXPECT_EQ(seen.between[0].given, Between::hold);
+  EXPECT_TRUE(tells(seen.faults, "write \"between_samples\": \"linear\""));
+}
+
+TEST_F(Inspecting, AWrongGainIsNoFaultOfTheData) {
+  for (std::size_t r = 0; r < 2; ++r)
+    for (double& v : y(r)) v = 1.3 * v + 1e-6;
+  const Inspection seen = inspected(gain_, data_);
+  EXPECT_TRUE(seen.faults.empty());
+  EXPECT_TRUE(seen.notes.empty()) << seen.notes.front();
+}
+
+TEST_F(Inspecting, DoesNotLookAtTestRecordings) {
+  data_.recordings[1].role = Role::test;
+  for (double& v : y(1)) v = std::min(v, 2e-6);
+  const Inspection seen = inspected(gain_, data_);
+  EXPECT_EQ(seen.recordings.size(), 1U);
+  EXPECT_TRUE(seen.faults.empty());
+}
+
+}  // namespace
+}  // namespace hysteron
