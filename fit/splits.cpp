@@ -7,6 +7,8 @@
 
 #include "fit/branches.h"
 #include "fit/compare.h"
+#include "fit/row_checks.h"
+#include "fit/whiten.h"
 
 namespace hysteron {
 namespace {
@@ -15,7 +17,8 @@ namespace {
 struct Draft {
   std::string variable, title;
   std::vector<std::string> labels, phrases;
-  std::vector<std::vector<int>> part;  ///< [recording][row]
+  std::vector<std::vector<int>> part;   ///< [recording][row]
+  std::string counted = "of the rows";  ///< what its parts are shares of, beside the error
 };
 
 std::string number(const Unit& unit, double si) {
@@ -53,8 +56,8 @@ Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
     if (s.parts[p].error - s.parts[p].rows > s.parts[top].error - s.parts[top].rows) top = p;
   }
   if (n > 0)
-    s.sentence = fmt::format("{:.0f} % of the squared error lies {}, which holds {:.0f} % of the rows",
-                             100 * s.parts[top].error, d.phrases[top], 100 * s.parts[top].rows);
+    s.sentence = fmt::format("{:.0f} % of the squared error lies {}, which holds {:.0f} % {}", 100 * s.parts[top].error,
+                             d.phrases[top], 100 * s.parts[top].rows, d.counted);
   return s;
 }
 
@@ -189,6 +192,128 @@ Draft by_cycle(const std::vector<SplitInput>& recordings) {
   return d;
 }
 
+/// A part for each decade between the ends; `before` parts stand in front. Names "below", "to", "above" a power of ten.
+struct Decades {
+  int lowest = 0, highest = 0;
+  int of(double x) const {
+    return std::clamp(static_cast<int>(std::floor(std::log10(std::max(x, 1e-300)))), lowest, highest) - lowest;
+  }
+  int count() const { return highest - lowest + 1; }
+  std::string label(int k, const std::string& unit) const {
+    const double from = std::pow(10, lowest + k);
+    if (k == 0) return fmt::format("below {:.6g} {}", 10 * from, unit);
+    if (k == count() - 1) return fmt::format("above {:.6g} {}", from, unit);
+    return fmt::format("{:.6g} .. {:.6g} {}", from, 10 * from, unit);
+  }
+};
+
+/// By the swing that a row belongs to: thirds of the largest between two turning points.
+Draft by_amplitude(const std::vector<SplitInput>& recordings, const std::string& name) {
+  Draft d{"amplitude",
+          "by size of swing of " + name,
+          {"small swings", "middle swings", "large swings"},
+          {fmt::format("in swings of {} below a third of the largest", name),
+           fmt::format("in swings of {} of one to two thirds of the largest", name),
+           fmt::format("in swings of {} above two thirds of the largest", name)},
+          {}};
+  std::vector<Rows> swing;
+  double largest = 0;
+  for (const auto& r : recordings) {
+    const Rows& u = *r.u;
+    Rows size(u.size(), 0.0);
+    auto ends = turning_points(u, turning_threshold(u));
+    if (!u.empty()) ends.push_back(u.size() - 1);
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      for (std::size_t i = begin; i <= end; ++i) size[i] = std::abs(u[end] - u[begin]);
+      largest = std::max(largest, std::abs(u[end] - u[begin]));
+      begin = end;
+    }
+    swing.push_back(std::move(size));
+  }
+  for (const auto& rows : swing) {
+    std::vector<int> part;
+    for (const double s : rows) part.push_back(largest > 0 ? std::clamp(static_cast<int>(3 * s / largest), 0, 2) : 0);
+    d.part.push_back(std::move(part));
+  }
+  return d;
+}
+
+/// By the time for which the input has been held, in decades from the first row of a hold to its longest.
+Draft by_hold_time(const std::vector<SplitInput>& recordings, const std::vector<std::vector<Branch>>& branch,
+                   const std::string& name) {
+  Draft d{"hold_time", fmt::format("by the time for which {} has been held", name), {"moving"}, {}, {}};
+  d.phrases = {fmt::format("where {} moves", name)};
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  std::vector<Rows> age;  // -1: moving
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Rows& t = *recordings[r].t;
+    Rows rows(t.size(), -1.0);
+    const Rows& u = *recordings[r].u;
+    const auto [low, high] = std::minmax_element(u.begin(), u.end());
+    const double step = std::max(0.005 * (*high - *low), 6 * roughness(u));
+    double since = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (branch[r][i] != Branch::hold) continue;
+      // A step from one hold to the next takes one row and shows no moving row between.
+      if (i == 0 || branch[r][i - 1] != Branch::hold || std::abs(u[i] - u[i - 1]) > step) since = t[i];
+      rows[i] = t[i] - since;
+      if (rows[i] > 0) shortest = std::min(shortest, rows[i]);
+      longest = std::max(longest, rows[i]);
+    }
+    age.push_back(std::move(rows));
+  }
+  Decades decades;
+  if (longest > 0) decades.highest = static_cast<int>(std::floor(std::log10(longest)));
+  decades.lowest = longest > 0 ? std::max(decades.highest - 3, static_cast<int>(std::floor(std::log10(shortest)))) : 0;
+  for (int k = 0; k < decades.count(); ++k) {
+    d.labels.push_back(decades.label(k, "s"));
+    d.phrases.push_back(fmt::format("where {} has been held for {}", name, d.labels.back()));
+  }
+  for (const auto& rows : age) {
+    std::vector<int> part;
+    for (const double a : rows) part.push_back(a < 0 ? 0 : 1 + decades.of(a));
+    d.part.push_back(std::move(part));
+  }
+  return d;
+}
+
+/// By frequency, in decades: the squares of the cosines of each recording's residual add up to those of its rows. The
+/// mean belongs to the lowest.
+Split by_frequency(const std::vector<SplitInput>& recordings) {
+  Draft d{"frequency", "by frequency of the residual", {}, {}, {}};
+  d.counted = "of the spectrum";
+  std::vector<Rows> cosines;
+  std::vector<double> grid;  // [Hz] between cosines
+  double highest = 0;
+  for (const auto& r : recordings) {
+    cosines.push_back(*r.residual);
+    cosine_transform(cosines.back());
+    grid.push_back(1 / (2 * static_cast<double>(cosines.back().size()) * clock_of(*r.t).step));
+    highest = std::max(highest, grid.back() * static_cast<double>(cosines.back().size()));
+  }
+  Decades decades;
+  decades.highest = static_cast<int>(std::floor(std::log10(highest)));
+  decades.lowest = decades.highest - 4;
+  for (int k = 0; k < decades.count(); ++k) {
+    d.labels.push_back(decades.label(k, "Hz"));
+    d.phrases.push_back("at frequencies " + d.labels.back());
+  }
+  std::vector<SplitInput> spectra = recordings;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::vector<int> part;
+    for (std::size_t k = 0; k < cosines[r].size(); ++k) part.push_back(decades.of(grid[r] * static_cast<double>(k)));
+    d.part.push_back(std::move(part));
+    spectra[r].residual = &cosines[r];
+  }
+  return finish(d, spectra);
+}
+
+/// Parts that hold rows.
+long used_parts(const Split& s) {
+  return std::count_if(s.parts.begin(), s.parts.end(), [](const SplitPart& p) { return p.rows > 0; });
+}
+
 }  // namespace
 
 std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
@@ -206,8 +331,15 @@ std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const st
     add(by_branch(branch, input_name));
     add(by_rate(recordings, branch, input_name, input_unit));
     add(by_cycle(recordings));
+    // Only where the data have it: swings of different size, and holds.
+    for (const auto& d : {by_amplitude(recordings, input_name), by_hold_time(recordings, branch, input_name)})
+      if (Split s = finish(d, recordings); used_parts(s) > 1) splits.push_back(std::move(s));
   }
   std::stable_sort(splits.begin(), splits.end(), [](auto& a, auto& b) { return a.information > b.information; });
+  // Behind the others: nearly every residual is slow beside its clock, which would always be said first.
+  if (std::all_of(recordings.begin(), recordings.end(),
+                  [](auto& r) { return r.residual->size() > 16 && clock_of(*r.t).regular; }))
+    splits.push_back(by_frequency(recordings));
   return splits;
 }
 

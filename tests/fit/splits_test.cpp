@@ -43,7 +43,8 @@ TEST(Splits, SharesOfErrorAndOfRowsAddUpToOneInEverySplit) {
        {std::vector<SplitInput>{{&c.t, &c.u, &c.residual, "a"}},
         std::vector<SplitInput>{{&c.t, &c.u, &c.residual, "a"}, {&d.t, &d.u, &d.residual, "b"}}}) {
     const auto splits = splits_of(recordings, "u", parse_unit("V"));
-    EXPECT_EQ(splits.size(), recordings.size() > 1 ? 6U : 5U);
+    // The second recording adds a split by recording, by swing and by hold.
+    EXPECT_EQ(splits.size(), recordings.size() > 1 ? 9U : 6U);
     for (const auto& s : splits) {
       double error = 0, rows = 0;
       for (const auto& p : s.parts) {
@@ -54,6 +55,45 @@ TEST(Splits, SharesOfErrorAndOfRowsAddUpToOneInEverySplit) {
       EXPECT_NEAR(rows, 1, 1e-12) << s.variable;
     }
   }
+}
+
+TEST(Splits, ByFrequencyPutsASineIntoItsDecade) {
+  Case c;
+  for (int i = 0; i < 4000; ++i) {
+    c.t.push_back(1e-3 * i);
+    c.u.push_back(0.001 * i);
+    c.residual.push_back(std::sin(2 * std::numbers::pi * 30 * c.t.back()));
+  }
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
+  for (const auto& p : split(splits, "frequency").parts)
+    // Of a sine of 120 whole cycles hardly anything leaks over a decade.
+    EXPECT_NEAR(p.error, p.label == "10 .. 100 Hz" ? 1 : 0, 0.01) << p.label;
+}
+
+TEST(Splits, ByHoldTimeFindsWhatGrowsBehindAStep) {
+  Case c;
+  for (int i = 0; i < 4000; ++i) {
+    c.t.push_back(0.01 * i);
+    c.u.push_back(i < 2000 ? 0 : 1);
+    c.residual.push_back(i < 2000 ? 0 : 0.01 * (i - 2000));  // grows for 20 s
+  }
+  const auto held = split(splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")), "hold_time");
+  EXPECT_EQ(held.parts.back().label, "above 10 s");
+  EXPECT_NEAR(held.parts.back().error, 1 - 1.0 / 8, 0.01);  // of a square that grows, all but (10 / 20)^3
+}
+
+TEST(Splits, ByAmplitudeTellsLargeSwingsFromSmall) {
+  Case c;
+  for (int i = 0; i < 800; ++i) {
+    const double size = i < 400 ? 1 : 0.2;
+    c.t.push_back(0.01 * i);
+    c.u.push_back(size * std::sin(2 * std::numbers::pi * i / 100.0));
+    c.residual.push_back(i < 400 ? 1 : 0);
+  }
+  const auto sizes = split(splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")), "amplitude");
+  ASSERT_EQ(sizes.parts.size(), 3U);
+  EXPECT_LT(sizes.parts[0].error, 0.1);  // a swing that spans the change belongs to neither
+  EXPECT_NEAR(sizes.parts[1].error + sizes.parts[2].error, 1, 0.1);
 }
 
 TEST(Splits, TheOneThatTellsMostComesFirstAndSaysWhere) {
@@ -72,7 +112,9 @@ TEST(Splits, AnEvenErrorTellsNothing) {
   auto c = triangle_case();
   for (double& e : c.residual) e = 1;
   for (const auto& s : splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")))
-    EXPECT_NEAR(s.information, 0, 1e-12) << s.variable;
+    if (s.variable != "frequency") {  // a constant has one, the lowest
+      EXPECT_NEAR(s.information, 0, 1e-12) << s.variable;
+    }
 }
 
 TEST(Splits, ATriangleHasOneRateAndHenceOneMovingPart) {
@@ -89,11 +131,12 @@ TEST(Splits, NoErrorAtAllIsSpreadAsTheRowsAre) {
     for (const auto& p : s.parts) EXPECT_EQ(p.error, p.rows);
 }
 
-TEST(Splits, WithoutAnInputOnlyTimeIsSplit) {
+TEST(Splits, WithoutAnInputTimeAndFrequencyAreSplit) {
   const auto c = triangle_case();
   const auto splits = splits_of({{&c.t, nullptr, &c.residual, "a"}}, "", Unit{});
-  ASSERT_EQ(splits.size(), 1U);
+  ASSERT_EQ(splits.size(), 2U);
   EXPECT_EQ(splits[0].variable, "time");
+  EXPECT_EQ(splits[1].variable, "frequency");
 }
 
 TEST(Metrics, NrmseIsTheRmsOverTheDeviationOfWhatWasMeasured) {
