@@ -12,11 +12,20 @@
 namespace hysteron {
 namespace {
 
+/// The effect's laws on a wire and, where a block may be replaced instead, those of its richer type.
+std::vector<Law> every_law(const Effect& effect, Circumstances at) {
+  auto laws = effect.laws(at);
+  if (effect.way != Way::insert || effect.variation.empty()) return laws;
+  at.by = effect.variation;
+  for (auto& law : effect.laws(at)) laws.push_back(std::move(law));
+  return laws;
+}
+
 /// Parameters that some law of the effect frees, each with its first free element ("weights" from 1 where the first
 /// weight is the wire's own gain).
 std::map<std::string, int> freed_by(const Effect& effect, const Circumstances& at) {
   std::map<std::string, int> first;
-  for (const auto& law : effect.laws(at))
+  for (const auto& law : every_law(effect, at))
     for (const auto& parameter : law.free) {
       const auto bracket = parameter.path.find('[');
       const std::string name = parameter.path.substr(0, bracket);
@@ -55,7 +64,7 @@ std::vector<std::string> unusual_values(const Diagram& diagram, const FitResult&
     const Effect* effect = effects.find(id);
     if (effect == nullptr) continue;
     for (const auto& e : result.estimates)
-      for (const auto& law : effect->laws(Circumstances{})) {
+      for (const auto& law : every_law(*effect, {})) {
         const auto p = std::find_if(law.free.begin(), law.free.end(), [&, name = block](const auto& l) {
           return e.path == parameter_path(name, law, l);
         });

@@ -266,6 +266,7 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
                  const Circumstances* circumstances, const DataSet* data) {
   const Place place = place_for(effect, diagram, registry, at, data);
   Circumstances none;
+  none.by = place.by;
   if (circumstances == nullptr) {
     if (const auto* input = diagram.inputs.find(place.wire)) none.unit = parse_unit(input->unit);
   }

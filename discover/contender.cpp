@@ -54,10 +54,21 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
   return free;
 }
 
-/// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF.
+/// Steps of one simulation while candidates are searched: some tenths of a second where states are nonlinear.
+constexpr double simulation_steps = 4e6;
+
+/// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
+/// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
 DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   DataModelOptions options;
   options.max_substeps = 1024;
+  double rows = 1;
+  for (const auto& r : shop.data->recordings)
+    if (r.role == Role::train) rows += static_cast<double>(r.last);
+  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > simulation_steps) {
+    options.max_substeps /= 2;
+    options.bdf_otherwise = false;
+  }
   options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
   return options;
 }
@@ -127,6 +138,33 @@ void spend_less(const Contender& c, std::vector<FreeParameter>& free, FitOptions
   options.max_iterations = static_cast<int>(std::clamp(simulations / 2 / (1 + linear + searched), 2.0, 5.0));
 }
 
+/// Steps that may be spent on the fit of one candidate with nonlinear states: some tens of seconds.
+constexpr double fit_steps = 1e8;
+
+/// A full fit of a slow model begins in fewer places and takes fewer steps from there.
+void keep_within_time(const Contender& c, DataModel& model, const Trial& fixed, std::vector<FreeParameter>& free,
+                      FitOptions& options) {
+  Trial start = fixed;
+  for (const auto& f : free) start.push_back({f.parameter, f.start, f.recording});
+  model.choose_substeps(start);
+  double steps = 0;
+  int most = 1;
+  for (const int r : model.recordings(Role::train)) {
+    steps += static_cast<double>(model.times(r).size()) * model.substeps(r);
+    most = std::max(most, model.substeps(r));
+  }
+  if (most == 1) return;
+  std::vector<int> parameters;
+  for (const auto& f : free) parameters.push_back(f.parameter);
+  const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
+  const auto linear = static_cast<double>(std::count(affine.begin(), affine.end(), true));
+  const double half = fit_steps / steps / 2;
+  thin_scans(free, std::max(4.0, half / (1 + linear)));
+  const double searched = static_cast<double>(affine.size()) - linear;
+  options.max_iterations =
+      std::min(options.max_iterations, static_cast<int>(std::max(4.0, half / (1 + linear + searched))));
+}
+
 /// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
 /// starts from its law instead of its values, -1 = none.
 void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
@@ -145,6 +183,7 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   FitOptions options;
   options.max_iterations = effort == Effort::full ? 15 : 30;
   if (effort == Effort::screen) spend_less(c, free, options);
+  if (effort == Effort::full) keep_within_time(c, model, fixed, free, options);
   options.intervals = effort == Effort::final;
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };

@@ -194,7 +194,8 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
       if (worst <= 1) break;
       coarse = std::move(fine);
     }
-    if (n >= c.options.max_substeps && b.advance->integrates() && (!coarse.empty() || ran_away)) {
+    if (c.options.bdf_otherwise && n >= c.options.max_substeps && b.advance->integrates() &&
+        (!coarse.empty() || ran_away)) {
       c.not_exact =
           fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name, n);
       c.substeps_chosen = true;

@@ -40,6 +40,7 @@ struct DataModelOptions {
   double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
+  bool bdf_otherwise = true;         ///< where max_substeps do not suffice; else the finest rows are taken as they are
 };
 
 /// A program bound to a data set. Holds everything that stays the same from trial to trial: series, instants, plans.

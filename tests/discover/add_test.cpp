@@ -174,6 +174,28 @@ TEST_F(AddedEffect, ThatVariesABlockKeepsItsNameAndItsReaders) {
   EXPECT_NO_THROW(compile(a.diagram, registry));
 }
 
+TEST_F(AddedEffect, OfAMassIsItsRicherTypeAndOnASpeedABlockOfItsOwn) {
+  Diagram d;
+  d.inputs["force"].unit = "N";
+  d.inputs["v"].unit = "mm/s";
+  d.blocks["body"] = node("mass_spring_damper", {{"", "force"}});
+  d.blocks["body"].parameters["mass"] = Value("1 kg");
+  d.blocks["body"].parameters["stiffness"] = Value("100 N/m");
+  d.outputs["x"] = "body.position";
+  d.blocks["dashpot"] = node("gain", {{"", "v"}});
+  d.blocks["dashpot"].parameters["gain"] = Value("2 N*s/m");
+  d.outputs["f"] = "dashpot";
+  // No data: the numbers are placeholders, the types are not.
+  for (const char* effect : {"friction", "hysteresis"}) {
+    const Added a = add_effect(d, registry, effects.get(effect), "body");
+    EXPECT_TRUE(a.diagram.blocks.find("body")->from.find("on")->type.starts_with("mass_")) << effect;
+    EXPECT_NO_THROW(compile(a.diagram, registry)) << effect;
+  }
+  const Added a = add_effect(d, registry, effects.get("friction"), "v");
+  EXPECT_EQ(a.diagram.blocks.find(a.name)->from.find("on")->type, "sliding_friction");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+}
+
 TEST_F(AddedEffect, InsideADiagramChangesThatDiagramAndNamesItsNewFile) {
   auto inner = std::make_shared<Diagram>(stage());
   Diagram outer;

@@ -5,6 +5,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/discover.h"
+#include "io/diagram_file.h"
 #include "tests/discover/dev_case.h"
 
 namespace hysteron {
@@ -127,6 +128,37 @@ TEST_F(Recordings, HeaterLacksALagOrADeadTimeAndNobodyCanTell) {
   EXPECT_LE(d.final_error.nrmse_validate, 0.06);
   EXPECT_TRUE(d.experiment.has_value());
   EXPECT_FALSE(d.warnings.empty()) << "a single recording is weak evidence, and that is said";
+}
+
+/// A model and a data set of benchmarks/measured, as a user wrote them.
+Case measured(const std::string& model, const std::string& data) {
+  const std::string folder = HYSTERON_SOURCE_DIR "/benchmarks/measured/";
+  return {read_diagram(folder + model + ".json"), read_dataset(folder + data + ".data.json", {shared("")})};
+}
+
+TEST_F(Recordings, DampersHaveFrictionAndNoHysteresisBesides) {
+  for (const char* series : {"a", "b", "v"}) {
+    const Discovery d = found(measured("mr_damper", std::string("mr_damper_") + series));
+    SCOPED_TRACE(tried(d));
+    ASSERT_EQ(d.steps.size(), 1u) << series << ": " << d.headline;
+    EXPECT_EQ(d.steps.front().winner.effect, "friction") << d.headline;
+    EXPECT_GT(d.base.nrmse_validate, 0.33) << "its README: 33-39 %";
+    EXPECT_LT(d.final_error.nrmse_validate, 0.135) << "its README: the better of two laws by hand, 13.5-15 %";
+  }
+}
+
+TEST_F(Recordings, AnInputThatIsHeldOnPaperOnlyIsToldFromWhatFitsBetter) {
+  Case c = measured("silverbox", "silverbox_held");
+  DiscoverOptions options;
+  options.only = {"calibration"};
+  options.max_steps = 1;
+  const auto said = [](const Discovery& d) {
+    return std::any_of(d.warnings.begin(), d.warnings.end(),
+                       [](const std::string& w) { return w.starts_with("u moves linearly between its samples"); });
+  };
+  EXPECT_TRUE(said(discover(c.diagram, c.data, registry, effects, options)));
+  c.data.notes["u"].between = Between::linear;
+  EXPECT_FALSE(said(discover(c.diagram, c.data, registry, effects, options)));
 }
 
 }  // namespace
