@@ -37,6 +37,7 @@
 #include "blocks/rectifier.h"
 #include "blocks/relay.h"
 #include "blocks/resonance.h"
+#include "blocks/rounding.h"
 #include "blocks/sampled_pid.h"
 #include "blocks/saturation.h"
 #include "blocks/sensor_drift.h"
@@ -82,10 +83,12 @@ Registry all_blocks() {
   r.add(blocks::cross_coupling_block());
   r.add(blocks::temperature_gain_block());
   r.add(blocks::thermal_expansion_block());
+  r.add(blocks::pyro_charge_block());
   r.add(blocks::ageing_block());
   r.add(blocks::load_dependence_block());
   r.add(blocks::sensor_drift_block());
   r.add(blocks::rectifier_block());
+  r.add(blocks::rounding_block());
   r.add(blocks::mains_interference_block());
 
   r.add(blocks::mux_block());

@@ -55,6 +55,24 @@ Sizes ThermalExpansion::sizes(const Shape& shape) {
 }
 
 Kernel temperature_gain_block() { return kernel<TemperatureGain>(); }
+void PyroCharge::describe(BlockSpec<PyroCharge>& spec) {
+  spec.name("pyro_charge", "charge that a change of temperature makes, and that leaks away")
+      .in_group("temperature")
+      .elementwise()
+      .linear()
+      .at("command");
+  spec.law("y = u + w, dw/dt = coefficient dT/dt - w/time; kept as w = coefficient (T - T_s), time dT_s/dt = T - T_s")
+      .from("pyroelectric charge q = p A dT on C with R_leak: Lang, Phys. Today 58-8 (2005) 31");
+  spec.remark("Behind a voltage amplifier the charge is taken away at once: then there is none of it.");
+  spec.input(&In<double>::u, "u", "$a", "the drive");
+  spec.input(&In<double>::temperature, "temperature", "K", "of the ceramics");
+  spec.state(&State<double>::forgotten, "forgotten", "K", "temperature whose charge has leaked away").nominal(300);
+  spec.output(&Out<double>::y, "y", "$a", "what acts on the ceramics");
+  spec.param(&Params<double>::coefficient, "coefficient", "$a/K", "p A/C: of the open electrodes").linear();
+  spec.param(&Params<double>::time, "time", "s", "R_leak C, or one over the cut-off of a charge drive").positive();
+}
+
+Kernel pyro_charge_block() { return kernel<PyroCharge>(); }
 Kernel thermal_expansion_block() { return kernel<ThermalExpansion>(); }
 
 }  // namespace hysteron::blocks

@@ -1,5 +1,6 @@
 // Decides the blocks through which a measured temperature acts on a signal: "temperature_gain" on its size,
-// "thermal_expansion" on its middle. Does not compute temperatures: thermal_network does.
+// "thermal_expansion" on its middle, "pyro_charge" while it changes. Does not compute temperatures: thermal_network
+// does.
 #pragma once
 
 #include "engine/block.h"
@@ -55,6 +56,32 @@ struct ThermalExpansion {
 };
 
 Kernel temperature_gain_block();
+struct PyroCharge {
+  template <class T>
+  struct Params {
+    T coefficient, time;
+  };
+  template <class T>
+  using In = SignalAndTemperature<T>;
+  template <class T>
+  struct State {
+    T forgotten;
+  };
+  template <class T>
+  using Out = WarmSignal<T>;
+  static void describe(BlockSpec<PyroCharge>& spec);
+  template <class T>
+  static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    return {in.u + p.coefficient * (in.temperature - s.forgotten)};
+  }
+  template <class T>
+  static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
+    return {creep::relaxation_rate(p.time, s.forgotten, in.temperature)};
+  }
+  static State<double> rest(const Params<double>&, const In<double>& in) { return {in.temperature}; }
+};
+
 Kernel thermal_expansion_block();
+Kernel pyro_charge_block();
 
 }  // namespace hysteron::blocks

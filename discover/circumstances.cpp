@@ -10,6 +10,7 @@
 #include "fit/branches.h"
 #include "fit/excitation.h"
 #include "fit/free_parameter.h"
+#include "fit/noise.h"
 
 namespace hysteron {
 namespace {
@@ -135,6 +136,22 @@ std::vector<std::string> weights_behind(const Program& program, int signal) {
   return list;
 }
 
+/// Step of the levels of the output that this signal is, where all train recordings have one; 0 = none.
+double resolution_at(const Program& program, const DataSet& data, int signal) {
+  const auto output = std::find(program.output_signals.begin(), program.output_signals.end(), signal);
+  if (output == program.output_signals.end()) return 0;
+  const std::string& name = program.output_names[static_cast<std::size_t>(output - program.output_signals.begin())];
+  double step = 0;
+  for (const auto& r : data.recordings) {
+    const auto column = r.columns.find(name);
+    if (r.role != Role::train || column == r.columns.end()) continue;
+    const double own = resolution_of(column->second);
+    if (own <= 0) return 0;
+    step = step > 0 ? std::min(step, own) : own;
+  }
+  return step;
+}
+
 void look_at_row_times(const DataSet& data, Circumstances& c) {
   c.shortest_step = std::numeric_limits<double>::infinity();
   c.longest_step = c.longest_recording = 0;
@@ -235,6 +252,7 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
           c.quickest = std::max(c.quickest, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / c.range());
       }
     }
+    c.resolution = resolution_at(*program, data, signals[i]);
     c.by = places[i].by;
     if (travel_signal[i] >= 0) span(static_cast<std::size_t>(travel_signal[i]), c.travel_lowest, c.travel_highest);
     if (!places[i].side.empty()) {

@@ -63,7 +63,8 @@ struct Circumstances {
   std::vector<std::string> zeros;
   std::vector<std::string> weights;        ///< program paths of the weights of operators behind the place
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
-  Unit side_unit;                          ///< of the side signal, where the effect reads one
+  double resolution = 0;  ///< step between the levels of the measured output that this wire is; 0 = none, or no output
+  Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
   /// Correlation of the side signal with this wire over the train recordings, -1..1.
   double side_correlation = 0;
@@ -73,7 +74,7 @@ struct Circumstances {
 /// One free number of a law. `path` is relative to the block: "delay", "weights[2]". All numbers in SI.
 struct LawParameter {
   std::string path;
-  double start = 0;
+  double start = 0;  ///< not a number: as the block has it already (vary)
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;

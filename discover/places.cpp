@@ -199,6 +199,18 @@ std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
   return ids;
 }
 
+/// True if a block that is its own variation is no longer neutral: a tank with the root of the level in it.
+bool has_already(const VariationDeclaration& v, const Node& body) {
+  if (v.type != body.type) return false;
+  return std::any_of(v.neutral.begin(), v.neutral.end(), [&](const auto& neutral) {
+    const Value* given = body.parameters.find(neutral.parameter);
+    if (given == nullptr) return false;
+    if (const auto* text = std::get_if<std::string>(&given->content)) return *text != neutral.value;
+    const auto* number = std::get_if<Number>(&given->content);
+    return number != nullptr && number->value != 0;
+  });
+}
+
 /// Blocks, nested ones included, that offer the variation by which the effect may enter.
 void collect_variations(const Diagram& diagram, const Registry& registry, const Effect& effect,
                         const std::string& prefix, std::vector<Place>& list) {
@@ -214,7 +226,7 @@ void collect_variations(const Diagram& diagram, const Registry& registry, const 
     const Kernel* k = registry.find(body->type);
     if (k == nullptr || node.in.empty()) continue;
     for (const auto& v : k->declaration.variations) {
-      if (v.name != effect.variation) continue;
+      if (v.name != effect.variation || has_already(v, *body)) continue;
       Place p;
       p.kind = "force";
       p.at = prefix + block;
@@ -322,7 +334,8 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
   if (effect.side != Side::none) return beside(list, effect, w, data);
   // The zero of a sensor stands behind everything, and so does what its cable picks up: they enter at the output
   // itself.
-  if ((effect.block_type == "calibration" || effect.block_type == "mains_interference") &&
+  if ((effect.block_type == "calibration" || effect.block_type == "mains_interference" ||
+       effect.block_type == "rounding") &&
       diagram.places.find("measured") == nullptr) {
     list.clear();
     for (const auto& [name, from] : diagram.outputs) {

@@ -12,7 +12,9 @@ namespace hysteron {
 std::string why_no_place(const Effect& e) {
   if (!e.variation.empty())
     return fmt::format("no block of the diagram offers the variation \"{}\" ({})", e.variation,
-                       e.variation == "late" ? "a hysteresis" : "a mass on a spring");
+                       e.variation == "late"                                               ? "a hysteresis"
+                       : e.variation == "square_root_outflow" || e.variation == "overflow" ? "a tank"
+                                                                                           : "a mass on a spring");
   if (e.way == Way::vary)
     return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
   if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";

@@ -31,6 +31,10 @@ Effects all_effects() {
       friction(),
       quadratic_drag(),
       stiffening(),
+      quantization(),
+      pyro_charge_drift(),
+      sqrt_outflow(),
+      overflow(),
   });
 }
 

@@ -30,6 +30,10 @@ Effect rate_dependence();
 Effect ageing();
 Effect mains_interference();
 Effect stiffening();
+Effect quantization();
+Effect pyro_charge_drift();
+Effect sqrt_outflow();
+Effect overflow();
 
 /// The laws that amplifier and sensor lag share: one pole, two poles.
 std::vector<Law> lag_laws(const Circumstances& at);

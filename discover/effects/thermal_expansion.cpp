@@ -79,6 +79,7 @@ Effect thermal_expansion() {
                    {"sensor_drift", "zero_run", "a drift follows neither drive nor temperature"},
                    {"temperature_gain", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"}};
   e.family = "thermal_expansion";
+  e.contains = {"pyro_charge_drift"};  // two parts, one of them at once and of the other sign
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
     std::string text;
     const std::size_t parts = values.size() / 2;

@@ -283,6 +283,8 @@ inline std::vector<Sample> samples() {
       {"load_dependence", {{"compliance", {0.2}}, {"softening", {0.1}}}},
       {"sensor_drift", {{"rate", {0.3}}, {"zero", {0.1}}}},
       {"rectifier", {{"mix", {0.4}}}},
+      {"rounding", {{"step", {0.3}}}},
+      {"pyro_charge", {{"coefficient", {0.4}}, {"time", {0.7}}}},
       {"mass_with_drag", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"drag", {0.6}}}},
       {"mains_interference", {{"frequency", {1.3}}, {"cosine", {0.4, 0.1}}, {"sine", {-0.2, 0.3}}}},
       {"cross_coupling", {{"coefficient", {0.3}}}},

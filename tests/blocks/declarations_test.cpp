@@ -148,6 +148,8 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "load_dependence",
                                        "sensor_drift",
                                        "rectifier",
+                                       "rounding",
+                                       "pyro_charge",
                                        "mains_interference",
                                        "late_prandtl_ishlinskii",
                                        "ageing",

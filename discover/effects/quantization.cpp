@@ -1,0 +1,56 @@
+// The effect quantization: the reading knows only multiples of a step.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect quantization() {
+  Effect e;
+  e.id = e.family = "quantization";
+  e.title = "Quantization";
+  e.cause = "The converter of the sensor has so many bits, its display so many digits.";
+  e.equation = "y = step*round(u/step)";
+  e.source = "Widrow, Kollar, Quantization Noise (2008), chapter 1";
+  e.residual = "Within half a step, white for busy signals; a saw tooth where the signal is slow.";
+  e.needs = "Noise before the converter of less than half a step; else the rounding is part of the noise.";
+  e.way = Way::insert;
+  e.block_type = "rounding";
+  e.places = {"measured"};
+  e.parameters = {
+      {"step", "unit of the output", "read off the levels of the column", "range/2^bits: 0.1 nm for 20 bit on 100 um"}};
+  e.look_alikes = {{"backlash", "triangle", "rounding has no memory: both ways it steps at the same levels"},
+                   {"friction", "triangle", "a stick is not always at the same levels"}};
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    return fmt::format("levels every {:.4g} {}", at.unit.difference_from_si(values[0]), at.unit.text);
+  };
+  e.laws = [](const Circumstances& at) {
+    Law law;
+    law.name = "levels of the column";
+    law.block.type = "rounding";
+    const double levels = at.resolution > 0 ? std::max(at.range() / at.resolution, 1.0) : 1000;
+    LawParameter step;
+    step.path = "step";
+    step.start = at.resolution > 0 ? at.resolution : at.range() / levels;
+    // The column says it: what is left to find is less than half a step at the end of the range.
+    step.lower = step.start * (1 - 0.25 / levels);
+    step.upper = step.start * (1 + 0.25 / levels);
+    give(law.block, "step", with_unit(step.start, at.unit));
+    law.free = {step};
+    return std::vector<Law>{law};
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (!at.from_data) return "";
+    if (at.resolution <= 0) return "the values of the column are no multiples of one step";
+    // What is finer than a simulation is not predicted: the digits of a text file.
+    if (at.resolution < 1e-5 * at.range())
+      return fmt::format("the steps of the column are {:.1g} of its range: digits of the file",
+                         at.resolution / at.range());
+    return "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects
