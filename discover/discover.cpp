@@ -139,11 +139,13 @@ class Investigation {
                                 step == 1 || taken_up(*t.effect) ? Effort::full : Effort::screen);
       d_.model_runs += t.contender.runs;
     }
+    join_twins(tried);
     compare_all(tried, first_fall);
     if (step > 1) refit_best(tried, first_fall, bar(0.7));
     enrich(tried, step, first_fall, bar(0.8));
     const int winner = best_admitted(tried);
     std::vector<int> ties;
+    if (winner >= 0) try_hidden(tried, *tried[static_cast<std::size_t>(winner)].effect, first_fall);
     if (winner >= 0) ties = ties_of(tried, static_cast<std::size_t>(winner));
     if (winner >= 0) claim(step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
     for (std::size_t i = 0; i < tried.size(); ++i) {
@@ -167,6 +169,7 @@ class Investigation {
 
   /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
   std::vector<Tried> candidates(int step) {
+    hidden_.clear();
     std::vector<Tried> list;
     std::vector<Place> places;
     for (const auto& e : effects_.list()) {
@@ -191,6 +194,7 @@ class Investigation {
       t.circumstances = seen[i];
       if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
         if (step == 1) d_.refused.push_back({t.effect->id, t.place.at, why});
+        if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) hidden_.push_back(std::move(t));
         continue;
       }
       t.laws = t.effect->laws(t.circumstances);
@@ -198,21 +202,20 @@ class Investigation {
       if (Tried* same = same_finding(kept, t)) {
         if (same->effect != t.effect) same->same_effects.push_back(t.effect->id);
         same->same_places.push_back(t.place.at);
-        // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows.
+        // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows;
+        // it is fitted at both ends all the same, for what lies between may be rougher than the drive.
         if (same->effect == t.effect && t.effect->commutes == Commutes::time_invariant) {
-          std::swap(same->same_places.back(), t.place.at);
-          std::swap(same->place, t.place);
-          std::swap(same->place.at, same->same_places.back());
-          same->circumstances = t.circumstances;
-          same->laws = t.laws;
+          t.twin = static_cast<int>(same - kept.data());
+          kept.push_back(std::move(t));
         }
         continue;
       }
       kept.push_back(std::move(t));
     }
-    for (auto& t : kept)
-      for (const int o : moved_by(t.place.wire))
-        t.outputs.push_back(base_model_->program().output_names[static_cast<std::size_t>(o)]);
+    for (auto* list_of : {&kept, &hidden_})
+      for (auto& t : *list_of)
+        for (const int o : moved_by(t.place.wire))
+          t.outputs.push_back(base_model_->program().output_names[static_cast<std::size_t>(o)]);
     return kept;
   }
 
@@ -252,10 +255,39 @@ class Investigation {
     return list;
   }
 
+  /// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both
+  /// places.
+  static void join_twins(std::vector<Tried>& tried) {
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (tried[i].twin < 0) continue;
+      Tried& first = tried[static_cast<std::size_t>(tried[i].twin)];
+      Tried& second = tried[i];
+      std::erase(first.same_places, second.place.at);
+      if (second.contender.ok &&
+          (!first.contender.ok || second.contender.score() < first.contender.score() + blur(first.contender))) {
+        first.same_places.push_back(first.place.at);
+        std::swap(first.place, second.place);
+        std::swap(first.circumstances, second.circumstances);
+        std::swap(first.laws, second.laws);
+        std::swap(first.contender, second.contender);
+      } else {
+        first.same_places.push_back(second.place.at);
+      }
+    }
+    std::erase_if(tried, [](const Tried& t) { return t.twin >= 0; });
+  }
+
+  /// What rows that are off by a part of the noise can add to chi2 or take from it: their square, and their product
+  /// with the noise.
+  static double blur(const Contender& c) {
+    const double n = c.error_of.n();
+    return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));
+  }
+
   static Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
     if (t.effect->commutes == Commutes::nothing) return nullptr;
     for (auto& k : kept)
-      if (k.effect->family == t.effect->family && k.effect->commutes == t.effect->commutes &&
+      if (k.twin < 0 && k.effect->family == t.effect->family && k.effect->commutes == t.effect->commutes &&
           !k.place.group_for(*k.effect).empty() && k.place.group_for(*k.effect) == t.place.group_for(*t.effect))
         return &k;
     return nullptr;
@@ -375,6 +407,23 @@ class Investigation {
     return richer;
   }
 
+  /// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
+  /// rival: that it was refused says nothing against it.
+  void try_hidden(std::vector<Tried>& tried, const Effect& winner, double first_fall) {
+    for (auto& t : hidden_) {
+      if (!look_alike(*t.effect, winner) || stopped()) continue;
+      t.laws = t.effect->laws(t.circumstances);
+      if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
+      t.contender = with_effect(shop_, current_, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
+      d_.model_runs += t.contender.runs;
+      if (t.contender.ok) t.contender.error_of = evidence_->error(t.contender.prediction);
+      judge(t, current_, first_fall);
+      t.hidden = true;
+      tried.push_back(std::move(t));
+    }
+    hidden_.clear();
+  }
+
   int best_admitted(const std::vector<Tried>& tried) const {
     for (const std::size_t i : ranking(tried))
       if (tried[i].admitted) return static_cast<int>(i);
@@ -400,7 +449,8 @@ class Investigation {
     return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
   }
 
-  std::vector<int> ties_of(const std::vector<Tried>& tried, std::size_t winner) {
+  std::vector<int> ties_of(std::vector<Tried>& tried, std::size_t winner) {
+    sharpen_rivals(tried, winner);
     const bool few = static_cast<int>(evidence_->recordings().size()) <= rules::few_recordings;
     const Tried& w = tried[winner];
     std::vector<int> ties;
@@ -424,6 +474,30 @@ class Investigation {
       if (tied) ties.push_back(static_cast<int>(i));
     }
     return ties;
+  }
+
+  /// Look-alikes that the accuracy of the search cannot tell apart are fitted again with finer rows.
+  void sharpen_rivals(std::vector<Tried>& tried, std::size_t winner) {
+    Tried& w = tried[winner];
+    const double reach = rules::tie + blur(w.contender);
+    const double best = w.contender.tie_score();
+    bool sharp = false;
+    for (auto& t : tried) {
+      if (&t == &w || !t.admitted || t.effect->id == w.effect->id || !look_alike(*t.effect, *w.effect)) continue;
+      const double gap = t.contender.tie_score() - best;
+      if (gap < rules::tie || gap > reach) continue;
+      if (!sharp) sharpen(w);
+      sharp = true;
+      sharpen(t);
+    }
+  }
+
+  void sharpen(Tried& t) {
+    Contender finer = refit(shop_, t.contender, Effort::final);
+    d_.model_runs += finer.runs;
+    if (!finer.ok) return;
+    finer.error_of = evidence_->error(finer.prediction);
+    t.contender = std::move(finer);
   }
 
   static bool is_of_sensor(const Effect& e) {
@@ -464,6 +538,13 @@ class Investigation {
     return e;
   }
 
+  /// Rivals that all recordings could have told apart are tied by noise, and another recording must be far better than
+  /// they were. One that no recording could show needs only to be seen.
+  static bool would_tell(const Experiment& e, bool hidden) {
+    return e.separation > rules::experiment_tells ||
+           (hidden && e.separation * e.separation * e.rows > 2 * rules::claim_fall);
+  }
+
   // --- claim
   // ----------------------------------------------------------------------------------------------------------
 
@@ -480,10 +561,14 @@ class Investigation {
     }
     for (const int t : ties) {
       found.ties.push_back(candidate_of(tried[static_cast<std::size_t>(t)], step));
-      auto e = experiment_between(w, tried[static_cast<std::size_t>(t)]);
-      if (e && (!found.experiment || e->separation > found.experiment->separation)) found.experiment = e;
+      const Tried& rival = tried[static_cast<std::size_t>(t)];
+      auto e = experiment_between(w, rival);
+      // The nearest rival first: what separates a third one best may leave the second.
+      if (!e || found.experiment_would_tell) continue;
+      found.experiment_would_tell = would_tell(*e, rival.hidden);
+      if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
+        found.experiment = e;
     }
-    found.experiment_would_tell = found.experiment && found.experiment->separation > rules::experiment_tells;
     const ModelError before = current_.error_of;
     current_ = w.contender;
     if (current_.standing.size() > 1) exchange(w, bar);
@@ -560,7 +645,7 @@ class Investigation {
     // A clamp is a kink at a level too: what effects explain down to the noise needs no structure.
     const bool effects_suffice = !d_.steps.empty() && floor <= rules::floor_gate;
     const bool structure_wins =
-        structure && !effects_suffice && structure->share_removed > rules::structure_share &&
+        structure && structure->explains() && !effects_suffice && structure->share_removed > rules::structure_share &&
         structure->fall_validate > std::max(removed_beyond_calibration(*structure), rules::claim_fall);
     if (structure_wins) {
       d_.verdict = Verdict::unexplained;
@@ -656,6 +741,7 @@ class Investigation {
   std::unique_ptr<DataModel> base_model_;
   std::unique_ptr<Evidence> evidence_;
   Contender base_, current_;
+  std::vector<Tried> hidden_;     ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction_;  ///< of the model before the present step; empty = the base
   Discovery d_;
 };

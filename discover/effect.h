@@ -137,6 +137,9 @@ struct Effect {
   std::function<std::vector<Law>(const Circumstances&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
   std::function<std::string(const Circumstances&)> unseen;
+  /// Where it cannot be seen: true if it may have acted all the same, alike in all recordings, so that a look-alike
+  /// would be taken for it. May be empty: then it has not.
+  std::function<bool(const Circumstances&)> may_hide;
   /// Why fitted values, though they may fit, are not this effect ("all of it lies beyond the longest hold"); "" = they
   /// are.
   std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> implausible;

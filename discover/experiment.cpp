@@ -97,11 +97,14 @@ class Menu {
     return found == d_.levels.end() ? 0 : found->second;
   }
 
-  /// Three plateaus; on each a sine over the whole range, then a hold.
+  /// Three plateaus, from today's temperature up, or back to a usual room where today's is none; on each a sine over
+  /// the whole range, then a hold.
   void temperature_staircase(const std::string& temperature) {
     const double from = start_of(temperature);
     const auto range = d_.ranges.find(temperature);
-    const double rise = std::max(10.0, range == d_.ranges.end() ? 0 : 2 * (range->second.second - range->second.first));
+    const double to_room = effects::usual_room(from) - from;
+    const double up = std::max(10.0, range == d_.ranges.end() ? 0 : 2 * (range->second.second - range->second.first));
+    const double rise = std::abs(to_room) >= up / 3 ? to_room : up;
     const double plateau = rounded(d_.longest_recording / 2);
     Protocol p;
     p.word = "temperature_staircase";
@@ -117,9 +120,9 @@ class Menu {
     drive.t = warm.t = p.t;
     p.moves = {{d_.input, std::move(drive)}, {temperature, std::move(warm)}};
     p.text = fmt::format(
-        "temperature {0:.3g} K, {1:.3g} K above today's on plateaus of {2} or more; on each, and before, "
+        "temperature {0:.3g} K, {1:.3g} K {3} today's on plateaus of {2} or more; on each, and before, "
         "two sines over the whole range and a hold",
-        rise / 2, rise, time_text(plateau));
+        std::abs(rise / 2), std::abs(rise), time_text(plateau), rise > 0 ? "above" : "below");
     list_.push_back(std::move(p));
   }
 
@@ -370,6 +373,7 @@ std::optional<Experiment> separate(const Rivals& rivals, const std::vector<std::
     Experiment e;
     e.word = word;
     e.text = text;
+    e.rows = static_cast<double>(protocol.t.size());
     try {
       const auto ya = answer(a, protocol, device, outputs), yb = answer(b, protocol, device, outputs);
       for (std::size_t o = 0; o < ya.size(); ++o)

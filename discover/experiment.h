@@ -21,6 +21,7 @@ struct Experiment {
   std::string word;       ///< of EFFECTS 5: "multisine", "step_hold" ...
   std::string text;       ///< what to do, with amplitude, frequency, duration and sampling in units
   double separation = 0;  ///< rms difference of the two models over the noise
+  double rows = 0;        ///< in which they were compared: chi2 between them is separation^2 * rows
   std::string between;    ///< "amplifier_lag and dead_time"
 };
 

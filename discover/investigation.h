@@ -19,11 +19,13 @@ struct Tried {
   std::vector<Law> laws;
   std::size_t law = 0;  ///< of laws: the one in `contender`
   std::vector<std::string> same_places, same_effects;
+  int twin = -1;  ///< the same finding, fitted at the other end of its places: index in the list; -1 = none
   std::vector<std::string> outputs;  ///< that the place moves; empty = all
   Contender contender;
   double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
   double share = 0;       ///< of the excess on validation that it removes, of the outputs that it can move
   bool admitted = false;  ///< passes the rules of a claim
+  bool hidden = false;    ///< cannot be seen here, may have acted all the same
   std::string reason;
 };
 

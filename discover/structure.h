@@ -1,4 +1,5 @@
-// Decides which generic structure stands out in a residual: a line in time, a line in level, a kink at a level, jumps.
+// Decides which generic structure stands out in a residual: a line in time, a line in level, a kink at a level, jumps,
+// bursts.
 // Names no physical effect: a structure is what `unexplained` shows to people (DISCOVERY 1, step 7).
 #pragma once
 
@@ -13,7 +14,7 @@ namespace hysteron {
 
 /// A structure in the residual that no known effect describes.
 struct Structure {
-  std::string kind;      ///< "line_in_time", "line_in_level", "kink_at_level", "jumps"
+  std::string kind;      ///< "line_in_time", "line_in_level", "kink_at_level", "jumps", "bursts"
   std::string variable;  ///< "t", an input or an output: what it lives on
   std::string output;    ///< in whose residual
   double period = 0;     ///< in units of the variable [SI]; 0 = none
@@ -25,6 +26,8 @@ struct Structure {
   double beyond_calibration = 0;  ///< chi2 there with the best gain and offset: what the fall is counted from
   double share_removed = 0;       ///< of the excess over the noise there
   std::string sentence;
+  /// Bursts only say when: they do not compete with effects.
+  bool explains() const { return kind != "bursts"; }
 };
 
 /// The structure that removes most of the validation chi2 of this model; nothing if none removes any.

@@ -171,8 +171,9 @@ void AdvancePlan::mark(int b, std::vector<bool>& marked, bool value) const {
 }
 
 /// A signal moves between points if a recorded input or a state stands before it; it is curved there if a state or a
-/// delay does. Substeps matter where a curved or kinked signal drives states, or a curved one drives memory (an
-/// extreme inside a row), and for nonlinear states, whatever drives them.
+/// delay does (what turns at a row turns inside a row when it comes late). Substeps matter where a curved or kinked
+/// signal drives states or comes late, or a curved one drives memory (an extreme inside a row), and for nonlinear
+/// states, whatever drives them.
 void AdvancePlan::find_curved() {
   curved_.assign(program->signals.size(), false);
   moves_ = kinked_ = curved_;
@@ -185,12 +186,14 @@ void AdvancePlan::find_curved() {
     mark_linear(static_cast<int>(d));
     for (const int b : levels[d].nonlinear) {
       const bool any_curved = any_source(b, curved_);
-      const bool remembers = block(b).sizes.memory > 0 || block(b).history_index >= 0;
-      if (has_states(b) || (any_curved && remembers)) no_substeps_needed = false;
+      const bool is_late = block(b).history_index >= 0;
+      if (has_states(b) || (any_curved && block(b).sizes.memory > 0) ||
+          (is_late && (any_curved || any_source(b, kinked_))))
+        no_substeps_needed = false;
       const bool any_moves = any_source(b, moves_) || (has_states(b) && !is_rate_independent(b));
       mark(b, moves_, any_moves);
       mark(b, kinked_, any_moves);
-      mark(b, curved_, any_curved || (has_states(b) && any_moves));
+      mark(b, curved_, any_curved || ((has_states(b) || is_late) && any_moves));
     }
     for (const int i : levels[d].loops) {
       const auto& loop = loops[at(i)];

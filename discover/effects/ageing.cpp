@@ -15,6 +15,12 @@ bool by_hours(const Circumstances& at) { return at.side_unit.dimension == parse_
 /// Where the decades begin: a hundred cycles, or an hour [SI]. Before that a device is still settling.
 double first_use(const Circumstances& at) { return by_hours(at) ? 3600 : 100; }
 
+/// Decades of use between the recordings.
+double decades_of_use(const Circumstances& at) {
+  const double n0 = first_use(at);
+  return std::log10((1 + at.side_highest / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
+}
+
 Law logarithmic(const Circumstances& at, bool free_first) {
   Law law;
   law.name = free_first ? "decades that begin anywhere" : by_hours(at) ? "per decade of hours" : "per decade of cycles";
@@ -26,7 +32,7 @@ Law logarithmic(const Circumstances& at, bool free_first) {
   LawParameter a;
   a.path = "per_decade";
   a.start = 0.01;
-  a.lower = -0.2;
+  a.lower = at.from_data && decades_of_use(at) < 1 ? 0 : -0.2;  // one age alone: a gain that rose has not aged
   a.upper = 0.3;
   a.plausible_lower = 0;
   a.plausible_upper = 0.1;
@@ -77,12 +83,13 @@ Effect ageing() {
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
     if (at.range() <= 0) return stands_still(at);
-    const double n0 = first_use(at);
-    const double decades = std::log10((1 + at.side_highest / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
+    const double decades = decades_of_use(at);
     if (decades >= 1) return "";
     return fmt::format("the recordings span {:.2g} decades of {}, ageing needs one", decades,
                        by_hours(at) ? "hours" : "cycles");
   };
+  // Much use behind all recordings alike; a new device has not aged.
+  e.may_hide = [](const Circumstances& at) { return at.side_lowest >= 10 * first_use(at); };
   return e;
 }
 

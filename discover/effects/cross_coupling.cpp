@@ -54,6 +54,7 @@ Effect cross_coupling() {
                              at.side_correlation)
                : "";
   };
+  e.may_hide = [](const Circumstances& at) { return at.side_highest > at.side_lowest; };  // both axes move alike
   return e;
 }
 

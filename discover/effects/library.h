@@ -53,6 +53,8 @@ std::string time_text(double seconds);
 std::string unit_text(const Unit& unit);
 /// A level [SI], not a difference, as a parameter in `unit`: 20 degC stays 20 degC.
 Number level(double si, const Unit& unit);
+/// [K] A room in which a device is usually calibrated, 20 .. 25 degC: of it what is nearest to `temperature`.
+double usual_room(double temperature);
 /// Why nothing can be seen at a place where the signal does not move, "" where it does or nobody looked.
 std::string stands_still(const Circumstances& at);
 

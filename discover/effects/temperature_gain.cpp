@@ -2,10 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
+namespace {
+
+constexpr double least_span = 3;  // [K] of a recorded temperature that shows a gain
+
+}  // namespace
+
+double usual_room(double temperature) { return std::clamp(temperature, 293.15, 298.15); }
 
 Effect temperature_gain() {
   Effect e;
@@ -40,8 +48,12 @@ Effect temperature_gain() {
     law.name = "linear in temperature";
     law.block.type = "temperature_gain";
     const double middle = 0.5 * (at.side_lowest + at.side_highest);
+    // One temperature does not tell its own reference: the gain is then that of a usual room.
+    const bool one_temperature = at.from_data && at.side_highest - at.side_lowest < least_span;
     give(law.block, "sensitivity", Number{0.001, "1/K"});
-    give(law.block, "reference", at.side_unit.text.empty() ? Number{20, "degC"} : level(middle, at.side_unit));
+    give(law.block, "reference",
+         at.side_unit.text.empty() ? Number{20, "degC"}
+                                   : level(one_temperature ? usual_room(middle) : middle, at.side_unit));
     LawParameter sensitivity;
     sensitivity.path = "sensitivity";
     sensitivity.start = 0.001;
@@ -50,7 +62,8 @@ Effect temperature_gain() {
     sensitivity.plausible_lower = -0.005;
     sensitivity.plausible_upper = 0.01;
     law.free = {sensitivity};
-    if (!at.gain_is_free) {  // else the gain of the model is that at the reference, wherever that is
+    if (!at.gain_is_free &&
+        !one_temperature) {  // else the gain of the model is that at the reference, wherever that is
       LawParameter reference;
       reference.path = "reference";
       reference.start = middle;
@@ -63,7 +76,11 @@ Effect temperature_gain() {
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;
-    return span < 3 ? fmt::format("the temperature spans {:.2g} K, a gain needs 3 K", span) : "";
+    return span < least_span ? fmt::format("the temperature spans {:.2g} K, a gain needs 3 K", span) : "";
+  };
+  e.may_hide = [](const Circumstances& at) {
+    const double middle = 0.5 * (at.side_lowest + at.side_highest);
+    return std::abs(middle - usual_room(middle)) >= least_span;
   };
   return e;
 }

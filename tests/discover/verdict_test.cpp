@@ -164,6 +164,45 @@ TEST_F(Verdicts, ALagSeenAtOneFrequencyAloneCannotBeToldFromADelayAndAnExperimen
   EXPECT_FALSE(d.experiment->text.empty());
 }
 
+/// A gain that is 2 % low, recorded in a room of one temperature throughout.
+DataSet low_gain_in_a_room_of(double kelvin) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 21;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(500, 0.02);
+    const auto u = several_sines(t, 1, {0.3, 0.7 + 0.1 * static_cast<double>(list.size())});
+    auto y = u;
+    for (auto& v : y) v *= 0.98;
+    auto r = recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 3e-3, 0, seed)));
+    r.columns["T"] = plus(std::vector<double>(t.size(), kelvin), noise(t.size(), 0.05, 0, seed + 100));
+    r.units["T"] = parse_unit("degC");
+    list.push_back(std::move(r));
+    ++seed;
+  }
+  auto d = data_set(std::move(list), 3e-3);
+  d.notes["T"].to = "T";
+  return d;
+}
+
+TEST_F(Verdicts, AGainFoundInAHotRoomMayBeTheTemperatures) {
+  // 40 degC in all recordings: nothing shows what the gain would be at another temperature.
+  const Discovery hot = found(plain_gain(), low_gain_in_a_room_of(313.15));
+  EXPECT_EQ(to_text(hot.verdict), "not_distinguishable") << hot.headline;
+  ASSERT_EQ(names(hot), std::vector<std::string>{"calibration"});
+  ASSERT_EQ(hot.steps.front().ties.size(), 1u);
+  EXPECT_EQ(hot.steps.front().ties.front().effect, "temperature_gain");
+  ASSERT_TRUE(hot.experiment.has_value());
+  EXPECT_EQ(hot.experiment->word, "temperature_staircase");
+  EXPECT_NE(hot.experiment->text.find("below today's"), std::string::npos) << hot.experiment->text;
+}
+
+TEST_F(Verdicts, AGainFoundInAUsualRoomIsACalibration) {
+  const Discovery usual = found(plain_gain(), low_gain_in_a_room_of(295.15));
+  EXPECT_EQ(to_text(usual.verdict), "missing_effect") << usual.headline;
+  ASSERT_EQ(names(usual), std::vector<std::string>{"calibration"});
+  EXPECT_TRUE(usual.steps.front().ties.empty());
+}
+
 TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
   std::vector<Recording> list;
   std::uint64_t seed = 11;

@@ -125,9 +125,10 @@ def simulate(plant, recording, hidden=()):
     h = recording.h / steps
     temperature = np.interp(fine, t, recording.temperature)
     if plant.base == "B5":
-        outputs, force = [heat(plant, distorted(amplified(drives[0], h, hidden, 0), hidden, 0), temperature, h)], None
+        outputs, force = [heat(plant, distorted(late(amplified(drives[0], h, hidden, 0), h, hidden, 0), hidden, 0),
+                               temperature, h)], None
     elif plant.base == "B4":
-        v = amplified(drives[0], h, hidden, 0)
+        v = late(amplified(drives[0], h, hidden, 0), h, hidden, 0)
         outputs, force = [swing(plant, distorted(v, hidden, 0), h, hidden)], plant.task["force_per_volt_N"] * v[::steps]
     else:
         outputs, force = actuate(plant, recording, drives, temperature, h, hidden), None
@@ -151,6 +152,11 @@ def amplified(u, h, hidden, axis):
         u = laws.slew(u, h, rate, rate * e.shape["down"], 4)
     if (e := of(hidden, "amplifier_lag", axis)) and e.amount > 0:
         u = laws.lag(u, h, *(e.amount * x for x in e.shape["times"]))
+    return u
+
+
+def late(u, h, hidden, axis):
+    """A dead time of the amplifier, wherever it can be put: it changes places with all that does not look at the clock."""
     if e := of(hidden, "dead_time", axis):
         u = laws.delayed(u, h, e.amount)
     return u
@@ -171,7 +177,8 @@ def actuate(plant, recording, drives, temperature, h, hidden):
     offsets = [p["offset_um"] for p in parts]
     motions = []
     for j, p in enumerate(parts):
-        x = core(plant, p, amplifiers[j], h, hidden, j) * gain_factor(recording, temperature, hidden, j)
+        # Late behind the plays: before them the extremes, which they remember, would fall between the steps.
+        x = late(core(plant, p, amplifiers[j], h, hidden, j), h, hidden, j) * gain_factor(recording, temperature, hidden, j)
         if plant.base == "B1":
             x = laws.respond(laws.modes_of_ratio(p["dynamics"]["num"], p["dynamics"]["den"]), x, h)
         motions.append(x)

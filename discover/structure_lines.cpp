@@ -1,0 +1,123 @@
+// Decides where a structure repeats: over time or over a level. See structures.h.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "discover/structures.h"
+
+namespace hysteron {
+namespace {
+
+using Part = ResidualPart;
+
+/// Cosine and sine of wave number k [1/unit of x] along x.
+std::vector<Rows> wave(const Rows& x, double origin, double k) {
+  Rows c(x.size()), s(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    c[i] = std::cos(k * (x[i] - origin));
+    s[i] = std::sin(k * (x[i] - origin));
+  }
+  return {c, s};
+}
+
+/// Fall of chi2 by a line of frequency f [Hz] in the recordings that can show it: not above the rows, one period at
+/// least.
+double line_fall(const ResidualParts& parts, double f, bool validate_only) {
+  double fall = 0;
+  for (const auto& p : parts.list()) {
+    if (validate_only && p.train) continue;
+    const double step = p.duration() / static_cast<double>(p.t.size() - 1);
+    if (f * step > 0.45 || f * p.duration() < 1) continue;
+    fall += parts.own_fall(p, [f](const Part& q) { return wave(q.t, q.t.front(), 2 * std::numbers::pi * f); });
+  }
+  return fall;
+}
+
+/// The strongest cosine coefficients of each recording, as frequencies [Hz] of at least two periods.
+std::vector<double> strongest_frequencies(const ResidualParts& parts) {
+  std::vector<double> list;
+  for (const auto& p : parts.list()) {
+    std::vector<std::size_t> order(static_cast<std::size_t>(p.w.size()));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    const auto keep = static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, order.size()));
+    std::partial_sort(order.begin(), order.begin() + keep, order.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(p.w[static_cast<Eigen::Index>(a)]) > std::abs(p.w[static_cast<Eigen::Index>(b)]);
+    });
+    for (auto k = order.begin(); k != order.begin() + keep; ++k)
+      if (*k >= 4) list.push_back(static_cast<double>(*k) / (2 * p.duration()));
+  }
+  return list;
+}
+
+/// Climbs from x in steps of `width`, halved until `least`; x and fall are those of the top.
+void climb(double& x, double& fall, double width, double least, const std::function<double(double)>& fall_at) {
+  for (; width > least; width /= 2)
+    for (const double at : {x - width, x + width})
+      if (const double f = fall_at(at); f > fall) x = at, fall = f;
+}
+
+/// Squared amplitude of a ripple with wave number k in the residual over a level, train recordings only.
+double ripple_power(const ResidualParts& parts, std::size_t level, double k) {
+  double c = 0, s = 0, n = 0;
+  for (const auto& p : parts.list()) {
+    if (!p.train) continue;
+    for (std::size_t i = 0; i < p.e.size(); ++i) {
+      c += p.e[i] * std::cos(k * (p.levels[level][i] - parts.levels()[level].lowest));
+      s += p.e[i] * std::sin(k * (p.levels[level][i] - parts.levels()[level].lowest));
+    }
+    n += static_cast<double>(p.e.size());
+  }
+  return n > 0 ? (c * c + s * s) / n : 0;
+}
+
+}  // namespace
+
+std::optional<Structure> line_in_time(const ResidualParts& parts) {
+  const auto fall_at = [&](double frequency) { return line_fall(parts, frequency, false); };
+  double f = 0, fall = 0, longest = 0;
+  for (const double candidate : strongest_frequencies(parts))
+    if (const double now = fall_at(candidate); now > fall) f = candidate, fall = now;
+  if (f <= 0) return std::nullopt;
+  // The longest recording resolves 1/T: from half of that the climb begins, or it would pass by.
+  for (const auto& p : parts.list())
+    if (f * p.duration() < 0.45 * static_cast<double>(p.t.size())) longest = std::max(longest, p.duration());
+  for (const double width : {0.02 * f, 1 / longest}) climb(f, fall, width, std::min(1e-5 * f, 1e-3 / longest), fall_at);
+  Structure s;
+  s.kind = "line_in_time";
+  s.variable = "t";
+  s.period = 1 / f;
+  s.unit = parse_unit("s");
+  const auto validating =
+      std::count_if(parts.list().begin(), parts.list().end(), [](const Part& p) { return !p.train; });
+  s.fall_validate = line_fall(parts, f, true) - 4.0 * static_cast<double>(validating);  // two numbers per recording
+  return s;
+}
+
+std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t level) {
+  const Level& over = parts.levels()[level];
+  const auto wave_number = [&](double lines) { return 2 * std::numbers::pi * lines / over.span(); };
+  const auto fall_at = [&](double lines) {
+    return parts.judged([&](const Part& p) { return wave(p.levels[level], over.lowest, wave_number(lines)); });
+  };
+  // Screened on plain rows, where a trial costs a tenth; the best few are judged whitened.
+  constexpr std::ptrdiff_t judged = 6;
+  std::vector<std::pair<double, double>> screened;
+  for (double lines = 3; lines <= 130; lines += 0.5)
+    screened.emplace_back(ripple_power(parts, level, wave_number(lines)), lines);
+  std::partial_sort(screened.begin(), screened.begin() + judged, screened.end(), std::greater<>());
+  double best = 0, fall = 0;
+  for (auto s = screened.begin(); s != screened.begin() + judged; ++s)
+    if (const double f = fall_at(s->second); f > fall) best = s->second, fall = f;
+  if (best <= 0) return std::nullopt;
+  climb(best, fall, 0.25, 0.01, fall_at);
+  Structure s;
+  s.kind = "line_in_level";
+  s.variable = over.name;
+  s.period = over.span() / best;
+  s.unit = over.unit;
+  s.fall_validate = fall;
+  return s;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,103 @@
+#include "discover/structure.h"
+
+#include <gtest/gtest.h>
+
+#include "blocks/register_all.h"
+#include "discover/evidence.h"
+#include "engine/program.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+/// Recordings of a gain with something hidden in them, and what is found of it.
+class Structures : public ::testing::Test {
+ protected:
+  using Hidden = std::function<double(double t, double u, int recording)>;
+
+  /// Two train and two validate recordings of different length; noise 1 mm rms, u over 0 .. 1 V.
+  std::optional<Structure> found_in(const Hidden& hidden) {
+    std::vector<Recording> list;
+    for (int r = 0; r < 4; ++r) {
+      const auto t = rows(800 + 100 * r, 0.01 * (1 + r % 2));
+      const auto u = several_sines(t, 1, {0.13 + 0.02 * r, 0.31});
+      auto y = noise(t.size(), 1e-3, 0, 10 + static_cast<std::uint64_t>(r));
+      for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + hidden(t[k], u[k], r);
+      list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, y));
+    }
+    data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
+    DataModel model(compile(plain_gain(), registry), data_);
+    const Evidence evidence(model);
+    return find_structure(evidence, model.predict({}, evidence.recordings()));
+  }
+
+  Registry registry = all_blocks();
+  std::shared_ptr<const DataSet> data_;
+};
+
+TEST_F(Structures, ALineInTimeIsFoundWhateverItsPhaseInEachRecording) {
+  const auto s = found_in([](double t, double, int r) { return 0.01 * std::sin(2 * pi * t / 0.71 + 1.7 * r); });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "line_in_time");
+  EXPECT_EQ(s->variable, "t");
+  // Cramer-Rao: sd of f is sqrt(6/N)/(pi T) * noise/amplitude = 1e-4 Hz for the longest recording, 1e-4 of the period.
+  EXPECT_NEAR(s->period, 0.71, 3e-4);
+  EXPECT_GT(s->share_removed, 0.97);
+}
+
+TEST_F(Structures, ALineThatAValidationRecordingShowsForOnePeriodIsJudgedThere) {
+  const auto s = found_in([](double t, double, int r) { return 0.02 * std::sin(2 * pi * t / 6.5 + r); });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "line_in_time");
+  // The drive has lines of 5.3 to 7.7 s beside it: the gain that is taken off first takes a part of the line along.
+  EXPECT_NEAR(s->period, 6.5, 0.02 * 6.5);
+}
+
+TEST_F(Structures, ARippleBelongsToTheSignalThatItRepeatsOver) {
+  const auto over_u = found_in([](double, double u, int) { return 0.01 * std::sin(2 * pi * u / 0.083); });
+  ASSERT_TRUE(over_u.has_value());
+  EXPECT_EQ(over_u->kind, "line_in_level");
+  EXPECT_NEAR(over_u->period, 0.083, 0.083 * 0.01);
+  EXPECT_GT(over_u->share_removed, 0.9);
+}
+
+TEST_F(Structures, AStepAtALevelOfTheDriveIsAKinkThere) {
+  const auto s = found_in([](double, double u, int) { return u > 0.437 ? 0.01 : 0.0; });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "kink_at_level");
+  ASSERT_TRUE(s->has_threshold);
+  EXPECT_NEAR(s->threshold, 0.437, 0.01);  // u passes it in steps of up to 0.02
+}
+
+TEST_F(Structures, BurstsSayWhenAndExplainNothing) {
+  const auto s = found_in([](double t, double, int r) {
+    const double since = std::fmod(t + 0.4 * r, 2.9);
+    return since < 0.3 ? 0.02 * std::sin(2 * pi * t * (r % 2 == 0 ? 9.3 : 4.7) + 40 * std::sin(t)) : 0.0;
+  });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "bursts");
+  EXPECT_FALSE(s->explains());
+  EXPECT_GT(s->share_removed, 0.8);
+  ASSERT_EQ(s->intervals.size(), 4u);
+  for (const auto& [name, intervals] : s->intervals) {
+    const double shift = 0.4 * std::stod(name);
+    for (const auto& [from, to] : intervals) {
+      EXPECT_LT(to - from, 0.5);
+      EXPECT_LT(std::fmod(0.5 * (from + to) + shift, 2.9), 0.3) << name << " " << from << " .. " << to;
+    }
+  }
+}
+
+TEST_F(Structures, NoiseAloneHasNone) {
+  const auto s = found_in([](double, double, int) { return 0.0; });
+  // Something always fits by chance; what it takes away is what chance takes: some units of chi2 of 2100 rows.
+  if (s) {
+    EXPECT_LT(s->fall_validate, 25);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
