@@ -12,6 +12,7 @@
 
 #include "discover/circumstances.h"
 #include "discover/investigation.h"
+#include "discover/structures.h"
 #include "discover/visible.h"
 #include "discover/wiring.h"
 #include "engine/error.h"
@@ -213,10 +214,29 @@ class Investigation {
       kept.push_back(std::move(t));
     }
     for (auto* list_of : {&kept, &hidden_})
-      for (auto& t : *list_of)
+      for (auto& t : *list_of) {
         for (const int o : moved_by(t.place.wire))
           t.outputs.push_back(base_model_->program().output_names[static_cast<std::size_t>(o)]);
+        begin_at_lines(t);
+      }
     return kept;
+  }
+
+  /// A frequency is sought in what the present model leaves: a fit from anywhere else sees the next side lobe only.
+  void begin_at_lines(Tried& t) const {
+    std::map<std::vector<std::pair<double, double>>, std::vector<double>> found;
+    for (auto& law : t.laws)
+      for (auto& p : law.free) {
+        if (p.line_bands.empty()) continue;
+        auto& lines = found[p.line_bands];
+        for (std::size_t o = 0; o < base_model_->outputs().size() && lines.size() < 4; ++o) {
+          const auto& name = base_model_->outputs()[o];
+          if (!t.outputs.empty() && std::find(t.outputs.begin(), t.outputs.end(), name) == t.outputs.end()) continue;
+          const ResidualParts parts(*evidence_, current_.prediction, static_cast<int>(o));
+          for (const double f : strongest_lines(parts, p.line_bands, 2)) lines.push_back(f);
+        }
+        if (!lines.empty()) p.scan = lines;
+      }
   }
 
   bool standing(const Effect& e) const {
@@ -357,9 +377,10 @@ class Investigation {
   /// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
   /// magnitude: what stays far below the least fall of a claim needs no fit of everything.
   bool within_reach(const Tried& t, double first_fall) const {
-    const double least = std::max(rules::claim_fall, rules::own_law_left * rules::own_law_left * first_fall);
+    const double own =
+        std::min(rules::own_law_left * rules::own_law_left * first_fall, current_.error_of.excess_validate());
     const double fall = current_.error_of.chi2_validate - t.contender.error_of.chi2_validate;
-    return fall > rules::screened_part * least;
+    return fall > rules::screened_part * std::max(rules::claim_fall, own);
   }
 
   /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/diagram.h"
@@ -79,6 +80,9 @@ struct LawParameter {
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;
   std::vector<double> scan{};  ///< values at which a fit begins
+  /// A frequency of a line: the bands [Hz] in which the strongest lines of the residual take the place of `scan`, where
+  /// there is a residual to look at.
+  std::vector<std::pair<double, double>> line_bands{};
   /// Its value is another one in each recording and found on that recording alone, validation included; linear.
   bool per_recording = false;
   double plausible_lower = -std::numeric_limits<double>::infinity();  ///< outside: possible, but said to be unusual

@@ -1,6 +1,7 @@
 // Decides where a structure repeats: over time or over a level. See structures.h.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 
@@ -71,7 +72,68 @@ double ripple_power(const ResidualParts& parts, std::size_t level, double k) {
   return n > 0 ? (c * c + s * s) / n : 0;
 }
 
+/// Fall of chi2, about, by a line of frequency f [Hz] with white noise: its rows are uniform, or the line is smeared.
+double line_power(const Part& p, double white, double f) {
+  const double step = p.duration() / static_cast<double>(p.t.size() - 1);
+  const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * f * step);
+  std::complex<double> phase = 1, sum = 0;
+  for (const double e : p.e) {
+    sum += e * phase;
+    phase *= turn;
+  }
+  return 2 * std::norm(sum) / static_cast<double>(p.e.size()) / (white * white);
+}
+
+struct Peak {
+  double f = 0, power = 0;
+};
+
+/// The highest peaks that stand apart from each other by `apart` [Hz].
+std::vector<Peak> highest(std::vector<Peak> all, double apart, std::size_t most) {
+  std::sort(all.begin(), all.end(), [](const Peak& a, const Peak& b) { return a.power > b.power; });
+  std::vector<Peak> kept;
+  for (const auto& p : all) {
+    if (kept.size() == most) break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const Peak& k) { return std::abs(k.f - p.f) < apart; }))
+      kept.push_back(p);
+  }
+  return kept;
+}
+
 }  // namespace
+
+std::vector<double> strongest_lines(const ResidualParts& parts, const std::vector<std::pair<double, double>>& bands,
+                                    std::size_t most) {
+  std::vector<const Part*> by_duration;
+  for (const auto& p : parts.list()) by_duration.push_back(&p);
+  std::stable_sort(by_duration.begin(), by_duration.end(),
+                   [](const Part* a, const Part* b) { return a->duration() < b->duration(); });
+  constexpr std::size_t followed = 12;
+  std::vector<Peak> peaks;
+  std::vector<const Part*> seen;
+  double apart = 0;
+  for (const Part* p : by_duration) {
+    seen.push_back(p);
+    const double step = 0.2 / p->duration();
+    std::vector<std::pair<double, double>> around = bands;
+    if (apart > 0) {
+      around.clear();
+      for (const auto& peak : peaks) around.emplace_back(peak.f - 0.6 * apart, peak.f + 0.6 * apart);
+    }
+    std::vector<Peak> finer;
+    for (const auto& [low, high] : around)
+      for (double f = low; f <= high; f += step) {
+        double power = 0;
+        for (const Part* q : seen) power += line_power(*q, parts.white(), f);
+        finer.push_back({f, power});
+      }
+    apart = 1 / p->duration();
+    peaks = highest(std::move(finer), apart, followed);
+  }
+  std::vector<double> list;
+  for (const auto& peak : highest(std::move(peaks), apart, most)) list.push_back(peak.f);
+  return list;
+}
 
 std::optional<Structure> line_in_time(const ResidualParts& parts) {
   const auto fall_at = [&](double frequency) { return line_fall(parts, frequency, false); };

@@ -11,6 +11,10 @@ namespace hysteron {
 
 /// Interference: a line with one frequency, amplitude and phase of its own in every recording.
 std::optional<Structure> line_in_time(const ResidualParts& parts);
+/// The strongest lines of the residual in bands of frequency [Hz], strongest first, at most `most`: found from the
+/// shortest recording to the longest, since each tells frequencies apart by one over its duration.
+std::vector<double> strongest_lines(const ResidualParts& parts, const std::vector<std::pair<double, double>>& bands,
+                                    std::size_t most);
 /// Fringes, gear teeth: a ripple over a level, one shape for all recordings, 3 to 130 periods over the range.
 std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t level);
 /// A step and another slope beyond a level.

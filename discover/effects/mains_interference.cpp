@@ -9,7 +9,8 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double away = 0.2;  // [Hz] that the mains may be off in normal operation (EN 50160: 1 %, mostly 0.2 Hz)
+constexpr double away = 0.2;    // [Hz] that the mains is off at most, mostly ...
+constexpr double widest = 0.5;  // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
 
 Law lines(const Circumstances& at, int harmonics) {
   Law law;
@@ -26,8 +27,10 @@ Law lines(const Circumstances& at, int harmonics) {
   f.upper = 60 + 5 * away;
   // A recording of length T tells frequencies 1/T apart; of longer ones the local search takes care.
   const double step = std::clamp(0.5 / at.longest_recording, 2 * away / 100, 2 * away / 8);
-  for (const double mains : {50.0, 60.0})
+  for (const double mains : {50.0, 60.0}) {
+    f.line_bands.emplace_back(mains - widest, mains + widest);
     for (double d = -away; d <= away * 1.001; d += step) f.scan.push_back(mains + d);
+  }
   law.free = {f};
   for (int k = 0; k < harmonics; ++k)
     for (const char* list : {"cosine", "sine"}) {
