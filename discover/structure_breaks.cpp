@@ -63,11 +63,12 @@ Rows without_levels(const Part& p, const std::vector<std::size_t>& at) {
   return left;
 }
 
-/// Jumps that all happen at one level belong to that level: a threshold.
+/// Jumps that all happen at one level belong to that level, a threshold, unless it is where the signal stays anyway.
 void share_one_level(Structure& s, const Level& level, std::vector<double> at) {
   if (at.size() < 4) return;
   std::sort(at.begin(), at.end());
-  if (at[at.size() * 3 / 4] - at[at.size() / 4] > 0.03 * level.span()) return;
+  const double middle_half = at[at.size() * 3 / 4] - at[at.size() / 4];
+  if (middle_half > 0.03 * level.span() || middle_half > 0.1 * level.middle_half) return;
   s.threshold = at[at.size() / 2];
   s.has_threshold = true;
   s.variable = level.name;

@@ -27,6 +27,10 @@ class Structures : public ::testing::Test {
       auto y = noise(t.size(), 1e-3, 0, 10 + static_cast<std::uint64_t>(r));
       for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + hidden(t[k], u[k], r);
       list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, y));
+      // The room stays at 22 degC but for one recording, in which it warms by 10 K.
+      auto& room = list.back().columns["T"] = noise(t.size(), 0.02, 0, 50 + static_cast<std::uint64_t>(r));
+      for (std::size_t k = 0; k < t.size(); ++k) room[k] += 295.15 + (r == 1 ? 10 * t[k] / t.back() : 0);
+      list.back().units["T"] = parse_unit("degC");
     }
     data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
     DataModel model(compile(plain_gain(), registry), data_);
@@ -89,6 +93,19 @@ TEST_F(Structures, BurstsSayWhenAndExplainNothing) {
       EXPECT_LT(std::fmod(0.5 * (from + to) + shift, 2.9), 0.3) << name << " " << from << " .. " << to;
     }
   }
+}
+
+TEST_F(Structures, JumpsAtAnyTimeBelongToNoLevelAlthoughTheRoomStaysAtOne) {
+  const auto s = found_in([](double t, double, int r) {
+    double level = 0;
+    for (const double jump : {0.9, 2.3, 3.1, 4.8, 6.2, 7.0})
+      level += t > jump + 0.31 * r ? 1 - 2 * std::fmod(level, 2.0) : 0;
+    return 0.02 * level;
+  });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "jumps");
+  EXPECT_EQ(s->variable, "t");
+  EXPECT_FALSE(s->has_threshold);
 }
 
 TEST_F(Structures, NoiseAloneHasNone) {
