@@ -1,11 +1,15 @@
-// The verb effects: the physical effects that hysteron knows, from their own declarations.
+// The verb effects: the physical effects that hysteron knows, from their own declarations, with a picture of each.
 // Does not look at data.
 #include <fmt/format.h>
 
+#include "app/effect_picture.h"
 #include "app/load.h"
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "discover/effect.h"
+#include "engine/error.h"
+#include "io/atomic_file.h"
+#include "report/report.h"
 
 namespace hysteron {
 namespace {
@@ -14,9 +18,11 @@ constexpr char help[] =
     "Answers: which effects can be named as missing, what is their law, which data show them, what looks alike.\n\n"
     "Examples:\n"
     "  hysteron effects           all of them\n"
-    "  hysteron effects creep     one in full\n"
+    "  hysteron effects creep     one in full, with a picture\n"
+    "  hysteron effects creep -o creep.html         as a page; creep.svg: the picture alone\n"
     "  hysteron effects --effects own/              with those of your own: a file each, or a folder\n\n"
-    "Prints to the terminal, writes no files.\n"
+    "The picture is simulated: the simplest law of the effect at its start values, and nothing in its place, under\n"
+    "a standard signal that brings it out. Prints to the terminal; with -o it writes that file as well.\n"
     "Exit codes: 0 done, 2 there is no such effect.";
 
 void print_all(const Effects& effects) {
@@ -25,10 +31,6 @@ void print_all(const Effects& effects) {
     rows.push_back({effect.id, fmt::format("{}", fmt::join(effect.places, ", ")), effect.title});
   fmt::print("{}", table_text({"effect", "enters at", "what it is"}, rows));
   fmt::print("\n\"hysteron effects ID\" shows one in full, \"hysteron add ID DIAGRAM.json\" puts it into a diagram.\n");
-}
-
-void print_part(const std::string& title, const std::string& text) {
-  if (!text.empty()) fmt::print("\n{}\n{}", title, wrapped(text, 2));
 }
 
 std::string way_text(const Effect& effect) {
@@ -42,34 +44,93 @@ std::string way_text(const Effect& effect) {
   return fmt::format("A value of the recording: {}.{}", effect.parameter, places);
 }
 
-void print_one(const Effect& effect) {
+/// One effect as a page: paragraphs and tables, which the terminal prints too.
+std::vector<Section> sections_of(const Effect& effect) {
+  std::vector<Section> sections;
+  const auto part = [&](const std::string& title, const std::string& text) -> void {
+    if (text.empty()) return;
+    sections.emplace_back().title = title;
+    sections.back().text = {text};
+  };
+  const auto table = [&](const std::string& title, Table rows) {
+    if (rows.rows.empty()) return;
+    sections.emplace_back().title = title;
+    sections.back().tables.push_back(std::move(rows));
+  };
+  part("cause", effect.cause);
+  part("law", effect.equation);
+  part("how it enters", way_text(effect));
+  Table parameters;
+  for (const auto& p : effect.parameters)
+    parameters.rows.push_back(
+        {p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
+  table("parameters", std::move(parameters));
+  part("what it leaves in the residual", effect.residual);
+  part("data that show it", effect.needs);
+  Table others;
+  others.columns = {"effect", "experiment", "what decides"};
+  for (const auto& other : effect.look_alikes) others.rows.push_back({other.effect, other.experiment, other.deciding});
+  table("taken for it easily", std::move(others));
+  part("source", effect.source);
+  return sections;
+}
+
+void print_one(const Effect& effect, const std::vector<Section>& sections, const Demonstration& shown) {
   fmt::print("{}", wrapped(fmt::format("{}: {}", effect.id, effect.title)));
-  print_part("cause", effect.cause);
-  print_part("law", effect.equation);
-  print_part("how it enters", way_text(effect));
-  if (!effect.parameters.empty()) {
-    std::vector<std::vector<std::string>> rows;
-    for (const auto& p : effect.parameters)
-      rows.push_back(
-          {p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
-    fmt::print("\nparameters\n{}", table_text({}, rows));
+  for (const auto& section : sections) {
+    fmt::print("\n{}\n", section.title);
+    for (const auto& text : section.text) fmt::print("{}", wrapped(text, 2));
+    for (const auto& table : section.tables) fmt::print("{}", table_text(table.columns, table.rows));
+    if (section.title != "law") continue;
+    fmt::print("\npicture\n{}\n{}", wrapped(picture_caption(shown), 2), picture_text(shown));
   }
-  print_part("what it leaves in the residual", effect.residual);
-  print_part("data that show it", effect.needs);
-  if (!effect.look_alikes.empty()) {
-    std::vector<std::vector<std::string>> rows;
-    for (const auto& other : effect.look_alikes) rows.push_back({other.effect, other.experiment, other.deciding});
-    fmt::print("\ntaken for it easily\n{}", table_text({"effect", "experiment", "what decides"}, rows));
+}
+
+/// The page, or the picture alone.
+void write_picture(const std::string& file, const Effect& effect, std::vector<Section> sections,
+                   const Demonstration& shown) {
+  const auto figures = picture_figures(shown);
+  Document page;
+  page.verb = "effects";
+  page.title = effect.title;
+  page.headline = fmt::format("{}: {}", effect.id, effect.title);
+  if (file.ends_with(".svg")) {
+    write_file(file, figure_file(page, figures.front()));
+  } else {
+    Section picture;
+    picture.title = "picture";
+    picture.figures = figures;
+    sections.insert(sections.begin(), std::move(picture));
+    page.sections = std::move(sections);
+    write_file(file, report_html(page));
   }
-  print_part("source", effect.source);
+  fmt::print("\nwrote {}\n", file);
+}
+
+/// "-o", or "" where nothing is to be written.
+std::string wanted_file(const Arguments& arguments) {
+  const std::string file = arguments.text("-o");
+  if (file.empty()) return file;
+  if (!arguments.has("effect"))
+    fail("bad_command_line", "-o", "a picture is drawn of one effect", "name it: hysteron effects creep -o creep.html");
+  if (!file.ends_with(".html") && !file.ends_with(".svg"))
+    fail("bad_command_line", "-o", "\"" + file + "\" ends neither in .html nor in .svg",
+         "name a page or a picture, e.g. -o creep.html");
+  return file;
 }
 
 int effects(const Arguments& arguments) {
   const Effects library = load_effects(arguments);
-  if (!arguments.has("effect"))
+  const std::string file = wanted_file(arguments);
+  if (!arguments.has("effect")) {
     print_all(library);
-  else
-    print_one(library.get(arguments.text("effect")));
+    return exit_code::done;
+  }
+  const Effect& effect = library.get(arguments.text("effect"));
+  const Demonstration shown = demonstrate(effect, library, registry());
+  const auto sections = sections_of(effect);
+  print_one(effect, sections, shown);
+  if (!file.empty()) write_picture(file, effect, sections, shown);
   return exit_code::done;
 }
 
@@ -79,7 +140,10 @@ Verb effects_verb() {
   return {"effects",
           "which effects can be missing, and how they are told apart",
           help,
-          {{"effect", "ID", "the effect to show in full", false, false}, options::effects(), options::allow()},
+          {{"effect", "ID", "the effect to show in full", false, false},
+           {"-o", "FILE.html|svg", "also write its page, or its picture alone", false, false},
+           options::effects(),
+           options::allow()},
           effects};
 }
 

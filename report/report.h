@@ -10,7 +10,8 @@ namespace hysteron {
 /// The page of a document: headline, verdict, sentences, warnings, sections with tables and figures.
 std::string report_html(const Document& document);
 
-/// One figure (a waterfall, or curves; no legend) as an SVG file that brings its own style, for a README or a paper.
+/// One figure (a waterfall, or curves with their names above) as an SVG file that brings its own style, for a README or
+/// a paper.
 std::string figure_file(const Document& document, const Figure& figure);
 
 }  // namespace hysteron

@@ -109,16 +109,58 @@ TEST(Effects, EveryEffectIsListedAndShownWithItsLookAlikes) {
     const Outcome one = process::hysteron(folder.path(), {"effects", id});
     EXPECT_EQ(one.code, 0) << id;
     EXPECT_LE(longest_line(one.out), 100U) << one.out;
-    for (const char* part : {"\ncause\n", "\nlaw\n", "\nhow it enters\n", "\ndata that show it\n"})
+    for (const char* part : {"\ncause\n", "\nlaw\n", "\npicture\n", "\nhow it enters\n", "\ndata that show it\n"})
       EXPECT_NE(one.out.find(part), std::string::npos) << id << " lacks " << part;
   }
+}
+
+/// What is drawn of a role in a picture: its path.
+std::string path_of(const std::string& svg, const std::string& role) {
+  const std::string open = "<path class=\"curve line c-" + role + "\" d=\"";
+  const auto at = svg.find(open);
+  return at == std::string::npos ? ""
+                                 : svg.substr(at + open.size(), svg.find('"', at + open.size()) - at - open.size());
+}
+
+TEST(Effects, EveryEffectHasAPictureThatIsNoCopyOfTheSignal) {
+  const Folder folder;
+  std::istringstream lines(process::hysteron(folder.path(), {"effects"}).out);
+  int pictures = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string id = line.substr(0, line.find(' ', 2)).erase(0, line.starts_with("  ") ? 2 : 0);
+    if (!line.starts_with("  ") || line.starts_with("   ") || id == "effect") continue;
+    const Outcome one = process::hysteron(folder.path(), {"effects", id, "-o", id + ".svg"});
+    ASSERT_EQ(one.code, 0) << id << one.err;
+    EXPECT_GT(std::count(one.out.begin(), one.out.end(), '*'), 20) << id << " draws nothing in the terminal";
+    const std::string svg = folder.read(id + ".svg");
+    EXPECT_GT(path_of(svg, "before").size(), 20U) << id;
+    EXPECT_NE(path_of(svg, "before"), path_of(svg, "simulated")) << id;
+    ++pictures;
+  }
+  EXPECT_GE(pictures, 29);
+}
+
+TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {
+  const Folder folder;
+  ASSERT_EQ(process::hysteron(folder.path(), {"effects", "temperature_gain", "-o", "page.html"}).code, 0);
+  const std::string page = folder.read("page.html");
+  for (const char* part : {"With the effect and without it", "What it adds", "What it reads besides",
+                           "temperature [degC]", "taken for it easily", "Drawn with"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const auto& words :
+       {std::vector<std::string>{"effects", "creep", "-o", "creep.png"}, {"effects", "-o", "a.svg"}}) {
+    const Outcome wrong = process::hysteron(folder.path(), words);
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_TRUE(wrong.out.empty()) << wrong.out;
+  }
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"page.html"});
 }
 
 TEST(Schema, WritesTheSchemasThatTheProjectShips) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"schema", "-o", "made"}).code, 0);
-  for (const char* name : {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "result.schema.json",
-                           "effect.schema.json"})
+  for (const char* name :
+       {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "result.schema.json", "effect.schema.json"})
     EXPECT_NE(folder.read(std::string("made/") + name).find("draft-07"), std::string::npos) << name;
 }
 

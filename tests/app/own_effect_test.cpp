@@ -56,8 +56,11 @@ TEST(OwnEffect, IsShownAndAddedFromItsFile) {
   const Folder folder;
   lab::furnish(folder);
   folder.write("cable.json", own_lag);
-  const auto shown = hysteron(folder.path(), {"effects", "cable", "--effects", "cable.json"});
+  const auto shown = hysteron(folder.path(), {"effects", "cable", "--effects", "cable.json", "-o", "cable.html"});
   ASSERT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find("\npicture\n"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("Drawn with: 0.01 s late"), std::string::npos) << "one row of the picture's signal";
+  EXPECT_NE(folder.read("cable.html").find("With the effect and without it"), std::string::npos);
   EXPECT_NE(shown.out.find("The diagram cable.json is put on a wire"), std::string::npos) << shown.out;
   const auto added =
       hysteron(folder.path(), {"add", "cable", "diagram.json", "--effects", "cable.json", "-o", "next.json"});

@@ -173,6 +173,24 @@ TEST(FigureFile, IsASvgWithItsOwnStyle) {
   EXPECT_TRUE(has(svg, "noise floor"));
 }
 
+TEST(FigureFile, OfCurvesNamesThemAboveThePicture) {
+  Figure figure;
+  figure.title = "two lines";
+  for (const char* name : {"without", "with"}) {
+    Curve curve;
+    curve.name = name;
+    curve.style = "line";
+    curve.x = {0, 1};
+    curve.y = {0, name[4] == 'o' ? 1.0 : 2.0};
+    figure.curves.push_back(curve);
+  }
+  const std::string two = figure_file(Document{}, figure);
+  EXPECT_TRUE(has(two, ">without</text>") && has(two, ">with</text>"));
+  EXPECT_TRUE(has(two, "viewBox=\"0 -24 ")) << "names stand above the frame, where no curve is";
+  figure.curves.pop_back();
+  EXPECT_FALSE(has(figure_file(Document{}, figure), ">without</text>")) << "one curve needs no name";
+}
+
 TEST(Report, IsTheSameForTheSameDocument) {
   EXPECT_EQ(report_html(example::discovery()), report_html(example::discovery()));
 }
