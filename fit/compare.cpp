@@ -55,6 +55,50 @@ std::string headline(const DataModel& model, const Comparison& c, int output) {
   return fmt::format("{}: {}", name, fmt::join(parts, ", "));
 }
 
+/// Inputs beside the main one, and columns that are bound to nothing, where all these recordings have them.
+std::vector<SplitSignal> signals_besides(const DataModel& model, const std::vector<int>& recordings) {
+  std::vector<SplitSignal> list;
+  const auto& names = model.program().input_names;
+  std::vector<Rows> main;
+  if (model.main_input() >= 0)
+    for (const int r : recordings) main.push_back(model.input(r, model.main_input()));
+  for (int k = 0; k < static_cast<int>(names.size()); ++k) {
+    if (k == model.main_input()) continue;
+    SplitSignal signal{
+        names[static_cast<std::size_t>(k)], model.program().input_units[static_cast<std::size_t>(k)], {}};
+    for (const int r : recordings) signal.rows.push_back(model.input(r, k));
+    list.push_back(std::move(signal));
+  }
+  if (recordings.empty()) return list;
+  for (const auto& [name, values] : model.recording(recordings.front()).columns) {
+    const auto& outputs = model.program().output_names;
+    const bool bound = std::find(names.begin(), names.end(), name) != names.end() ||
+                       std::find(outputs.begin(), outputs.end(), name) != outputs.end();
+    if (bound || name == column_of_cycles || name == column_of_start) continue;  // use: one value in each recording
+    SplitSignal signal{name, {}, {}};
+    for (const int r : recordings) {
+      const Recording& recording = model.recording(r);
+      const auto column = recording.columns.find(name);
+      if (column == recording.columns.end()) break;
+      if (const auto unit = recording.units.find(name); unit != recording.units.end()) signal.unit = unit->second;
+      signal.rows.emplace_back(column->second.begin() + static_cast<std::ptrdiff_t>(recording.first),
+                               column->second.begin() + static_cast<std::ptrdiff_t>(recording.last));
+    }
+    if (signal.rows.size() == recordings.size()) list.push_back(std::move(signal));
+  }
+  return telling_signals(std::move(list), main);
+}
+
+/// The three that matter. Below 0.02 the error is spread as the rows are: nothing to say; and nothing is said twice.
+std::vector<std::string> telling_sentences(const std::vector<Split>& splits) {
+  std::vector<std::string> list;
+  for (const auto& split : splits)
+    if (list.size() < 3 && split.information > 0.02 &&
+        std::find(list.begin(), list.end(), split.sentence) == list.end())
+      list.push_back(split.sentence);
+  return list;
+}
+
 }  // namespace
 
 Metrics metrics_of(const Rows& measured, const Rows& residual) {
@@ -106,22 +150,23 @@ Comparison compare(const DataModel& model, const Judge& judge, Prediction predic
 
     std::vector<Rows> inputs(recordings.size());
     std::vector<SplitInput> parts;
+    std::vector<int> split;
     for (std::size_t k = 0; k < recordings.size(); ++k) {
       const int r = recordings[k];
       const Rows& residual = c.residual[static_cast<std::size_t>(r)][static_cast<std::size_t>(o)];
       if (residual.empty()) continue;
       if (input >= 0) inputs[k] = model.input(r, input);
       parts.push_back({&model.times(r), input >= 0 ? &inputs[k] : nullptr, &residual, model.recording(r).name});
+      split.push_back(r);
     }
+    const auto besides = signals_besides(model, split);
     OutputSplits splits;
     splits.output = o;
     splits.splits = input >= 0 ? splits_of(parts, model.program().input_names[static_cast<std::size_t>(input)],
-                                           model.program().input_units[static_cast<std::size_t>(input)])
-                               : splits_of(parts, "", Unit{});
+                                           model.program().input_units[static_cast<std::size_t>(input)], besides)
+                               : splits_of(parts, "", Unit{}, besides);
     c.sentences.push_back(headline(model, c, o));
-    // Below 0.02 the error is spread as the rows are: nothing to say.
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, splits.splits.size()); ++i)
-      if (splits.splits[i].information > 0.02) c.sentences.push_back(splits.splits[i].sentence);
+    for (auto& sentence : telling_sentences(splits.splits)) c.sentences.push_back(std::move(sentence));
     c.splits.push_back(std::move(splits));
   }
   c.predicted = std::move(prediction.y);

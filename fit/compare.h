@@ -37,8 +37,10 @@ struct SplitPart {
 };
 
 struct Split {
-  std::string variable;  ///< "time", "level", "branch", "rate", "cycle", "recording"
-  std::string title;     ///< "by branch of u"
+  /// "recording", "time", "level", "branch", "rate", "cycle", "amplitude", "hold_time", "frequency"; where the data
+  /// have such a signal "temperature", "force", "other_axis".
+  std::string variable;
+  std::string title;  ///< "by branch of u"
   std::vector<SplitPart> parts;
   double information = 0;  ///< sum of error * ln(error / rows): 0 where the error is spread evenly
   std::string sentence;    ///< "78 % of the squared error lies on the falling branch, which holds 45 % of the rows"
@@ -72,7 +74,17 @@ struct SplitInput {
   const Rows* residual = nullptr;  ///< [SI]
   std::string name;                ///< of the recording
 };
+/// A further signal of the recordings: a temperature, a force, another axis.
+struct SplitSignal {
+  std::string name;
+  Unit unit;
+  std::vector<Rows> rows;  ///< per recording [SI]
+};
 std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
-                             const Unit& input_unit);
+                             const Unit& input_unit, const std::vector<SplitSignal>& besides = {});
+
+/// Those of further signals that move, and in another way than the main input `u` (per recording): what moves with it
+/// would be split as its level is.
+std::vector<SplitSignal> telling_signals(std::vector<SplitSignal> signals, const std::vector<Rows>& u);
 
 }  // namespace hysteron

@@ -96,11 +96,13 @@ Draft by_time(const std::vector<SplitInput>& recordings) {
   return d;
 }
 
-Draft by_level(const std::vector<SplitInput>& recordings, const std::string& name, const Unit& unit) {
-  Draft d{"level", "by level of " + name, {}, {}, {}};
+/// Fifths of the range of a signal, given per recording.
+Draft by_level(const std::vector<const Rows*>& signal, const std::string& variable, const std::string& name,
+               const Unit& unit) {
+  Draft d{variable, "by level of " + name, {}, {}, {}};
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const auto& r : recordings)
-    for (const double u : *r.u) {
+  for (const Rows* rows : signal)
+    for (const double u : *rows) {
       low = std::min(low, u);
       high = std::max(high, u);
     }
@@ -110,12 +112,18 @@ Draft by_level(const std::vector<SplitInput>& recordings, const std::string& nam
         fmt::format("{} .. {}", number(unit, low + k * width), number(unit, low + (k + 1) * width)), unit.text));
     d.phrases.push_back(fmt::format("where {} is {}", name, d.labels.back()));
   }
-  for (const auto& r : recordings) {
+  for (const Rows* rows : signal) {
     std::vector<int> part;
-    for (const double u : *r.u) part.push_back(width > 0 ? std::clamp(static_cast<int>((u - low) / width), 0, 4) : 0);
+    for (const double u : *rows) part.push_back(width > 0 ? std::clamp(static_cast<int>((u - low) / width), 0, 4) : 0);
     d.part.push_back(std::move(part));
   }
   return d;
+}
+
+/// What a further signal is, by its unit.
+std::string kind_of(const Unit& unit) {
+  if (unit.dimension == parse_unit("K").dimension) return "temperature";
+  return unit.dimension == parse_unit("N").dimension ? "force" : "other_axis";
 }
 
 Draft by_branch(const std::vector<std::vector<Branch>>& branch, const std::string& name) {
@@ -239,43 +247,127 @@ Draft by_amplitude(const std::vector<SplitInput>& recordings, const std::string&
   return d;
 }
 
-/// By the time for which the input has been held, in decades from the first row of a hold to its longest.
-Draft by_hold_time(const std::vector<SplitInput>& recordings, const std::vector<std::vector<Branch>>& branch,
-                   const std::string& name) {
-  Draft d{"hold_time", fmt::format("by the time for which {} has been held", name), {"moving"}, {}, {}};
-  d.phrases = {fmt::format("where {} moves", name)};
-  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  std::vector<Rows> age;  // -1: moving
+/// Times for which the input has been held [s], row by row; -1 where it moves.
+struct Holds {
+  std::vector<Rows> age;                                                   ///< [recording][row]
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;  ///< [s] behind the first row of a hold
+  int after_step = 0, after_motion = 0;                                    ///< how they begin
+};
+
+Holds holds_of(const std::vector<SplitInput>& recordings, const std::vector<std::vector<Branch>>& branch) {
+  Holds h;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const Rows& t = *recordings[r].t;
+    const Rows &t = *recordings[r].t, &u = *recordings[r].u;
     Rows rows(t.size(), -1.0);
-    const Rows& u = *recordings[r].u;
     const auto [low, high] = std::minmax_element(u.begin(), u.end());
     const double step = std::max(0.005 * (*high - *low), 6 * roughness(u));
     double since = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       if (branch[r][i] != Branch::hold) continue;
       // A step from one hold to the next takes one row and shows no moving row between.
-      if (i == 0 || branch[r][i - 1] != Branch::hold || std::abs(u[i] - u[i - 1]) > step) since = t[i];
+      const bool steps = i > 0 && branch[r][i - 1] == Branch::hold && std::abs(u[i] - u[i - 1]) > step;
+      if (steps || i == 0 || branch[r][i - 1] != Branch::hold) {
+        since = t[i];
+        if (i > 0) ++(steps ? h.after_step : h.after_motion);
+      }
       rows[i] = t[i] - since;
-      if (rows[i] > 0) shortest = std::min(shortest, rows[i]);
-      longest = std::max(longest, rows[i]);
+      if (rows[i] > 0) h.shortest = std::min(h.shortest, rows[i]);
+      h.longest = std::max(h.longest, rows[i]);
     }
-    age.push_back(std::move(rows));
+    h.age.push_back(std::move(rows));
   }
+  return h;
+}
+
+/// How well the residual within holds goes along with a function of their age. Steps up and down drift either way: each
+/// hold has a mean and a slope of its own, and what these explain adds up.
+struct Along {
+  double ee = 0, explained = 0;
+  void add(const Rows& x, const Rows& e) {
+    const auto n = static_cast<double>(x.size());
+    const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n, me = std::accumulate(e.begin(), e.end(), 0.0) / n;
+    double xx_own = 0, xe_own = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      xx_own += (x[i] - mx) * (x[i] - mx);
+      xe_own += (x[i] - mx) * (e[i] - me);
+      ee += (e[i] - me) * (e[i] - me);
+    }
+    if (xx_own > 0) explained += xe_own * xe_own / xx_own;
+  }
+  double share() const { return ee > 0 ? explained / ee : 0; }
+};
+
+/// ", growing with log time" where the residual of the holds does: by decades rather than by seconds, and outwards. A
+/// straight line in time is ", growing with time". "" where it does neither, or no hold lasts two decades.
+std::string growth_of(const Holds& holds, const std::vector<SplitInput>& recordings) {
+  Along by_log, by_time;
+  double early = 0, late = 0;  // mean squares of the first and the last third of the decades, summed over holds
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Rows &age = holds.age[r], &e = *recordings[r].residual;
+    for (std::size_t i = 0; i < age.size();) {
+      if (age[i] != 0) {
+        ++i;
+        continue;
+      }
+      Rows seconds, decades, error;
+      for (++i; i < age.size() && age[i] > 0; ++i) {
+        seconds.push_back(age[i]);
+        decades.push_back(std::log10(age[i]));
+        error.push_back(e[i]);
+      }
+      if (seconds.size() < 20 || seconds.back() < 100 * seconds.front()) continue;
+      by_log.add(decades, error);
+      by_time.add(seconds, error);
+      const double third = (decades.back() - decades.front()) / 3;
+      double before = 0, behind = 0, n_before = 0, n_behind = 0;
+      for (std::size_t k = 0; k < error.size(); ++k) {
+        const bool first = decades[k]<decades.front() + third, last = decades[k]> decades.back() - third;
+        before += first ? error[k] * error[k] : 0;
+        behind += last ? error[k] * error[k] : 0;
+        n_before += first ? 1 : 0;
+        n_behind += last ? 1 : 0;
+      }
+      early += before / std::max(n_before, 1.0);
+      late += behind / std::max(n_behind, 1.0);
+    }
+  }
+  // More than half of what moves within the holds follows it, and it is the better of the two.
+  const double best = std::max(by_log.share(), by_time.share());
+  if (best < 0.5 || late <= early) return "";
+  return by_log.share() > by_time.share() ? ", growing with log time" : ", growing with time";
+}
+
+/// By the time for which the input has been held, in decades from the first row of a hold to its longest.
+Draft by_hold_time(const Holds& holds, const std::string& name) {
+  Draft d{"hold_time", fmt::format("by the time for which {} has been held", name), {"moving"}, {}, {}};
+  d.phrases = {fmt::format("where {} moves", name)};
   Decades decades;
-  if (longest > 0) decades.highest = static_cast<int>(std::floor(std::log10(longest)));
-  decades.lowest = longest > 0 ? std::max(decades.highest - 3, static_cast<int>(std::floor(std::log10(shortest)))) : 0;
+  if (holds.longest > 0) {
+    decades.highest = static_cast<int>(std::floor(std::log10(holds.longest)));
+    decades.lowest = std::max(decades.highest - 3, static_cast<int>(std::floor(std::log10(holds.shortest))));
+  }
   for (int k = 0; k < decades.count(); ++k) {
     d.labels.push_back(decades.label(k, "s"));
     d.phrases.push_back(fmt::format("where {} has been held for {}", name, d.labels.back()));
   }
-  for (const auto& rows : age) {
+  for (const auto& rows : holds.age) {
     std::vector<int> part;
     for (const double a : rows) part.push_back(a < 0 ? 0 : 1 + decades.of(a));
     d.part.push_back(std::move(part));
   }
   return d;
+}
+
+/// What grows during holds is told of all of them together: "78 % of the squared error lies in the 40 s after a step,
+/// growing with log time".
+void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>& recordings, const std::string& name) {
+  const SplitPart& moving = split.parts.front();
+  if (moving.error >= 0.5) return;
+  const std::string growth = growth_of(holds, recordings);
+  if (growth.empty()) return;
+  split.sentence =
+      fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {}{}", 100 * (1 - moving.error),
+                  holds.longest, holds.after_step >= holds.after_motion ? "a step" : name + " has stopped", growth);
 }
 
 /// By frequency, in decades: the squares of the cosines of each recording's residual add up to those of its rows. The
@@ -317,7 +409,7 @@ long used_parts(const Split& s) {
 }  // namespace
 
 std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
-                             const Unit& input_unit) {
+                             const Unit& input_unit, const std::vector<SplitSignal>& besides) {
   std::vector<Split> splits;
   if (recordings.empty()) return splits;
   const auto add = [&](const Draft& d) { splits.push_back(finish(d, recordings)); };
@@ -327,13 +419,25 @@ std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const st
   if (has_input) {
     std::vector<std::vector<Branch>> branch;
     for (const auto& r : recordings) branch.push_back(branches(*r.u));
-    add(by_level(recordings, input_name, input_unit));
+    std::vector<const Rows*> inputs;
+    for (const auto& r : recordings) inputs.push_back(r.u);
+    add(by_level(inputs, "level", input_name, input_unit));
     add(by_branch(branch, input_name));
     add(by_rate(recordings, branch, input_name, input_unit));
     add(by_cycle(recordings));
     // Only where the data have it: swings of different size, and holds.
-    for (const auto& d : {by_amplitude(recordings, input_name), by_hold_time(recordings, branch, input_name)})
-      if (Split s = finish(d, recordings); used_parts(s) > 1) splits.push_back(std::move(s));
+    if (Split s = finish(by_amplitude(recordings, input_name), recordings); used_parts(s) > 1)
+      splits.push_back(std::move(s));
+    const Holds holds = holds_of(recordings, branch);
+    if (Split s = finish(by_hold_time(holds, input_name), recordings); used_parts(s) > 1) {
+      tell_growth(s, holds, recordings, input_name);
+      splits.push_back(std::move(s));
+    }
+  }
+  for (const auto& signal : besides) {
+    std::vector<const Rows*> rows;
+    for (const auto& r : signal.rows) rows.push_back(&r);
+    add(by_level(rows, kind_of(signal.unit), signal.name, signal.unit));
   }
   std::stable_sort(splits.begin(), splits.end(), [](auto& a, auto& b) { return a.information > b.information; });
   // Behind the others: nearly every residual is slow beside its clock, which would always be said first.
@@ -341,6 +445,29 @@ std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const st
                   [](auto& r) { return r.residual->size() > 16 && clock_of(*r.t).regular; }))
     splits.push_back(by_frequency(recordings));
   return splits;
+}
+
+std::vector<SplitSignal> telling_signals(std::vector<SplitSignal> signals, const std::vector<Rows>& u) {
+  // The same limit at which a coupling from another axis can no longer be told from the drive (cross_coupling).
+  constexpr double alike = 0.9;
+  std::erase_if(signals, [&](const SplitSignal& signal) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+    const double x0 = signal.rows.empty() || signal.rows.front().empty() ? 0 : signal.rows.front().front();
+    for (std::size_t r = 0; r < signal.rows.size(); ++r)
+      for (std::size_t i = 0; i < signal.rows[r].size(); ++i) {
+        const double x = signal.rows[r][i] - x0, y = r < u.size() ? u[r][i] : 0;
+        n += 1;
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        sxy += x * y;
+        syy += y * y;
+      }
+    const double xx = sxx - sx * sx / n, yy = syy - sy * sy / n, xy = sxy - sx * sy / n;
+    const bool moves = std::isfinite(xx) && xx > 1e-12 * (sxx + n * x0 * x0);
+    return !moves || (yy > 0 && std::abs(xy) > alike * std::sqrt(xx * yy));
+  });
+  return signals;
 }
 
 }  // namespace hysteron

@@ -53,6 +53,34 @@ TEST(Compare, IsDoneOnExactlyTheJudgedRows) {
   EXPECT_NEAR(c.find(0, 0)->rms, 2e-9, 1e-15);
 }
 
+TEST(Compare, SplitsByATemperatureThatTheRecordingsHave) {
+  DataSet data = recordings({0.01});
+  const auto program = gain_program();
+  lab::measure(data, program, 0, 1);
+  auto& r = data.recordings[0];
+  r.first = 100;  // a column is cut as the residual is
+  for (std::size_t i = 0; i < r.t.size(); ++i) {
+    r.columns["room"].push_back(i < 400 ? 293.15 : 298.15);
+    r.columns["idle"].push_back(1.0);
+    r.columns["y"][i] += i < 400 ? 0 : 1e-7;
+  }
+  r.units["room"] = parse_unit("degC");
+  DataModel model(program, lab::shared(data));
+  const Judge judge(model, noise_before_fit(model));
+  const auto c = compare(model, judge, predict_all(model));
+  int found = 0;
+  for (const auto& split : c.splits.at(0).splits) {
+    EXPECT_EQ(split.title.find("idle"), std::string::npos);
+    if (split.variable != "temperature") continue;
+    ++found;
+    EXPECT_NEAR(split.parts.back().error, 1, 1e-12);
+    EXPECT_NEAR(split.parts.back().rows, 0.4, 1e-12);  // 200 of 500 judged rows
+  }
+  EXPECT_EQ(found, 1);
+  for (std::size_t i = 1; i < c.sentences.size(); ++i)
+    for (std::size_t k = i + 1; k < c.sentences.size(); ++k) EXPECT_NE(c.sentences[i], c.sentences[k]);
+}
+
 TEST(Compare, TheTotalOfSeveralRecordingsWeighsEveryRowAlike) {
   DataSet data = recordings({0.01, 0.02});
   const auto program = gain_program();

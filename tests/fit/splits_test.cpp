@@ -82,6 +82,72 @@ TEST(Splits, ByHoldTimeFindsWhatGrowsBehindAStep) {
   EXPECT_NEAR(held.parts.back().error, 1 - 1.0 / 8, 0.01);  // of a square that grows, all but (10 / 20)^3
 }
 
+/// Ten holds of 40 s, up and down by one step, sampled every 0.1 s; the residual of a hold is a function of its age.
+Case holds(double (*residual)(double age), double noise) {
+  Case c;
+  lab::Noise random(7);
+  for (int i = 0; i < 4000; ++i) {
+    const int hold = i / 400;
+    const double age = 0.1 * (i % 400);
+    c.t.push_back(0.1 * i);
+    c.u.push_back(hold % 2);
+    c.residual.push_back((hold % 2 == 1 ? 1 : -1) * residual(age) + noise * random());
+  }
+  return c;
+}
+
+std::string said_of_holds(const Case& c) {
+  return split(splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")), "hold_time").sentence;
+}
+
+TEST(Splits, WhatGrowsDuringHoldsIsToldApartFromWhatIsThere) {
+  const auto creep = [](double age) { return 0.1 * std::log10(1 + age / 0.1); };
+  EXPECT_EQ(said_of_holds(holds(creep, 0.02)),
+            "100 % of the squared error lies in the 39.9 s after a step, growing with log time");
+  EXPECT_NE(said_of_holds(holds([](double age) { return 0.01 * age; }, 0.02)).find(", growing with time"),
+            std::string::npos);
+  // What settles, what stands still and what is noise do not grow.
+  for (const Case& c : {holds([](double age) { return std::exp(-age); }, 0.001),
+                        holds([](double) { return 1.0; }, 0.02), holds([](double) { return 0.0; }, 1.0)})
+    EXPECT_EQ(said_of_holds(c).find("growing"), std::string::npos) << said_of_holds(c);
+}
+
+TEST(Splits, ByATemperatureOrAnotherAxisAddUpAndFindTheirLevel) {
+  auto c = triangle_case();
+  SplitSignal room{"room", parse_unit("degC"), {Rows{}}};
+  SplitSignal axis{"x", parse_unit("um"), {Rows{}}};
+  for (int i = 0; i < 400; ++i) {
+    room.rows[0].push_back(293.15 + (i < 300 ? 0 : 5));
+    axis.rows[0].push_back(1e-6 * (i % 20));
+    c.residual[static_cast<std::size_t>(i)] = i < 300 ? 1 : 3;
+  }
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"), {room, axis});
+  const auto& by_room = split(splits, "temperature");
+  EXPECT_EQ(by_room.title, "by level of room");
+  EXPECT_EQ(by_room.parts.back().label, "24 .. 25 degC");
+  EXPECT_NEAR(by_room.parts.back().error, 100 * 9.0 / (300 + 100 * 9), 1e-12);
+  EXPECT_NEAR(by_room.parts.back().rows, 0.25, 1e-12);
+  EXPECT_EQ(by_room.sentence,
+            "75 % of the squared error lies where room is 24 .. 25 degC, which holds 25 % of the rows");
+  double sum = 0;
+  for (const auto& p : split(splits, "other_axis").parts) {
+    EXPECT_NEAR(p.error, 0.2, 1e-12) << p.label;  // five fifths of a ramp that does not matter
+    sum += p.error;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(Splits, OfFurtherSignalsThoseThatMoveInAnotherWayTell) {
+  const auto c = triangle_case();
+  SplitSignal still{"still", parse_unit("degC"), {Rows(400, 293.15)}};
+  SplitSignal same{"monitor", parse_unit("V"), {c.u}};
+  SplitSignal other{"other", parse_unit("V"), {c.t}};
+  for (double& v : same.rows[0]) v = 20 - 0.98 * v;
+  const auto telling = telling_signals({still, same, other}, {c.u});
+  ASSERT_EQ(telling.size(), 1U);
+  EXPECT_EQ(telling[0].name, "other");
+}
+
 TEST(Splits, ByAmplitudeTellsLargeSwingsFromSmall) {
   Case c;
   for (int i = 0; i < 800; ++i) {
