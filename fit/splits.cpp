@@ -362,7 +362,7 @@ Draft by_hold_time(const Holds& holds, const std::string& name) {
 /// growing with log time".
 void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>& recordings, const std::string& name) {
   const SplitPart& moving = split.parts.front();
-  if (moving.error >= 0.5) return;
+  if (moving.error > moving.rows) return;  // it is not in the holds that the error lies
   const std::string growth = growth_of(holds, recordings);
   if (growth.empty()) return;
   split.sentence =
