@@ -25,9 +25,6 @@ std::vector<double> converted(const Rows& si, const Unit& unit, bool difference)
   return values;
 }
 
-/// The unit in which differences of `unit` are written into a file: a residual of 1 degC would be read as 274.15 K.
-Unit unit_of_differences(const Unit& unit) { return unit.offset == 0 ? unit : si_unit(unit.dimension); }
-
 Unit rate_unit(const Unit& unit) {
   const Unit base = unit_of_differences(unit);
   return parse_unit(unit_text(base).empty() ? "1/s" : unit_text(base) + "/s");
@@ -116,6 +113,13 @@ std::string name_of(const DataModel& model, const MetricsOf& m) {
 
 }  // namespace
 
+Unit unit_of_differences(const Unit& unit) { return unit.offset == 0 ? unit : si_unit(unit.dimension); }
+
+std::string residual_column(const Beside& view, const std::string& output, std::size_t stage) {
+  if (view.before == nullptr || stage > view.between.size()) return output + "_residual";
+  return stage == 0 ? output + "_residual_before" : fmt::format("{}_residual_step{}", output, stage);
+}
+
 Unit output_unit(const DataModel& model, int output) {
   const std::string& name = model.outputs()[at(output)];
   for (int r = 0; r < model.n_recordings(); ++r)
@@ -153,7 +157,10 @@ CsvTable recording_table(const Beside& view, int recording, const std::string& f
     add_column(table, name + "_residual", unit, view.now->residual[at(recording)][at(y)], true);
     if (view.before == nullptr) continue;
     add_column(table, name + "_simulated_before", unit, view.before->predicted[at(recording)][at(y)]);
-    add_column(table, name + "_residual_before", unit, view.before->residual[at(recording)][at(y)], true);
+    add_column(table, residual_column(view, name, 0), unit, view.before->residual[at(recording)][at(y)], true);
+    for (std::size_t k = 0; k < view.between.size(); ++k)
+      add_column(table, residual_column(view, name, k + 1), unit, view.between[k]->residual[at(recording)][at(y)],
+                 true);
   }
   return table;
 }

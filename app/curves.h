@@ -14,9 +14,10 @@ namespace hysteron {
 
 /// A model's rows beside those of a second one: "before" an effect or a fit and after it.
 struct Beside {
-  const DataModel* model = nullptr;    ///< for times, inputs and measurements
-  const Comparison* now = nullptr;     ///< what is shown as simulated
-  const Comparison* before = nullptr;  ///< null = there is none
+  const DataModel* model = nullptr;          ///< for times, inputs and measurements
+  const Comparison* now = nullptr;           ///< what is shown as simulated
+  const Comparison* before = nullptr;        ///< null = there is none
+  std::vector<const Comparison*> between{};  ///< stages on the way from before to now
 };
 
 /// In which unit an output is shown: that of the recordings.
@@ -24,8 +25,14 @@ Unit output_unit(const DataModel& model, int output);
 Unit input_unit(const DataModel& model, int input);
 
 /// One recording: t, inputs, the rate of the main input, and per output measured, simulated, residual (and these
-/// before).
+/// before; of the stages between, the residual).
 CsvTable recording_table(const Beside& view, int recording, const std::string& file);
+
+/// The column of such a table with the residual of a stage: 0 = before, behind the last of between = now.
+std::string residual_column(const Beside& view, const std::string& output, std::size_t stage);
+
+/// In which unit differences of an output are shown: a residual of 1 degC would be read as 274.15 K.
+Unit unit_of_differences(const Unit& unit);
 
 /// Measured and simulated, and the residual, over time; the figures share their time axis.
 void add_time_figures(Section& section, const Beside& view, const CsvTable& table);

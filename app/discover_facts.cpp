@@ -48,6 +48,7 @@ Facts facts_of(const std::vector<FoundParameter>& parameters) {
                                  {"high95", shown(e.high95)},
                                  {"start", shown(e.start)},
                                  {"at_bound", e.at_lower || e.at_upper}});
+    if (!p.usual.empty()) entry.set("usual", p.usual);
     if (!p.remark.empty()) entry.set("remark", p.remark);
     list.push_back(std::move(entry));
   }

@@ -16,8 +16,9 @@ struct DiscoveryFiles {
   std::string folder;  ///< where the results go
 };
 
-/// The document of a discovery (or of a diagnosis): verdict, waterfall of the validation error, residual before and
-/// after, candidates, parameters, what was refused, the next experiment; each step's diagram as a file of its own.
+/// The document of a discovery (or of a diagnosis): verdict, the fall of the error (discover_fall.h), parameters,
+/// residual before and after, candidates, what was refused, the next experiment; each step's diagram as a file of its
+/// own.
 /// `inspected` is its first page. The answer to --check, where that was asked, stands before everything else.
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
                             const Inspected& inspected, const DiscoveryFiles& files, const Check* answer = nullptr);

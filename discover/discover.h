@@ -33,7 +33,8 @@ std::string to_text(Remainder remainder);  ///< "noise", "structured"
 /// A fitted parameter (fit/fit.h) with what people must know of it.
 struct FoundParameter {
   ParameterEstimate estimate;  ///< value, interval, unit; no value where the data do not determine it
-  std::string remark;          ///< "outside 8 us .. 0.5 ms, the usual range", "held at its bound" ... or ""
+  std::string remark;          ///< "more than 0.5 ms, which is unusual", "held at its bound" ... or ""
+  std::string usual{};         ///< "8 us .. 0.5 ms", "at most 0.5 ms", or "" where nothing is known to be unusual
 };
 
 /// One effect tried at one place with one law, refitted together with what the user left free and with the effects
@@ -51,8 +52,9 @@ struct Candidate {
   ModelError error;
   std::vector<FoundParameter> found;
   bool claimed = false, failed = false;
-  std::string summary;  ///< what the fitted law says: "1.5 % of the move per decade ..."
-  std::string reason;   ///< why it was claimed, or why not, in a sentence
+  std::string summary;    ///< what the fitted law says: "1.5 % of the move per decade ..."
+  std::string plausible;  ///< what its numbers usually are, with the source: one sentence per parameter
+  std::string reason;     ///< why it was claimed, or why not, in a sentence
   long model_runs = 0;
 };
 

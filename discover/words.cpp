@@ -40,6 +40,15 @@ std::string remark_of(const ParameterOfEffect& p, const Circumstances& at) {
   return text;
 }
 
+/// The plausibility limits of a law's parameter.
+std::string usual_range(const ParameterOfEffect& p) {
+  const double low = p.law->plausible_lower, high = p.law->plausible_upper;
+  const auto shown = [&](double si) { return size_text(si, p.estimate->unit); };
+  if (std::isfinite(low) && std::isfinite(high)) return shown(low) + " .. " + shown(high);
+  if (std::isfinite(high)) return "at most " + shown(high);
+  return std::isfinite(low) ? "at least " + shown(low) : "";
+}
+
 std::string error_fall(const ModelError& before, const ModelError& after, const Unit& unit) {
   return fmt::format("error on recordings not used for the fit {:.3g} % -> {:.3g} % ({} -> {})",
                      100 * before.nrmse_validate, 100 * after.nrmse_validate, size_text(before.rms_validate, unit),
@@ -91,10 +100,13 @@ std::string effect_words(const Tried& t) { return t.same_effects.empty() ? t.eff
 
 std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at) {
   std::vector<FoundParameter> list;
-  for (const auto& e : c.fit.estimates) list.push_back({e, ""});
+  for (const auto& e : c.fit.estimates) list.push_back({e, "", ""});
   for (const auto& p : parameters_of(c))
-    for (auto& f : list)
-      if (p.estimate != nullptr && f.estimate.path == p.estimate->path) f.remark = remark_of(p, at);
+    for (auto& f : list) {
+      if (p.estimate == nullptr || f.estimate.path != p.estimate->path) continue;
+      f.remark = remark_of(p, at);
+      f.usual = usual_range(p);
+    }
   return list;
 }
 
@@ -111,6 +123,8 @@ Candidate candidate_of(const Tried& t, int step) {
   c.fall_validate = t.fall_validate;
   c.share_removed = t.share;
   c.failed = !t.contender.ok;
+  for (const auto& p : t.effect->parameters)
+    if (!p.range.empty()) c.plausible += fmt::format("{}{}: {}", c.plausible.empty() ? "" : "; ", p.name, p.range);
   c.reason = t.reason;
   c.model_runs = t.contender.runs;
   if (t.contender.ok) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/kernel.h"
 #include "engine/program.h"
@@ -11,6 +12,8 @@ namespace hysteron {
 
 struct DrawOptions {
   int depth = 0;  ///< how many levels of nested diagrams are opened; 0 = each is one box
+  /// Paths of blocks that are new: set off in colour, with the word above them. One inside a closed box marks the box.
+  std::vector<std::string> added{};
 };
 
 /// The picture as an SVG document that needs no other file. The same diagram gives the same text.

@@ -36,6 +36,7 @@ struct Item {
   std::vector<int> out_lengths{};        ///< per output: elements
   int candidates = 0;                    ///< > 0: the chosen one of so many
   std::string chosen{};                  ///< its name
+  bool is_new = false;                   ///< set off from the others
   std::shared_ptr<Sheet> inside{};       ///< a nested diagram that is open
 
   int column = 0;

@@ -30,6 +30,8 @@ text { fill: #1b2733; stroke: none; }
 .wire path { fill: none; stroke: #1b2733; stroke-width: 1; shape-rendering: crispEdges; }
 .vector path { stroke-width: 2; }
 .wire polygon, .branch { fill: #1b2733; }
+.new > .box, .new > .frame { stroke: #b3470a; stroke-width: 2.6; fill: #fff3ea; }
+.mark-new { font-size: 11px; font-weight: bold; fill: #b3470a; paint-order: stroke; stroke: #fff; stroke-width: 3px; }
 .title { font-size: 15px; font-weight: bold; }
 .name { font-size: 12px; font-weight: bold; }
 .formula { font-size: 12px; }
@@ -235,7 +237,7 @@ void draw_sheet(xml_node parent, const Sheet& sheet, bool open);
 
 void draw_item(xml_node parent, const Sheet& sheet, int index) {
   const Item& item = sheet.items[static_cast<std::size_t>(index)];
-  xml_node group = add(parent, "g", item.is_port() ? "port-of-sheet" : "block");
+  xml_node group = add(parent, "g", item.is_port() ? "port-of-sheet" : item.is_new ? "block new" : "block");
   group.append_attribute("data-block") = item.path.c_str();
   group.append_attribute("data-type") = item.type.c_str();
   add(group, "title").text() = item.tip.c_str();
@@ -257,6 +259,7 @@ void draw_item(xml_node parent, const Sheet& sheet, int index) {
     draw_port_names(group, item);
   }
   draw_caption(group, item);
+  if (item.is_new) text(group, item.x, item.y - (item.candidates > 1 ? 7 : 4), "start", "new", "mark-new");
   draw_units(group, sheet, index);
 }
 

@@ -75,6 +75,7 @@ Json write(const Figure& f) {
   if (f.log_y) j["log_y"] = true;
   if (!f.curves.empty()) j["curves"] = write_all(f.curves);
   if (!f.bars.empty()) j["bars"] = write_all(f.bars);
+  if (!f.picture.empty()) j["picture"] = f.picture;
   if (!f.caption.empty()) j["caption"] = f.caption;
   return j;
 }
@@ -144,6 +145,7 @@ void read(const Json& j, Figure& f) {
   take(j, "log_y", f.log_y);
   read_all(j, "curves", f.curves);
   read_all(j, "bars", f.bars);
+  take(j, "picture", f.picture);
   take(j, "caption", f.caption);
 }
 

@@ -30,12 +30,14 @@ struct Bar {
 
 struct Figure {
   std::string title, x_label, y_label;
-  /// "curves", "bars" (each bar on its own), "waterfall" (the error falling step by step; role "floor" draws a line)
+  /// "curves", "bars" (each bar on its own), "waterfall" (the error falling step by step; role "floor" draws a line),
+  /// "picture" (an SVG)
   std::string kind = "curves";
   std::vector<Curve> curves;
   std::vector<Bar> bars;
   std::string caption;
   bool log_x = false, log_y = false;
+  std::string picture{};  ///< of kind "picture": its name among the document's files ("final.svg")
 };
 
 struct Table {

@@ -70,13 +70,14 @@ Json figure() {
       {"label", "value"});
   return object("a figure of the report",
                 {{"title", text("")},
-                 {"kind", choice_of("", {"curves", "bars", "waterfall"})},
+                 {"kind", choice_of("", {"curves", "bars", "waterfall", "picture"})},
                  {"x_label", text("quantity and unit")},
                  {"y_label", text("quantity and unit")},
                  {"log_x", {{"type", "boolean"}}},
                  {"log_y", {{"type", "boolean"}}},
                  {"curves", list_of("", curve())},
                  {"bars", list_of("", bar)},
+                 {"picture", text("an SVG beside this file")},
                  {"caption", text("")}},
                 {"title", "kind"});
 }

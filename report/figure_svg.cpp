@@ -119,21 +119,38 @@ std::string step_svg(const Bar& bar, const Bar* before, double x, double width, 
   return out;
 }
 
-std::string waterfall_svg(const PreparedFigure& f) {
-  std::vector<Bar> steps;
-  const Bar* floor = nullptr;
-  for (const auto& bar : f.bars) {
-    if (bar.role == "floor")
-      floor = &bar;
-    else
-      steps.push_back(bar);
+/// A dashed line for each floor, its words at the right end; where two lie close, the words of the lower one stand
+/// below those of the upper one.
+std::string floors_svg(std::vector<Bar> floors, const Canvas& c) {
+  std::erase_if(floors, [&](const Bar& b) { return !std::isfinite(b.value) || (c.y.log && !(b.value > 0)); });
+  std::stable_sort(floors.begin(), floors.end(), [](const Bar& a, const Bar& b) { return a.value > b.value; });
+  const double foot = c.height - c.bottom;
+  std::string out;
+  double free_from = c.top;
+  for (const auto& floor : floors) {
+    const double y = std::clamp(c.y(floor.value), c.top, foot);
+    out += fmt::format("<line class=\"floor\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", px(c.left), px(y),
+                       px(c.width - c.right), px(y));
+    double text_y = std::max(free_from, std::min(y + 4, foot - 14));
+    for (const auto& text : {floor.label, floor.text})
+      for (const auto& line : wrap(text, c.right - 12, 2)) {
+        out += svg_text(c.width - c.right + 8, text_y, "start", line, "fall");
+        text_y += 15;
+      }
+    free_from = text_y + 4;
   }
-  Canvas c = waterfall_canvas(f, floor != nullptr, 1);
+  return out;
+}
+
+std::string waterfall_svg(const PreparedFigure& f) {
+  std::vector<Bar> steps, floors;
+  for (const auto& bar : f.bars) (bar.role == "floor" ? floors : steps).push_back(bar);
+  Canvas c = waterfall_canvas(f, !floors.empty(), 1);
   const double room = c.width - c.left - c.right;
   const double slot = std::min(190.0, room / static_cast<double>(std::max<std::size_t>(1, steps.size())));
   std::size_t label_lines = 1;
   for (const auto& step : steps) label_lines = std::max(label_lines, wrap(keep_plus(step.label), slot - 8, 3).size());
-  c = waterfall_canvas(f, floor != nullptr, label_lines);
+  c = waterfall_canvas(f, !floors.empty(), label_lines);
   const double foot = c.height - c.bottom;
   const double begin = c.left + (room - slot * static_cast<double>(steps.size())) / 2;
   std::string out = c.open(f.title) + c.y_axis(f.y_label);
@@ -142,19 +159,7 @@ std::string waterfall_svg(const PreparedFigure& f) {
                     0.62 * slot, waterfall_colour(steps[i], i, steps.size()), c);
   out += fmt::format("<line class=\"axis\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", px(c.left), px(foot),
                      px(c.width - c.right), px(foot));
-  if (floor && std::isfinite(floor->value) && (!c.y.log || floor->value > 0)) {
-    const double y = std::clamp(c.y(floor->value), c.top, foot);
-    out += fmt::format("<line class=\"floor\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", px(c.left), px(y),
-                       px(c.width - c.right), px(y));
-    double text_y = std::min(y + 4, foot - 14);
-    for (const auto& text : {floor->label, floor->text}) {
-      for (const auto& line : wrap(text, c.right - 12, 2)) {
-        out += svg_text(c.width - c.right + 8, text_y, "start", line, "fall");
-        text_y += 15;
-      }
-    }
-  }
-  return out + "</svg>";
+  return out + floors_svg(std::move(floors), c) + "</svg>";
 }
 
 }  // namespace

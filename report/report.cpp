@@ -22,23 +22,27 @@ constexpr int lines_shown = 60;  ///< longer texts are folded
 
 // ---- small parts ----------------------------------------------------------------------------------------------------
 
-/// Base64 of a hash given in hexadecimal digits, as a content security policy wants it.
-std::string base64(std::string_view hex) {
+std::string base64(std::string_view bytes) {
   static const char* const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto nibble = [](char c) { return static_cast<unsigned>(c <= '9' ? c - '0' : c - 'a' + 10); };
   std::string out;
   unsigned bits = 0;
   int count = 0;
-  for (const char c : hex) {
-    bits = (bits << 4) | nibble(c);
-    count += 4;
-    if (count < 6) continue;
-    count -= 6;
-    out += letters[(bits >> count) & 63];
+  for (const char c : bytes) {
+    bits = ((bits << 8) | static_cast<unsigned char>(c)) & 0xffff;
+    for (count += 8; count >= 6; count -= 6) out += letters[(bits >> (count - 6)) & 63];
   }
   if (count > 0) out += letters[(bits << (6 - count)) & 63];
   while (out.size() % 4 != 0) out += '=';
   return out;
+}
+
+/// A hash given in hexadecimal digits, as a content security policy wants it.
+std::string hash_text(std::string_view hex) {
+  const auto nibble = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes += static_cast<char>(16 * nibble(hex[i]) + nibble(hex[i + 1]));
+  return base64(bytes);
 }
 
 /// 100000 -> "100 000", with thin spaces.
@@ -78,12 +82,12 @@ std::string head_html(const Document& d) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{}'; script-src "
-      "'sha256-{}'; "
+      "'sha256-{}'; img-src data:; "
       "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
       "content=\"light dark\">\n"
       "<title>{}</title>\n<style>{}</style>\n</head>\n",
-      base64(report_css_sha256), base64(report_js_sha256),
+      hash_text(report_css_sha256), hash_text(report_js_sha256),
       escape(d.title.empty() ? d.headline : d.title + " – " + d.verb), report_css);
 }
 
@@ -227,6 +231,19 @@ std::string figure_html(const PreparedFigure& f, const std::string& link) {
   return out + "</figure>\n";
 }
 
+/// An SVG of the document, inside the page: as an image, so that its style stays its own. A click opens the file.
+std::string picture_html(const Document& d, const Figure& f) {
+  const auto file =
+      std::find_if(d.files.begin(), d.files.end(), [&](const auto& one) { return one.first == f.picture; });
+  if (file == d.files.end()) return "";
+  return fmt::format(
+      "<figure class=\"figure wide\" data-kind=\"picture\">\n<header><h3>{}</h3></header>\n"
+      "<div class=\"drawing\"><a href=\"{}\"><img alt=\"{}\" "
+      "src=\"data:image/svg+xml;base64,{}\"></a></div>\n{}</figure>\n",
+      escape_prose(f.title), escape_path(f.picture), escape(f.title), base64(file->second),
+      f.caption.empty() ? "" : "<p class=\"caption\">" + escape_prose(f.caption) + "</p>\n");
+}
+
 /// Narrow figures stand in pairs; one that stays alone takes the full width if it holds curves.
 void widen_lonely(std::vector<PreparedFigure>& figures) {
   for (std::size_t i = 0; i < figures.size(); ++i) {
@@ -246,17 +263,22 @@ std::string figures_html(const std::vector<PreparedFigure>& figures, std::size_t
   return out + "</div>\n";
 }
 
-/// Text, tables, figures, text as it is; only a waterfall goes before the tables: it is the answer, they are the
-/// evidence.
+/// Text, tables, figures, text as it is; only waterfalls and drawings go before the tables: they are the answer, those
+/// the evidence.
 std::string section_html(const Document& d, const Section& s, std::size_t number,
                          const std::vector<std::size_t>& budgets) {
   std::vector<PreparedFigure> waterfalls, others;
+  std::string pictures;
   for (std::size_t i = 0; i < s.figures.size(); ++i)
-    (s.figures[i].kind == "waterfall" ? waterfalls : others).push_back(prepare(d, s.figures[i], budgets[i]));
+    if (s.figures[i].kind == "picture")
+      pictures += picture_html(d, s.figures[i]);
+    else
+      (s.figures[i].kind == "waterfall" ? waterfalls : others).push_back(prepare(d, s.figures[i], budgets[i]));
   widen_lonely(others);
   std::string out = fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", number, escape_prose(s.title));
   for (const auto& paragraph : s.text) out += "<p>" + escape_prose(paragraph) + "</p>\n";
   out += figures_html(waterfalls, number);
+  if (!pictures.empty()) out += "<div class=\"figures\">\n" + pictures + "</div>\n";
   for (const auto& table : s.tables) out += table_html(table);
   out += figures_html(others, number);
   if (!s.preformatted.empty()) out += preformatted_html(s.preformatted_title, s.preformatted);

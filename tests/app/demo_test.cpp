@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/schema_check.h"
@@ -54,6 +55,59 @@ void expect_a_page_that_a_browser_draws(const std::string& file) {
   EXPECT_NE(page.find("creep"), std::string::npos) << file;
 }
 
+const json& section(const json& all, const std::string& title) {
+  static const json none = json::object();
+  for (const auto& s : all["sections"])
+    if (s["title"].get<std::string>().starts_with(title)) return s;
+  ADD_FAILURE() << "no section " << title;
+  return none;
+}
+
+/// The waterfall against its floor, and the residual of the one step, before and after, on the same axes.
+void expect_the_error_is_seen_to_fall(const json& all) {
+  const json& steps = section(all, "The error, step by step");
+  const json& bars = steps["figures"][0]["bars"];
+  EXPECT_EQ(steps["figures"][0]["kind"], "waterfall");
+  EXPECT_EQ(steps["figures"][0]["y_label"], "RMS [um]");
+  EXPECT_EQ(bars.front()["label"], "as given");
+  EXPECT_NEAR(bars.front()["value"].get<double>(), 0.06122, 0.0005);  // as in expect_the_answer
+  EXPECT_EQ(bars.back()["role"], "floor");
+  const json& residual = steps["figures"].back();
+  EXPECT_TRUE(residual["title"].get<std::string>().starts_with("Step 1, creep: residual of")) << residual["title"];
+  ASSERT_EQ(residual["curves"].size(), 2U);
+  EXPECT_EQ(residual["curves"][0]["role"], "before");
+  EXPECT_EQ(residual["curves"][1]["role"], "after");
+  const json& parameters = section(all, "Parameters")["tables"][0];
+  EXPECT_EQ(parameters["columns"], json({"parameter", "value", "95 % interval", "start", "usual", "remark"}));
+  EXPECT_EQ(parameters["rows"][0][4], "at most 0.05");  // half of the 0.1 per decade of soft ceramics
+}
+
+/// Every curve of every figure comes from a recording that is not a train recording.
+void expect_no_figure_shows_what_was_fitted(const json& all) {
+  std::set<std::string> fitted, drawn;
+  for (const auto& r : all["facts"]["final"]["recordings"])
+    if (r["role"] == "train") fitted.insert(r["recording"]);
+  EXPECT_FALSE(fitted.empty());
+  for (const auto& s : all["sections"])
+    for (const auto& f : s.value("figures", json::array()))
+      for (const auto& c : f.value("curves", json::array()))
+        if (c.contains("trace")) drawn.insert(c["trace"]);
+  EXPECT_FALSE(drawn.empty());
+  for (const auto& name : drawn) EXPECT_FALSE(fitted.contains(name)) << name;
+}
+
+/// The new block is set off in the picture after, and there is none before.
+void expect_pictures_before_and_after(const Folder& folder, const json& all) {
+  if (!folder.has("out/final.svg")) GTEST_SKIP() << "no Graphviz on this machine";
+  const json& change = section(all, "The diagram, before and after");
+  EXPECT_EQ(change["figures"][0]["picture"], "base.svg");
+  EXPECT_EQ(change["figures"][1]["picture"], "final.svg");
+  const std::string block = all["facts"]["steps"][0]["block"];
+  EXPECT_EQ(folder.read("out/base.svg").find("\"block new\""), std::string::npos);
+  EXPECT_NE(folder.read("out/final.svg").find("class=\"block new\" data-block=\"" + block + "\""), std::string::npos);
+  EXPECT_NE(change["preformatted"]["text"].get<std::string>().find("+    \"" + block + "\""), std::string::npos);
+}
+
 // One test, because a discovery takes seconds and every test is a process of its own.
 TEST(Demo, NamesCreepReachesTheNoiseOnOtherRecordingsAndTellsIt) {
   const Folder folder;
@@ -64,6 +118,10 @@ TEST(Demo, NamesCreepReachesTheNoiseOnOtherRecordingsAndTellsIt) {
   EXPECT_EQ(schema::refuses("diagram", folder.read("out/final.json")), "");
   expect_it_is_printed(outcome.out);
   expect_steps_that_run_by_hand(folder);
+  const json all = json::parse(folder.read("out/result.json"));
+  expect_the_error_is_seen_to_fall(all);
+  expect_no_figure_shows_what_was_fitted(all);
+  expect_pictures_before_and_after(folder, all);
   if (browser::find().empty()) GTEST_SKIP() << "no Chromium on this machine (scripts/test installs one)";
   expect_a_page_that_a_browser_draws(folder.path() + "/out/report.html");
 }

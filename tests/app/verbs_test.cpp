@@ -544,6 +544,30 @@ TEST_F(Verbs, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
   EXPECT_TRUE(folder_.has("out/result.json"));
 }
 
+TEST_F(Verbs, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
+  std::string data = lab::dataset();
+  data.replace(data.find("1 nm"), 4, "5 nm");
+  folder_.write("dataset.json", data);
+  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
+  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
+  ASSERT_EQ(hysteron(folder_.path(),
+                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
+                .code,
+            0);
+  const json all = result("out");
+  const json& floor = all["facts"]["floor"][0];
+  // Six periods of a law that repeats exactly: what differs is the noise of 5 nm. The least of two recordings with some
+  // 400 rows each: a standard deviation is good to 1/sqrt(2 * 400) = 3.5 %, three of these.
+  EXPECT_NEAR(floor["repeatability_rms"].get<double>(), 0.005, 0.1 * 0.005) << floor;
+  EXPECT_NE(floor["repeats"].get<std::string>().find("periods in"), std::string::npos);
+  bool drawn = false;
+  for (const auto& s : all["sections"])
+    for (const auto& f : s.value("figures", json::array()))
+      for (const auto& b : f.value("bars", json::array()))
+        drawn = drawn || (b["role"] == "floor" && b["label"] == "repeatability");
+  EXPECT_TRUE(drawn);
+}
+
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
   std::string text = lab::dataset();
   text.replace(text.find("\"validate\"}"), 11, "\"validate\"},\n    {\"file\": \"c.csv\", \"role\": \"test\"}");

@@ -143,6 +143,28 @@ const picture::Wire* find_wire(const Picture& p, const std::string& from, const 
   return nullptr;
 }
 
+/// Paths of the blocks that are set off, when `added` are said to be new.
+std::set<std::string> set_off(const Diagram& d, const std::vector<std::string>& added, int depth) {
+  const Picture p = picture::read(diagram_svg(d, *compile(d, registry()), registry(), {depth, added}));
+  EXPECT_EQ(faults(p), "");
+  std::set<std::string> list;
+  for (const auto& o : p.outlines) {
+    if (o.is_new) list.insert(o.path);
+    EXPECT_EQ(o.is_new, o.texts.find("new\n") != std::string::npos) << o.path;  // not by colour alone
+  }
+  return list;
+}
+
+TEST(Drawing, SetsOffWhatIsNew) {
+  EXPECT_EQ(set_off(loop(), {}, 0), std::set<std::string>{});
+  EXPECT_EQ(set_off(loop(), {"controller", "error"}, 0), (std::set<std::string>{"controller", "error"}));
+}
+
+TEST(Drawing, SetsOffTheClosedBoxOfWhatIsNewInsideIt) {
+  EXPECT_EQ(set_off(nested(), {"stage/spring"}, 0), std::set<std::string>{"stage"});
+  EXPECT_EQ(set_off(nested(), {"stage/spring"}, 1), std::set<std::string>{"stage/spring"});
+}
+
 TEST(Drawing, ShowsEveryBlockAndEveryWireOnce) {
   const Diagram d = loop();
   const Picture p = drawn(d);

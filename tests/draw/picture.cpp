@@ -33,7 +33,7 @@ class Reader {
     double x = 0, y = 0;
     if (std::sscanf(transform.c_str(), "translate(%lf,%lf)", &x, &y) == 2) shift = moved(shift, {x, y});
     const std::string css = node.attribute("class").value();
-    if (css == "block" || css == "port-of-sheet") outline(node, shift);
+    if (css == "block" || css == "block new" || css == "port-of-sheet") outline(node, shift);
     if (css.starts_with("wire")) wire(node, shift);
     if (css == "branch")
       picture.branches.push_back(moved({node.attribute("cx").as_double(), node.attribute("cy").as_double()}, shift));
@@ -45,6 +45,7 @@ class Reader {
     Outline o;
     o.path = group.attribute("data-block").value();
     o.type = group.attribute("data-type").value();
+    o.is_new = std::string(group.attribute("class").value()).ends_with(" new");
     for (const auto& node : group.children()) {
       const std::string css = node.attribute("class").value();
       o.open |= css == "inside";

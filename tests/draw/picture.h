@@ -18,6 +18,7 @@ struct Outline {
   std::string path, type;
   std::string shape;  ///< "rect", "circle", "polygon"
   double left = 0, top = 0, right = 0, bottom = 0;
+  bool is_new = false;            ///< set off from the others
   bool open = false;              ///< a nested diagram whose content is shown
   std::string texts;              ///< all of its texts, one per line
   bool on_border(Place p) const;  ///< to a hundredth of a pixel

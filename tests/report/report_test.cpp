@@ -164,6 +164,51 @@ TEST(Report, DrawsTheFloorOfAWaterfallAsALine) {
   EXPECT_TRUE(has(page, "−83.1 %"));                        // 1 - 0.061 / 0.36
 }
 
+/// A document with the picture "final.svg" of this text.
+Document with_picture(const std::string& svg) {
+  Document d;
+  d.files = {{"final.svg", svg}};
+  d.sections.resize(1);
+  d.sections[0].figures.resize(1);
+  d.sections[0].figures[0].title = "The diagram <after>";
+  d.sections[0].figures[0].kind = "picture";
+  d.sections[0].figures[0].picture = "final.svg";
+  return d;
+}
+
+TEST(Report, HoldsAPictureInsideThePageAndLeadsToItsFile) {
+  const std::string page = report_html(with_picture("Man"));
+  // RFC 4648, section 10, and the well-known "Man" -> "TWFu": no, one or two bytes over.
+  EXPECT_TRUE(has(page, "src=\"data:image/svg+xml;base64,TWFu\""));
+  EXPECT_TRUE(has(report_html(with_picture("fooba")), "base64,Zm9vYmE=\""));
+  EXPECT_TRUE(has(report_html(with_picture("foob")), "base64,Zm9vYg==\""));
+  EXPECT_TRUE(has(page, "<a href=\"final.svg\"><img alt=\"The diagram &lt;after&gt;\""));
+  EXPECT_TRUE(has(page, "img-src data:"));
+}
+
+TEST(Report, LeavesOutAPictureThatIsNotThere) {
+  Document d = with_picture("<svg/>");
+  d.files.clear();
+  EXPECT_FALSE(has(report_html(d), "<img"));
+}
+
+/// Height at which the text of a page's SVG stands.
+double height_of(const std::string& page, const std::string& text) {
+  const auto at = page.find(">" + text + "<");
+  const auto y = page.rfind(" y=\"", at);
+  return at == std::string::npos ? -1 : std::stod(page.substr(y + 4));
+}
+
+TEST(Report, WritesTheWordsOfTwoFloorsThatAreNearlyEqualOneBelowTheOther) {
+  Document d = example::discovery();
+  d.sections[0].figures[0].bars.push_back({"repeatability", 0.0211, "0.0211 um", "floor"});
+  const std::string page = report_html(d);
+  EXPECT_EQ(count(page, "<line class=\"floor\""), 2U);
+  // Two lines of 15 px each belong to the upper one.
+  EXPECT_GE(height_of(page, "noise floor"), height_of(page, "repeatability") + 30);
+  EXPECT_GT(height_of(page, "repeatability"), 0);
+}
+
 TEST(FigureFile, IsASvgWithItsOwnStyle) {
   const Document d = example::discovery();
   const std::string svg = figure_file(d, d.sections[0].figures[0]);
