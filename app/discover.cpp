@@ -27,7 +27,8 @@ constexpr char help[] =
     "other values of the free ones would do, else the effects; \"check\" in result.json has explained, named.\n"
     "Recordings that all have one role are cut in time: 60 % for fitting what is new, the rest to judge it.\n\n"
     "Writes into the folder: result.json (every decision with its numbers), traces/*.csv, report.html, and the\n"
-    "diagram of each step (step1_creep.json ... final.json).\n"
+    "diagram of each step (step1_creep.json ... final.json), and pictures of it: base.svg,\n"
+    "final.svg.\n"
     "Ctrl-C ends with the steps found so far.\n"
     "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";

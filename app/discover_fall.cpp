@@ -87,7 +87,7 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
     if (rms > 0) figure.bars.push_back({label, unit.difference_from_si(rms), difference_text(rms, unit), "floor"});
   };
   line("repeatability", floor.repeatability);
-  if ((floor.repeatability > 0) || reached < floor.repeatability) line("noise of the sensor", floor.noise);
+  if (!(floor.repeatability > 0) || reached < floor.repeatability) line("noise of the sensor", floor.noise);
   figure.caption = floor_text(floor, unit, reached);
   return figure;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/units.h"
 #include "tests/app/hysteron_process.h"
@@ -544,6 +545,16 @@ TEST_F(Verbs, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
   EXPECT_TRUE(folder_.has("out/result.json"));
 }
 
+/// What the lines of the waterfalls are.
+std::set<std::string> floor_labels(const json& all) {
+  std::set<std::string> labels;
+  for (const auto& s : all["sections"])
+    for (const auto& f : s.value("figures", json::array()))
+      for (const auto& b : f.value("bars", json::array()))
+        if (b["role"] == "floor") labels.insert(b["label"]);
+  return labels;
+}
+
 TEST_F(Verbs, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
   std::string data = lab::dataset();
   data.replace(data.find("1 nm"), 4, "5 nm");
@@ -560,12 +571,25 @@ TEST_F(Verbs, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
   // 400 rows each: a standard deviation is good to 1/sqrt(2 * 400) = 3.5 %, three of these.
   EXPECT_NEAR(floor["repeatability_rms"].get<double>(), 0.005, 0.1 * 0.005) << floor;
   EXPECT_NE(floor["repeats"].get<std::string>().find("periods in"), std::string::npos);
-  bool drawn = false;
-  for (const auto& s : all["sections"])
-    for (const auto& f : s.value("figures", json::array()))
-      for (const auto& b : f.value("bars", json::array()))
-        drawn = drawn || (b["role"] == "floor" && b["label"] == "repeatability");
-  EXPECT_TRUE(drawn);
+  EXPECT_TRUE(floor_labels(all).contains("repeatability"));
+}
+
+TEST_F(Verbs, DiscoverHoldsTheErrorAgainstTheNoiseWhereNothingWasRecordedTwice) {
+  std::string data = lab::dataset();
+  data.replace(data.find("1 nm"), 4, "5 nm");
+  data.replace(data.find("\"train\""), 7, R"("train", "until": "0.48 s")");  // a period lasts 0.5 s
+  data.replace(data.find("\"validate\""), 10, R"("validate", "until": "0.4 s")");
+  folder_.write("dataset.json", data);
+  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
+  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
+  ASSERT_EQ(hysteron(folder_.path(),
+                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
+                .code,
+            0);
+  const json all = result("out");
+  EXPECT_EQ(floor_labels(all), std::set<std::string>{"noise of the sensor"});
+  EXPECT_FALSE(all["facts"]["floor"][0].contains("repeatability_rms"));
+  EXPECT_NE(folder_.read("out/report.html").find("Nothing was recorded twice"), std::string::npos);
 }
 
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
