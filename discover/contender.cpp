@@ -69,6 +69,7 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
     options.max_substeps /= 2;
     options.bdf_otherwise = false;
   }
+  options.relative_tolerance *= shop.looser;
   options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
   return options;
 }

@@ -58,6 +58,7 @@ struct Workshop {
   /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
   /// costs time and decides nothing.
   double row_tolerance = 1e-6;
+  double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
   std::function<bool()> stop;
 };
 

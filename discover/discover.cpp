@@ -33,6 +33,7 @@ class Investigation {
     shop_.data = data_;
     shop_.free_paths = options.free_paths;
     shop_.stop = options.stop;
+    shop_.looser = options.looser;
   }
 
   Discovery run() {
@@ -71,7 +72,7 @@ class Investigation {
            "cut in time");
     evidence_ = std::make_unique<Evidence>(*base_model_);
     shop_.evidence = evidence_.get();
-    shop_.row_tolerance = row_tolerance(*base_model_, evidence_->noise(), rules::of_noise);
+    shop_.row_tolerance = row_tolerance(*base_model_, evidence_->noise(), options_.looser * rules::of_noise);
     const Prediction as_given = base_model_->predict({}, evidence_->recordings());
     current_ = base_contender(shop_, user_, Effort::final);
     if (!current_.ok)

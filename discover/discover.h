@@ -113,6 +113,8 @@ struct DiscoverOptions {
   int max_steps = 3;                    ///< 1 = diagnose: name the missing effect, do not go on
   std::vector<std::string> only;        ///< effect ids to consider; empty = all
   std::vector<std::string> free_paths;  ///< parameters free beside those that the diagram declares free
+  /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
+  double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
   std::function<bool()> stop;  ///< asked between candidates; true = end with what was found so far
 };

@@ -1,0 +1,303 @@
+// Single rules of the procedure, each on the smallest recordings that need it. Without its rule each of these fails.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blocks/register_all.h"
+#include "discover/discover.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+class Rules : public ::testing::Test {
+ protected:
+  Discovery found(const Diagram& d, const DataSet& data, const std::vector<std::string>& only,
+                  DiscoverOptions options = {}) {
+    options.only = only;
+    return discover(d, data, registry, effects, options);
+  }
+  /// Everything that was tried, for a failure.
+  static std::string tried(const Discovery& d) {
+    std::string text = d.headline + "\n";
+    for (const auto& c : d.candidates)
+      text += "step " + std::to_string(c.step) + " " + c.effect + " at " + c.place + ": fall " +
+              std::to_string(c.fall_validate) + ", " + c.reason + "\n";
+    return text;
+  }
+  Registry registry = all_blocks();
+  Effects effects = all_effects();
+};
+
+std::vector<double> plus(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
+  return a;
+}
+
+/// A lag tau y' = u - y of a signal that moves linearly between rows, exactly.
+std::vector<double> lagged(const std::vector<double>& t, const std::vector<double>& u, double tau) {
+  std::vector<double> y{u.front()};
+  for (std::size_t k = 1; k < u.size(); ++k) {
+    const double h = t[k] - t[k - 1], slope = (u[k] - u[k - 1]) / h;
+    y.push_back(u[k] - slope * tau + (y.back() - u[k - 1] + slope * tau) * std::exp(-h / tau));
+  }
+  return y;
+}
+
+/// u -> gain 1 m/V -> sensor with a gain and a zero of its own -> y, exact.
+Diagram gain_and_sensor() {
+  Diagram d = plain_gain();
+  Node& sensor = d.blocks["sensor"];
+  sensor.type = "calibration";
+  sensor.parameters["gain"] = Value(1.0);
+  sensor.parameters["offset"] = Value("0 m");
+  sensor.in = {{"", "stage"}};
+  d.outputs["y"] = "sensor";
+  return d;
+}
+
+/// Two axes without a word between them: u -> y, u2 -> y2.
+Diagram two_axes() {
+  Diagram d = plain_gain();
+  d.inputs["u2"].unit = "V";
+  const Node stage = d.blocks["stage"];
+  d.blocks["stage2"] = stage;
+  d.blocks["stage2"].in = {{"", "u2"}};
+  d.outputs["y2"] = "stage2";
+  return d;
+}
+
+struct Motion {
+  Role role;
+  std::vector<double> t, u;
+};
+
+std::vector<Motion> motions() {
+  std::vector<Motion> list;
+  for (const auto& [role, hertz] : {std::pair{Role::train, std::vector<double>{1.1, 3.7}},
+                                    {Role::train, {0.6, 7.3}},
+                                    {Role::validate, {1.7, 5.2}}}) {
+    const auto t = rows(800, 0.005);
+    list.push_back({role, t, several_sines(t, 1, hertz)});
+  }
+  return list;
+}
+
+/// One data set of both axes; y and y2 from u and u2 by `first` and `second`.
+using Law = std::function<std::vector<double>(const std::vector<double>& t, const std::vector<double>& u)>;
+DataSet of_two_axes(double white, const Law& first, const Law& second) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 900;
+  for (auto& m : motions()) {
+    const auto other = several_sines(m.t, 0.8, {0.9 + 0.01 * static_cast<double>(seed - 900), 4.4});
+    list.push_back(recording(std::to_string(seed) + ".csv", m.role, m.t, m.u,
+                             plus(first(m.t, m.u), noise(m.t.size(), white, 0.1 * white, seed))));
+    list.back().columns["u2"] = other;
+    list.back().units["u2"] = parse_unit("V");
+    list.back().columns["y2"] = plus(second(m.t, other), noise(m.t.size(), white, 0.1 * white, seed + 50));
+    list.back().units["y2"] = parse_unit("m");
+    ++seed;
+  }
+  DataSet data = data_set(std::move(list), white);
+  data.notes["u2"].to = "u2";
+  data.notes["y2"].to = "y2";
+  data.notes["y2"].noise = data.notes["y"].noise;
+  return data;
+}
+
+// --- calibration -----------------------------------------------------------------------------------------------------
+
+TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 10;
+  for (auto& m : motions()) {
+    auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += m.u[k] + 0.05;
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  const Discovery d = found(gain_and_sensor(), data_set(list, 1e-3),
+                            {"calibration", "backlash", "asymmetry", "hysteresis", "sensor_nonlinearity"});
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "calibration") << tried(d);
+  EXPECT_TRUE(d.steps.front().ties.empty()) << tried(d);
+  const auto left = std::count_if(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) {
+    return c.reason.find("a gain and a zero alone take away as much") != std::string::npos;
+  });
+  EXPECT_GE(left, 1) << "no law took the zero along: nothing was tested\n" << tried(d);
+}
+
+// --- slow noise ------------------------------------------------------------------------------------------------------
+
+TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
+  // The data sheet knows of 0.3 times as much 1/f noise as white; there is 0.9 times as much, and nothing else.
+  std::vector<Recording> list;
+  std::uint64_t seed = 30;
+  for (auto& m : motions()) {
+    list.push_back(
+        recording(std::to_string(seed) + ".csv", m.role, m.t, m.u, plus(m.u, noise(m.t.size(), 1e-3, 0.9e-3, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "saturation"});
+  EXPECT_GT(d.base.over_floor(), 1.12) << "the noise is not slow enough to be taken for structure";
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  EXPECT_EQ(to_text(d.verdict), "adequate") << d.headline;
+}
+
+// --- axes ------------------------------------------------------------------------------------------------------------
+
+TEST_F(Rules, EachAxisHasALagOfItsOwnAndNoneHasTwo) {
+  const auto lag = [](double tau) { return [tau](const auto& t, const auto& u) { return lagged(t, u, tau); }; };
+  const Discovery d = found(two_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
+  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
+  const auto is_second = [](const Candidate& c) { return c.place.ends_with("2"); };
+  EXPECT_NE(is_second(d.steps[0].winner), is_second(d.steps[1].winner)) << tried(d);
+  for (const auto& c : d.candidates)
+    if (c.step == 2) {
+      EXPECT_NE(is_second(c), is_second(d.steps[0].winner)) << "tried again at " << c.place;
+    }
+}
+
+TEST_F(Rules, WhatAnotherAxisLeavesIsNoReproachToTheEffectOfThisOne) {
+  // The second axis wanders by a tenth of its stroke, which nothing in the list explains: ten times what the lag does.
+  const Law wanders = [](const auto& t, const auto& u) {
+    std::vector<double> y = u;
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.1 * std::sin(2 * pi * 0.3 * t[k] * t[k] / t.back());
+    return y;
+  };
+  const Law lag = [](const auto& t, const auto& u) { return lagged(t, u, 1e-3); };
+  const Discovery d = found(two_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
+  const auto at_first = std::find_if(d.candidates.begin(), d.candidates.end(),
+                                     [](const Candidate& c) { return !c.place.ends_with("2"); });
+  ASSERT_NE(at_first, d.candidates.end()) << tried(d);
+  // All but noise of its own axis; of both together it is less than a tenth.
+  EXPECT_GT(at_first->share_removed, 0.9) << tried(d);
+  EXPECT_LT(at_first->share_removed, 1.1) << tried(d);
+}
+
+// --- look-alikes -----------------------------------------------------------------------------------------------------
+
+TEST_F(Rules, ALookAlikeIsFittedTogetherWithWhatStands) {
+  // The lag that is found first takes up the delay in its own time: with that time held, a delay brings little.
+  std::vector<Recording> list;
+  std::uint64_t seed = 60;
+  for (auto& m : motions()) {
+    const double dead = 2.6e-3;
+    const auto u_late = sampled(m.t, [&](double x) {
+      if (x <= dead) return m.u.front();
+      const auto k = static_cast<std::size_t>((x - dead) / 0.005);
+      const double part = (x - dead) / 0.005 - static_cast<double>(k);
+      return k + 1 < m.u.size() ? (1 - part) * m.u[k] + part * m.u[k + 1] : m.u.back();
+    });
+    list.push_back(recording(std::to_string(seed) + ".csv", m.role, m.t, m.u,
+                             plus(lagged(m.t, lagged(m.t, u_late, 12e-3), 6e-3), noise(m.t.size(), 1e-3, 1e-4, seed))));
+    ++seed;
+  }
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "dead_time"});
+  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.effect, "amplifier_lag") << tried(d);
+  EXPECT_EQ(d.steps[1].winner.effect, "dead_time") << tried(d);
+  // Rows are 5 ms apart, and what lies between them is taken for a line: the delay is good to a part of that.
+  for (const auto& p : d.steps[1].winner.found) {
+    if (p.estimate.path.ends_with("delay")) {
+      EXPECT_NEAR(p.estimate.used, 2.6e-3, 1e-3);
+    }
+  }
+}
+
+// --- the next experiment ---------------------------------------------------------------------------------------------
+
+/// A lag of 1 ms under slow triangles, sampled every 50 ms: a distance to the drive that is the same for a delay.
+DataSet slow_recordings(int n) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 80;
+  for (int i = 0; i < n; ++i) {
+    const auto t = rows(600, 0.05);
+    const auto u = decaying_triangle(t, 1 - 0.05 * i, 6 + i);
+    list.push_back(recording(std::to_string(seed) + ".csv", i % 2 == 0 ? Role::train : Role::validate, t, u,
+                             plus(lagged(t, u, 1e-3), noise(t.size(), 5e-4, 5e-5, seed))));
+    ++seed;
+  }
+  return data_set(list, 5e-4);
+}
+
+TEST_F(Rules, AfterFewRecordingsTheExperimentMayBeSampledFaster) {
+  const Discovery few = found(plain_gain(), slow_recordings(2), {"amplifier_lag", "dead_time"});
+  ASSERT_EQ(few.steps.size(), 1U) << tried(few);
+  EXPECT_EQ(few.steps.front().ties.size(), 1U) << tried(few);
+  EXPECT_EQ(to_text(few.verdict), "not_distinguishable") << few.headline;
+  ASSERT_TRUE(few.experiment) << few.headline;
+  EXPECT_GT(few.experiment->separation, 1) << few.experiment->text;
+}
+
+TEST_F(Rules, AfterManyRecordingsOfOneRateNobodySamplesFaster) {
+  const Discovery many = found(plain_gain(), slow_recordings(6), {"amplifier_lag", "dead_time"});
+  ASSERT_EQ(many.steps.size(), 1U) << tried(many);
+  EXPECT_EQ(many.steps.front().ties.size(), 1U) << tried(many);
+  EXPECT_EQ(to_text(many.verdict), "missing_effect") << many.headline << (many.experiment ? many.experiment->text : "");
+}
+
+// --- tolerances ------------------------------------------------------------------------------------------------------
+
+/// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
+Diagram mass_on_spring() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& force = d.blocks["force"];
+  force.type = "gain";
+  force.parameters["gain"] = Value("10 N/V");
+  force.in = {{"", "u"}};
+  Node& stage = d.blocks["stage"];
+  stage.type = "mass_spring_damper";
+  stage.parameters["mass"] = Value("1 kg");
+  stage.parameters["stiffness"] = Value("400 N/m");
+  stage.parameters["damping"] = Value("4 N s/m");
+  stage.in = {{"", "force"}};
+  d.outputs["y"] = "stage.position";
+  return d;
+}
+
+/// The same on a spring with 3e4 N/m^3 besides, by semi-implicit Euler steps of 25 us.
+DataSet on_stiffening_spring() {
+  std::vector<Recording> list;
+  std::uint64_t seed = 120;
+  for (auto& m : motions()) {
+    auto y = noise(m.t.size(), 1e-5, 1e-6, seed);
+    double x = 0, v = 0;
+    for (std::size_t k = 0; k < m.t.size(); ++k) {
+      for (int i = 0; k > 0 && i < 200; ++i) {
+        const double h = (m.t[k] - m.t[k - 1]) / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 0.5) / 200;
+        v += h * (10 * u - 400 * x - 4 * v - 3e4 * x * x * x);
+        x += h * v;
+      }
+      y[k] += x;
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
+  }
+  return data_set(list, 1e-5);
+}
+
+TEST_F(Rules, TheRankingIsTheSameWithTenTimesLooserOrTighterTolerances) {
+  const DataSet data = on_stiffening_spring();
+  std::vector<std::string> usual;
+  std::vector<long> substeps;
+  for (const double looser : {1.0, 10.0, 0.1}) {
+    DiscoverOptions options;
+    options.looser = looser;
+    const Discovery d = found(mass_on_spring(), data, {"stiffening", "friction", "quadratic_drag"}, options);
+    auto list = d.candidates;
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+    std::vector<std::string> ranking{to_text(d.verdict)};
+    for (const auto& c : list)
+      ranking.push_back(std::to_string(c.step) + " " + c.effect + " at " + c.place + (c.claimed ? ", claimed" : ""));
+    EXPECT_GE(ranking.size(), 4U) << tried(d);
+    if (usual.empty()) usual = ranking;
+    EXPECT_EQ(ranking, usual) << "ten times " << (looser > 1 ? "looser" : "tighter") << "\n" << tried(d);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
