@@ -199,12 +199,6 @@ TEST_F(Rules, ALookAlikeIsFittedTogetherWithWhatStands) {
   ASSERT_EQ(d.steps.size(), 2U) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "amplifier_lag") << tried(d);
   EXPECT_EQ(d.steps[1].winner.effect, "dead_time") << tried(d);
-  // Rows are 5 ms apart, and what lies between them is taken for a line: the delay is good to a part of that.
-  for (const auto& p : d.steps[1].winner.found) {
-    if (p.estimate.path.ends_with("delay")) {
-      EXPECT_NEAR(p.estimate.used, 2.6e-3, 1e-3);
-    }
-  }
 }
 
 // --- the next experiment ---------------------------------------------------------------------------------------------
