@@ -12,6 +12,7 @@
 
 #include "discover/circumstances.h"
 #include "discover/investigation.h"
+#include "discover/residual_parts.h"
 #include "discover/structures.h"
 #include "discover/visible.h"
 #include "discover/wiring.h"

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "discover/investigation.h"
+#include "discover/residual_parts.h"
 #include "discover/structures.h"
 
 namespace hysteron {

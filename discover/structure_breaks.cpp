@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discover/residual_parts.h"
 #include "discover/structures.h"
 
 namespace hysteron {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "discover/residual_parts.h"
 #include "discover/structures.h"
 
 namespace hysteron {

@@ -2,12 +2,16 @@
 // compete. Each fills `fall_validate` with the fall of chi2 on validation recordings less what its own numbers cost.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
-#include "discover/residual_parts.h"
 #include "discover/structure.h"
 
 namespace hysteron {
+
+class ResidualParts;
 
 /// Interference: a line with one frequency, amplitude and phase of its own in every recording.
 std::optional<Structure> line_in_time(const ResidualParts& parts);
