@@ -41,7 +41,7 @@ class Investigation {
     base();
     double first_fall = 0;
     for (int step = 1; step <= options_.max_steps && !stopped(); ++step) {
-      if (step > 1 && current_.error_of.over_floor() <= rules::floor_gate) break;
+      if (step > 1 && evidence_->over_usual_floor(current_.prediction) <= rules::floor_gate) break;
       const ModelError before = current_.error_of;
       if (!one_step(step, first_fall)) break;
       if (step == 1) first_fall = before.chi2_validate - current_.error_of.chi2_validate;
@@ -146,7 +146,11 @@ class Investigation {
     compare_all(tried, first_fall);
     if (step > 1) refit_best(tried, first_fall, bar(0.7));
     enrich(tried, step, first_fall, bar(0.8));
-    const int winner = best_admitted(tried);
+    int winner = best_admitted(tried);
+    if (winner >= 0) {
+      sharpen_rivals(tried, static_cast<std::size_t>(winner));
+      winner = best_admitted(tried);
+    }
     std::vector<int> ties;
     if (winner >= 0) try_hidden(tried, *tried[static_cast<std::size_t>(winner)].effect, first_fall);
     if (winner >= 0) ties = ties_of(tried, static_cast<std::size_t>(winner));
@@ -472,8 +476,7 @@ class Investigation {
     return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
   }
 
-  std::vector<int> ties_of(std::vector<Tried>& tried, std::size_t winner) {
-    sharpen_rivals(tried, winner);
+  std::vector<int> ties_of(const std::vector<Tried>& tried, std::size_t winner) {
     const bool few = static_cast<int>(evidence_->recordings().size()) <= rules::few_recordings;
     const Tried& w = tried[winner];
     std::vector<int> ties;

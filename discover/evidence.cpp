@@ -110,6 +110,21 @@ ModelError Evidence::error(const Prediction& prediction) const {
   return e;
 }
 
+double Evidence::over_usual_floor(const Prediction& prediction) const {
+  NoiseModel usual = noise();
+  for (std::size_t o = 0; o < usual.outputs.size(); ++o) usual.outputs[o].one_over_f = before_.outputs[o].one_over_f;
+  const Judge judge(base_, usual);
+  double chi2 = 0, n = 0;
+  for (const int r : recordings_) {
+    if (base_.recording(r).role == Role::train || prediction.y[static_cast<std::size_t>(r)].empty()) continue;
+    for (const double w : judge.residual(base_, prediction, r)) {
+      chi2 += w * w;
+      n += 1;
+    }
+  }
+  return n > 0 ? chi2 / n : 0;
+}
+
 std::vector<double> Evidence::pieces(const Prediction& prediction) const {
   constexpr std::size_t count = 8;
   std::vector<double> list;

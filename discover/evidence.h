@@ -67,6 +67,10 @@ class Evidence {
   /// are both not right are compared piece by piece (see tie_by_pieces).
   std::vector<double> pieces(const Prediction& prediction) const;
 
+  /// chi2 per row on validation with as much 1/f noise as sensors usually have, whatever this residual speaks for: slow
+  /// structure that passes for noise until somebody tries an effect on it.
+  double over_usual_floor(const Prediction& prediction) const;
+
   const Judge& judge() const { return *judge_; }
   const NoiseModel& noise() const { return judge_->noise(); }
   const DataModel& model() const { return base_; }

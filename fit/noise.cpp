@@ -64,6 +64,39 @@ double level(const std::vector<double>& w, std::size_t begin, std::size_t end) {
   return median(std::move(squares)) / median_of_chi_square;
 }
 
+/// Squares of the cosines of the slow half of residuals that were whitened as white noise, from 1 on.
+struct SlowBand {
+  std::size_t rows = 0;
+  std::vector<double> squares;
+};
+
+/// The share of 1/f noise that residuals speak for, against a prior of what sensors have (0.3, to a factor of two). A
+/// cosine that stands far out is a line or a step and no noise: it counts no more than three deviations.
+double likely_share(const std::vector<SlowBand>& bands) {
+  constexpr double usual = 0.3, spread = 0.7, least = 0.03, most = 1, farthest = 9;
+  const auto cost = [&](double log_share) {
+    const double share = std::exp(log_share);
+    double sum = std::pow((log_share - std::log(usual)) / spread, 2);
+    for (const auto& band : bands)
+      for (std::size_t k = 0; k < band.squares.size(); ++k) {
+        const double variance = coloured(static_cast<double>(k + 1), band.rows, share);
+        sum += std::log(variance) + std::min(band.squares[k] / variance, farthest);
+      }
+    return sum;
+  };
+  // Capped terms may leave several valleys: a scan, then its neighbourhood.
+  const double low = std::log(least), high = std::log(most);
+  constexpr int steps = 36;
+  double best = low, best_cost = cost(low), width = (high - low) / steps;
+  for (int i = 1; i <= steps; ++i)
+    if (const double c = cost(low + i * width); c < best_cost) best = low + i * width, best_cost = c;
+  for (; width > 1e-3; width /= 2)
+    for (const double next : {best - width / 2, best + width / 2})
+      if (const double c = next < low || next > high ? best_cost : cost(next); c < best_cost)
+        best = next, best_cost = c;
+  return std::exp(best);
+}
+
 }  // namespace
 
 double noise_floor(const DataModel& model, int output, double resolution) {
@@ -102,6 +135,7 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
   for (std::size_t o = 0; o < noise.outputs.size(); ++o) {
     NoiseOfOutput& n = noise.outputs[o];
     std::vector<double> high, low;
+    std::vector<SlowBand> slow;
     for (const int r : recordings) {
       const Rows& measured = model.measured(r, static_cast<int>(o));
       const auto& predicted = best.y[static_cast<std::size_t>(r)];
@@ -113,12 +147,22 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
       whitener.apply(residual, w.data());
       high.push_back(level(w, whitener.upper_half(), w.size()));
       low.push_back(level(w, whitener.upper_half() / 8, whitener.upper_half() / 4));
+      SlowBand band{residual.size(), {}};
+      for (std::size_t k = 0; k < whitener.upper_half(); ++k)
+        band.squares.push_back(w[k] * w[k] * coloured(static_cast<double>(k + 1), residual.size(), n.one_over_f));
+      slow.push_back(std::move(band));
     }
     if (high.empty()) continue;
     double s2 = median(high);
     if (n.white_is_stated()) {
       s2 = std::clamp(s2, least_change_of_data_sheet, most_change_of_data_sheet);
       n.source = NoiseSource::corrected;
+      if (!n.share_is_stated) {
+        for (auto& band : slow)
+          for (double& x : band.squares) x /= s2;
+        n.one_over_f = likely_share(slow);
+        n.share_estimated = true;
+      }
     } else {
       n.source = NoiseSource::estimated;
       n.remark = "the data set does not say how noisy this output is: estimated from the high band of the residual";

@@ -46,6 +46,8 @@ NoiseModel noise_before_fit(const DataModel& model);
 /// Corrected by the residual of the best model (DISCOVERY 1, step 2): s2 = median over recordings of median(w^2) /
 /// 0.455 in the upper half band of the whitened residual; 0.455 is the median of chi-square with one degree of freedom.
 /// Clipped to 0.7 .. 1.35 where a data sheet exists, free where none does (but never below resolution^2 / 12).
+/// Where a data sheet states the white noise and not the share of 1/f, that share is the most likely one for the slow
+/// half of the residual, with a prior about 0.3 and at most 1: what lies above that is no sensor's noise.
 /// Beware: a recording that is smoother than its sampling (anti-aliasing, interpolation) or that rests on few levels of
 /// its resolution shows less noise in the high band than it has; then `remark` says so and the figure is a lower bound.
 NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before, const Prediction& best,

@@ -46,6 +46,46 @@ TEST(Noise, ADataSheetIsCorrectedWithinItsTrustOnly) {
   }
 }
 
+/// 1/f noise of rms one made by relaxing processes, each four times slower than the one before.
+Rows slow_noise(std::size_t rows, unsigned seed) {
+  lab::Noise random(seed);
+  Rows sum(rows, 0.0);
+  for (double slow = 1; slow < 2 * static_cast<double>(rows); slow *= 4) {
+    const double keep = std::exp(-1 / slow), kick = std::sqrt(1 - keep * keep);
+    double x = random();
+    for (double& y : sum) y += x = keep * x + kick * random();
+  }
+  double squares = 0;
+  for (const double y : sum) squares += y * y;
+  for (double& y : sum) y *= std::sqrt(static_cast<double>(rows) / squares);
+  return sum;
+}
+
+/// What a residual says of the share of 1/f noise, its white part being stated. `line`: a sine in it, in deviations.
+double share_of(double share, double line, std::optional<double> stated = {}) {
+  DataSet data = noisy(1e-9, 8);
+  data.notes["y"].noise.white = 1e-9;
+  data.notes["y"].noise.one_over_f = stated;
+  auto& y = data.recordings[0].columns["y"];
+  const auto slow = slow_noise(y.size(), 9);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    y[i] += 1e-9 * (share * slow[i] + line * std::sin(0.05 * static_cast<double>(i)));
+  DataModel model(gain_program(), lab::shared(data));
+  const std::vector<int> all{0};
+  return noise_from_residual(model, noise_before_fit(model), model.predict({}, all), all).outputs[0].one_over_f;
+}
+
+TEST(Noise, TheShareOfOneOverFIsReadOffTheResidualWhereNobodyStatesIt) {
+  // One recording of some thousand rows tells it to a third or so, the prior draws it towards 0.3, and what of it is as
+  // fast as the rows counts as white.
+  EXPECT_GT(share_of(0.8, 0), 0.4);
+  EXPECT_LT(share_of(0, 0), 0.15);
+  EXPECT_LE(share_of(5, 0), 1.0) << "more is no sensor's noise";
+  EXPECT_EQ(share_of(0.8, 0, 0.5), 0.5) << "as stated";
+}
+
+TEST(Noise, ALineInTheResidualIsNoSlowNoise) { EXPECT_LT(share_of(0, 2), 0.25); }
+
 TEST(Noise, WithoutANoteItIsGuessedFromTheRowsAndSaidSo) {
   DataSet data = noisy(5e-9, 3);
   DataModel model(gain_program(), lab::shared(data));
