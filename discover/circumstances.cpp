@@ -10,6 +10,7 @@
 #include "fit/branches.h"
 #include "fit/excitation.h"
 #include "fit/free_parameter.h"
+#include "fit/median.h"
 #include "fit/noise.h"
 
 namespace hysteron {
@@ -20,14 +21,6 @@ std::vector<std::vector<double>> traces(const ProgramPointer& program, const Dat
   std::vector<SeriesPointer> inputs;
   for (const auto& name : program->input_names) inputs.push_back(input_series(data, recording, name));
   return simulate_rows(program, inputs, recording.t, signals, recording.at_rest);
-}
-
-double median_step(const std::vector<double>& t) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-  if (steps.empty()) return 0;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -61,7 +54,6 @@ bool is_linear(const BlockInstance& block) {
   return block.kernel->declaration.is_linear || block.kernel->reach_back != nullptr;
 }
 
-/// Free gains and offsets in the chain of linear blocks before and behind a signal.
 /// Gains and offsets in the chain of linear blocks before and behind a signal.
 class InSeries {
  public:

@@ -230,19 +230,26 @@ class Investigation {
 
   /// A frequency is sought in what the present model leaves: a fit from anywhere else sees the next side lobe only.
   void begin_at_lines(Tried& t) const {
-    std::map<std::vector<std::pair<double, double>>, std::vector<double>> found;
+    std::map<std::vector<std::pair<double, double>>, std::vector<double>> lines;  // by their bands
     for (auto& law : t.laws)
       for (auto& p : law.free) {
         if (p.line_bands.empty()) continue;
-        auto& lines = found[p.line_bands];
-        for (std::size_t o = 0; o < base_model_->outputs().size() && lines.size() < 4; ++o) {
-          const auto& name = base_model_->outputs()[o];
-          if (!t.outputs.empty() && std::find(t.outputs.begin(), t.outputs.end(), name) == t.outputs.end()) continue;
-          const ResidualParts parts(*evidence_, current_.prediction, static_cast<int>(o));
-          for (const double f : strongest_lines(parts, p.line_bands, 2)) lines.push_back(f);
-        }
-        if (!lines.empty()) p.scan = lines;
+        const auto [found, is_new] = lines.try_emplace(p.line_bands);
+        if (is_new) found->second = lines_left(t, p.line_bands);
+        if (!found->second.empty()) p.scan = found->second;
       }
+  }
+
+  /// The two strongest lines of each output that the place moves [Hz].
+  std::vector<double> lines_left(const Tried& t, const std::vector<std::pair<double, double>>& bands) const {
+    std::vector<double> lines;
+    for (std::size_t o = 0; o < base_model_->outputs().size(); ++o) {
+      const auto& name = base_model_->outputs()[o];
+      if (!t.outputs.empty() && std::find(t.outputs.begin(), t.outputs.end(), name) == t.outputs.end()) continue;
+      const ResidualParts parts(*evidence_, current_.prediction, static_cast<int>(o));
+      for (const double f : strongest_lines(parts, bands, 2)) lines.push_back(f);
+    }
+    return lines;
   }
 
   bool standing(const Effect& e) const {

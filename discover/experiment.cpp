@@ -11,6 +11,7 @@
 #include "discover/effects/library.h"
 #include "discover/rows.h"
 #include "engine/error.h"
+#include "fit/median.h"
 
 namespace hysteron {
 namespace {
@@ -280,13 +281,6 @@ double rms_difference(std::vector<double> a, const std::vector<double>& b, bool 
 }  // namespace
 
 namespace {
-
-double median_step(const std::vector<double>& t) {
-  std::vector<double> dt;
-  for (std::size_t k = 1; k < t.size(); ++k) dt.push_back(t[k] - t[k - 1]);
-  std::nth_element(dt.begin(), dt.begin() + static_cast<std::ptrdiff_t>(dt.size() / 2), dt.end());
-  return dt[dt.size() / 2];
-}
 
 void note_range(Device& d, const std::string& name, const std::vector<double>& v) {
   const auto [a, b] = std::minmax_element(v.begin(), v.end());

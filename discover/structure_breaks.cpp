@@ -5,6 +5,7 @@
 
 #include "discover/residual_parts.h"
 #include "discover/structures.h"
+#include "fit/median.h"
 
 namespace hysteron {
 namespace {
@@ -23,12 +24,6 @@ bool drive_jumps(const Part& p, std::size_t k, double span) {
   for (std::size_t j = k > 1 ? k - 1 : 1; j <= std::min(k + 1, p.drive.size() - 1); ++j)
     if (std::abs(p.drive[j] - p.drive[j - 1]) > 0.1 * span) return true;
   return false;
-}
-
-double median(std::vector<double> list) {
-  const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
-  std::nth_element(list.begin(), middle, list.end());
-  return *middle;
 }
 
 /// Rows behind which the residual jumps: by more than six times the noise, alone among its neighbours, and not with the

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/median.h"
+
 namespace hysteron {
 namespace {
 
@@ -12,13 +14,6 @@ double span_of(std::span<const double> u) {
   if (u.empty()) return 0;
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   return *high - *low;
-}
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
 }
 
 }  // namespace

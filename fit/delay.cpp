@@ -5,16 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/median.h"
+
 namespace hysteron {
 namespace {
-
-double median_step(const Rows& t) {
-  std::vector<double> d;
-  for (std::size_t i = 1; i < t.size(); ++i) d.push_back(t[i] - t[i - 1]);
-  if (d.empty()) return 0;
-  std::nth_element(d.begin(), d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2), d.end());
-  return d[d.size() / 2];
-}
 
 /// One recording: chi2 over the grid of shifts, on the rows that all shifts have.
 struct Shifted {

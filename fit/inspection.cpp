@@ -9,6 +9,7 @@
 #include <set>
 
 #include "fit/branches.h"
+#include "fit/median.h"
 #include "fit/score.h"
 
 namespace hysteron {
@@ -43,13 +44,6 @@ std::span<const double> rows_of(const DataModel& model, const Part& part, const 
 
 std::span<const double> times_of(const DataModel& model, const Part& part) {
   return std::span(model.recording(part.recording).t).subspan(part.first, part.last - part.first);
-}
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
 }
 
 double range_of(std::span<const double> v) {

@@ -6,19 +6,13 @@
 #include <cmath>
 
 #include "fit/branches.h"
+#include "fit/median.h"
 #include "fit/whiten.h"
 
 namespace hysteron {
 namespace {
 
 constexpr double median_of_chi_square = 0.455;  // one degree of freedom
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 const NoiseNote* note_of(const DataModel& model, int output) {
   const auto found = model.data().notes.find(model.outputs()[static_cast<std::size_t>(output)]);

@@ -5,16 +5,10 @@
 #include <limits>
 
 #include "fit/branches.h"
+#include "fit/median.h"
 
 namespace hysteron {
 namespace {
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 std::vector<double> differences(std::span<const double> v) {
   std::vector<double> d;

@@ -9,19 +9,13 @@
 
 #include "engine/error.h"
 #include "fit/global_search.h"
+#include "fit/median.h"
 #include "fit/slopes_method.h"
 
 namespace hysteron {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 /// One block between an input of the diagram and a measured output, and the recordings that it is identified on.
 class OneBlock {
