@@ -1,9 +1,11 @@
-// The verb compare: how far is the model from the measurement, and where does it fail.
+// The verb compare: how far is the model from the measurement, and where does it fail; of two files of traces, where
+// they differ (compare_traces.h).
 // Does not fit and does not name effects.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "app/compare_traces.h"
 #include "app/curves.h"
 #include "app/load.h"
 #include "app/numbers.h"
@@ -18,14 +20,19 @@ namespace {
 
 constexpr char help[] =
     "Answers: how far is the model from the measurement, and WHERE does it fail - when, at which level,\n"
-    "on which branch, at which rate. Evaluated at exactly the measured instants; nothing is fitted.\n\n"
+    "on which branch, at which rate. Evaluated at exactly the measured instants; nothing is fitted.\n"
+    "Of two CSV files: where do their traces differ by more than a tolerance (docs/compare.md).\n\n"
     "Examples:\n"
     "  hysteron compare stage.json --data lab.csv\n"
     "  hysteron compare stage.json --data dataset.json --set gain=\"11.9 um/V\"\n"
-    "  hysteron compare stage.json --data dataset.json --tolerance 5% --tolerance \"0.2 um\"\n\n"
+    "  hysteron compare stage.json --data dataset.json --tolerance 5% --tolerance \"0.2 um\"\n"
+    "  hysteron compare reference.csv out/traces/signals.csv --tolerance \"y: 2 nm + 0.1 %, 0.1 ms\"\n"
+    "  hysteron compare digitized.csv out/traces/signals.csv --over u --pair y=stage --tolerance \"y: 20 nm, 50 "
+    "mV\"\n\n"
     "--tolerance makes it a question with a yes or no, judged on the validate recordings together (on all,\n"
     "where there are none): a share bounds the NRMSE (rms of the residual over the standard deviation of the\n"
-    "measurement), a quantity bounds the RMS.\n"
+    "measurement), a quantity bounds the RMS. Of two files: absolute and relative part per point, and how far beside\n"
+    "it in time the other may be.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
     "Writes into the folder: result.json, traces/*.csv (one per recording), report.html.\n"
     "Exit codes: 0 done (and within the tolerances), 1 outside a tolerance, 2 wrong input, 3 the simulation failed.";
@@ -136,7 +143,27 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
   return document;
 }
 
+/// True where two files of traces are meant; fails where the words fit neither use.
+bool names_two_files(const Arguments& arguments) {
+  const auto is = [](const std::string& file, const char* type) { return file.ends_with(type); };
+  const std::string first = arguments.text("diagram"), second = arguments.text("other");
+  if (second.empty() && is(first, ".csv"))
+    fail("bad_command_line", "compare", fmt::format("only one file is named: {}", first),
+         "name a second file of traces, or a diagram and its recordings: hysteron compare stage.json --data lab.csv");
+  if (!second.empty() && (is(first, ".json") || is(second, ".json")))
+    fail("bad_command_line", "compare", fmt::format("{} and {} are no two files of traces", first, second),
+         "hold a diagram against recordings with --data: hysteron compare stage.json --data lab.csv");
+  if (!second.empty()) return true;
+  if (!arguments.has("--data"))
+    fail("bad_command_line", "compare", "--data is required where a diagram is named", "see hysteron compare --help");
+  for (const char* option : {"--over", "--pair"})
+    if (arguments.has(option))
+      fail("bad_command_line", option, "it is for two files of traces", "leave it out, or name two CSV files");
+  return false;
+}
+
 int compare_verb_acts(const Arguments& arguments) {
+  if (names_two_files(arguments)) return compare_traces(arguments);
   const auto tolerances = read_tolerances(arguments);
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
@@ -181,17 +208,22 @@ int compare_verb_acts(const Arguments& arguments) {
 }  // namespace
 
 Verb compare_verb() {
-  return {"compare",
-          "how far is the model from the measurement, and where does it fail",
-          help,
-          {options::diagram(),
-           options::data(true),
-           {"--tolerance", "LIMIT", "exit with 1 if NRMSE (5%) or RMS (\"0.2 um\") is larger", false, true},
-           options::output_folder(),
-           options::set(),
-           options::choose(),
-           options::allow()},
-          compare_verb_acts};
+  return {
+      "compare",
+      "how far is the model from the measurement, and where does it fail",
+      help,
+      {{"diagram", "FILE", "diagram file (JSON), or traces (CSV)", true, false},
+       {"other", "FILE", "traces (CSV) to hold against those of the first file", false, false},
+       options::data(false),
+       {"--tolerance", "LIMIT",
+        "exit with 1 if NRMSE (5%) or RMS (\"0.2 um\") is larger; of traces \"y: 2 nm + 0.1 %, 0.1 ms\"", false, true},
+       {"--over", "COLUMN", "traces: compare over this column in place of the time, as of a loop", false, false},
+       {"--pair", "A=B", "traces: column A of the first file belongs to column B of the second", false, true},
+       options::output_folder(),
+       options::set(),
+       options::choose(),
+       options::allow()},
+      compare_verb_acts};
 }
 
 }  // namespace hysteron
