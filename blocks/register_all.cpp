@@ -7,12 +7,14 @@
 #include "blocks/chirp.h"
 #include "blocks/constant.h"
 #include "blocks/converters.h"
+#include "blocks/coupled_tapi.h"
 #include "blocks/creep.h"
 #include "blocks/cross_coupling.h"
 #include "blocks/dead_time.h"
 #include "blocks/delay_line.h"
 #include "blocks/discrete_transfer_function.h"
 #include "blocks/gain.h"
+#include "blocks/impedance_estimator.h"
 #include "blocks/integrator.h"
 #include "blocks/jiles_atherton.h"
 #include "blocks/lag.h"
@@ -25,6 +27,7 @@
 #include "blocks/mass_with_presliding.h"
 #include "blocks/mass_with_stops.h"
 #include "blocks/matrix_gain.h"
+#include "blocks/maxwell_capacitor.h"
 #include "blocks/multisine.h"
 #include "blocks/pi_controller.h"
 #include "blocks/play.h"
@@ -57,6 +60,7 @@
 #include "blocks/transfer_function.h"
 #include "blocks/triangle.h"
 #include "blocks/vectors.h"
+#include "blocks/wheatstone_bridge.h"
 
 namespace hysteron {
 
@@ -117,6 +121,8 @@ Registry all_blocks() {
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());
   r.add(blocks::tapi_block());
+  r.add(blocks::coupled_tapi_block());
+  r.add(blocks::maxwell_capacitor_block());
   r.add(blocks::relay_block());
 
   r.add(blocks::prandtl_ishlinskii_inverse_block());
@@ -143,7 +149,11 @@ Registry all_blocks() {
   r.add(blocks::sampled_bouc_wen_inverse_block());
   r.add(blocks::sampled_jiles_atherton_inverse_block());
   r.add(blocks::sampled_tapi_inverse_block());
+  r.add(blocks::sampled_coupled_tapi_inverse_block());
+  r.add(blocks::impedance_estimator_block());
 
+  r.add(blocks::wheatstone_bridge_block());
+  r.add(blocks::wheatstone_bridge_inverse_block());
   r.add(blocks::sensor_noise_block());
   return r;
 }

@@ -96,6 +96,9 @@ void SampledTapiInverse::describe(Declaration& d) {
   d.output("u", "$a", "command");
   d.state("w", "$a", "operators of the actuator");
   law_parameters(d);
+  d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
+      .optional("0")
+      .not_negative();
   d.sampled();
 }
 

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <type_traits>
 
+#include "blocks/plain_list.h"
 #include "engine/block.h"
 #include "models/tapi.h"
 
@@ -35,7 +36,7 @@ struct Tapi {
 
 /// Finds the input of the actuator at each instant; its states are the operators of the actuator.
 struct SampledTapiInverse {
-  enum Parameter { thresholds, weights, p_s, t_c, beta, a, before };
+  enum Parameter { thresholds, weights, p_s, t_c, beta, a, before, iterations };
   enum Input { y, temperature };
 
   static void describe(Declaration& d);
@@ -53,23 +54,21 @@ struct SampledTapiInverse {
   static void initial_states(const View<double>& v);
 
  private:
-  /// The answer in plain numbers, then one step of Newton's method in T: it adds the derivatives and no more than
-  /// rounding.
+  /// The answer in plain numbers; for scalars that carry derivatives one step of Newton's method adds them, and no more
+  /// than rounding.
   template <class T>
   static T command(const View<T>& v) {
-    const auto plain_list = [](std::span<const T> list) {
-      std::vector<double> numbers;
-      for (const T& x : list) numbers.push_back(plain(x));
-      return numbers;
-    };
     const tapi::Params<T> law{v.parameter(p_s), v.parameter(t_c), v.parameter(beta), v.parameter(a)};
     const tapi::Params<double> numbers{plain(law.p_s), plain(law.t_c), plain(law.beta), plain(law.a)};
     const auto r = plain_list(v.list(thresholds)), c = plain_list(v.list(weights)), w = plain_list(v.states());
     const double hot = plain(v.u[temperature]);
-    const double found = tapi::input_for(numbers, r, c, w, plain(v.u[y]), hot);
+    int steps = v.choice(iterations);
+    const double found = steps > 0 ? tapi::iterated_input(numbers, r, c, w, plain(v.u[y]), hot, steps)
+                                   : tapi::input_for(numbers, r, c, w, plain(v.u[y]), hot);
+    if constexpr (std::is_same_v<T, double>) return found;
     const T miss =
         tapi::output_at(law, v.list(thresholds), v.list(weights), v.states(), T{found}, v.u[temperature]) - v.u[y];
-    return T{found} - miss / T{tapi::slope_at(numbers, r, c, w, found, hot)};
+    return T{found} - (miss - T{plain(miss)}) / T{tapi::slope_at(numbers, r, c, w, found, hot)};
   }
 };
 

@@ -97,4 +97,23 @@ inline double input_for(const Params<double>& p, std::span<const double> thresho
   return u;
 }
 
+/// The iteration of the thesis (Fig. 5.8): u <- P^-1[y - P_c(u)], the memory frozen, `steps` times from the last input
+/// on or until it moves by no more than `tolerance`. Converges for P_s(T)/(a T) < 1 only, by that factor per step:
+/// what feeds back is P_c with all of its slope, at u = 0. Takes the number of steps back in `steps`.
+inline double iterated_input(const Params<double>& p, std::span<const double> thresholds,
+                             std::span<const double> weights, std::span<const double> before, double y,
+                             double temperature, int& steps, double tolerance = 0) {
+  Params<double> classical = p;
+  classical.p_s = 0;
+  double u = before[0];
+  for (int i = 0; i < steps; ++i) {
+    const double rest = y - weights[0] * polarisation(p, u, temperature);
+    const double next = input_for(classical, thresholds, weights, before, rest, temperature);
+    const double way = std::fabs(next - u);
+    u = next;
+    if (way <= tolerance) steps = i + 1;
+  }
+  return u;
+}
+
 }  // namespace hysteron::tapi

@@ -179,7 +179,13 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mass_on_hysteretic_spring",
                                        "sliding_friction",
                                        "tapi",
-                                       "sampled_tapi_inverse"};
+                                       "sampled_tapi_inverse",
+                                       "coupled_tapi",
+                                       "sampled_coupled_tapi_inverse",
+                                       "maxwell_capacitor",
+                                       "impedance_estimator",
+                                       "wheatstone_bridge",
+                                       "wheatstone_bridge_inverse"};
   EXPECT_EQ(found, expected);
 }
 

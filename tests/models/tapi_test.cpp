@@ -109,6 +109,74 @@ TEST(TapiModel, InverseUndoesTheModelForAnyStrengthOfTheSaturation) {
   }
 }
 
+/// Largest |H(u) - y| [um] over a cycle of 5 Hz up to 8 V, where u is sought by `steps` steps of the thesis' iteration.
+struct Iterated {
+  double error = 0, mean_steps = 0;
+  int unfinished = 0;  ///< samples that were not found within the steps
+};
+Iterated iterated(double q, double rate, int steps, double tolerance) {
+  Reference ref;
+  const double t = 295.15;
+  ref.law.p_s = q * ref.law.a * t / std::sqrt(1 - t / ref.law.t_c);
+  Numbers w(80, 0.0), v(80, 0.0);
+  Iterated result;
+  const int n = static_cast<int>(rate / 5);
+  for (int k = 0; k < n; ++k) {
+    const double u = 4 - 4 * std::cos(2 * std::acos(-1) * k / n);
+    w = ref.moved(w, u);
+    const double y = tapi::output<double>(ref.law, ref.c, w, u, t);
+    int taken = steps;
+    const double found = tapi::iterated_input(ref.law, ref.r, ref.c, v, y, t, taken, tolerance);
+    v = ref.moved(v, found);
+    result.error = std::max(result.error, std::fabs(tapi::output<double>(ref.law, ref.c, v, found, t) - y));
+    result.mean_steps += static_cast<double>(taken) / n;
+    if (taken == steps && tolerance > 0) ++result.unfinished;
+  }
+  return result;
+}
+
+TEST(TapiModel, IterationOfTheThesisConvergesForAWeakSaturationOnly) {
+  // Claim C5-03: by the factor P_s/(a T) per step at u = 0, less elsewhere.
+  double before = 0;
+  for (const double q : {0.2, 0.545, 0.8, 0.95}) {
+    const auto found = iterated(q, 1000, 400, 1e-10);
+    EXPECT_LT(found.error, q < 0.9 ? 1e-9 : 1e-6) << q;  // 1e-10 V per step leaves 1e-10 q/(1 - q); 0.95^400 = 1e-9
+    EXPECT_GT(found.mean_steps, before) << q;
+    before = found.mean_steps;
+  }
+  for (const double q : {1.05, 1.5}) {
+    const auto found = iterated(q, 1000, 400, 1e-10);
+    EXPECT_GT(found.error, 0.1) << q;
+    EXPECT_GT(found.unfinished, 10) << q;
+  }
+}
+
+TEST(TapiModel, OneStepOfTheIterationPerSampleLagsByOneSample) {
+  // SPEC 5.2: 0.0032 um at 10 kHz, 0.032 um at 1 kHz; told to two digits.
+  EXPECT_NEAR(iterated(0.545, 10000, 1, 0).error, 0.0032, 0.0002);
+  EXPECT_NEAR(iterated(0.545, 1000, 1, 0).error, 0.032, 0.002);
+}
+
+TEST(TapiModel, FeedbackOfTheWrongElementDoesNotInvert) {
+  // E-45: Fig. 5.8 feeds P_c back, the part without memory. The text has P_g there, which is the whole model (5.17):
+  // then what P^-1 is asked for is next to nothing.
+  const Reference ref;
+  const double t = 295.15, y = 4;
+  const Numbers rest(80, 0.0);
+  const auto fixed_point_error = [&](bool printed) {
+    double u = 0;
+    const tapi::Params<double> classical{.p_s = 0, .t_c = 623, .beta = 0.5, .a = 0.01694};
+    const auto output = [&](double at) { return tapi::output_at<double>(ref.law, ref.r, ref.c, rest, at, t); };
+    for (int i = 0; i < 400; ++i) {
+      const double fed_back = printed ? output(u) : ref.c[0] * tapi::polarisation(ref.law, u, t);
+      u = tapi::input_for(classical, ref.r, ref.c, rest, y - fed_back, t);
+    }
+    return std::fabs(output(u) - y);
+  };
+  EXPECT_LT(fixed_point_error(false), 1e-12);
+  EXPECT_GT(fixed_point_error(true), 0.5);
+}
+
 TEST(TapiModel, SlopeIsTheDifferenceQuotient) {
   const Reference ref;
   Numbers w = ref.moved(ref.moved(Numbers(80, 0.0), 7.33), 3.21);
