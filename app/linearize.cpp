@@ -24,7 +24,9 @@ using std::numbers::pi;
 
 constexpr char help[] =
     "Answers: how does the diagram respond to small motions around an operating point. Prints DC gain, bandwidth\n"
-    "and poles from one signal to another; with --open, the loop's gain and phase margin.\n\n"
+    "and poles from one signal to another; with --open, the loop's gain and phase margin, where its gain is 1 and -3 "
+    "dB,\n"
+    "and what the closed loop makes of it: bandwidth and largest |T|, largest |S|.\n\n"
     "Examples:\n"
     "  hysteron linearize loop.json --from reference --to stage\n"
     "  hysteron linearize loop.json --from error --to stage --open error      the open loop, with its margins\n"
@@ -173,6 +175,25 @@ void add_margins(Document& document, Facts& facts, const Response& loop, const B
   facts.set("margins", given);
 }
 
+/// What the closed loop will be. Only of a loop gain, which has no unit.
+void add_closed_loop(Document& document, Facts& facts, const Response& loop, const Bode& b) {
+  const ClosedLoop c = closed_loop(loop, b);
+  Facts given;
+  const auto frequency = [&](const char* name, const std::optional<double>& w) {
+    if (w) given.set(name, *w / (2 * pi));
+    return w ? frequency_text(*w) : std::string("nowhere");
+  };
+  document.sentences.push_back(fmt::format("The loop's gain is -3 dB at {}.", frequency("open_3db_hz", c.open_half)));
+  document.sentences.push_back(fmt::format(
+      "Closed: T = L/(1 + L) is -3 dB at {}, at most {} at {}; S = 1/(1 + L) is -3 dB at {}, at most {} at {}.",
+      frequency("closed_3db_hz", c.closed_half), number_text(c.closed.magnitude),
+      frequency("closed_peak_at_hz", c.closed.at), frequency("sensitivity_3db_hz", c.sensitivity_half),
+      number_text(c.sensitivity.magnitude), frequency("sensitivity_peak_at_hz", c.sensitivity.at)));
+  given.set("closed_peak", c.closed.magnitude);
+  given.set("sensitivity_peak", c.sensitivity.magnitude);
+  facts.set("closed_loop", given);
+}
+
 int linearize_verb_act(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
@@ -196,7 +217,6 @@ int linearize_verb_act(const Arguments& arguments) {
     const Bode b = bode(response, frequencies(poles, longest));
     const std::string unit = ratio_unit(to.unit, from.unit);
     const double scale = from.unit.difference_to_si(1) / to.unit.difference_to_si(1);
-    const double lowest = b.magnitude.front() * scale;
 
     Section first;
     first.title = fmt::format("From {} to {}", from.path, to.path);
@@ -204,6 +224,9 @@ int linearize_verb_act(const Arguments& arguments) {
     // A pole at zero that the way from input to output sees: |G| falls with the frequency from the start.
     const bool integrates = std::any_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; }) &&
                             std::log(b.magnitude[0] / b.magnitude[1]) > 0.5 * std::log(b.w[1] / b.w[0]);
+    // Without a pole at zero the response at w = 0 is a number; with one that the output does not see it is not.
+    const bool at_rest = std::none_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; });
+    const double lowest = (at_rest ? std::abs(response(0)) : b.magnitude.front()) * scale;
     const std::string gain = integrates
                                  ? "without bound at low frequencies"
                                  : number_text(lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies";
@@ -230,8 +253,10 @@ int linearize_verb_act(const Arguments& arguments) {
           "nothing passes from {} to {} here: a saturation at its limit, a play operator inside its gap or an opened "
           "loop stands between; --at takes another operating point",
           from.path, to.path));
-    else if (!wanted.open.empty())
+    else if (!wanted.open.empty()) {
       add_margins(document, facts, response, b);
+      if (from.unit.dimension == to.unit.dimension) add_closed_loop(document, facts, response, b);
+    }
     add_poles(document, facts, model);
     if (!model.delays.empty())
       document.warnings.push_back("dead times are in the response and in the margins, not in poles and matrices");

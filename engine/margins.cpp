@@ -8,7 +8,8 @@ namespace hysteron {
 namespace {
 
 using std::numbers::pi;
-constexpr int refinements = 80;  // halvings: more than the digits of a double between two points of the grid
+constexpr double far_below = 1e-6;  // of the lowest frequency: what a slow integrator makes of it is then 1 - 1e-6
+constexpr int refinements = 80;     // halvings: more than the digits of a double between two points of the grid
 
 /// Where `f` changes its sign between a and b, by bisection on the logarithm.
 double crossing(const std::function<double(double)>& f, double a, double b) {
@@ -108,11 +109,46 @@ Margins margins(const Response& loop, const Bode& b) {
 
 std::optional<double> bandwidth(const Response& response, const Bode& b) {
   if (b.w.empty()) return std::nullopt;
-  const double limit = b.magnitude.front() / std::numbers::sqrt2;
+  return passes(response, b, b.magnitude.front() / std::numbers::sqrt2, Crossing::falling);
+}
+
+std::optional<double> passes(const Response& response, const Bode& b, double level, Crossing direction) {
+  const auto below = [&](std::size_t i) { return b.magnitude[i] < level; };
   for (std::size_t i = 1; i < b.w.size(); ++i)
-    if (b.magnitude[i] < limit)
-      return crossing([&](double w) { return std::abs(response(w)) - limit; }, b.w[i - 1], b.w[i]);
+    if (below(i) == (direction == Crossing::falling) && below(i - 1) != below(i))
+      return crossing([&](double w) { return std::abs(response(w)) - level; }, b.w[i - 1], b.w[i]);
   return std::nullopt;
+}
+
+Peak largest(const Response& response, const Bode& b) {
+  if (b.w.empty()) return {};
+  const auto top =
+      static_cast<std::size_t>(std::max_element(b.magnitude.begin(), b.magnitude.end()) - b.magnitude.begin());
+  if (top == 0 || top + 1 == b.w.size()) return {b.magnitude[top], b.w[top]};
+  double low = b.w[top - 1], high = b.w[top + 1];
+  for (int i = 0; i < refinements; ++i) {  // golden section: flat to rounding long before the end
+    const double left = high - (high - low) / std::numbers::phi, right = low + (high - low) / std::numbers::phi;
+    if (std::abs(response(left)) < std::abs(response(right)))
+      low = left;
+    else
+      high = right;
+  }
+  const double at = (low + high) / 2;
+  return {std::abs(response(at)), at};
+}
+
+ClosedLoop closed_loop(const Response& loop, const Bode& b) {
+  const Response t = [&](double w) {
+    const auto l = loop(w);
+    return l / (1.0 + l);
+  };
+  const Response s = [&](double w) { return 1.0 / (1.0 + loop(w)); };
+  const Bode of_t = bode(t, b.w), of_s = bode(s, b.w);
+  constexpr double half = 1 / std::numbers::sqrt2;
+  const double low = std::abs(t(b.w.front() * far_below));
+  const Peak top = largest(t, of_t);
+  return {passes(loop, b, half, Crossing::falling), passes(t, of_t, low * half, Crossing::falling),
+          passes(s, of_s, half, Crossing::rising), top.magnitude > low ? top : Peak{low, 0}, largest(s, of_s)};
 }
 
 }  // namespace hysteron

@@ -38,4 +38,24 @@ Margins margins(const Response& loop, const Bode& bode);
 /// so far.
 std::optional<double> bandwidth(const Response& response, const Bode& bode);
 
+enum class Crossing { falling, rising };
+/// First frequency [rad/s] at which the magnitude passes `level` in that direction; absent if it never does.
+std::optional<double> passes(const Response& response, const Bode& bode, double level, Crossing direction);
+
+struct Peak {
+  double magnitude = 0;
+  double at = 0;  ///< [rad/s]
+};
+/// The largest magnitude on the grid, refined on the response itself.
+Peak largest(const Response& response, const Bode& bode);
+
+/// What closing the loop L with the sign -1 makes of it: T = L/(1 + L), S = 1/(1 + L). -3 dB is a factor 1/sqrt(2).
+struct ClosedLoop {
+  std::optional<double> open_half;         ///< [rad/s] |L| falls through -3 dB
+  std::optional<double> closed_half;       ///< [rad/s] |T| falls through -3 dB of what it is at low frequencies
+  std::optional<double> sensitivity_half;  ///< [rad/s] |S| rises through -3 dB
+  Peak closed, sensitivity;                ///< largest |T| (at 0: nowhere above that at low frequencies), |S|
+};
+ClosedLoop closed_loop(const Response& loop, const Bode& bode);
+
 }  // namespace hysteron

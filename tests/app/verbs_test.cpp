@@ -155,6 +155,8 @@ TEST_F(Verbs, LinearizeTellsPolesBandwidthAndMarginsOfALoop) {
   EXPECT_NE(open.out.find("error to stage, loop open: gain without bound at low frequencies"), std::string::npos)
       << open.out;
   EXPECT_NE(open.out.find("Phase margin 51.83 deg at 12.51 Hz"), std::string::npos) << open.out;
+  EXPECT_NE(open.out.find("The loop's gain is -3 dB at 15.92 Hz"), std::string::npos) << open.out;  // 100 rad/s
+  EXPECT_NEAR(result("open").at("facts").at("closed_loop").at("closed_peak").get<double>(), 2 / std::sqrt(3.0), 1e-9);
   const Outcome closed = hysteron(folder_.path(), {"linearize", "servo.json", "-o", "closed"});
   ASSERT_EQ(closed.code, 0) << closed.err;
   EXPECT_NE(closed.out.find("r to stage: gain 1 at low frequencies"), std::string::npos) << closed.out;

@@ -132,5 +132,25 @@ TEST(Margins, ThoseOfAnUnstableLoopAreNegativeAndBelowOne) {
   EXPECT_LT(m.phase_margin.value(), 0);
 }
 
+TEST(Margins, TheClosedLoopIsThatOfTheClosedForm) {
+  // L = w0^2/(s (s + 2 d w0)), so that T is a second-order lag. With v = (w/w0)^2 and d = 0.5:
+  // |L|^2 = 1/2: v^2 + v = 2; |T|^2 = 1/2: v^2 - v = 1; |S|^2 = 1/2: v^2 + 3 v = 1.
+  constexpr double w0 = 100, d = 0.5;
+  const Response loop = [](double w) {
+    const Complex s(0, w);
+    return w0 * w0 / (s * (s + 2 * d * w0));
+  };
+  const std::vector<Complex> poles{0, -2 * d * w0};
+  const auto c = closed_loop(loop, bode(loop, frequencies(poles, 0)));
+  EXPECT_NEAR(c.open_half.value(), w0, w0 * 1e-12);
+  EXPECT_NEAR(c.closed_half.value(), w0 * std::sqrt((1 + std::sqrt(5.0)) / 2), w0 * 1e-12);
+  EXPECT_NEAR(c.sensitivity_half.value(), w0 * std::sqrt((std::sqrt(13.0) - 3) / 2), w0 * 1e-12);
+  EXPECT_NEAR(c.closed.magnitude, 1 / (2 * d * std::sqrt(1 - d * d)), 1e-12);
+  EXPECT_NEAR(c.closed.at, w0 * std::sqrt(1 - 2 * d * d), w0 * 1e-7);  // a maximum: root of the rounding
+  // |S|^2 = v (v + 1)/(v^2 - v + 1) is largest where v^2 - v - 1/2 = 0.
+  const double v = (1 + std::sqrt(3.0)) / 2;
+  EXPECT_NEAR(c.sensitivity.magnitude, std::sqrt(v * (v + 1) / (v * v - v + 1)), 1e-12);
+}
+
 }  // namespace
 }  // namespace hysteron
