@@ -21,10 +21,11 @@ TraceWishes wishes_of(const Arguments& arguments) {
   for (const auto& written : arguments.list("--tolerance")) wishes.tolerances.push_back(read_trace_tolerance(written));
   for (const auto& written : arguments.list("--pair")) {
     const auto equals = written.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == written.size())
+    if (equals == 0 || equals + 1 == written.size())
       fail("bad_command_line", "--pair", fmt::format("\"{}\" names no two columns", written),
-           "write FIRST=SECOND: --pair y=stage");
-    wishes.pairs.emplace_back(written.substr(0, equals), written.substr(equals + 1));
+           "write FIRST=SECOND: --pair y=stage; one name is for a column that both files have");
+    wishes.pairs.emplace_back(written.substr(0, equals),
+                              equals == std::string::npos ? written : written.substr(equals + 1));
   }
   return wishes;
 }

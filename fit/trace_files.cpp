@@ -66,16 +66,15 @@ void check_units(const CsvTable& a, const CsvColumn& first, const CsvTable& b, c
 
 std::vector<std::pair<std::string, std::string>> pairs_of(const CsvTable& first, const CsvTable& second,
                                                           const TraceWishes& wishes, const std::string& axis) {
-  auto pairs = wishes.pairs;
-  for (const auto& [a, b] : pairs) {
+  for (const auto& [a, b] : wishes.pairs) {
     column_of(first, a, "");
     column_of(second, b, "");
   }
-  for (const auto& column : first.columns) {
-    const bool taken = std::any_of(pairs.begin(), pairs.end(), [&](const auto& p) { return p.first == column.name; });
-    if (!taken && column.name != axis && column.name != "t" && second.find(column.name) != nullptr)
+  if (!wishes.pairs.empty()) return wishes.pairs;
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const auto& column : first.columns)
+    if (column.name != axis && column.name != "t" && second.find(column.name) != nullptr)
       pairs.emplace_back(column.name, column.name);
-  }
   if (pairs.empty())
     fail("nothing_to_compare", first.file,
          fmt::format("no column besides {} has the same name in both files: {} and {}", axis,
@@ -172,8 +171,10 @@ TraceComparison compare_trace_files(const CsvTable& first, const CsvTable& secon
     comparison.pairs.push_back(std::move(pair));
   }
   check_tolerances_used(comparison, wishes);
-  remark_on_lone_columns(first, true, comparison);
-  remark_on_lone_columns(second, false, comparison);
+  if (wishes.pairs.empty()) {
+    remark_on_lone_columns(first, true, comparison);
+    remark_on_lone_columns(second, false, comparison);
+  }
   return comparison;
 }
 

@@ -32,7 +32,7 @@ struct TraceComparison {
 
 struct TraceWishes {
   std::string over;                                        ///< "" = the time t
-  std::vector<std::pair<std::string, std::string>> pairs;  ///< columns of different names
+  std::vector<std::pair<std::string, std::string>> pairs;  ///< columns compared; empty: all that both files have
   std::vector<WrittenTolerance> tolerances;                ///< of those for all and those for one the last that fits
 };
 

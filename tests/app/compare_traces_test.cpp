@@ -1,5 +1,4 @@
-// compare on two files of traces, as a user calls it: exit code, what is printed and written; its page of documentation
-// does what it shows.
+// compare on two files of traces, as a user calls it: exit code, what is printed and written.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -61,7 +60,7 @@ TEST(CompareTraces, WordsThatFitNeitherUseAreRefused) {
                                                 {"compare", "stage.json", "a.csv"},
                                                 {"compare", "stage.json"},
                                                 {"compare", "a.csv", "b.csv", "--data", "b.csv"},
-                                                {"compare", "a.csv", "b.csv", "--pair", "y"},
+                                                {"compare", "a.csv", "b.csv", "--pair", "y="},
                                                 {"compare", "a.csv", "b.csv", "--tolerance", "small"}}) {
     const Outcome outcome = hysteron(folder.path(), words);
     EXPECT_EQ(outcome.code, 2) << words.back();

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/app/hysteron_process.h"
@@ -95,11 +96,11 @@ TEST(Docs, TheDiagramThatTheyExplainRunsAndTheDataSetIsValid) {
   EXPECT_EQ(schema::refuses("dataset", first_json(docs + "datasets.md")), "");
 }
 
-TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
-  // A block "json NAME" is the file NAME; each block of commands runs behind all that stands above it.
-  const Folder folder;
+/// Does what a page shows: a block "json NAME" is the file NAME; each block of commands runs behind all that stands
+/// above it, and prints what the block of text below it shows.
+void do_as_shown(const std::string& page, const Folder& folder) {
   std::string output;
-  for (const auto& fence : fences_of(std::string(HYSTERON_SOURCE_DIR) + "/docs/fit.md")) {
+  for (const auto& fence : fences_of(std::string(HYSTERON_SOURCE_DIR) + "/docs/" + page)) {
     if (fence.language.starts_with("json ")) {
       folder.write(fence.language.substr(5), fence.text);
     } else if (fence.language == "sh") {
@@ -111,6 +112,32 @@ TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
         EXPECT_NE(output.find(line), std::string::npos) << line << "\nis not in\n" << output;
     }
   }
+}
+
+TEST(Docs, ACompensatorOfOnesOwnStageLowersTheTrackingErrorAsTheySay) {
+  const Folder folder;
+  do_as_shown("compensate.md", folder);
+  const auto error = [&](const std::string& run) {
+    const auto result = nlohmann::json::parse(folder.read("error_" + run + "/result.json"));
+    const auto& pair = result.at("facts").at("signals").at(0);
+    return std::pair{pair.at("largest").get<double>(), pair.at("rms").get<double>()};
+  };
+  // The table of the page, to its last digit; the noise of 2 nm is the same each time.
+  const auto expect = [&](const std::string& run, double largest, double rms, double digit) {
+    EXPECT_NEAR(error(run).first, largest, digit) << run;
+    EXPECT_NEAR(error(run).second, rms, digit) << run;
+  };
+  expect("open_none", 1.56, 0.93, 0.006);
+  expect("open_pi", 0.40, 0.20, 0.006);
+  expect("open_bw", 0.53, 0.39, 0.006);
+  expect("closed_none", 0.125, 0.090, 0.0006);
+  expect("closed_pi", 0.018, 0.006, 0.0006);
+  expect("closed_bw", 0.018, 0.006, 0.0006);
+}
+
+TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
+  const Folder folder;
+  do_as_shown("fit.md", folder);
   EXPECT_EQ(schema::refuses("job", folder.read("job.json")), "");
   EXPECT_EQ(schema::refuses("result", folder.read("job.fit/result.json")), "");
   const auto facts = nlohmann::json::parse(folder.read("job.fit/result.json"))["facts"];

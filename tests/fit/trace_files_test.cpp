@@ -124,6 +124,17 @@ TEST(TraceFiles, ANamedToleranceGoesBeforeOneForAll) {
   EXPECT_FALSE(compared(a, b, {"1 um"}).pairs[1].written.has_value());  // a tolerance in um says nothing of u
 }
 
+TEST(TraceFiles, NamedPairsAloneAreCompared) {
+  const CsvTable a = table("a.csv", {{"t [s]", {0, 1}}, {"y [um]", {0, 1}}, {"u [V]", {0, 1}}});
+  const CsvTable b = table("b.csv", {{"t [s]", {0, 1}}, {"stage [nm]", {0, 1500}}, {"u [V]", {0, 1}}});
+  TraceWishes wishes;
+  wishes.pairs = {{"y", "stage"}};
+  const TraceComparison c = compare_trace_files(a, b, wishes);
+  ASSERT_EQ(c.pairs.size(), 1U);
+  EXPECT_NEAR(c.pairs[0].distance.largest, 0.5e-6, 1e-18);
+  EXPECT_TRUE(c.remarks.empty());
+}
+
 TEST(TraceFiles, WhatCannotBeComparedIsSaidWithACure) {
   const CsvTable a = table("a.csv", {{"t [s]", {0, 1}}, {"y [um]", {0, 1}}});
   const CsvTable bare = table("b.csv", {{"t [s]", {0, 1}}, {"y", {0, 1}}});
