@@ -9,6 +9,7 @@
 #include "app/verb.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
+#include "io/claims_file.h"
 #include "io/diagram_file.h"
 #include "io/job_file.h"
 
@@ -20,7 +21,7 @@ constexpr char help[] =
     "They are made from the same declarations that \"hysteron check\" uses.\n\n"
     "Examples:\n"
     "  hysteron schema -o schema/\n\n"
-    "Writes diagram, dataset, job, result and effect (.schema.json); a file\n"
+    "Writes diagram, dataset, job, claims, result and effect (.schema.json); a file\n"
     "names its schema with \"$schema\": \"../schema/diagram.schema.json\".\n"
     "Exit codes: 0 done, 2 the folder cannot be written.";
 
@@ -38,6 +39,7 @@ int schema(const Arguments& arguments) {
   write("diagram.schema.json", diagram_schema(registry()));
   write("dataset.schema.json", dataset_schema());
   write("job.schema.json", job_schema());
+  write("claims.schema.json", claims_schema());
   write("result.schema.json", result_schema());
   write("effect.schema.json", effect_schema(registry()));
   return exit_code::done;

@@ -6,6 +6,7 @@
 
 #include "io/json_reader.h"
 #include "io/project_path.h"
+#include "io/runs_schema.h"
 #include "io/schema_parts.h"
 #include "io/value_text.h"
 
@@ -58,8 +59,10 @@ class JobReader {
     const auto text = place ? place->text() : std::nullopt;
     if (!text || *text == "fit") return;
     if (*text == "runs" || *text == "study")
-      place->add("not_yet", fmt::format("this hysteron does not do \"{}\" yet: it does \"fit\"", *text),
-                 *text == "runs" ? "run each with \"hysteron run DIAGRAM.json --choose ... --set ...\""
+      place->add("not_yet",
+                 *text == "runs" ? std::string("this is a job of runs, no fit")
+                                 : fmt::format("this hysteron does not do \"{}\" yet", *text),
+                 *text == "runs" ? "run it with \"hysteron reproduce\""
                                  : "install a newer hysteron, or call \"hysteron run\" with --set in a loop");
     else
       place->add("bad_value", fmt::format("{} is nothing that can be done", json_quoted(*text)),
@@ -348,7 +351,7 @@ Json method_entry() {
 }  // namespace
 
 std::string job_schema() {
-  const char* about = "What to do with a diagram and its data: a fit.";
+  const char* about = "What to do with diagrams and data: runs with figures and claims, or a fit.";
   Json json = head("hysteron job", about);
   Json properties;
   add_head_members(properties);
@@ -380,7 +383,10 @@ std::string job_schema() {
       list_of("parameters whose profile is wanted: held at values around the result, all others fitted again",
               {{"type", "string"}});
   properties["write"] = text("where the fitted diagram is written too");
-  json.update(object(about, std::move(properties), {"format", "do", "diagram", "data"}));
+  json["type"] = "object";
+  json["if"] = {{"properties", {{"do", {{"const", "runs"}}}}}};
+  json["then"] = runs_job();
+  json["else"] = object("a fit", std::move(properties), {"format", "do", "diagram", "data"});
   return to_text(json);
 }
 

@@ -73,6 +73,8 @@ Json write(const Figure& f) {
   Json j{{"title", f.title}, {"kind", f.kind}, {"x_label", f.x_label}, {"y_label", f.y_label}};
   if (f.log_x) j["log_x"] = true;
   if (f.log_y) j["log_y"] = true;
+  if (!f.x_range.empty()) j["x_range"] = f.x_range;
+  if (!f.y_range.empty()) j["y_range"] = f.y_range;
   if (!f.curves.empty()) j["curves"] = write_all(f.curves);
   if (!f.bars.empty()) j["bars"] = write_all(f.bars);
   if (!f.picture.empty()) j["picture"] = f.picture;
@@ -143,6 +145,8 @@ void read(const Json& j, Figure& f) {
   take(j, "y_label", f.y_label);
   take(j, "log_x", f.log_x);
   take(j, "log_y", f.log_y);
+  take(j, "x_range", f.x_range);
+  take(j, "y_range", f.y_range);
   read_all(j, "curves", f.curves);
   read_all(j, "bars", f.bars);
   take(j, "picture", f.picture);

@@ -38,6 +38,8 @@ struct Figure {
   std::string caption;
   bool log_x = false, log_y = false;
   std::string picture{};  ///< of kind "picture": its name among the document's files ("final.svg")
+  /// Ends of the axes where they are given: two numbers, or none for what the curves need.
+  std::vector<double> x_range{}, y_range{};
 };
 
 struct Table {

@@ -75,6 +75,8 @@ Json figure() {
                  {"y_label", text("quantity and unit")},
                  {"log_x", {{"type", "boolean"}}},
                  {"log_y", {{"type", "boolean"}}},
+                 {"x_range", list_of("ends of the axis where they are given", {{"type", "number"}})},
+                 {"y_range", list_of("ends of the axis where they are given", {{"type", "number"}})},
                  {"curves", list_of("", curve())},
                  {"bars", list_of("", bar)},
                  {"picture", text("an SVG beside this file")},

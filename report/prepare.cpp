@@ -174,6 +174,8 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   const bool points_only =
       std::all_of(p.curves.begin(), p.curves.end(), [](const PreparedCurve& c) { return c.style == "points"; });
   if (!monotone || points_only) add_air(p.x, p.log_x);
+  if (figure.x_range.size() == 2) p.x = {figure.x_range[0], figure.x_range[1]};
+  if (figure.y_range.size() == 2) p.y = {figure.y_range[0], figure.y_range[1]};
   p.wide = p.kind == "waterfall" || over_time;
   return p;
 }

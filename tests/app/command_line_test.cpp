@@ -160,7 +160,7 @@ TEST(Schema, WritesTheSchemasThatTheProjectShips) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"schema", "-o", "made"}).code, 0);
   for (const char* name :
-       {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "result.schema.json", "effect.schema.json"})
+       {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "claims.schema.json", "result.schema.json", "effect.schema.json"})
     EXPECT_NE(folder.read(std::string("made/") + name).find("draft-07"), std::string::npos) << name;
 }
 

@@ -93,7 +93,7 @@ TEST(JobFile, IsKnownByItsDo) {
   EXPECT_FALSE(is_job(folder.write("d.json", "{\"format\": 1, \"blocks\": {}}")));
 }
 
-TEST(JobFile, OtherKindsOfJobsAreNamedAsNotThereYet) {
+TEST(JobFile, OtherKindsOfJobsAreNoFits) {
   EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"runs\", \"plots\": []}"), "not_yet /do");
   EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"study\"}"), "not_yet /do");
   EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fitt\"}"), "bad_value /do");

@@ -12,6 +12,7 @@
 #include <valijson/validator.hpp>
 
 #include "blocks/register_all.h"
+#include "io/claims_file.h"
 #include "io/dataset.h"
 #include "io/diagram_file.h"
 #include "io/job_file.h"
@@ -236,7 +237,23 @@ TEST(JobSchema, AcceptsWhatTheReaderAcceptsAndRefusesWhatItRefuses) {
        {R"(, "fre": []})", R"(, "free": [{"lower": 1}]})", R"(, "free": [{"parameter": "k", "prior": [1]}]})",
         R"(, "method": "psso"})", R"(, "seed": -1})", R"(, "method": []})"})
     EXPECT_NE(jobs.refuses(head + wrong), "") << wrong;
-  EXPECT_NE(jobs.refuses(R"({"format": 1, "do": "runs"})"), "");
+}
+
+TEST(JobSchema, JobsOfRunsAreAcceptedAndRefusedAsTheirReaderDoes) {
+  const SchemaOf jobs(job_schema());
+  const std::string head = R"({"format": 1, "do": "runs", "diagram": "d.json")";
+  EXPECT_EQ(jobs.refuses(head + "}"), "");
+  EXPECT_EQ(jobs.refuses(head + R"(, "runs": {"a": {"set": {"g.gain": {"of": "v", "times": -1}}, "use": {"b": "model"}},
+    "b": {"fit": "f.json", "free": "w", "data": {"run": "a", "columns": {"u": "s"}, "between": ["1 s", 2]}},
+    "c": {"linearize": {"from": "e", "to": "y", "open": "e"}}, "d": {"table": "x.csv"}, "e": {"from": "fig1.json"}},
+    "plots": [{"kind": "spectrum", "y": {"signal": "y", "minus": {"run": "a", "signal": "y"}, "from": 0, "to": "1 um"}}],
+    "values": {"v": {"take": "stroke", "of": "y", "run": "a"}, "w": {"ratio": ["v", "v"]}},
+    "claims": [{"id": "C1", "value": "w", "above": 5}, {"id": "C2", "order": ["v", "w"]}]})"),
+            "");
+  for (const char* wrong : {R"(, "run": {}})", R"(, "runs": {"A": {}}})", R"(, "runs": {"a": {"choos": {}}}})",
+                            R"(, "plots": [{"kind": "pie"}]})", R"(, "values": {"v": {"take": "length"}}})",
+                            R"(, "claims": [{"value": "v"}]})", R"(, "data": "a.csv"})"})
+    EXPECT_NE(jobs.refuses(head + wrong), "") << wrong;
 }
 
 TEST(ResultSchema, AcceptsEverythingThatAResultMayHold) {
@@ -269,10 +286,12 @@ TEST(SharedSchemas, ThoseInTheProjectAreWhatTheDeclarationsSay) {
   expect_same("diagram.schema.json", diagram_schema(all_blocks()));
   expect_same("dataset.schema.json", dataset_schema());
   expect_same("job.schema.json", job_schema());
+  expect_same("claims.schema.json", claims_schema());
   expect_same("result.schema.json", result_schema());
 }
 
-TEST(SharedSchemas, EveryDiagramAndDataSetOfTheProjectIsValid) {
+TEST(SharedSchemas, EveryDiagramDataSetAndJobOfTheProjectIsValid) {
+  const SchemaOf jobs(job_schema()), claims(claims_schema());
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams")) {
     if (entry.path().extension() != ".json") continue;
@@ -283,6 +302,8 @@ TEST(SharedSchemas, EveryDiagramAndDataSetOfTheProjectIsValid) {
     if (text.find("dataset.schema.json") != text.npos) {
       EXPECT_EQ(datasets().refuses(text), "") << entry.path();
     }
+    if (text.find("job.schema.json") != text.npos) EXPECT_EQ(jobs.refuses(text), "") << entry.path();
+    if (text.find("claims.schema.json") != text.npos) EXPECT_EQ(claims.refuses(text), "") << entry.path();
   }
 }
 

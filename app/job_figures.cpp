@@ -1,0 +1,268 @@
+#include "app/job_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/job_values.h"
+#include "app/load.h"
+#include "app/numbers.h"
+#include "draw/drawing.h"
+#include "fit/features.h"
+#include "io/diagram_file.h"
+
+namespace hysteron {
+namespace {
+
+/// The unit in which an axis is drawn.
+Unit axis_unit(const AxisWish& axis, const Unit& own, bool difference) {
+  if (!axis.unit) return own;
+  Unit unit = parse_unit(axis.unit->text, axis.unit->pointer);
+  if (!(unit.dimension == own.dimension))
+    fail("wrong_unit", axis.unit->pointer,
+         fmt::format("what is drawn is in {}, the axis in {}", unit_text(own), unit_text(unit)),
+         fmt::format("write the axis in {}", unit_text(own)));
+  if (difference) unit.offset = 0;
+  return unit;
+}
+
+void to_unit(std::vector<double>& values, const Unit& unit) {
+  for (auto& v : values) v = unit.from_si(v);
+}
+
+std::string label(const AxisWish& axis, const std::string& otherwise, const Unit& unit) {
+  return axis_text(axis.label.empty() ? otherwise : axis.label, unit);
+}
+
+/// One curve: its numbers as a table, and the curve that reads them.
+struct Drawn {
+  CsvTable table;
+  Curve curve;
+};
+
+class Plotter {
+ public:
+  Plotter(JobRunner& runner, JobPage& page) : runner_(runner), page_(page) {}
+
+  void draw(const PlotWish& plot) {
+    ++number_;
+    if (plot.kind == "bode") {
+      for (const char* what : {"gain", "phase"}) bode(plot, what);
+      return;
+    }
+    Figure figure = empty(plot);
+    for (const auto& run : runs_of(plot)) runner_.at(plot.pointer, [&] { add_run(plot, run, figure); });
+    ranges(plot, figure);
+    page_.section.figures.push_back(std::move(figure));
+  }
+
+ private:
+  Figure empty(const PlotWish& plot) const {
+    Figure figure;
+    figure.title = plot.title;
+    figure.caption = plot.caption;
+    figure.log_x = plot.x.log;
+    figure.log_y = plot.y.log;
+    return figure;
+  }
+
+  /// Those that are named; else all that have the signals.
+  std::vector<WrittenText> runs_of(const PlotWish& plot) {
+    if (!plot.runs.empty()) return plot.runs;
+    std::vector<WrittenText> list;
+    std::string first;
+    for (const auto& run : runner_.job().runs) {
+      const RunResult& result = runner_.result({run.name, run.pointer});
+      const auto has = [&](const SignalWish& s) { return result.find(s.signal.text) != nullptr; };
+      if (!result.columns.empty() && std::all_of(plot.y.signals.begin(), plot.y.signals.end(), has) &&
+          std::all_of(plot.x.signals.begin(), plot.x.signals.end(), has))
+        list.push_back({run.name, run.pointer});
+      else if (!result.columns.empty() && first.empty())
+        first = run.name;
+    }
+    if (list.empty() && !first.empty()) list.push_back({first, plot.pointer});  // says which signal it lacks
+    return list;
+  }
+
+  std::string title_of(const std::string& run) const {
+    for (const auto& r : runner_.job().runs)
+      if (r.name == run) return r.title;
+    return run;
+  }
+
+  void add_run(const PlotWish& plot, const WrittenText& run, Figure& figure) {
+    const RunResult& result = runner_.result(run);
+    for (const auto& signal : plot.y.signals) {
+      JobRunner::Rows y = runner_.rows(signal, result, plot.between, plot.rezero);
+      const Unit y_unit = axis_unit(plot.y, y.unit, y.difference);
+      std::vector<double> x = y.t;
+      Unit x_unit = result.columns.front().unit;
+      if (!plot.x.signals.empty()) {
+        JobRunner::Rows rows = runner_.rows(plot.x.signals.front(), result, plot.between, false);
+        x = std::move(rows.y);
+        x_unit = rows.unit;
+      }
+      std::string x_name = plot.x.signals.empty() ? result.columns.front().name : plot.x.signals.front().signal.text;
+      std::string y_name = plot.y.signals.size() == 1 ? "" : signal.signal.text;
+      Unit drawn_y = y_unit;
+      if (plot.kind == "spectrum") {
+        const double dt = y.t.size() < 2 ? 0 : (y.t.back() - y.t.front()) / static_cast<double>(y.t.size() - 1);
+        auto lines = features::spectrum(y.y, dt);
+        x = std::move(lines.frequency);
+        y.y = std::move(lines.amplitude);
+        x_unit = parse_unit("Hz");
+        x_name = "f";
+        drawn_y = without_offset(y_unit);
+      } else if (plot.kind == "histogram") {
+        auto bars = features::histogram(y.y, plot.bins);
+        x = std::move(bars.middle);
+        y.y = std::move(bars.count);
+        x_unit = y_unit;
+        x_name = signal.signal.text;
+        drawn_y = parse_unit("");
+      }
+      const Unit shown_x = axis_unit(plot.x, x_unit, false);
+      to_unit(x, shown_x);
+      to_unit(y.y, drawn_y);
+      figure.x_label = label(plot.x, x_name, shown_x);
+      figure.y_label = label(plot.y, plot.kind == "histogram" ? "count" : signal.signal.text, drawn_y);
+      const std::string name =
+          y_name.empty() ? title_of(run.text) : y_name + (plot.runs.size() == 1 ? "" : " " + title_of(run.text));
+      add_curve(figure, name,
+                plot.kind == "scatter"     ? "points"
+                : plot.kind == "histogram" ? "steps"
+                                           : "line",
+                run.text + (y_name.empty() ? "" : "-" + signal.signal.text), {x_name, shown_x, std::move(x)},
+                {y_name.empty() ? signal.signal.text : y_name, drawn_y, std::move(y.y)});
+    }
+  }
+
+  void bode(const PlotWish& plot, const std::string& what) {
+    Figure figure = empty(plot);
+    figure.title = plot.title.empty() ? what : plot.title + ": " + what;
+    figure.log_x = true;
+    figure.log_y = what == "gain";
+    for (const auto& run : plot.runs.empty() ? bode_runs() : plot.runs)
+      runner_.at(run.pointer, [&] {
+        const RunResult& result = runner_.result(run);
+        const RunColumn& f = column_of(result, {"f", run.pointer});
+        const RunColumn& y = column_of(result, {what, run.pointer});
+        auto x_values = f.values, y_values = y.values;
+        to_unit(y_values, y.unit);
+        figure.x_label = label(plot.x, "f", f.unit);
+        figure.y_label = axis_text(what, y.unit);
+        add_curve(figure, title_of(run.text), "line", what + "-" + run.text, {"f", f.unit, std::move(x_values)},
+                  {what, y.unit, std::move(y_values)});
+      });
+    if (plot.x.from && plot.x.to)
+      figure.x_range = {JobRunner::si(*plot.x.from, parse_unit("Hz")), JobRunner::si(*plot.x.to, parse_unit("Hz"))};
+    page_.section.figures.push_back(std::move(figure));
+  }
+
+  std::vector<WrittenText> bode_runs() const {
+    std::vector<WrittenText> list;
+    for (const auto& run : runner_.job().runs)
+      if (run.kind == RunKind::linearize) list.push_back({run.name, run.pointer});
+    return list;
+  }
+
+  void add_curve(Figure& figure, const std::string& name, const std::string& style, const std::string& file,
+                 CsvColumn x, CsvColumn y) {
+    if (x.name == y.name) y.name += "_y";
+    CsvTable table;
+    table.file = fmt::format("{}-{}-{}", runner_.job().name, number_, trace_file_name(file));
+    Curve curve;
+    curve.name = name;
+    curve.style = style;
+    curve.trace = table.file;
+    curve.x_column = x.name;
+    curve.y_column = y.name;
+    table.columns = {std::move(x), std::move(y)};
+    figure.curves.push_back(std::move(curve));
+    page_.traces.push_back(std::move(table));
+  }
+
+  /// Ends of the axes as the job gives them: plain numbers are in the axis' unit.
+  void ranges(const PlotWish& plot, Figure& figure) const {
+    const auto range = [](const AxisWish& axis, const Unit& unit, std::vector<double>& to) {
+      if (!axis.from || !axis.to) return;
+      to = {unit.from_si(JobRunner::si(*axis.from, unit)), unit.from_si(JobRunner::si(*axis.to, unit))};
+    };
+    if (figure.curves.empty()) return;
+    const auto& table = page_.traces.back();
+    range(plot.x, table.columns[0].unit, figure.x_range);
+    range(plot.y, table.columns[1].unit, figure.y_range);
+  }
+
+  JobRunner& runner_;
+  JobPage& page_;
+  int number_ = 0;
+};
+
+void add_drawings(const RunsJob& job, const std::vector<std::string>& allowed, JobPage& page) {
+  int number = 0;
+  for (const auto& [caption, file] : job.draw) {
+    const Diagram diagram = read_diagram(file, allowed);
+    const ProgramPointer program = compile_file(diagram);
+    Figure figure;
+    figure.kind = "picture";
+    figure.title = caption;
+    figure.picture = fmt::format("{}-{}.svg", job.name, ++number);
+    try {
+      page.files.emplace_back(figure.picture, diagram_svg(diagram, *program, registry(), {}));
+      page.section.figures.push_back(std::move(figure));
+    } catch (const Error& error) {
+      if (error.problems.front().code != "no_graphviz") throw;
+      page.section.text.push_back(fmt::format("{}: not drawn, {}.", caption, error.problems.front().what));
+    }
+  }
+}
+
+}  // namespace
+
+std::string figure_name(const std::string& job) {
+  if (!job.starts_with("fig")) return job;
+  std::string name = "Fig. " + job.substr(3);
+  std::replace(name.begin(), name.end(), '_', '.');
+  return name;
+}
+
+JobPage page_of(JobRunner& runner, const std::vector<std::string>& allowed) {
+  const RunsJob& job = runner.job();
+  JobPage page;
+  page.section.title = fmt::format("{}: {}", figure_name(job.name), job.title);
+  const auto say = [&](const char* what, const std::string& text) {
+    if (!text.empty()) page.section.text.push_back(what + text);
+  };
+  say("", job.surrogate);
+  say("Assumed: ", job.assumed);
+  say("To be seen: ", job.shows);
+  say("Learnt: ", job.learnt);
+  say("", job.remark);
+  say("", fmt::format("Again: `hysteron reproduce {}`", job.name));
+  add_drawings(job, allowed, page);
+  Plotter plotter(runner, page);
+  for (const auto& plot : job.plots) plotter.draw(plot);
+  return page;
+}
+
+Table claim_table(const std::vector<ClaimOutcome>& claims) {
+  Table table;
+  table.columns = {"claim", "what it says", "what came out", "expected", "outcome"};
+  for (const auto& c : claims) {
+    bool first = true;
+    for (const auto& part : c.parts) {
+      std::string outcome = part.holds ? (c.claim.calibrated.empty() ? "agrees" : "calibrated") : "differs";
+      if (!part.holds && !part.remark.empty()) outcome += ": " + part.remark;
+      table.rows.push_back({first ? c.claim.id : "", first ? c.claim.says : "",
+                            fmt::format("{}: {}", figure_name(part.job), part.came_out), part.expected, outcome});
+      first = false;
+    }
+    if (c.parts.empty())
+      table.rows.push_back({c.claim.id, c.claim.says, "-", "-", fmt::format("{}: {}", c.outcome, c.reason)});
+  }
+  return table;
+}
+
+}  // namespace hysteron

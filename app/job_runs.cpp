@@ -1,0 +1,481 @@
+#include "app/job_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "app/job_values.h"
+#include "app/load.h"
+#include "engine/error.h"
+#include "engine/linearize.h"
+#include "engine/margins.h"
+#include "engine/simulate.h"
+#include "fit/features.h"
+#include "fit/fit.h"
+#include "fit/model.h"
+#include "fit/problem.h"
+#include "fit/thesis_methods.h"
+#include "io/csv.h"
+#include "io/diagram_file.h"
+
+namespace hysteron {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double most_rows = 2e7;
+
+/// The diagram of a run with its settings, compiled. Problems of the settings belong to the job, others to the diagram.
+ProgramPointer program_of(const RunWish& run, const std::vector<std::string>& allowed) {
+  Diagram diagram = read_diagram(run.file, allowed);
+  apply_settings(diagram, run.set, run.choose);
+  return compile_file(diagram);
+}
+
+/// The name behind the last dot: "model.weights[2]" -> "weights[2]".
+std::string last_name(const std::string& path) {
+  const auto dot = path.rfind('.');
+  return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+void put(const Program& program, Run& run, const std::string& path, double si) {
+  const ParameterInfo* info = program.find_parameter(path);
+  if (info == nullptr) set_parameter(program, run, path, si);  // throws, with the nearest name
+  for (const int slot : info->slots) run.p[static_cast<std::size_t>(slot)] = si;
+}
+
+/// A signal by its path, or an output of the diagram by its name; -1 if there is none.
+int find_named(const Program& program, const std::string& name) {
+  for (std::size_t i = 0; i < program.output_names.size(); ++i)
+    if (program.output_names[i] == name) return program.output_signals[i];
+  return program.find_signal(name);
+}
+int named_signal(const Program& program, const std::string& name) {
+  const int signal = find_named(program, name);
+  return signal >= 0 ? signal : program.signal(name);  // throws, with the nearest name
+}
+
+void check_dimension(const Unit& found, const Unit& expected, const std::string& path, const std::string& what) {
+  if (found.dimension == expected.dimension) return;
+  const auto name = [](const Unit& u) { return u.text.empty() ? "a number without unit" : "\"" + u.text + "\""; };
+  fail("wrong_unit", path, fmt::format("{} is in {}, this is in {}", what, name(expected), name(found)),
+       fmt::format("give it in {}", name(expected)));
+}
+
+SimulateOptions options_of(const RunWish& run, const Program& program, const std::string& pointer) {
+  SimulateOptions options = simulate_options(program);
+  if (!run.until && !program.simulate.until)
+    fail("no_end_time", pointer, "nothing says until when to simulate",
+         "write \"until\": \"1 s\" here or in the diagram");
+  if (run.until) options.until = JobRunner::seconds(*run.until);
+  if (run.every) options.every = JobRunner::seconds(*run.every);
+  if (options.every < 0 || options.until <= 0 || (options.every > 0 && options.until / options.every > most_rows))
+    fail("bad_value", run.every ? run.every->pointer : pointer,
+         fmt::format("{} s, every {} s, cannot be simulated", options.until, options.every),
+         "give times above 0 s, and not more than ten million rows");
+  if (!program.input_names.empty())
+    fail("unbound_input", pointer,
+         fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
+         "put a source block (sine, step ...) in its place, or name a diagram that has one");
+  return options;
+}
+
+/// What a fit could not reach: rms of the residual of the first output, and the sum of its squares.
+void add_errors(RunResult& r, const FitResult& found, const DataModel& model) {
+  double sum = 0, rows = 0;
+  for (const auto& one : found.after.recordings) {
+    if (one.role != Role::train || model.measured(one.recording, 0).empty()) continue;
+    const auto n = static_cast<double>(model.measured(one.recording, 0).size());
+    sum += n * one.rms[0] * one.rms[0];
+    rows += n;
+  }
+  const Unit unit = without_offset(model.output_unit(0));
+  r.numbers.emplace_back("rms", Quantity{rows > 0 ? std::sqrt(sum / rows) : 0, unit, true});
+  r.numbers.emplace_back("cost", Quantity{sum, squared(unit), true});
+}
+
+/// Gain and phase over frequency, and what is read off them.
+RunResult bode_result(const Program& program, const LinearizeOptions& wanted, const LinearModel& model,
+                      const Response& response, const Bode& b) {
+  const Unit from = without_offset(program.signals[static_cast<std::size_t>(wanted.from.front())].unit);
+  const Unit to = without_offset(program.signals[static_cast<std::size_t>(wanted.to.front())].unit);
+  const Unit ratio = quotient(to, from), hertz = parse_unit("Hz"), degree = parse_unit("deg");
+  RunResult r;
+  std::vector<double> f;
+  for (const double w : b.w) f.push_back(w / (2 * pi));
+  r.columns = {
+      {"f", "f", hertz, std::move(f)}, {"gain", "gain", ratio, b.magnitude}, {"phase", "phase", degree, b.phase}};
+  const auto hz = [&](const char* name, double w) {
+    r.numbers.emplace_back(name, Quantity{w / (2 * pi), hertz, true});
+  };
+  r.numbers.emplace_back("dc_gain", Quantity{b.magnitude.front(), ratio, true});
+  r.numbers.emplace_back("peak", Quantity{features::largest(b.magnitude), ratio, true});
+  if (const auto width = bandwidth(response, b)) hz("bandwidth", *width);
+  const Margins m = margins(response, b);
+  if (m.phase_margin) {
+    hz("crossover", m.phase_margin_at);
+    r.numbers.emplace_back("phase_margin", Quantity{*m.phase_margin, degree, true});
+  }
+  if (m.gain_margin) {
+    r.numbers.emplace_back("gain_margin", Quantity{*m.gain_margin, Unit{}, true});
+    hz("gain_margin_at", m.gain_margin_at);
+  }
+  std::vector<std::complex<double>> modes;
+  for (const auto& p : model.poles())
+    if (p.imag() >= 0 && p != 0.0) modes.push_back(p);
+  std::sort(modes.begin(), modes.end(), [](auto p, auto q) { return std::abs(p) < std::abs(q); });
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    hz(fmt::format("frequency{}", i + 1).c_str(), std::abs(modes[i]));
+    r.numbers.emplace_back(fmt::format("damping{}", i + 1),
+                           Quantity{-modes[i].real() / std::abs(modes[i]), Unit{}, true});
+  }
+  return r;
+}
+
+}  // namespace
+
+const RunColumn* RunResult::find(const std::string& signal) const {
+  for (const auto& c : columns)
+    if (c.name == signal) return &c;
+  for (const auto& c : columns)
+    if (c.path == signal) return &c;
+  return nullptr;
+}
+
+const Quantity* RunResult::number(const std::string& name) const {
+  for (const auto& [n, q] : numbers)
+    if (n == name) return &q;
+  return nullptr;
+}
+
+// ---- the pool -------------------------------------------------------------------------------------------------------
+
+JobPool::JobPool(std::vector<std::string> allowed) : allowed_(std::move(allowed)) {}
+JobPool::~JobPool() = default;
+
+JobRunner& JobPool::job(const std::string& file) {
+  const std::string identity = std::filesystem::weakly_canonical(file).string();
+  const std::lock_guard lock(mutex_);
+  if (const auto found = jobs_.find(identity); found != jobs_.end()) return *found->second;
+  if (std::find(opening_.begin(), opening_.end(), identity) != opening_.end())
+    fail("circular", file, "jobs take runs of each other", "let one of them do the run itself");
+  RunsJob job = read_runs_job(file, allowed_);
+  opening_.push_back(identity);
+  for (const auto& run : job.runs)
+    if (run.kind == RunKind::elsewhere) this->job(run.file);
+  opening_.pop_back();
+  return *jobs_.emplace(identity, std::make_unique<JobRunner>(*this, std::move(job))).first->second;
+}
+
+// ---- one job --------------------------------------------------------------------------------------------------------
+
+JobRunner::JobRunner(JobPool& pool, RunsJob job) : pool_(&pool), job_(std::move(job)) {}
+
+void JobRunner::blame(Error& error, const std::string& pointer) const {
+  auto problems = error.problems;
+  for (auto& p : problems)
+    if (p.file.empty() && p.line == 0 && (p.path.empty() || p.path.front() != '/')) {
+      if (!p.path.empty() && p.path != pointer && p.what.find(p.path) == std::string::npos)
+        p.what = p.path + ": " + p.what;
+      p.path = pointer;
+    }
+  Error located(error.fault, std::move(problems));
+  locate_problems(located, job_.file);
+  throw Error(located.fault, located.problems);
+}
+
+double JobRunner::si(const WrittenNumber& number, const Unit& expected) {
+  if (!number.number.unit) return expected.to_si(number.number.value);
+  const Unit unit = parse_unit(*number.number.unit, number.pointer);
+  check_dimension(unit, expected, number.pointer, "what is meant");
+  return unit.to_si(number.number.value);
+}
+
+double JobRunner::seconds(const WrittenNumber& number) { return si(number, parse_unit("s")); }
+
+const RunWish& JobRunner::wish(const WrittenText& run) const {
+  std::vector<std::string> known;
+  for (const auto& r : job_.runs) {
+    if (r.name == run.text) return r;
+    known.push_back(r.name);
+  }
+  fail("unknown_run", run.pointer, fmt::format("{} has no run \"{}\"", job_.file, run.text),
+       did_you_mean(run.text, known));
+}
+
+const RunResult& JobRunner::result(const WrittenText& run) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = results_.find(run.text); found != results_.end()) return found->second;
+  const RunWish& wanted = wish(run);
+  if (std::find(doing_.begin(), doing_.end(), run.text) != doing_.end())
+    fail("circular", run.pointer, fmt::format("run \"{}\" needs itself", run.text),
+         "take its numbers from another run");
+  doing_.push_back(run.text);
+  const std::shared_ptr<void> leave(nullptr, [&](void*) { doing_.pop_back(); });
+  RunResult found = at(wanted.pointer, [&] { return done(wanted); });
+  return results_.emplace(run.text, std::move(found)).first->second;
+}
+
+RunResult JobRunner::done(const RunWish& run) {
+  switch (run.kind) {
+    case RunKind::linearize:
+      return linearized(run);
+    case RunKind::fit:
+      return fitted(run);
+    case RunKind::table:
+      return table(run);
+    case RunKind::find:
+      return sought(run);
+    case RunKind::elsewhere:
+      return pool_->job(run.file).result(run.other_run);
+    case RunKind::simulate:
+      break;
+  }
+  return simulated(run);
+}
+
+std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {
+  std::vector<WrittenText> list;
+  const auto add = [&](const WrittenText& signal) {
+    if (!signal.text.empty()) list.push_back(signal);
+  };
+  const auto add_wish = [&](const SignalWish& s, bool of_this_run) {
+    if (of_this_run) add(s.signal);
+    if (s.minus && (s.minus_run ? s.minus_run->text == run.name : of_this_run)) add(*s.minus);
+  };
+  const auto add_value = [&](const ValueWish& v, bool of_this_run) {
+    add_wish(v.of, of_this_run);
+    if (v.over && of_this_run) add(*v.over);
+  };
+  for (const auto& v : job_.values) add_value(v, v.run.text == run.name);
+  if (run.kind == RunKind::find) add_value(run.aim, true);
+  for (const auto& other : job_.runs)
+    if (other.data && other.data->run.text == run.name)
+      for (const auto& [column, signal] : other.data->columns) add(signal);
+  for (const auto& p : job_.plots) {
+    const bool named = std::any_of(p.runs.begin(), p.runs.end(), [&](const auto& r) { return r.text == run.name; });
+    for (const auto* axis : {&p.x, &p.y})
+      for (const auto& s : axis->signals) add_wish(s, named);
+  }
+  return list;
+}
+
+/// By name: what the diagram records, what the job asks of this run, and what plots ask of every run that has it.
+std::vector<std::pair<std::string, int>> JobRunner::signals_of(const RunWish& run, const Program& program) {
+  std::vector<std::pair<std::string, int>> list;
+  const auto add = [&](const std::string& name, int signal) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.first == name; });
+    if (!known && signal >= 0 && name != "t") list.emplace_back(name, signal);
+  };
+  for (std::size_t i = 0; i < program.output_names.size(); ++i) add(program.output_names[i], program.output_signals[i]);
+  for (const int s : program.record_signals) add(program.signals[static_cast<std::size_t>(s)].path, s);
+  for (const auto& name : wanted(run))
+    if (name.text != "t") at(name.pointer, [&] { add(name.text, named_signal(program, name.text)); });
+  for (const auto& p : job_.plots)
+    if (p.runs.empty())
+      for (const auto* axis : {&p.x, &p.y})
+        for (const auto& s : axis->signals) {
+          add(s.signal.text, find_named(program, s.signal.text));
+          if (s.minus && !s.minus_run) add(s.minus->text, find_named(program, s.minus->text));
+        }
+  return list;
+}
+
+/// A run at its start, with what other runs and values of the job give.
+Run JobRunner::started(const RunWish& run, const Program& program) {
+  Run start_of = start(program);
+  for (const auto& use : run.use) {
+    const RunResult& from = at(use.run.pointer, [&]() -> const RunResult& { return result(use.run); });
+    at(use.run.pointer, [&] {
+      for (const auto& [path, q] : from.numbers)
+        if (path != "cost" && path != "rms")
+          put(program, start_of, use.prefix.empty() ? path : use.prefix + "." + last_name(path), q.si);
+    });
+  }
+  for (const auto& set : run.set_of)
+    at(set.path.pointer, [&] { put(program, start_of, set.path.text, set.times * value(set.value).si); });
+  prepare(program, start_of);
+  reset(program, start_of);
+  return start_of;
+}
+
+RunResult JobRunner::simulated(const RunWish& run) {
+  const ProgramPointer program = program_of(run, pool_->allowed());
+  SimulateOptions options = options_of(run, *program, run.pointer);
+  Run start_of = started(run, *program);
+  const auto asked = signals_of(run, *program);
+  for (const auto& [name, signal] : asked)
+    if (std::find(options.signals.begin(), options.signals.end(), signal) == options.signals.end())
+      options.signals.push_back(signal);
+  if (asked.empty())
+    fail("nothing_recorded", run.pointer, "no plot and no value asks for a signal of this run",
+         "name one, or take the run out");
+  const Traces traces = simulate(*program, std::move(start_of), options);
+  RunResult r;
+  r.columns.push_back({"t", "t", parse_unit("s"), traces.t});
+  for (const auto& [name, signal] : asked) {
+    const auto place = std::find(options.signals.begin(), options.signals.end(), signal) - options.signals.begin();
+    const auto& info = program->signals[static_cast<std::size_t>(signal)];
+    r.columns.push_back({name, info.path, info.unit, traces.values[static_cast<std::size_t>(place)]});
+  }
+  return r;
+}
+
+RunResult JobRunner::linearized(const RunWish& run) {
+  const ProgramPointer program = program_of(run, pool_->allowed());
+  const auto signal = [&](const WrittenText& name) {
+    return at(name.pointer, [&] { return named_signal(*program, name.text); });
+  };
+  LinearizeOptions wanted_of;
+  wanted_of.from = {signal(run.from)};
+  wanted_of.to = {signal(run.to)};
+  for (const auto& name : run.open) wanted_of.open.push_back(signal(name));
+  Run point = started(run, *program);
+  const auto zero = std::make_shared<const Series>(Series{{0.0}, {0.0}, Between::linear});
+  for (const auto& input : program->input_names) bind_input(*program, point, input, zero);
+  if (run.at) {
+    SimulateOptions settings = simulate_options(*program);
+    settings.until = seconds(*run.at);
+    settings.instants = {settings.until};
+    if (settings.method == Method::automatic || settings.method == Method::exact) settings.method = Method::bdf;
+    point = *simulate(*program, std::move(point), settings).end;
+  } else {
+    settle_at_rest(*program, point, 0);
+  }
+  const LinearModel model = linearize(*program, point, wanted_of);
+  const Response response = [&](double w) { return model.response(w).front(); };
+  const auto poles = model.poles();
+  double longest = 0;
+  for (const double delay : model.delays) longest = std::max(longest, delay);
+  const Bode b = bode(response, frequencies(poles, longest));
+  return bode_result(*program, wanted_of, model, response, b);
+}
+
+/// The rows of another run as one recording, from rest.
+DataSet JobRunner::data_of(const FitDataWish& wish) {
+  const RunResult& from = result(wish.run);
+  Recording recording;
+  recording.name = wish.run.text;
+  recording.t = from.columns.front().values;
+  const auto [first, last] = window_rows(recording.t, wish.between);
+  recording.first = first;
+  recording.last = last;
+  DataSet data;
+  for (const auto& [column, signal] : wish.columns) {
+    const RunColumn& c = at(signal.pointer, [&]() -> const RunColumn& { return column_of(from, signal); });
+    auto values = c.values;
+    if (std::find(wish.rezero.begin(), wish.rezero.end(), column) != wish.rezero.end())
+      for (auto& v : values) v -= c.values[first];
+    recording.columns[column] = std::move(values);
+    recording.units[column] = c.unit;
+    data.notes[column].to = column;
+    // Every row counts alike: a plain sum of squares, as the thesis has it (Eq. 2.42).
+    data.notes[column].noise = {1e-3 * features::stroke(c.values), {}, 0.0};
+  }
+  data.recordings.push_back(std::move(recording));
+  return data;
+}
+
+RunResult JobRunner::fitted(const RunWish& run) {
+  FitJob job;
+  if (is_job(run.file)) {
+    job = read_fit_job(run.file, pool_->allowed());
+  } else {
+    job.diagram = run.file;
+    job.methods.emplace_back();
+  }
+  if (job.thresholds)
+    fail("not_yet", run.pointer, "a run does not place thresholds",
+         "write them into the diagram, as \"hysteron fit\" found them");
+  if (!run.data && job.data.empty())
+    fail("missing_key", run.pointer, "there is nothing to fit",
+         "write \"data\": {\"run\": \"loop\", \"columns\": {...}}, or name a fit job");
+  Diagram diagram = read_diagram(job.diagram, pool_->allowed());
+  apply_settings(diagram, job.set, job.choose);
+  apply_settings(diagram, run.set, run.choose);
+  const ProgramPointer program = compile_file(diagram);
+  const auto data =
+      std::make_shared<const DataSet>(run.data ? data_of(*run.data) : read_dataset(job.data, pool_->allowed()));
+  check_binding(*data, *program);
+  FitProblem problem = problem_of(job, *program, *data, run.free);
+  DataModel model(program, data, {});
+  const NoiseModel noise = noise_before_fit(model);
+  FitMethod& method = problem.methods.front();
+  method.options.intervals = false;
+  const FitResult found =
+      method.of_thesis ? fit_as_thesis(model, noise, method.name) : fit(model, noise, problem.free, method.options);
+  if (!found.ok)
+    fail_numerics("fit_failed", run.pointer, found.error, "start from other values, or give narrower bounds");
+  RunResult r;
+  for (const auto& e : found.estimates) r.numbers.emplace_back(e.path, Quantity{e.used, e.unit, e.difference});
+  add_errors(r, found, model);
+  return r;
+}
+
+RunResult JobRunner::table(const RunWish& run) const {
+  const CsvTable csv = read_csv(run.file);
+  RunResult r;
+  for (const auto& column : csv.columns) {
+    RunColumn c{column.name, column.name, column.unit, column.values};
+    for (auto& v : c.values) v = column.unit.to_si(v);
+    r.columns.push_back(std::move(c));
+  }
+  return r;
+}
+
+/// Secant steps that keep the sign change between them (Illinois), until the aim is met to a relative 1e-12 or the
+/// parameter no longer changes.
+RunResult JobRunner::sought(const RunWish& run) {
+  const ProgramPointer program = program_of(run, pool_->allowed());
+  const ParameterInfo* info = program->find_parameter(run.parameter.text);
+  if (info == nullptr) {
+    std::vector<std::string> names;
+    for (const auto& p : program->parameters) names.push_back(p.path);
+    fail("unknown_parameter", run.parameter.pointer, fmt::format("there is no parameter \"{}\"", run.parameter.text),
+         did_you_mean(run.parameter.text, names));
+  }
+  const Unit unit = parameter_unit(*program, *info);
+  double low = si(run.range[0], unit), high = si(run.range[1], unit), goal_size = 0;
+  RunWish trial = run;
+  trial.kind = RunKind::simulate;
+  Unit aim_unit;
+  const auto miss = [&](double x) {
+    trial.set.push_back({run.parameter.text, fmt::format("{:.17g} {}", unit.from_si(x), unit.text)});
+    const Quantity reached = take(run.aim, simulated(trial));
+    trial.set.pop_back();
+    aim_unit = reached.unit;
+    const double goal = si(run.equals, reached.difference ? without_offset(reached.unit) : reached.unit);
+    goal_size = std::max(std::abs(goal), std::abs(reached.si));
+    return reached.si - goal;
+  };
+  double f_low = miss(low), f_high = miss(high);
+  const double scale = std::max({std::abs(f_low), std::abs(f_high), goal_size});
+  if ((f_low > 0) == (f_high > 0) && f_low != 0 && f_high != 0)
+    fail_numerics("not_bracketed", run.range[0].pointer,
+                  fmt::format("at both ends of the range the value lies on the same side ({:.4g} and {:.4g} {} off)",
+                              aim_unit.difference_from_si(f_low), aim_unit.difference_from_si(f_high), aim_unit.text),
+                  "give a wider range");
+  double x = std::abs(f_low) < std::abs(f_high) ? low : high;
+  for (int i = 0; i < 60 && f_low != f_high; ++i) {
+    x = high - f_high * (high - low) / (f_high - f_low);
+    const double f = miss(x);
+    if (std::abs(f) <= 1e-12 * scale || x == low || x == high) break;
+    if ((f > 0) != (f_high > 0)) {
+      low = high;
+      f_low = f_high;
+    } else {
+      f_low /= 2;
+    }
+    if (std::abs(x - high) <= 1e-13 * std::abs(x)) break;
+    high = x;
+    f_high = f;
+  }
+  RunResult r;
+  r.numbers.emplace_back(run.parameter.text, Quantity{x, unit, info->difference});
+  return r;
+}
+
+}  // namespace hysteron

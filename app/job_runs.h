@@ -1,0 +1,121 @@
+// Decides how the runs of a job ("do": "runs") come to their results: simulations, linearizations, fits, tables, and
+// runs of other jobs; each done once, when it is asked for. Does not draw (job_figures.h) and does not judge
+// (claims.h).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/program.h"
+#include "engine/units.h"
+#include "io/dataset.h"
+#include "io/runs_job.h"
+
+namespace hysteron {
+
+/// A number with its unit, in SI; a difference does not know the unit's offset.
+struct Quantity {
+  double si = 0;
+  Unit unit{};
+  bool difference = false;
+};
+
+/// A signal over the rows of a run, in SI.
+struct RunColumn {
+  std::string name;  ///< as it was asked for
+  std::string path;  ///< as the program calls it
+  Unit unit{};
+  std::vector<double> values;
+};
+
+struct RunResult {
+  std::vector<RunColumn> columns;                         ///< the first one: time, or frequency
+  std::vector<std::pair<std::string, Quantity>> numbers;  ///< fitted parameters, margins ...
+  const RunColumn* find(const std::string& signal) const;
+  const Quantity* number(const std::string& name) const;
+};
+
+class JobRunner;
+
+/// The jobs that were asked for so far; several threads may ask. A job is read once.
+class JobPool {
+ public:
+  explicit JobPool(std::vector<std::string> allowed = {});
+  ~JobPool();
+  /// Throws Error as reading does, and "circular" where jobs take runs of each other.
+  JobRunner& job(const std::string& file);
+  const std::vector<std::string>& allowed() const { return allowed_; }
+
+ private:
+  std::vector<std::string> allowed_;
+  std::recursive_mutex mutex_;
+  std::map<std::string, std::unique_ptr<JobRunner>> jobs_;
+  std::vector<std::string> opening_;
+};
+
+/// One job and what its runs have given so far.
+class JobRunner {
+ public:
+  JobRunner(JobPool& pool, RunsJob job);
+  const RunsJob& job() const { return job_; }
+
+  /// Throws Error whose problems tell file and line of the job or of the diagram.
+  const RunResult& result(const WrittenText& run);
+  const Quantity& value(const WrittenText& name);
+  /// What `wish` takes from `result`; used for values of the job, and while something is sought.
+  Quantity take(const ValueWish& wish, const RunResult& result);
+
+  /// A signal of a run, less what the wish says, inside the window, both ends included; with `rezero` less its first
+  /// row. SI.
+  struct Rows {
+    std::vector<double> t, y;
+    Unit unit{};
+    bool difference = false;
+  };
+  Rows rows(const SignalWish& wish, const RunResult& result, const Window& window, bool rezero);
+  /// A number of the job in SI; a plain one is in the unit expected. Throws Error "wrong_unit" at its place.
+  static double si(const WrittenNumber& number, const Unit& expected);
+  static double seconds(const WrittenNumber& number);
+
+  /// Runs `action`; problems of an Error that stand nowhere yet get `pointer` of this job and its line.
+  template <class Action>
+  auto at(const std::string& pointer, const Action& action) -> decltype(action());
+
+ private:
+  const RunWish& wish(const WrittenText& run) const;
+  RunResult done(const RunWish& run);
+  Run started(const RunWish& run, const Program& program);
+  std::vector<std::pair<std::string, int>> signals_of(const RunWish& run, const Program& program);
+  DataSet data_of(const FitDataWish& wish);
+  RunResult simulated(const RunWish& run);
+  RunResult linearized(const RunWish& run);
+  RunResult fitted(const RunWish& run);
+  RunResult sought(const RunWish& run);
+  RunResult table(const RunWish& run) const;
+  /// Signals that the job asks of a run, with where it does so.
+  std::vector<WrittenText> wanted(const RunWish& run) const;
+  [[noreturn]] void blame(Error& error, const std::string& pointer) const;
+
+  JobPool* pool_;
+  RunsJob job_;
+  std::recursive_mutex mutex_;
+  std::map<std::string, RunResult> results_;
+  std::map<std::string, Quantity> values_;
+  std::vector<std::string> doing_;  ///< what is being worked out: a value that needs itself is noticed
+};
+
+template <class Action>
+auto JobRunner::at(const std::string& pointer, const Action& action) -> decltype(action()) {
+  try {
+    return action();
+  } catch (Error& error) {
+    blame(error, pointer);
+  }
+}
+
+}  // namespace hysteron

@@ -1,0 +1,479 @@
+#include "io/runs_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/json_reader.h"
+#include "io/project_path.h"
+#include "io/value_text.h"
+
+namespace hysteron {
+namespace {
+
+WrittenText text_at(const JsonPlace& place) { return {place.text().value_or(""), place.pointer()}; }
+
+std::optional<WrittenText> text_of(const JsonPlace& object, const char* key) {
+  const auto place = object.find(key);
+  return place ? std::optional(text_at(*place)) : std::nullopt;
+}
+
+std::optional<WrittenNumber> number_of(const JsonPlace& object, const char* key) {
+  const auto place = object.find(key);
+  const auto read = place ? read_number(*place) : std::nullopt;
+  return read ? std::optional(WrittenNumber{*read, place->pointer()}) : std::nullopt;
+}
+
+/// A number with its unit as text, or a plain number.
+std::optional<WrittenText> quantity_of(const JsonPlace& object, const char* key) {
+  const auto place = object.find(key);
+  if (place && place->is_number()) return WrittenText{number_text(*place->number()), place->pointer()};
+  return text_of(object, key);
+}
+
+bool truth_of(const JsonPlace& object, const char* key) {
+  const auto place = object.find(key);
+  return place && place->truth().value_or(false);
+}
+
+/// A text, or a list of texts.
+std::vector<WrittenText> texts_of(const JsonPlace& object, const char* key) {
+  std::vector<WrittenText> list;
+  const auto place = object.find(key);
+  if (!place) return list;
+  if (place->is_text()) return {text_at(*place)};
+  if (place->expect_array("[\"one\", \"two\"]"))
+    for (const auto& element : place->elements()) list.push_back(text_at(element));
+  return list;
+}
+
+class RunsReader {
+ public:
+  RunsReader(const std::string& file, const std::vector<std::string>& allowed) : file_(file), paths_(file, allowed) {}
+
+  RunsJob read() {
+    const JsonPlace root = file_.root();
+    if (!root.expect_object("{\"format\": 1, \"do\": \"runs\", \"diagram\": \"stage.json\", \"runs\": {...}}"))
+      file_.throw_if_any();
+    check_format(root, "job");
+    root.only({"$schema", "format", "do",  "title", "source", "remark", "surrogate", "assumed", "shows",  "learnt",
+               "diagram", "choose", "set", "until", "every",  "draw",   "runs",      "plots",   "values", "claims"});
+    head(root);
+    if (const auto runs = root.find("runs"); runs && runs->expect_object("{\"none\": {\"choose\": {...}}}"))
+      for (const auto& [name, place] : runs->members()) run(name, place);
+    if (const auto plots = root.find("plots"); plots && plots->expect_array("[{\"y\": {\"signal\": \"stage\"}}]"))
+      for (const auto& place : plots->elements()) plot(place);
+    if (const auto values = root.find("values"); values && values->expect_object("{\"stroke\": {\"take\": ...}}"))
+      for (const auto& [name, place] : values->members())
+        if (check_name(place, name, "value")) job_.values.push_back(value(name, place, true));
+    if (const auto claims = root.find("claims"); claims && claims->expect_array("[{\"id\": \"C2-07\", ...}]"))
+      for (const auto& place : claims->elements()) claim(place);
+    check_names();
+    file_.throw_if_any();
+    return std::move(job_);
+  }
+
+ private:
+  void head(const JsonPlace& root) {
+    job_.file = file_.file();
+    job_.name = std::filesystem::path(job_.file).stem().string();
+    text_member(root, "$schema");
+    job_.title = text_member(root, "title");
+    job_.source = text_member(root, "source");
+    job_.remark = text_member(root, "remark");
+    job_.surrogate = text_member(root, "surrogate");
+    job_.assumed = text_member(root, "assumed");
+    job_.shows = text_member(root, "shows");
+    job_.learnt = text_member(root, "learnt");
+    default_.file = path(root, "diagram");
+    settings(root, default_);
+    default_.until = number_of(root, "until");
+    default_.every = number_of(root, "every");
+    if (const auto draw = root.find("draw"); draw && draw->expect_object("{\"The loop\": \"loop.json\"}"))
+      for (const auto& [caption, place] : draw->members())
+        if (const auto written = place.text()) job_.draw.emplace_back(caption, resolved(place, *written));
+  }
+
+  std::string resolved(const JsonPlace& place, const std::string& written) {
+    if (const auto found = paths_.resolve(file_.file(), written)) return *found;
+    place.add("outside_project", fmt::format("\"{}\" lies outside the project {}", written, paths_.project()),
+              outside_cure(written));
+    return "";
+  }
+  std::string path(const JsonPlace& object, const char* key) {
+    const auto place = object.find(key);
+    const auto written = place ? place->text() : std::nullopt;
+    return written ? resolved(*place, *written) : "";
+  }
+
+  /// "choose" and "set"; a value to be set may be one of the job's own: {"of": "bottom"}.
+  static void settings(const JsonPlace& object, RunWish& run) {
+    if (const auto choose = object.find("choose"); choose && choose->expect_object("{\"compensator\": \"none\"}"))
+      for (const auto& [name, place] : choose->members())
+        if (const auto text = place.text()) run.choose.push_back({name, *text});
+    const auto set = object.find("set");
+    if (!set || !set->expect_object("{\"controller.kp\": \"0.5 V/um\"}")) return;
+    for (const auto& [name, place] : set->members()) {
+      if (place.is_number()) {
+        run.set.push_back({name, number_text(*place.number())});
+      } else if (place.is_object() && place.find("of")) {
+        place.only({"of", "times"});
+        run.set_of.push_back(
+            {{name, place.pointer()}, text_at(*place.find("of")), number_member(place, "times").value_or(1)});
+      } else if (const auto text = place.text()) {
+        run.set.push_back({name, *text});
+      }
+    }
+  }
+
+  static Window window(const JsonPlace& object, const char* key = "between") {
+    Window w;
+    const auto place = object.find(key);
+    if (!place || !place->expect_array("[\"0.8 s\", \"1 s\"]")) return w;
+    const auto ends = place->elements();
+    if (ends.size() != 2) {
+      place->add("bad_value", "a window has two ends", "write \"between\": [\"0.8 s\", \"1 s\"]");
+      return w;
+    }
+    const auto from = read_number(ends[0]), to = read_number(ends[1]);
+    if (from && to) {
+      w.from = WrittenNumber{*from, ends[0].pointer()};
+      w.to = WrittenNumber{*to, ends[1].pointer()};
+    }
+    return w;
+  }
+
+  /// "minus": "reference", or {"run": "golden", "signal": "y"}.
+  static void minus(const JsonPlace& object, SignalWish& wish) {
+    const auto place = object.find("minus");
+    if (!place) return;
+    if (place->is_object()) {
+      place->only({"run", "signal"});
+      if (const auto run = place->need("run", "name the run that is subtracted")) wish.minus_run = text_at(*run);
+      if (const auto signal = place->need("signal", "name the signal that is subtracted"))
+        wish.minus = text_at(*signal);
+    } else {
+      wish.minus = text_at(*place);
+    }
+  }
+
+  // ---- runs ---------------------------------------------------------------------------------------------------------
+
+  void run(const std::string& name, const JsonPlace& place) {
+    check_name(place, name, "run");
+    if (!place.expect_object("{\"choose\": {\"compensator\": \"none\"}}")) return;
+    const auto kind = kind_of(place);
+    RunWish r;
+    if (!place.find("diagram")) r = default_;
+    r.name = name;
+    r.pointer = place.pointer();
+    r.title = text_member(place, "title");
+    text_member(place, "remark");
+    r.kind = kind;
+    if (place.find("diagram")) r.file = path(place, "diagram");
+    if (r.title.empty()) r.title = name;
+    for (auto& c : r.choose) c.path = c.path;
+    settings(place, r);
+    if (const auto until = number_of(place, "until")) r.until = until;
+    if (const auto every = number_of(place, "every")) r.every = every;
+    use(place, r);
+    if (kind == RunKind::linearize) linearize(place, r);
+    if (kind == RunKind::fit) fit(place, r);
+    if (kind == RunKind::find) find(place, r);
+    if (kind == RunKind::table) r.file = path(place, "table");
+    if (kind == RunKind::elsewhere) {
+      r.file = path(place, "from");
+      r.other_run = text_of(place, "run").value_or(WrittenText{name, place.pointer()});
+    }
+    if (r.file.empty() && kind != RunKind::table && kind != RunKind::elsewhere)
+      place.add("missing_key", "nothing says which diagram this run simulates",
+                "write \"diagram\": \"stage.json\" here or at the top of the job");
+    job_.runs.push_back(std::move(r));
+  }
+
+  RunKind kind_of(const JsonPlace& place) {
+    std::vector<std::string> known{"title", "remark"};
+    const auto also = [&](std::initializer_list<const char*> keys) {
+      known.insert(known.end(), keys.begin(), keys.end());
+    };
+    RunKind kind = RunKind::simulate;
+    if (place.find("linearize")) {
+      kind = RunKind::linearize;
+      also({"linearize", "diagram", "choose", "set", "use"});
+    } else if (place.find("fit")) {
+      kind = RunKind::fit;
+      also({"fit", "data", "free", "choose", "set"});
+    } else if (place.find("table")) {
+      kind = RunKind::table;
+      also({"table"});
+    } else if (place.find("from")) {
+      kind = RunKind::elsewhere;
+      also({"from", "run"});
+    } else if (place.find("find")) {
+      kind = RunKind::find;
+      also({"find", "diagram", "choose", "set", "use", "until", "every"});
+    } else {
+      also({"diagram", "choose", "set", "use", "until", "every"});
+    }
+    place.only(known);
+    return kind;
+  }
+
+  /// "use": "fitted", ["a", "b"], or {"fitted": "compensator"}.
+  static void use(const JsonPlace& place, RunWish& r) {
+    const auto at = place.find("use");
+    if (!at) return;
+    if (at->is_object()) {
+      for (const auto& [name, prefix] : at->members())
+        r.use.push_back({{name, prefix.pointer()}, prefix.text().value_or("")});
+      return;
+    }
+    for (auto& name : texts_of(place, "use")) r.use.push_back({std::move(name), ""});
+  }
+
+  static void linearize(const JsonPlace& place, RunWish& r) {
+    const JsonPlace at = *place.find("linearize");
+    if (!at.expect_object("{\"from\": \"error\", \"to\": \"stage\", \"open\": \"error\"}")) return;
+    at.only({"from", "to", "open", "at"});
+    if (const auto from = at.need("from", "name the signal where the small motion enters")) r.from = text_at(*from);
+    if (const auto to = at.need("to", "name the signal at which it is looked")) r.to = text_at(*to);
+    r.open = texts_of(at, "open");
+    r.at = number_of(at, "at");
+  }
+
+  void fit(const JsonPlace& place, RunWish& r) {
+    r.file = path(place, "fit");
+    r.choose.clear();
+    r.set.clear();
+    r.set_of.clear();
+    settings(place, r);
+    for (const auto& name : texts_of(place, "free")) r.free.push_back(name.text);
+    const auto data = place.find("data");
+    if (!data || !data->expect_object("{\"run\": \"loop\", \"columns\": {\"u\": \"drive\", \"y\": \"stage\"}}")) return;
+    data->only({"run", "columns", "between", "rezero"});
+    FitDataWish wish;
+    if (const auto run = data->need("run", "name the run whose rows are fitted")) wish.run = text_at(*run);
+    if (const auto columns = data->need("columns", "say which signal is which input or output");
+        columns && columns->expect_object("{\"u\": \"drive\", \"y\": \"stage\"}"))
+      for (const auto& [name, signal] : columns->members()) wish.columns.emplace_back(name, text_at(signal));
+    wish.between = window(*data);
+    for (const auto& name : texts_of(*data, "rezero")) wish.rezero.push_back(name.text);
+    r.data = std::move(wish);
+  }
+
+  void find(const JsonPlace& place, RunWish& r) {
+    const JsonPlace at = *place.find("find");
+    if (!at.expect_object("{\"parameter\": \"a.b\", \"range\": [1, 2], \"value\": {...}, \"equals\": \"0 V\"}")) return;
+    at.only({"parameter", "range", "value", "equals"});
+    if (const auto name = at.need("parameter", "name what is varied: \"drive.amplitude\""))
+      r.parameter = text_at(*name);
+    if (const auto range = at.need("range", "give two values between which it lies");
+        range && range->expect_array("[\"1 um\", \"2 um\"]"))
+      for (const auto& end : range->elements())
+        if (const auto number = read_number(end)) r.range.push_back({*number, end.pointer()});
+    if (r.range.size() != 2) at.add("bad_value", "a range has two ends", "write \"range\": [\"1 um\", \"2 um\"]");
+    if (const auto aim = at.need("value", "say what is measured: {\"take\": \"stroke\", \"of\": \"stage\"}"))
+      r.aim = value("", *aim, false);
+    if (at.need("equals", "say what it shall be: \"6 um\""))
+      if (const auto number = number_of(at, "equals")) r.equals = *number;
+  }
+
+  // ---- values, plots, claims ----------------------------------------------------------------------------------------
+
+  static ValueWish value(const std::string& name, const JsonPlace& place, bool needs_run) {
+    ValueWish v;
+    v.name = name;
+    v.pointer = place.pointer();
+    if (!place.expect_object("{\"take\": \"stroke\", \"of\": \"stage\", \"run\": \"none\"}")) return v;
+    for (const auto& combination : combinations())
+      if (const auto at = place.find(combination)) {
+        place.only({combination, "remark"});
+        v.take = {combination, at->pointer()};
+        v.over_values = texts_of(place, combination.c_str());
+        if ((combination == "ratio" || combination == "difference") && v.over_values.size() != 2)
+          at->add("bad_value", fmt::format("a {} is of two values", combination), "write [\"first\", \"second\"]");
+        return v;
+      }
+    place.only(
+        {"take", "of", "minus", "over", "run", "between", "rezero", "at", "above", "figure", "parameter", "remark"});
+    text_member(place, "remark");
+    const auto take = place.need("take", "say what is taken: \"stroke\", \"rms\", \"area\" ...");
+    if (take) v.take = text_at(*take);
+    if (take && std::find(takes().begin(), takes().end(), v.take.text) == takes().end())
+      take->add("bad_value", fmt::format("{} cannot be taken", json_quoted(v.take.text)),
+                did_you_mean(v.take.text, takes()));
+    v.of.signal = text_of(place, "of").value_or(WrittenText{"", place.pointer()});
+    minus(place, v.of);
+    v.over = text_of(place, "over");
+    if (v.take.text == "area" && !v.over)
+      place.add("missing_key", "an area is of one signal over another", "write \"over\": \"drive\"");
+    if (v.take.text == "at") place.need("at", "say when: \"at\": \"0.2 s\"");
+    v.between = window(place);
+    v.rezero = truth_of(place, "rezero");
+    v.at = number_of(place, "at");
+    v.above = number_of(place, "above");
+    v.figure =
+        text_of(place, "figure").value_or(text_of(place, "parameter").value_or(WrittenText{"", place.pointer()}));
+    if (needs_run && v.take.text != "computed") place.need("run", "name the run on which it is taken");
+    v.run = text_of(place, "run").value_or(WrittenText{"", place.pointer()});
+    return v;
+  }
+
+  AxisWish axis(const JsonPlace& place) {
+    AxisWish a;
+    const auto signal = [&](const JsonPlace& object) {
+      SignalWish wish;
+      if (const auto at = object.find("signal")) wish.signal = text_at(*at);
+      minus(object, wish);
+      return wish;
+    };
+    if (!place.expect_object("{\"signal\": \"stage\", \"unit\": \"um\"}")) return a;
+    place.only({"signal", "signals", "minus", "label", "unit", "from", "to", "log"});
+    for (const auto& one : texts_of(place, "signals")) a.signals.push_back({one});
+    if (place.find("signal")) a.signals.push_back(signal(place));
+    a.label = text_member(place, "label");
+    a.unit = text_of(place, "unit");
+    a.from = number_of(place, "from");
+    a.to = number_of(place, "to");
+    a.log = truth_of(place, "log");
+    return a;
+  }
+
+  void plot(const JsonPlace& place) {
+    if (!place.expect_object("{\"title\": \"...\", \"y\": {\"signal\": \"stage\"}}")) return;
+    place.only({"title", "kind", "x", "y", "runs", "between", "rezero", "bins", "caption", "remark"});
+    PlotWish p;
+    p.pointer = place.pointer();
+    p.title = text_member(place, "title");
+    p.caption = text_member(place, "caption");
+    static const std::vector<std::string> kinds{"curve", "spectrum", "histogram", "scatter", "bode"};
+    if (const auto kind = text_of(place, "kind")) {
+      p.kind = kind->text;
+      if (std::find(kinds.begin(), kinds.end(), p.kind) == kinds.end())
+        place.find("kind")->add("bad_value", fmt::format("{} is no kind of plot", json_quoted(p.kind)),
+                                did_you_mean(p.kind, kinds));
+    }
+    if (const auto x = place.find("x")) p.x = axis(*x);
+    if (const auto y =
+            p.kind == "bode" ? place.find("y") : place.need("y", "say what is drawn: {\"signal\": \"stage\"}"))
+      p.y = axis(*y);
+    if (p.kind != "bode" && p.y.signals.empty() && place.find("y"))
+      place.find("y")->add("missing_key", "nothing says which signal is drawn", "write \"signal\": \"stage\"");
+    p.runs = texts_of(place, "runs");
+    p.between = window(place);
+    p.rezero = truth_of(place, "rezero");
+    if (const auto bins = number_member(place, "bins")) p.bins = std::clamp(static_cast<int>(*bins), 2, 1000);
+    job_.plots.push_back(std::move(p));
+  }
+
+  void claim(const JsonPlace& place) {
+    if (!place.expect_object(
+            "{\"id\": \"C2-07\", \"value\": \"stroke\", \"expected\": \"6.6 um\", \"tolerance\": \"1 %\"}"))
+      return;
+    place.only({"id", "value", "expected", "tolerance", "thesis", "must", "order", "above", "below", "remark"});
+    ClaimPart c;
+    c.pointer = place.pointer();
+    if (const auto id = place.need("id", "write \"id\": \"C2-07\"")) c.id = id->text().value_or("");
+    c.value = text_of(place, "value").value_or(WrittenText{"", place.pointer()});
+    c.expected = quantity_of(place, "expected");
+    c.tolerance = quantity_of(place, "tolerance");
+    c.above = quantity_of(place, "above");
+    c.below = quantity_of(place, "below");
+    c.thesis = text_member(place, "thesis");
+    c.remark = text_member(place, "remark");
+    c.order = texts_of(place, "order");
+    if (const auto must = text_of(place, "must")) {
+      c.must_differ = must->text == "differ";
+      if (must->text != "differ" && must->text != "agree")
+        place.find("must")->add("bad_value", fmt::format("{} is nothing that a claim must", json_quoted(must->text)),
+                                "write \"must\": \"differ\", or leave it out");
+    }
+    if (c.order.empty() && c.value.text.empty())
+      place.add("missing_key", "nothing says which value the claim is about",
+                "write \"value\": \"stroke\", or \"order\"");
+    if (c.order.empty() && !c.expected && !c.above && !c.below)
+      place.add("missing_key", "nothing says what the claim expects", "write \"expected\", \"above\" or \"below\"");
+    if (c.expected && !c.tolerance)
+      place.add("missing_key", "an expected value needs a tolerance", "write \"tolerance\": \"1 %\" or \"1e-6 um\"");
+    job_.claims.push_back(std::move(c));
+  }
+
+  // ---- names --------------------------------------------------------------------------------------------------------
+
+  void check_run(const WrittenText& name) {
+    if (name.text.empty()) return;
+    std::vector<std::string> known;
+    for (const auto& r : job_.runs) known.push_back(r.name);
+    if (std::find(known.begin(), known.end(), name.text) == known.end())
+      file_.add("unknown_run", name.pointer, fmt::format("there is no run \"{}\"", name.text),
+                did_you_mean(name.text, known));
+  }
+  void check_value(const WrittenText& name) {
+    if (name.text.empty()) return;
+    std::vector<std::string> known;
+    for (const auto& v : job_.values) known.push_back(v.name);
+    if (std::find(known.begin(), known.end(), name.text) == known.end())
+      file_.add("unknown_value", name.pointer, fmt::format("there is no value \"{}\"", name.text),
+                did_you_mean(name.text, known));
+  }
+  void check_value_wish(const ValueWish& v) {
+    check_run(v.run);
+    if (v.of.minus_run) check_run(*v.of.minus_run);
+    for (const auto& name : v.over_values) check_value(name);
+  }
+
+  void check_names() {
+    for (const auto& r : job_.runs) {
+      for (const auto& u : r.use) check_run(u.run);
+      for (const auto& s : r.set_of) check_value(s.value);
+      if (r.data) check_run(r.data->run);
+      if (r.kind == RunKind::find) check_value_wish(r.aim);
+    }
+    for (const auto& v : job_.values) check_value_wish(v);
+    for (const auto& p : job_.plots) {
+      for (const auto& name : p.runs) check_run(name);
+      for (const auto& s : p.y.signals)
+        if (s.minus_run) check_run(*s.minus_run);
+    }
+    for (const auto& c : job_.claims) {
+      check_value(c.value);
+      for (const auto& name : c.order) check_value(name);
+    }
+  }
+
+  JsonFile file_;
+  ProjectPaths paths_;
+  RunsJob job_;
+  RunWish default_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& takes() {
+  static const std::vector<std::string> names{"at",          "first",       "last",      "min",        "max",
+                                              "stroke",      "mean",        "rms",       "max_abs",    "area",
+                                              "remanence",   "sum_squares", "rss_above", "line_above", "parameter",
+                                              "cost",        "dc_gain",     "bandwidth", "crossover",  "phase_margin",
+                                              "gain_margin", "frequency",   "damping",   "peak",       "computed"};
+  return names;
+}
+
+const std::vector<std::string>& combinations() {
+  static const std::vector<std::string> names{"ratio", "difference", "sum", "product", "largest", "smallest", "spread"};
+  return names;
+}
+
+std::string what_a_job_does(const std::string& file) {
+  JsonFile json(file);
+  const auto root = json.root();
+  if (!root.is_object()) return "";
+  const auto what = root.find("do");
+  return what && what->is_text() ? *what->text() : "";
+}
+
+RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed) {
+  return RunsReader(file, allowed).read();
+}
+
+}  // namespace hysteron

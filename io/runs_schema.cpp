@@ -1,0 +1,176 @@
+#include "io/runs_schema.h"
+
+#include "io/runs_job.h"
+
+namespace hysteron::schema {
+namespace {
+
+Json flag(const char* meaning) { return {{"type", "boolean"}, {"description", meaning}}; }
+
+Json names(const char* meaning) {
+  return {{"description", meaning}, {"anyOf", Json::array({text("one"), list_of("several", {{"type", "string"}})})}};
+}
+
+Json window() {
+  Json w = list_of("from when to when, both ends included", {{"$ref", "#/definitions/quantity"}});
+  w["minItems"] = w["maxItems"] = 2;
+  return w;
+}
+
+Json minus() {
+  return {
+      {"description", "a signal that is subtracted: of the same run, or of another one at the same instants"},
+      {"anyOf", Json::array({text("of the same run"),
+                             object("of another run", {{"run", text("")}, {"signal", text("")}}, {"run", "signal"})})}};
+}
+
+void add_settings(Json& properties) {
+  properties["choose"] = {{"type", "object"},
+                          {"description", "candidates of choices: {\"compensator\": \"none\"}"},
+                          {"additionalProperties", {{"type", "string"}}}};
+  const Json of =
+      object("a value of this job", {{"of", text("its name")}, {"times", number("factor; default 1")}}, {"of"});
+  properties["set"] = {
+      {"type", "object"},
+      {"description",
+       "other values of parameters: {\"controller.kp\": \"0.5 V/um\", \"model.origin\": {\"of\": \"bottom\"}}"},
+      {"additionalProperties", {{"anyOf", Json::array({{{"type", {"string", "number"}}}, of})}}}};
+}
+
+void add_times(Json& properties) {
+  properties["until"] = quantity("until when it is simulated; default: as the diagram says", false);
+  properties["every"] = quantity("how often a row is recorded; default: as the diagram says", false);
+}
+
+Json value(bool with_run) {
+  Json properties{{"take", choice_of("what is taken", takes())},
+                  {"of", text("the signal")},
+                  {"minus", minus()},
+                  {"over", text("of an area: the signal along x")},
+                  {"between", window()},
+                  {"rezero", flag("less the value at the first row")},
+                  {"at", quantity("of at: when", false)},
+                  {"above", quantity("of rss_above and line_above: frequency", false)},
+                  {"parameter", text("of parameter: its path in the fit")},
+                  {"figure", text("of frequency and damping: 1, 2 ... by rising frequency; of computed: the formula")},
+                  {"remark", text("what a reader should know")}};
+  if (with_run) properties["run"] = text("the run");
+  Json measured = object("measured on a run", std::move(properties), {"take"});
+  if (!with_run) return measured;
+  Json combined = Json::array();
+  for (const auto& how : combinations())
+    combined.push_back(object(how + " of values", {{how, names("values of this job")}, {"remark", text("")}}, {how}));
+  combined.insert(combined.begin(), std::move(measured));
+  return {{"anyOf", std::move(combined)}};
+}
+
+Json run() {
+  Json properties;
+  properties["title"] = text("its name in legends");
+  properties["remark"] = text("what a reader should know");
+  properties["diagram"] = text("its diagram; default: that of the job, with the job's choose and set");
+  add_settings(properties);
+  add_times(properties);
+  properties["use"] = {
+      {"description",
+       "parameters that another run found: \"fitted\", or {\"fitted\": \"compensator\"}, which sets "
+       "compensator.alpha to its alpha"},
+      {"anyOf", Json::array({text("one run"), list_of("several", {{"type", "string"}}),
+                             Json{{"type", "object"}, {"additionalProperties", {{"type", "string"}}}}})}};
+  properties["linearize"] =
+      object("gain and phase over frequency in place of a simulation",
+             {{"from", text("where the small motion enters")},
+              {"to", text("where it is looked at")},
+              {"open", names("the loop is opened there")},
+              {"at", quantity("operating point: where a simulation is then; default: the equilibrium", false)}},
+             {"from", "to"});
+  properties["fit"] = text("a fit in place of a simulation: its job, or the diagram whose free parameters are sought");
+  properties["free"] = names("parameters that are free too: core.weights");
+  properties["data"] = object("of a fit: the rows of another run, from rest",
+                              {{"run", text("")},
+                               {"columns",
+                                {{"type", "object"},
+                                 {"description", "input or output of the diagram -> signal of the run"},
+                                 {"additionalProperties", {{"type", "string"}}}}},
+                               {"between", window()},
+                               {"rezero", names("columns less their value at the first row of the window")}},
+                              {"run", "columns"});
+  properties["table"] = text("a CSV in place of a simulation");
+  properties["from"] = text("another job, whose run this is");
+  properties["run"] = text("of from: its name there; default: the same");
+  Json range = list_of("two values between which it lies", {{"$ref", "#/definitions/quantity"}});
+  range["minItems"] = range["maxItems"] = 2;
+  properties["find"] = object(
+      "the value of a parameter at which this run gives what is wanted",
+      {{"parameter", text("")}, {"range", std::move(range)}, {"value", value(false)}, {"equals", quantity("", false)}},
+      {"parameter", "range", "value", "equals"});
+  return object("one run", std::move(properties));
+}
+
+Json axis() {
+  return object("what is drawn along an axis", {{"signal", text("a signal; t is the time")},
+                                                {"signals", names("several signals of each run")},
+                                                {"minus", minus()},
+                                                {"label", text("")},
+                                                {"unit", text("")},
+                                                {"from", quantity("where the axis begins", false)},
+                                                {"to", quantity("where it ends", false)},
+                                                {"log", flag("logarithmic")}});
+}
+
+Json plot() {
+  return object("a figure",
+                {{"title", text("")},
+                 {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "bode"})},
+                 {"x", axis()},
+                 {"y", axis()},
+                 {"runs", names("default: all that have the signals")},
+                 {"between", window()},
+                 {"rezero", flag("less the value at the first row")},
+                 {"bins", number("of a histogram; default 30")},
+                 {"caption", text("")},
+                 {"remark", text("")}});
+}
+
+Json claim() {
+  const auto written = [](const char* meaning) {
+    return Json{{"type", {"string", "number"}}, {"description", meaning}};
+  };
+  return object("a condition by which this job settles a claim, or a part of it",
+                {{"id", text("as in claims.json")},
+                 {"value", text("a value of this job")},
+                 {"expected", written("\"6.6 um\"")},
+                 {"tolerance", written("\"1 %\" or \"1e-6 um\"")},
+                 {"above", written("the value lies above")},
+                 {"below", written("the value lies below")},
+                 {"order", list_of("values that increase in this order", {{"type", "string"}})},
+                 {"must", choice_of("differ: the value must lie outside the tolerance", {"agree", "differ"})},
+                 {"thesis", text("what the published work says")},
+                 {"remark", text("why it differs, where it does")}},
+                {"id"});
+}
+
+}  // namespace
+
+Json runs_job() {
+  Json properties;
+  add_head_members(properties);
+  properties["do"] = choice_of("runs: simulate, draw figures and settle claims", {"runs"});
+  properties["surrogate"] = text("what stands in for a measurement; printed wherever its output appears");
+  properties["assumed"] = text("numbers that the published work does not give");
+  properties["shows"] = text("what the figure must show");
+  properties["learnt"] = text("what was learnt about the printed equations");
+  properties["diagram"] = text("the diagram of runs that name none");
+  add_settings(properties);
+  add_times(properties);
+  properties["draw"] = {{"type", "object"},
+                        {"description", "block diagrams that the page shows: caption -> diagram"},
+                        {"additionalProperties", {{"type", "string"}}}};
+  properties["runs"] = named("the runs", run());
+  properties["plots"] = list_of("the figures", plot());
+  properties["values"] = named("what is measured on them", value(true));
+  properties["claims"] = list_of("what they settle", claim());
+  return object("runs of diagrams, figures and claims", std::move(properties), {"format", "do"});
+}
+
+}  // namespace hysteron::schema

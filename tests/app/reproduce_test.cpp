@@ -1,0 +1,178 @@
+// The verb reproduce on a small published work of its own: runs, values, claims, pages, baseline, and wrong input.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hysteron_process.h"
+#include "tests/app/schema_check.h"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+using process::Folder;
+using process::hysteron;
+using process::Outcome;
+
+constexpr char stage[] = R"({
+  "format": 1, "title": "Stage",
+  "blocks": {
+    "drive": {"type": "triangle", "amplitude": "3 V", "offset": "3 V", "frequency": "5 Hz", "phase": "-90 deg"},
+    "comp":  {"choose": "none", "in": "drive", "from": {"none": {"type": "gain", "gain": 1}, "half": {"type": "gain", "gain": 0.5}}},
+    "model": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 3], "unit": "V"},
+              "weights": {"value": [1, 0.5], "unit": "um/V"}, "in": "comp"}
+  },
+  "outputs": {"y": "model"}, "record": ["drive"], "simulate": {"until": "0.4 s", "every": "1 ms"}
+})";
+
+/// One claim that agrees, one that differs, one in two jobs, one that was tuned, one that cannot be checked.
+constexpr char claims[] = R"({"format": 1, "claims": {
+  "C2-01": {"says": "stroke and area"}, "C2-02": {"says": "a wrong one"}, "C2-03": {"says": "order", "calibrated": "made so"},
+  "C2-04": {"says": "a measurement", "cannot": "nobody has it"}, "C3-01": {"says": "of another chapter"}}})";
+
+// From rest over 0..6 V: y(6) = 6 + 0.5 * 3 = 7.5 um; the area is sum c r (U - r) = 0.5 * 3 * 3 = 4.5 um V; with half
+// the drive only the linear part moves: 3 um, no area.
+constexpr char figure1[] = R"({
+  "format": 1, "do": "runs", "title": "Loops", "surrogate": "A stand-in.", "shows": "two loops", "diagram": "stage.json",
+  "runs": {"full": {"title": "Full"}, "half": {"choose": {"comp": "half"}}},
+  "plots": [{"title": "Loop", "x": {"signal": "drive", "unit": "V", "from": 0, "to": 6}, "y": {"signal": "y", "unit": "nm"}, "between": ["0 s", "0.2 s"]},
+            {"title": "Spectrum", "kind": "spectrum", "y": {"signal": "y"}, "between": ["0.2 s", "0.399 s"]}],
+  "values": {"stroke": {"take": "stroke", "of": "y", "run": "full"},
+             "area":   {"take": "area", "of": "y", "over": "drive", "run": "full", "between": ["0.2 s", "0.399 s"]},
+             "half":   {"take": "max", "of": "y", "run": "half"},
+             "ratio":  {"ratio": ["stroke", "half"]}},
+  "claims": [{"id": "C2-01", "value": "stroke", "expected": "7.5 um", "tolerance": "1e-9 um"},
+             {"id": "C2-01", "value": "area", "expected": "4.5 um V", "tolerance": "1e-9 um V"},
+             {"id": "C2-01", "value": "ratio", "expected": 2.5, "tolerance": "1e-9"},
+             {"id": "C2-02", "value": "stroke", "expected": "7 um", "tolerance": "1 %", "remark": "because it is wrong"},
+             {"id": "C2-03", "order": ["half", "stroke"]},
+             {"id": "C2-03", "value": "stroke", "expected": "7000 nm", "tolerance": "1 %", "must": "differ"}]
+})";
+
+// What fig2_1 gave, taken from there; a fit to it finds the weights again, a search the drive that gives 4.5 um.
+constexpr char figure2[] = R"({
+  "format": 1, "do": "runs", "title": "Fits", "diagram": "stage.json",
+  "runs": {"loop":   {"from": "fig2_1.json", "run": "full"},
+           "fitted": {"fit": "model.json", "free": "model.weights",
+                      "data": {"run": "loop", "columns": {"u": "drive", "y": "y"}}},
+           "again":  {"use": {"fitted": "model"}},
+           "found":  {"find": {"parameter": "drive.offset", "range": ["1 V", "4 V"], "value": {"take": "max", "of": "drive"}, "equals": "5 V"}},
+           "less":   {"use": "found"}},
+  "values": {"weight": {"take": "parameter", "parameter": "model.weights[1]", "run": "fitted"},
+             "error":  {"take": "max_abs", "of": "y", "minus": {"run": "loop", "signal": "y"}, "run": "again"},
+             "top":    {"take": "max", "of": "drive", "run": "less"}},
+  "claims": [{"id": "C2-05", "value": "weight", "expected": "0.5 um/V", "tolerance": "1e-6 um/V"},
+             {"id": "C2-05", "value": "error", "below": "1e-6 um"},
+             {"id": "C2-05", "value": "top", "expected": "5 V", "tolerance": "1e-9 V"}]
+})";
+
+constexpr char model[] = R"({
+  "format": 1, "title": "Model", "inputs": {"u": {"unit": "V"}},
+  "blocks": {"model": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 3], "unit": "V"},
+                       "weights": {"value": [0.7, 0.1], "unit": "um/V"}, "in": "u"}},
+  "outputs": {"y": "model"}
+})";
+
+class Reproduce : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("diagrams/claims.json", claims);
+    folder_.write("diagrams/chapter2/stage.json", stage);
+    folder_.write("diagrams/chapter2/model.json", model);
+    folder_.write("diagrams/chapter2/fig2_1.json", figure1);
+    folder_.write("diagrams/chapter2/fig2_2.json", figure2);
+  }
+  json result(const std::string& folder) { return json::parse(folder_.read(folder + "/result.json")); }
+  /// Exit code 2, and this on standard error, where the figure is changed so.
+  void refused(std::string text, const std::string& what, const std::string& instead, const std::string& message) {
+    const auto at = text.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), instead);
+    folder_.write("diagrams/chapter2/fig2_1.json", text);
+    const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig2_1"});
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("fig2_1.json:"), std::string::npos) << outcome.err;
+  }
+  const Folder folder_;
+};
+
+TEST_F(Reproduce, EachClaimGetsItsOutcome) {
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "chapter2", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json found = result("out")["facts"]["claims"];
+  EXPECT_EQ(found["C2-01"]["outcome"], "agrees") << found.dump(1);
+  EXPECT_EQ(found["C2-02"]["outcome"], "differs");
+  EXPECT_EQ(found["C2-03"]["outcome"], "calibrated");
+  EXPECT_EQ(found["C2-04"]["outcome"], "cannot be checked");
+  EXPECT_EQ(found["C2-04"]["reason"], "nobody has it");
+  EXPECT_EQ(found["C2-05"]["outcome"], "agrees") << found.dump(1);  // that no claims.json tells
+  EXPECT_FALSE(found.contains("C3-01"));                            // of another chapter
+  EXPECT_NE(outcome.out.find("because it is wrong"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("2 figures redrawn; claims: 2 agree, 1 calibrated, 1 differs, 1 cannot be checked"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(schema::refuses("result", folder_.read("out/result.json")), "");
+}
+
+TEST_F(Reproduce, ThePageOfAChapterShowsEveryFigureAndSaysWhatIsASurrogate) {
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "all", "-o", "out"}).code, 0);
+  const std::string page = folder_.read("out/chapter2.html");
+  for (const char* text :
+       {"Fig. 2.1: Loops", "Fig. 2.2: Fits", "A stand-in.", "two loops", "because it is wrong", "y [nm]"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_TRUE(folder_.has("out/traces/fig2_1-1-full.csv"));
+  EXPECT_TRUE(folder_.has("out/traces/fig2_1-2-half.csv"));
+  EXPECT_TRUE(folder_.read("out/traces/fig2_1-1-full.csv").starts_with("drive [V],y [nm]"))
+      << folder_.read("out/traces/fig2_1-1-full.csv").substr(0, 60);
+}
+
+TEST_F(Reproduce, AFigureOrAClaimAloneRunsOnlyWhatItNeeds) {
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "C2-05", "-o", "out"}).code, 0);
+  EXPECT_FALSE(folder_.has("out/traces/fig2_1-1-full.csv"));
+  EXPECT_EQ(result("out")["facts"]["claims"].size(), 1U);
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "fig2_1", "-o", "one"}).code, 0);
+  EXPECT_EQ(result("one")["facts"]["claims"].size(), 3U);
+}
+
+TEST_F(Reproduce, ABaselineIsKeptFirstAndThenAnswersWithTheExitCode) {
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "--baseline", "kept"}).code, 0);
+  EXPECT_TRUE(folder_.has("kept/baseline.json"));
+  const Outcome same = hysteron(folder_.path(), {"reproduce", "--baseline", "kept"});
+  EXPECT_EQ(same.code, 0);
+  EXPECT_NE(same.out.find("Nothing differs from the baseline"), std::string::npos) << same.out;
+  std::string changed = stage;
+  changed.replace(changed.find("[1, 0.5]"), 8, "[1, 0.6]");
+  folder_.write("diagrams/chapter2/stage.json", changed);
+  const Outcome worse = hysteron(folder_.path(), {"reproduce", "--baseline", "kept"});
+  EXPECT_EQ(worse.code, 1) << worse.out;
+  EXPECT_NE(worse.out.find("C2-01 held in the baseline and does not any more"), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("fig2_1-1-full.csv: y differs by up to 300 nm"), std::string::npos) << worse.out;
+}
+
+TEST_F(Reproduce, ResultsDoNotHangOnHowManyRunAtOnce) {
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "-o", "a"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "-o", "b"}).code, 0);
+  EXPECT_EQ(folder_.read("a/result.json"), folder_.read("b/result.json"));
+  EXPECT_EQ(folder_.read("a/traces/fig2_1-1-full.csv"), folder_.read("b/traces/fig2_1-1-full.csv"));
+}
+
+TEST_F(Reproduce, WrongInputIsToldWithFileLineAndNearestName) {
+  refused(figure1, "\"y\": {\"signal\": \"y\", \"unit\": \"nm\"}, \"between\"",
+          "\"y\": {\"signal\": \"modle\", \"unit\": \"nm\"}, \"between\"", "Did you mean");
+  refused(figure1, "\"unit\": \"nm\"", "\"unit\": \"V\"", "the axis in V");
+  refused(figure1, "\"expected\": \"7.5 um\"", "\"expected\": \"7.5 V\"", "the value is in um");
+  refused(figure1, "\"comp\": \"half\"", "\"comp\": \"halve\"", "half");
+  refused(figure1, "[\"0 s\", \"0.2 s\"]", "[\"5 s\", \"6 s\"]", "there are no rows");
+  refused(figure1, "\"over\": \"drive\"", "\"over\": \"driv\"", "Did you mean \"drive\"?");
+}
+
+TEST_F(Reproduce, UnknownFiguresAreToldWithTheNearestName) {
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig2_11"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("fig2_1"), std::string::npos) << outcome.err;
+  EXPECT_EQ(hysteron(folder_.path(), {"reproduce", "--from", "nowhere"}).code, 2);
+}
+
+}  // namespace
+}  // namespace hysteron
