@@ -129,13 +129,16 @@ Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>
       wanted.prefixes.emplace_back("");
       continue;
     }
-    const bool claim = std::any_of(claims.begin(), claims.end(), [&](const auto& c) { return c.id == word; });
+    const bool place =
+        std::any_of(all.begin(), all.end(), [&](const Job& j) { return j.name == word || j.chapter == word; });
+    bool claim = std::any_of(claims.begin(), claims.end(), [&](const auto& c) { return c.id == word; });
     std::vector<std::string> names{"all"};
     for (std::size_t i = 0; i < all.size(); ++i) {
       bool is = all[i].name == word || all[i].chapter == word;
       if (all[i].chapter == word && !prefix_of(word).empty()) wanted.prefixes.push_back(prefix_of(word));
-      for (const auto& part : claim ? pool.job(all[i].file).job().claims : std::vector<ClaimPart>{})
-        is = is || part.id == word;
+      if (!place)
+        for (const auto& part : pool.job(all[i].file).job().claims)
+          if (part.id == word) is = claim = true;
       if (is) take[i] = known = true;
       names.push_back(all[i].name);
       if (std::find(names.begin(), names.end(), all[i].chapter) == names.end()) names.push_back(all[i].chapter);

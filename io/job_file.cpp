@@ -6,7 +6,6 @@
 
 #include "io/json_reader.h"
 #include "io/project_path.h"
-#include "io/runs_schema.h"
 #include "io/schema_parts.h"
 #include "io/value_text.h"
 

@@ -1,6 +1,6 @@
-#include "io/runs_schema.h"
-
+// Decides how a job with "do": "runs" looks in the JSON Schema.
 #include "io/runs_job.h"
+#include "io/schema_parts.h"
 
 namespace hysteron::schema {
 namespace {

@@ -28,6 +28,9 @@ Json head(const std::string& title, const std::string& description);
 /// Members that every file of ours has: $schema, format, title, source, remark.
 void add_head_members(Json& properties);
 
+/// A job with "do": "runs" (runs_schema.cpp).
+Json runs_job();
+
 /// Indented text; objects and lists that fit stay on one line.
 std::string to_text(const Json& schema);
 

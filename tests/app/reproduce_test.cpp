@@ -158,8 +158,7 @@ TEST_F(Reproduce, ResultsDoNotHangOnHowManyRunAtOnce) {
 }
 
 TEST_F(Reproduce, WrongInputIsToldWithFileLineAndNearestName) {
-  refused(figure1, "\"y\": {\"signal\": \"y\", \"unit\": \"nm\"}, \"between\"",
-          "\"y\": {\"signal\": \"modle\", \"unit\": \"nm\"}, \"between\"", "Did you mean");
+  refused(figure1, "{\"signal\": \"drive\", \"unit\"", "{\"signal\": \"driv\", \"unit\"", "Did you mean \"drive\"?");
   refused(figure1, "\"unit\": \"nm\"", "\"unit\": \"V\"", "the axis in V");
   refused(figure1, "\"expected\": \"7.5 um\"", "\"expected\": \"7.5 V\"", "the value is in um");
   refused(figure1, "\"comp\": \"half\"", "\"comp\": \"halve\"", "half");

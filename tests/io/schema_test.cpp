@@ -302,8 +302,12 @@ TEST(SharedSchemas, EveryDiagramDataSetAndJobOfTheProjectIsValid) {
     if (text.find("dataset.schema.json") != text.npos) {
       EXPECT_EQ(datasets().refuses(text), "") << entry.path();
     }
-    if (text.find("job.schema.json") != text.npos) EXPECT_EQ(jobs.refuses(text), "") << entry.path();
-    if (text.find("claims.schema.json") != text.npos) EXPECT_EQ(claims.refuses(text), "") << entry.path();
+    if (text.find("job.schema.json") != text.npos) {
+      EXPECT_EQ(jobs.refuses(text), "") << entry.path();
+    }
+    if (text.find("claims.schema.json") != text.npos) {
+      EXPECT_EQ(claims.refuses(text), "") << entry.path();
+    }
   }
 }
 
