@@ -1,6 +1,7 @@
 #include "blocks/register_all.h"
 
 #include "blocks/ageing.h"
+#include "blocks/asymmetric_prandtl_ishlinskii.h"
 #include "blocks/backlash.h"
 #include "blocks/bouc_wen.h"
 #include "blocks/bouc_wen_inverse.h"
@@ -120,6 +121,7 @@ Registry all_blocks() {
   r.add(blocks::late_prandtl_ishlinskii_block());
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());
+  r.add(blocks::asymmetric_prandtl_ishlinskii_block());
   r.add(blocks::tapi_block());
   r.add(blocks::coupled_tapi_block());
   r.add(blocks::maxwell_capacitor_block());
@@ -148,6 +150,7 @@ Registry all_blocks() {
   r.add(blocks::sampled_pid_block());
   r.add(blocks::sampled_bouc_wen_inverse_block());
   r.add(blocks::sampled_jiles_atherton_inverse_block());
+  r.add(blocks::sampled_asymmetric_inverse_block());
   r.add(blocks::sampled_tapi_inverse_block());
   r.add(blocks::sampled_coupled_tapi_inverse_block());
   r.add(blocks::impedance_estimator_block());

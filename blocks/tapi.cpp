@@ -36,20 +36,17 @@ Sizes one_operator_per_threshold(const Shape& shape, int Sizes::*where) {
   return s;
 }
 
-std::string begins_at_zero(double first) {
-  if (first != 0)
-    return fmt::format(
-        "the first threshold is {:.4g} [SI]; begin with 0, the linear part, which bends with the "
-        "temperature",
-        first);
-  return "";
-}
-
 void start(const View<double>& v, std::span<const double> thresholds, double before) {
   for (std::size_t i = 0; i < thresholds.size(); ++i) v.out[i] = play::follow_one_sided(thresholds[i], 0.0, before);
 }
 
 }  // namespace
+
+std::string begins_at_zero(double first) {
+  if (first != 0)
+    return fmt::format("the first threshold is {:.4g} [SI]; begin with 0, the linear part, which bends", first);
+  return "";
+}
 
 void Tapi::describe(Declaration& d) {
   d.name("tapi", "Prandtl-Ishlinskii hysteresis, asymmetric and dependent on temperature (TAPI)")
@@ -106,16 +103,19 @@ Sizes SampledTapiInverse::sizes(const Shape& shape) {
   return one_operator_per_threshold(shape, &Sizes::sampled_states);
 }
 
-std::string SampledTapiInverse::check(const View<double>& v) {
-  const auto r = v.list(thresholds);
-  if (auto text = begins_at_zero(r[0]); !text.empty()) return text;
-  const std::size_t rising = prandtl_ishlinskii::rising_slopes(v.list(weights));
-  if (rising < r.size())
+std::string check_invertible(std::span<const double> thresholds, std::span<const double> weights) {
+  if (auto text = begins_at_zero(thresholds[0]); !text.empty()) return text;
+  const std::size_t rising = prandtl_ishlinskii::rising_slopes(weights);
+  if (rising < thresholds.size())
     return fmt::format(
         "the weights up to number {} add up to a slope that is not positive, so the actuator has no inverse; give a "
         "larger first weight",
         rising + 1);
   return "";
+}
+
+std::string SampledTapiInverse::check(const View<double>& v) {
+  return check_invertible(v.list(thresholds), v.list(weights));
 }
 
 void SampledTapiInverse::initial_states(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }

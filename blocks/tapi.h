@@ -34,6 +34,21 @@ struct Tapi {
   static std::string check_memory(const View<double>& v);
 };
 
+/// The input whose output is y: solved for 0 iterations, else so many steps of the thesis. In plain numbers; for
+/// scalars that carry derivatives one step of Newton's method adds them, and no more than rounding.
+template <class T>
+T tapi_command(const tapi::Params<T>& law, std::span<const T> thresholds, std::span<const T> weights,
+               std::span<const T> states, const T& y, const T& temperature, int iterations) {
+  const tapi::Params<double> numbers{plain(law.p_s), plain(law.t_c), plain(law.beta), plain(law.a)};
+  const auto r = plain_list(thresholds), c = plain_list(weights), w = plain_list(states);
+  const double hot = plain(temperature);
+  const double found = iterations > 0 ? tapi::iterated_input(numbers, r, c, w, plain(y), hot, iterations)
+                                      : tapi::input_for(numbers, r, c, w, plain(y), hot);
+  if constexpr (std::is_same_v<T, double>) return found;
+  const T miss = tapi::output_at(law, thresholds, weights, states, T{found}, temperature) - y;
+  return T{found} - (miss - T{plain(miss)}) / T{tapi::slope_at(numbers, r, c, w, found, hot)};
+}
+
 /// Finds the input of the actuator at each instant; its states are the operators of the actuator.
 struct SampledTapiInverse {
   enum Parameter { thresholds, weights, p_s, t_c, beta, a, before, iterations };
@@ -54,23 +69,17 @@ struct SampledTapiInverse {
   static void initial_states(const View<double>& v);
 
  private:
-  /// The answer in plain numbers; for scalars that carry derivatives one step of Newton's method adds them, and no more
-  /// than rounding.
   template <class T>
   static T command(const View<T>& v) {
-    const tapi::Params<T> law{v.parameter(p_s), v.parameter(t_c), v.parameter(beta), v.parameter(a)};
-    const tapi::Params<double> numbers{plain(law.p_s), plain(law.t_c), plain(law.beta), plain(law.a)};
-    const auto r = plain_list(v.list(thresholds)), c = plain_list(v.list(weights)), w = plain_list(v.states());
-    const double hot = plain(v.u[temperature]);
-    int steps = v.choice(iterations);
-    const double found = steps > 0 ? tapi::iterated_input(numbers, r, c, w, plain(v.u[y]), hot, steps)
-                                   : tapi::input_for(numbers, r, c, w, plain(v.u[y]), hot);
-    if constexpr (std::is_same_v<T, double>) return found;
-    const T miss =
-        tapi::output_at(law, v.list(thresholds), v.list(weights), v.states(), T{found}, v.u[temperature]) - v.u[y];
-    return T{found} - (miss - T{plain(miss)}) / T{tapi::slope_at(numbers, r, c, w, found, hot)};
+    return tapi_command({v.parameter(p_s), v.parameter(t_c), v.parameter(beta), v.parameter(a)}, v.list(thresholds),
+                        v.list(weights), v.states(), v.u[y], v.u[temperature], v.choice(iterations));
   }
 };
+
+/// "" or why these weights are those of no actuator that can be inverted by a drive, and the cure.
+std::string check_invertible(std::span<const double> thresholds, std::span<const double> weights);
+/// "" or what is wrong with the first threshold.
+std::string begins_at_zero(double first);
 
 Kernel tapi_block();
 Kernel sampled_tapi_inverse_block();

@@ -46,6 +46,8 @@ const Look* find_look(const std::string& type) {
       {"jiles_atherton_inverse", {"hysteresis_inverse", true}},
       {"tapi", {"hysteresis", true}},
       {"sampled_tapi_inverse", {"hysteresis_inverse", true}},
+      {"asymmetric_prandtl_ishlinskii", {"hysteresis", true}},
+      {"sampled_asymmetric_inverse", {"hysteresis_inverse", true}},
       {"coupled_tapi", {"hysteresis", true}},
       {"sampled_coupled_tapi_inverse", {"hysteresis_inverse", true}},
       {"maxwell_capacitor", {"hysteresis", true}},

@@ -180,6 +180,8 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "sliding_friction",
                                        "tapi",
                                        "sampled_tapi_inverse",
+                                       "asymmetric_prandtl_ishlinskii",
+                                       "sampled_asymmetric_inverse",
                                        "coupled_tapi",
                                        "sampled_coupled_tapi_inverse",
                                        "maxwell_capacitor",

@@ -143,5 +143,25 @@ TEST(SampledTapiInverseBlock, TakesAsManyStepsOfTheIterationAsItIsTold) {
   }
 }
 
+TEST(AsymmetricPrandtlIshlinskiiBlocks, AreTheTapiBlocksAtOneTemperature) {
+  const double t = 300, p_s = 1.3, t_c = 600, beta = 0.5, a = 0.01;
+  const Bench::Values shared{{"thresholds", {0, 0.4, 1.1}}, {"weights", {1, 0.3, 0.2}}};
+  auto hot = shared, fixed = shared;
+  hot.insert({{"p_s", {p_s}}, {"t_c", {t_c}}, {"beta", {beta}}, {"a", {a}}});
+  fixed.insert({{"saturation", {p_s * std::sqrt(0.5)}}, {"bend", {a * t}}});
+  const Bench tapi("tapi", hot), asymmetric("asymmetric_prandtl_ishlinskii", fixed);
+  fixed["period"] = {1};
+  const Bench inverse("sampled_asymmetric_inverse", fixed);
+  Numbers m = tapi.initial_memory(), n = asymmetric.initial_memory(), x = inverse.initial_states();
+  for (const double u : {0.0, 2.0, 0.7, 1.6, 0.1, 3.0}) {
+    m = tapi.advance(m, {u, t});
+    n = asymmetric.advance(n, {u});
+    const Numbers y = asymmetric.output(0, {u}, {}, n);
+    EXPECT_NEAR(y[0], tapi.output(0, {u, t}, {}, m)[0], 1e-15 * 10);
+    EXPECT_NEAR(inverse.output(0, y, x)[0], u, 1e-14);
+    x = inverse.update(y, x);
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
