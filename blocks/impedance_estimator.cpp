@@ -26,6 +26,8 @@ void ImpedanceEstimator::describe(Declaration& d) {
   d.remark(
       "A ripple steeper than the drive reverses the field twice in each cycle and lets a Jiles-Atherton material creep "
       "towards its curve without pinning.");
+  d.remark(
+      "phasors \"fourier\", as the thesis takes them, count the ramp of the drive as a ripple and make false loops.");
   d.input("voltage", "V", "across the stack, ripple included");
   d.input("current", "A", "into the stack");
   d.output("capacitance", "F", "incremental capacitance of the stack");
@@ -46,6 +48,7 @@ void ImpedanceEstimator::describe(Declaration& d) {
   d.parameter("area", "m^2", "area of one wafer").positive();
   d.parameter("thickness", "m", "thickness of one wafer").positive();
   d.parameter("initial", "C/m^2", "polarisation in the first window").optional("0 C/m^2").difference();
+  d.text("phasors", {"joint", "fourier"}, "fitted together with a ramp, or the Fourier coefficient of the window");
   d.sampled();
 }
 

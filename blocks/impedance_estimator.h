@@ -11,7 +11,7 @@
 namespace hysteron::blocks {
 
 struct ImpedanceEstimator {
-  enum Parameter { samples, cycles, layers, area, thickness, initial, period };
+  enum Parameter { samples, cycles, layers, area, thickness, initial, phasors, period };
   enum Input { voltage, current };
   /// Sums over the present window, then what the last full one has told.
   enum State { voltage_a, voltage_b, current_a, current_b, sum, capacitance, mean, polarisation, count };
@@ -35,7 +35,8 @@ struct ImpedanceEstimator {
   template <class T>
   static void update(const View<T>& v) {
     const int n = v.choice(samples), k = static_cast<int>(v.hit % n);
-    const auto share = impedance::share(k, n, v.choice(cycles));
+    const auto share = v.choice(phasors) == 0 ? impedance::share(k, n, v.choice(cycles))
+                                              : impedance::fourier_share(k, n, v.choice(cycles));
     const auto add = [&](State s, double of_sample, const T& signal) {
       v.out[s] = (k == 0 ? T{0} : v.x[s]) + T{of_sample} * signal;
     };

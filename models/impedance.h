@@ -29,6 +29,12 @@ inline Phasor<double> share(int k, int n, int cycles) {
   return {2.0 / n * std::cos(angle * t), -(s_tt * std::sin(angle * t) - s_ts * t) / (s_tt * n / 2 - s_ts * s_ts)};
 }
 
+/// The same by a plain Fourier coefficient, as the thesis takes it: a ramp counts as a ripple.
+inline Phasor<double> fourier_share(int k, int n, int cycles) {
+  const double angle = 2 * std::numbers::pi * cycles / n * (k - (n - 1) / 2.0);
+  return {2.0 / n * std::cos(angle), -2.0 / n * std::sin(angle)};
+}
+
 /// Capacitance [F] from the phasors of current [A] and voltage [V] at the angular frequency w [rad/s]:
 ///
 ///   C = -(1/w) (A_I^2 + B_I^2)/(A_I B_V - A_V B_I)

@@ -72,7 +72,11 @@ TEST(ImpedanceEstimatorBlock, ReproducesTheGoldenWindowsFromTheGoldenSamples) {
   HYSTERON_NEEDS_GOLDEN("polarisation_windows");
   const auto windows = golden::read("polarisation_windows"), samples = golden::read("polarisation_samples");
   const auto out = estimates(Bench("impedance_estimator", stack), samples.at("V [V]"), samples.at("I [A]"));
+  auto by_fourier = stack;
+  by_fourier["phasors"] = {1};
+  const auto fourier = estimates(Bench("impedance_estimator", by_fourier), samples.at("V [V]"), samples.at("I [A]"));
   for (std::size_t m = 0; m + 1 < 10; ++m) {
+    EXPECT_NEAR(fourier[200 * (m + 1)][0], windows.at("C fft [F]")[m], 1e-9 * 4.8e-6) << m;
     // The first current of the trace is one-sided; ten digits of 0.003 A, averaged, of a ripple of 0.003 A.
     EXPECT_NEAR(out[200 * (m + 1)][0], windows.at("C lsq [F]")[m], 1e-9 * 4.5e-6) << m;
     EXPECT_NEAR(out[200 * (m + 1)][1], windows.at("V mean [V]")[m], 1e-9) << m;

@@ -32,9 +32,9 @@ Phasor<double> joint(const Numbers& x, std::size_t from, int n, int cycles) {
 Phasor<double> fourier(const Numbers& x, std::size_t from, int n, int cycles) {
   Phasor<double> sum;
   for (int k = 0; k < n; ++k) {
-    const double angle = 2 * std::numbers::pi * cycles / n * (k - (n - 1) / 2.0);
-    sum.a += 2.0 / n * std::cos(angle) * x[from + static_cast<std::size_t>(k)];
-    sum.b -= 2.0 / n * std::sin(angle) * x[from + static_cast<std::size_t>(k)];
+    const auto share = impedance::fourier_share(k, n, cycles);
+    sum.a += share.a * x[from + static_cast<std::size_t>(k)];
+    sum.b += share.b * x[from + static_cast<std::size_t>(k)];
   }
   return sum;
 }

@@ -1,0 +1,209 @@
+// Diagrams of chapters 3 and 5 and the stages that they are made of, run as files: against figures of an independent
+// program, closed forms and golden traces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "tests/app/hysteron_process.h"
+#include "tests/models/golden.h"
+
+namespace hysteron {
+namespace {
+
+using process::Folder;
+using process::Outcome;
+using Columns = std::map<std::string, std::vector<double>>;
+
+const std::string diagrams = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/";
+
+Columns run(const std::string& diagram, std::vector<std::string> more = {}) {
+  const Folder folder;
+  std::vector<std::string> words{"run", diagram, "-o", "out", "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = process::hysteron(folder.path(), words);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream file(folder.read("out/traces/signals.csv"));
+  std::string line, cell;
+  std::getline(file, line);
+  std::vector<std::string> header;
+  for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+    header.push_back(cell.substr(0, cell.find(" [")));
+  Columns columns;
+  while (std::getline(file, line)) {
+    std::size_t i = 0;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      columns[header.at(i++)].push_back(std::stod(cell));
+  }
+  return columns;
+}
+
+double largest(const std::vector<double>& y) {
+  double most = 0;
+  for (const double x : y) most = std::max(most, std::fabs(x));
+  return most;
+}
+double span(const std::vector<double>& y) {
+  return *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end());
+}
+/// Signed area of the loop from row `from` on, over both spans: positive where y lags.
+double loop(std::vector<double> x, std::vector<double> y, std::size_t from) {
+  x.erase(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(from));
+  y.erase(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(from));
+  double area = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const std::size_t next = (k + 1) % x.size();
+    area -= (x[next] - x[k]) * (y[k] + y[next]) / 2;
+  }
+  return area / (span(x) * span(y));
+}
+
+TEST(Chapter3Diagrams, SteepRippleTellsNoLoop) {
+  // R1 of SPEC section 3, second cycle of the drive; figures of an independent program, told to their last digit.
+  const auto y = run(diagrams + "chapter3/polarisation.json");
+  const std::size_t from = 501;
+  const auto& c = y.at("estimator.capacitance");
+  EXPECT_NEAR(*std::min_element(c.begin() + 2, c.end()), 2.83e-6, 0.01 * 2.83e-6);  // claim C3-04, 1 %
+  EXPECT_NEAR(*std::max_element(c.begin() + 2, c.end()), 4.49e-6, 0.01 * 4.49e-6);
+  const auto& v = y.at("estimator.voltage");
+  EXPECT_NEAR(loop(v, y.at("truth_then"), from), 0.0111, 0.0001);
+  EXPECT_NEAR(loop(v, y.at("estimator.secant"), from), -0.0006, 0.0001);
+  EXPECT_NEAR(loop(v, y.at("estimator.polarisation"), from), 0.0004, 0.0001);
+  EXPECT_NEAR(loop(y.at("estimator.polarisation"), y.at("truth_then"), from), 0.0108, 0.0002);
+}
+
+TEST(Chapter3Diagrams, FlatRippleTellsThePolarisationThatTakesTheHysteresisAway) {
+  // R2. Claims C3-05 and C3-07: the secant formula turns the wrong way; over the integral y is nearly a line.
+  const auto y = run(diagrams + "chapter3/polarisation.json", {"--set", "ripple.amplitude=0.05 V"});
+  const std::size_t from = 501;
+  const auto& v = y.at("estimator.voltage");
+  const double over_voltage = loop(v, y.at("position_then"), from),
+               over_polarisation = loop(y.at("estimator.polarisation"), y.at("position_then"), from);
+  EXPECT_NEAR(over_voltage, 0.1334, 0.0001);
+  EXPECT_NEAR(loop(v, y.at("estimator.secant"), from), -0.1431, 0.0002);
+  EXPECT_NEAR(loop(v, y.at("estimator.polarisation"), from), 0.1320, 0.0002);
+  EXPECT_NEAR(over_polarisation, 0.0015, 0.0001);
+  EXPECT_LT(over_polarisation / over_voltage, 0.1);
+}
+
+class Over : public testing::TestWithParam<std::array<double, 5>> {};
+
+TEST_P(Over, TemperatureModelAndCompensatorStayClose) {
+  // SPEC 5.2: peak, error of the model with and without temperature, and of the compensated output. Those of the model
+  // to 1 nm; of the output, whose reference SPEC does not give, to 8 nm.
+  const auto [celsius, peak, with, without, compensated] = GetParam();
+  const std::string t = std::to_string(celsius) + " degC";
+  const auto y = run(diagrams + "chapter5/over_temperature.json", {"--set", "oven.value=" + t});
+  const auto& actuator = y.at("actuator/actuator");
+  EXPECT_NEAR(*std::max_element(actuator.begin(), actuator.end()), peak, 0.001);
+  EXPECT_NEAR(largest(y.at("error_tapi")), with, 0.001);
+  EXPECT_NEAR(largest(y.at("error_fixed")), without, 0.001);
+  const auto c =
+      run(diagrams + "chapter5/compensation.json", {"--set", "oven.value=" + t, "--set", "assumed.value=" + t});
+  EXPECT_NEAR(largest(c.at("error")), compensated, 0.008);
+}
+INSTANTIATE_TEST_SUITE_P(Temperatures, Over,
+                         testing::Values(std::array{22.0, 9.385, .021, .021, .020},
+                                         std::array{40.0, 9.246, .037, .155, .034},
+                                         std::array{70.0, 9.014, .093, .389, .089}));
+
+TEST(Chapter5Diagrams, TapiFollowsMinorLoopsThatAClassicalModelMisses) {
+  // Fig. 5.10: mean error .075 um of the classical model, .0017 of TAPI, in um to their last digit.
+  const auto y = run(diagrams + "chapter5/over_temperature.json");
+  const auto mean = [](const std::vector<double>& e) {
+    double sum = 0;
+    for (const double x : e) sum += std::fabs(x);
+    return sum / static_cast<double>(e.size());
+  };
+  EXPECT_NEAR(mean(y.at("error_classical")), 0.075, 0.0005);
+  EXPECT_NEAR(mean(y.at("error_tapi")), 0.0017, 0.0001);
+}
+
+TEST(Chapter5Diagrams, FabryPerotFollowsTheGoldenCompensator) {
+  for (const auto& [celsius, most] : {std::pair{"23", 1e-12}, {"30", 0.0275}, {"35", 0.0465}}) {
+    const std::string name = std::string("fpi_compensator_T") + celsius;
+    HYSTERON_NEEDS_GOLDEN(name);
+    const auto golden = golden::read(name);
+    const std::string t = std::string(celsius) + " degC";
+    double worst = 0;
+    for (const auto& [axis, number] : {std::pair{"first", "1"}, {"second", "2"}, {"third", "3"}}) {
+      const auto y =
+          run(diagrams + "chapter5/fabry_perot.json", {"--choose", std::string("directions=") + axis, "--set",
+                                                       "temperature.value=" + t, "--set", "assumed.value=" + t});
+      for (int i = 0; i < 3; ++i) {
+        const auto& u = y.at("compensator[" + std::to_string(i) + "]");
+        const auto& expected = golden.at("u" + std::to_string(i + 1) + " for yd" + number + " [V]");
+        for (std::size_t k = 0; k < 50; ++k) ASSERT_NEAR(u[k], expected[k], 2e-8) << k;  // ten digits
+        worst = std::max(worst, largest(y.at("error[" + std::to_string(i) + "]")));
+      }
+    }
+    EXPECT_LT(worst, most) << celsius;  // SPEC 5.3: 0, .027, .046 um
+    if (most > 0.01) {
+      EXPECT_GT(worst, most - 0.001) << celsius;
+    }
+  }
+}
+
+TEST(Stages, OvenSettlesAtItsSetPoint) {
+  const auto y = run(diagrams + "chapter5/oven_settling.json");
+  EXPECT_NEAR(y.at("oven/probe1").front(), 22, 1e-6);
+  EXPECT_NEAR(y.at("oven/probe1").back(), 50, 0.01);  // three time constants of the enclosure are an hour, then 3 h
+  EXPECT_NEAR(y.at("oven/probe2").back() - y.at("oven/probe1").back(), 0.15, 1e-6);
+  EXPECT_NEAR(y.at("oven/probe3").back() - y.at("oven/probe1").back(), -0.1, 1e-4);
+  EXPECT_NEAR(y.at("oven/controller").back(), 0.8 * 28, 0.01);  // what goes to the ambient at 28 K
+  EXPECT_EQ(largest(y.at("oven/controller")), 100) << "the heater is at its limit at first";
+  EXPECT_LT(*std::max_element(y.at("oven/bodies[0]").begin(), y.at("oven/bodies[0]").end()), 50.1)
+      << "the integral halts while the heater is at its limit";
+}
+
+TEST(Stages, ElectromechanicalCircuitIsAtRestWhereItsEquationsSay) {
+  // Virgin branch to 100 V so slowly that the mass rests: q = (C + T_q T_F/k) u_T, x = T_F u_T/k, u_H = sum of the
+  // elements, u_T + u_H = u. Solved here by bisection.
+  const Folder folder;
+  folder.write("hysteron.project", "");
+  folder.write("ramp.json", R"({"format": 1, "title": "ramp", "blocks": {
+    "u": {"type": "triangle", "amplitude": "50 V", "offset": "50 V", "frequency": "0.5 Hz", "phase": "-90 deg"},
+    "t": {"type": "constant", "value": "22 degC"},
+    "stack": {"type": "diagram", "file": ")" +
+                                diagrams + R"(stages/electromechanical.json", "in": {"u": "u", "temperature": "t"}}},
+    "record": ["stack.x", "stack.charge", "stack.transducer"], "simulate": {"until": "1 s", "every": "0.1 s"}})");
+  const auto y = run(folder.path() + "/ramp.json", {"--allow", diagrams});
+  const double c_t = 2.6e-6 + 5.4 * 5.4 / 45e6;
+  const auto hysteresis = [](double q) {
+    double u = 0;
+    for (int i = 1; i <= 10; ++i) u += 10 / 260e-6 * (1.5 - 0.1 * i) * std::min(q, 26e-6 * i);
+    return u;
+  };
+  for (std::size_t k = 1; k <= 10; ++k) {
+    const double u = 10.0 * static_cast<double>(k);
+    double low = 0, high = u;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = (low + high) / 2;
+      (middle + hysteresis(c_t * middle) < u ? low : high) = middle;
+    }
+    // The mass trails by its damping, c v / k = 51 * 7e-6 / 45e6 um: nothing; the solver keeps 1e-6.
+    EXPECT_NEAR(y.at("stack/transducer")[k], low, 1e-4 * low) << k;
+    EXPECT_NEAR(y.at("stack/mass.position")[k], 5.4 * low / 45e6, 1e-4 * 5.4 * low / 45e6) << k;
+    EXPECT_NEAR(y.at("stack/charge")[k], 1e6 * c_t * low, 1e2 * c_t * low) << k;  // uC
+  }
+}
+
+TEST(Stages, LinearStageIsThePrintedTransferFunction) {
+  // Thesis Eq. 2.47: static gain and what is left at 1105.4 Hz, -3 dB. The current limit adds a lag of 1 us.
+  const Folder folder;
+  folder.write("hysteron.project", "");
+  folder.write("small.json", R"({"format": 1, "title": "small steps", "blocks": {
+    "u": {"type": "sine", "amplitude": "10 mV", "offset": "1 V", "frequency": "1105.4 Hz"},
+    "stage": {"type": "diagram", "file": ")" +
+                                 diagrams + R"(stages/p753_linear.json", "in": "u"}},
+    "record": ["stage.y"], "simulate": {"until": "20 ms", "every": "1 us", "start": "steady"}})");
+  auto y = run(folder.path() + "/small.json", {"--allow", diagrams}).at("stage/mechanics");
+  EXPECT_NEAR(y.front(), 0.755763, 1e-5);
+  y.erase(y.begin(), y.begin() + 10000);  // 10 ms: forty time constants
+  EXPECT_NEAR(span(y) / 2 / (0.01 * 0.755763), std::sqrt(0.5), 1e-3);
+}
+
+}  // namespace
+}  // namespace hysteron
