@@ -25,6 +25,7 @@ struct Tried {
   double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
   double share = 0;       ///< of the excess on validation that it removes, of the outputs that it can move
   bool admitted = false;  ///< passes the rules of a claim
+  bool sharp = false;     ///< fitted with the finest rows
   bool hidden = false;    ///< cannot be seen here, may have acted all the same
   std::string reason;
 };

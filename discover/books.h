@@ -1,0 +1,97 @@
+// Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
+// Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
+// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp), the verdict (conclude.cpp).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discover/evidence.h"
+#include "discover/experiment.h"
+#include "discover/investigation.h"
+#include "fit/model.h"
+
+namespace hysteron {
+
+struct Books {
+  Books(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+        const DiscoverOptions& options);
+
+  bool stopped() const { return options.stop && options.stop(); }
+  void progress(const std::string& what, double done) const;
+  bool wanted(const Effect& effect) const;
+  /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units.
+  void settle(Contender& best);
+
+  const Registry& registry;
+  const Effects& effects;
+  const DiscoverOptions& options;
+  std::shared_ptr<const DataSet> data;
+  const Diagram& user;
+  Workshop shop;
+  std::unique_ptr<DataModel> base_model;
+  std::unique_ptr<Evidence> evidence;
+  Contender base, current;
+  std::vector<Tried> hidden;     ///< of the present step: cannot be seen here, may have acted all the same
+  Prediction before_prediction;  ///< of the model before the present step; empty = the base
+  Discovery d;
+};
+
+/// Fits the user's model and settles the noise. Throws Error where a role is missing or the model cannot be simulated.
+void fit_base(Books& books);
+
+/// One of its family stands in the present model.
+bool standing(const Books& books, const Effect& effect);
+/// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
+/// with these held it would not be seen.
+bool taken_up(const Books& books, const Effect& effect);
+/// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once, or as
+/// twins. What the recordings cannot show and may have acted all the same goes to `books.hidden`.
+std::vector<Tried> list_candidates(Books& books, int step);
+/// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.
+Tried* same_finding(std::vector<Tried>& kept, const Tried& t);
+/// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both places.
+void join_twins(std::vector<Tried>& tried);
+/// What rows that are off by a part of the noise can add to chi2 or take from it: their square, and their product with
+/// the noise.
+double blur(const Contender& contender);
+
+/// Indices of candidates that could be fitted, best score first.
+std::vector<std::size_t> ranking(const std::vector<Tried>& tried);
+/// The first of them that passes the rules of a claim; -1 = none.
+int best_admitted(const std::vector<Tried>& tried);
+/// Noise by the best of them, then everybody's error in its units, then the rules.
+void compare_all(Books& books, std::vector<Tried>& tried, double first_fall);
+/// Further effects were screened with the earlier ones held: the best few are fitted together with them.
+void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, double bar);
+/// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
+/// effect that was found they are screened with that one held, and fitted together only where that brings something.
+void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall, double bar);
+/// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
+/// rival: that it was refused says nothing against it.
+void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, double first_fall);
+
+/// Candidates that explain the recordings as well as the winner, best first.
+std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner);
+/// Fits with the finest rows, once.
+void sharpen(Books& books, Tried& t);
+/// Look-alikes that the accuracy of the search cannot tell apart are fitted again with finer rows.
+void sharpen_rivals(Books& books, std::vector<Tried>& tried, std::size_t winner);
+/// The recording that would separate two candidates best.
+std::optional<Experiment> experiment_between(Books& books, const Tried& a, const Tried& b);
+/// Rivals that all recordings could have told apart are tied by noise, and another recording must be far better than
+/// they were. One that no recording could show needs only to be seen.
+bool would_tell(const Experiment& experiment, bool hidden);
+
+/// Takes the winner into the present model, with its ties and the experiment that would break them.
+void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
+           double bar);
+
+/// As the recordings have it.
+Unit output_unit(const Books& books);
+/// Verdict, remainder, words.
+void conclude(Books& books);
+
+}  // namespace hysteron

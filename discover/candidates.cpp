@@ -1,0 +1,180 @@
+// Decides which effects are tried at which places in a step: all that could be seen; places that a law cannot tell
+// apart once.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "discover/books.h"
+#include "discover/circumstances.h"
+#include "discover/residual_parts.h"
+#include "discover/structures.h"
+#include "discover/visible.h"
+#include "discover/wiring.h"
+
+namespace hysteron {
+namespace {
+
+/// Outputs that a wire moves, as indices of the program's outputs.
+std::vector<int> moved_by(const Books& books, const std::string& written) {
+  const Program& p = *books.current.program;
+  const std::string wire = program_signal(books.current.diagram, *books.shop.registry, written);
+  int signal = p.find_signal(wire);
+  if (signal < 0) signal = p.find_signal(wire + "[0]");
+  std::vector<int> list;
+  if (signal < 0) return list;
+  const int from = p.signals[static_cast<std::size_t>(signal)].block;
+  const auto below = p.downstream_of(from);
+  for (std::size_t o = 0; o < p.output_signals.size(); ++o) {
+    const int block = p.signals[static_cast<std::size_t>(p.output_signals[o])].block;
+    if (block == from || below[static_cast<std::size_t>(block)]) list.push_back(static_cast<int>(o));
+  }
+  return list;
+}
+
+/// The effect stands already on the way to an output that this place moves: each axis has its own.
+bool standing_before(const Books& books, const Effect& e, const Place& place) {
+  if (e.side == Side::other_axis) return false;
+  const auto here = moved_by(books, place.wire);
+  return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& s) {
+    if (s.effect->family != e.family) return false;
+    const auto there = moved_by(books, s.place.wire);
+    return there.empty() || here.empty() || std::any_of(here.begin(), here.end(), [&](int o) {
+             return std::find(there.begin(), there.end(), o) != there.end();
+           });
+  });
+}
+
+/// The two strongest lines of each output that the place moves [Hz].
+std::vector<double> lines_left(const Books& books, const Tried& t,
+                               const std::vector<std::pair<double, double>>& bands) {
+  std::vector<double> lines;
+  for (std::size_t o = 0; o < books.base_model->outputs().size(); ++o) {
+    const auto& name = books.base_model->outputs()[o];
+    if (!t.outputs.empty() && std::find(t.outputs.begin(), t.outputs.end(), name) == t.outputs.end()) continue;
+    const ResidualParts parts(*books.evidence, books.current.prediction, static_cast<int>(o));
+    for (const double f : strongest_lines(parts, bands, 2)) lines.push_back(f);
+  }
+  return lines;
+}
+
+/// A frequency is sought in what the present model leaves: a fit from anywhere else sees the next side lobe only.
+void begin_at_lines(const Books& books, Tried& t) {
+  std::map<std::vector<std::pair<double, double>>, std::vector<double>> lines;  // by their bands
+  for (auto& law : t.laws)
+    for (auto& p : law.free) {
+      if (p.line_bands.empty()) continue;
+      const auto [found, is_new] = lines.try_emplace(p.line_bands);
+      if (is_new) found->second = lines_left(books, t, p.line_bands);
+      if (!found->second.empty()) p.scan = found->second;
+    }
+}
+
+}  // namespace
+
+bool standing(const Books& books, const Effect& e) {
+  if (e.side == Side::other_axis) return false;  // each axis has its own; a wire that has it is left out by places_of
+  return std::any_of(books.current.standing.begin(), books.current.standing.end(),
+                     [&](const Standing& s) { return s.effect->family == e.family; });
+}
+
+/// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
+/// with these held it would not be seen.
+bool taken_up(const Books& books, const Effect& effect) {
+  return std::any_of(books.current.standing.begin(), books.current.standing.end(),
+                     [&](const Standing& s) { return look_alike(*s.effect, effect); });
+}
+
+Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
+  if (t.effect->commutes == Commutes::nothing) return nullptr;
+  for (auto& k : kept)
+    if (k.twin < 0 && k.effect->family == t.effect->family && k.effect->commutes == t.effect->commutes &&
+        !k.place.group_for(*k.effect).empty() && k.place.group_for(*k.effect) == t.place.group_for(*t.effect))
+      return &k;
+  return nullptr;
+}
+
+/// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
+std::vector<Tried> list_candidates(Books& books, int step) {
+  books.hidden.clear();
+  std::vector<Tried> list;
+  std::vector<Place> places;
+  for (const auto& e : books.effects.list()) {
+    if (!books.wanted(e)) continue;
+    auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
+    std::erase_if(where, [&](const Place& p) { return standing_before(books, e, p); });
+    if (where.empty() && standing(books, e)) continue;
+    if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e)});
+    for (const auto& p : where) {
+      Tried t;
+      t.effect = &e;
+      t.place = p;
+      list.push_back(std::move(t));
+      places.push_back(p);
+    }
+  }
+  if (list.empty()) return list;
+  const auto seen =
+      circumstances_at(books.current.diagram, books.registry, *books.data, places, books.options.free_paths);
+  std::vector<Tried> kept;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Tried& t = list[i];
+    t.circumstances = seen[i];
+    if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
+      if (step == 1) books.d.refused.push_back({t.effect->id, t.place.at, why});
+      if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) books.hidden.push_back(std::move(t));
+      continue;
+    }
+    t.laws = t.effect->laws(t.circumstances);
+    if (t.laws.empty() || t.laws.front().free.empty()) continue;
+    if (Tried* same = same_finding(kept, t)) {
+      if (same->effect != t.effect) same->same_effects.push_back(t.effect->id);
+      same->same_places.push_back(t.place.at);
+      // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows;
+      // it is fitted at both ends all the same, for what lies between may be rougher than the drive.
+      if (same->effect == t.effect && t.effect->commutes == Commutes::time_invariant) {
+        t.twin = static_cast<int>(same - kept.data());
+        kept.push_back(std::move(t));
+      }
+      continue;
+    }
+    kept.push_back(std::move(t));
+  }
+  for (auto* list_of : {&kept, &books.hidden})
+    for (auto& t : *list_of) {
+      for (const int o : moved_by(books, t.place.wire))
+        t.outputs.push_back(books.base_model->program().output_names[static_cast<std::size_t>(o)]);
+      begin_at_lines(books, t);
+    }
+  return kept;
+}
+
+/// What rows that are off by a part of the noise can add to chi2 or take from it: their square, and their product
+/// with the noise.
+double blur(const Contender& c) {
+  const double n = c.error_of.n();
+  return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));
+}
+
+/// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both
+/// places.
+void join_twins(std::vector<Tried>& tried) {
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    if (tried[i].twin < 0) continue;
+    Tried& first = tried[static_cast<std::size_t>(tried[i].twin)];
+    Tried& second = tried[i];
+    std::erase(first.same_places, second.place.at);
+    if (second.contender.ok &&
+        (!first.contender.ok || second.contender.score() < first.contender.score() + blur(first.contender))) {
+      first.same_places.push_back(first.place.at);
+      std::swap(first.place, second.place);
+      std::swap(first.circumstances, second.circumstances);
+      std::swap(first.laws, second.laws);
+      std::swap(first.contender, second.contender);
+    } else {
+      first.same_places.push_back(second.place.at);
+    }
+  }
+  std::erase_if(tried, [](const Tried& t) { return t.twin >= 0; });
+}
+
+}  // namespace hysteron

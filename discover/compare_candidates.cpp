@@ -1,0 +1,152 @@
+// Decides how the candidates of a step are compared: noise by the best of them, further effects together with those
+// that stand, richer laws of the best names, and what the recordings cannot show as a rival.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/books.h"
+
+namespace hysteron {
+namespace {
+
+/// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name.
+void leave_to_calibration(std::vector<Tried>& tried) {
+  for (const auto& plain : tried) {
+    if (plain.effect->id != "calibration" || !plain.admitted) continue;
+    for (auto& t : tried) {
+      if (!t.admitted || !t.effect->moves_zero) continue;
+      if (plain.contender.error_of.evidence() - t.contender.error_of.evidence() > rules::claim_fall) continue;
+      t.admitted = false;
+      t.reason = "a gain and a zero alone take away as much";
+    }
+  }
+}
+
+/// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
+/// magnitude: what stays far below the least fall of a claim needs no fit of everything.
+bool within_reach(const Books& books, const Tried& t, double first_fall) {
+  const double own =
+      std::min(rules::own_law_left * rules::own_law_left * first_fall, books.current.error_of.excess_validate());
+  const double fall = books.current.error_of.chi2_validate - t.contender.error_of.chi2_validate;
+  return fall > rules::screened_part * std::max(rules::claim_fall, own);
+}
+
+/// The richer law starts where the simple one ended, for parameters of the same name.
+Law started_from(const Tried& t, std::size_t law) {
+  Law richer = t.laws[law];
+  for (const auto& p : parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1)) {
+    if (p.estimate == nullptr || p.estimate->linear) continue;
+    for (auto& q : richer.free)
+      if (q.path == p.law->path) {
+        q.start = p.estimate->used;
+        q.scan = {p.estimate->used, p.estimate->used / 2};
+      }
+  }
+  return richer;
+}
+
+}  // namespace
+
+/// Indices of candidates that could be fitted, best score first.
+std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    if (tried[i].contender.ok) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tried[a].contender.score() < tried[b].contender.score();
+  });
+  return order;
+}
+
+int best_admitted(const std::vector<Tried>& tried) {
+  for (const std::size_t i : ranking(tried))
+    if (tried[i].admitted) return static_cast<int>(i);
+  return -1;
+}
+
+void compare_all(Books& books, std::vector<Tried>& tried, double first_fall) {
+  Tried* best = nullptr;
+  for (auto& t : tried)
+    if (t.contender.ok && (best == nullptr || t.contender.error_of.evidence() < best->contender.error_of.evidence()))
+      best = &t;
+  if (best != nullptr && best->contender.error_of.evidence() < books.current.error_of.evidence())
+    books.settle(best->contender);
+  else
+    books.settle(books.current);
+  books.current.error_of = books.evidence->error(books.current.prediction);
+  for (auto& t : tried) {
+    if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
+    judge(t, books.current, first_fall);
+  }
+  leave_to_calibration(tried);
+}
+
+/// Further effects were screened with the earlier ones held: the best few are fitted together with them.
+void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, double bar) {
+  auto order = ranking(tried);
+  std::vector<std::size_t> screened_out;
+  for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
+    Tried& t = tried[order[k]];
+    if (k >= 4 || !within_reach(books, t, first_fall)) {
+      screened_out.push_back(order[k]);
+      continue;
+    }
+    books.progress("together with what was found: " + t.effect->id, bar);
+    Contender better = refit(books.shop, t.contender, Effort::full);
+    books.d.model_runs += better.runs;
+    if (better.ok) t.contender = std::move(better);
+  }
+  compare_all(books, tried, first_fall);
+  for (const std::size_t i : screened_out) tried[i].admitted = false;
+}
+
+/// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
+/// effect that was found they are screened with that one held, and fitted together only where that brings something.
+void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall, double bar) {
+  const auto order = ranking(tried);
+  if (order.empty()) return;
+  const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
+  bool any = false;
+  for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
+    if (!far && k >= static_cast<std::size_t>(rules::enriched)) break;
+    Tried& t = tried[order[k]];
+    if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
+    if (step > 1 && !within_reach(books, t, first_fall)) continue;
+    for (std::size_t law = 1; law < t.laws.size(); ++law) {
+      books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
+      Contender richer = with_effect(books.shop, books.current, *t.effect, started_from(t, law), t.place,
+                                     t.circumstances, step == 1 ? Effort::full : Effort::screen);
+      books.d.model_runs += richer.runs;
+      if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
+        Contender together = refit(books.shop, richer, Effort::full);
+        books.d.model_runs += together.runs;
+        if (together.ok) richer = std::move(together);
+      }
+      if (!richer.ok || !(richer.score() < t.contender.score())) continue;
+      t.contender = std::move(richer);
+      t.law = law;
+      any = true;
+    }
+  }
+  if (any) compare_all(books, tried, first_fall);
+}
+
+/// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
+/// rival: that it was refused says nothing against it.
+void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, double first_fall) {
+  for (auto& t : books.hidden) {
+    if (!look_alike(*t.effect, winner) || books.stopped()) continue;
+    t.laws = t.effect->laws(t.circumstances);
+    if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
+    t.contender =
+        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
+    books.d.model_runs += t.contender.runs;
+    if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
+    judge(t, books.current, first_fall);
+    t.hidden = true;
+    tried.push_back(std::move(t));
+  }
+  books.hidden.clear();
+}
+
+}  // namespace hysteron

@@ -1,0 +1,120 @@
+// Decides the verdict of a discovery: effects, a generic structure that explains more, or nothing; and what is told of
+// what is left.
+#include <algorithm>
+
+#include "discover/books.h"
+#include "discover/structures.h"
+
+namespace hysteron {
+namespace {
+
+/// What the effects take away of what a gain and an offset leave: a structure is counted from there too.
+double removed_beyond_calibration(const Books& books, const Structure& s) {
+  double left = 0;
+  for (const auto& r : books.current.error_of.recordings)
+    if (r.role == Role::validate && r.output == s.output) left += r.chi2;
+  return s.beyond_calibration - left;
+}
+
+/// A structure that no effect describes explains more than the effects did: what they took away was part of it.
+void withdraw(Books& books) {
+  for (auto& c : books.d.candidates)
+    if (c.claimed) {
+      c.claimed = false;
+      c.reason = "withdrawn: " + books.d.structure->sentence + ", more than this effect takes away";
+    }
+  books.d.steps.clear();
+  books.current = books.base;
+  books.settle(books.current);
+}
+
+/// Read once, here, and used for nothing but the report.
+void test_recordings(Books& books) {
+  const auto test = books.base_model->recordings(Role::test);
+  if (test.empty()) return;
+  const Prediction p = predicted(books.shop, books.current, test);
+  if (!p.ok) return;
+  if (const auto e = books.evidence->test_error(p)) {
+    books.d.final_error.rms_test = e->first;
+    books.d.final_error.nrmse_test = e->second;
+  }
+}
+
+void tell_noise(Books& books) {
+  books.d.noise_guessed = !books.evidence->noise_known();
+  for (std::size_t o = 0; o < books.base_model->outputs().size(); ++o) {
+    const auto& n = books.evidence->noise().outputs[o];
+    JudgedNoise told;
+    told.output = books.base_model->outputs()[o];
+    told.unit = books.base_model->program()
+                    .signals[static_cast<std::size_t>(books.base_model->output_signal(static_cast<int>(o)))]
+                    .unit;
+    told.white = n.white;
+    told.one_over_f = n.one_over_f;
+    told.origin = to_text(n.source);
+    told.remark = n.remark;
+    books.d.noise.push_back(std::move(told));
+  }
+}
+
+}  // namespace
+
+/// As the recordings have it.
+Unit output_unit(const Books& books) {
+  const auto& name = books.base_model->outputs().front();
+  for (const auto& r : books.data->recordings)
+    if (const auto found = r.units.find(name); found != r.units.end()) return found->second;
+  return books.base_model->program().signals[static_cast<std::size_t>(books.base_model->output_signal(0))].unit;
+}
+
+void conclude(Books& books) {
+  books.progress("what is left", 0.97);
+  books.settle(books.current);
+  books.d.base = books.evidence->error(books.base.prediction);
+  const double floor = books.current.error_of.over_floor();
+  const bool base_is_off = books.d.base.over_floor() > rules::floor_gate;
+  std::optional<Structure> structure;
+  if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction);
+  // A clamp is a kink at a level too: what effects explain down to the noise needs no structure.
+  const bool effects_suffice = !books.d.steps.empty() && floor <= rules::floor_gate;
+  const bool structure_wins =
+      structure && structure->explains() && !effects_suffice && structure->share_removed > rules::structure_share &&
+      structure->fall_validate > std::max(removed_beyond_calibration(books, *structure), rules::claim_fall);
+  if (structure_wins) {
+    books.d.verdict = Verdict::unexplained;
+    books.d.structure = structure;
+    withdraw(books);
+  } else if (books.d.steps.empty()) {
+    // chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size lifts it too.
+    const bool told = structure && structure->fall_validate > rules::claim_fall;
+    const bool holds = told && structure->share_removed > rules::structure_share;
+    const bool unexplained = base_is_off && (holds || books.d.base.over_floor() > rules::slow_noise);
+    books.d.verdict = unexplained ? Verdict::unexplained : Verdict::adequate;
+    if (unexplained && told) books.d.structure = structure;
+  } else {
+    const bool certain = std::any_of(books.d.steps.begin(), books.d.steps.end(),
+                                     [](const FoundStep& s) { return s.ties.empty() || !s.experiment_would_tell; });
+    books.d.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
+    if (floor > rules::floor_gate && !books.stopped()) {
+      auto left = find_structure(*books.evidence, books.current.prediction);
+      if (left && left->share_removed > rules::structure_share && left->fall_validate > rules::claim_fall)
+        books.d.structure = left;
+    }
+  }
+  books.d.remainder =
+      books.current.error_of.over_floor() > rules::floor_gate ? Remainder::structured : Remainder::noise;
+  for (const auto& s : books.d.steps)
+    if (s.experiment && s.experiment_would_tell &&
+        (!books.d.experiment || s.experiment->separation > books.d.experiment->separation))
+      books.d.experiment = s.experiment;
+  books.d.final_diagram = books.current.diagram;
+  books.d.final_error = books.current.error_of;
+  books.d.final_prediction = books.current.prediction;
+  add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
+  test_recordings(books);
+  tell_noise(books);
+  put_into_words(books.d, *books.data, output_unit(books));
+  books.progress("done", 1);
+}
+
+}  // namespace hysteron
