@@ -273,7 +273,9 @@ def mass_on_spring(pull, h, step, cubic, quadratic, friction, table, depth, slop
             zeta = bristles(zeta, v, h, friction[1], friction[2], friction[3])
             p += friction[0] * (zeta + friction[4] * (zeta - zeta_before) / h)
         if depth != 0:
-            p += depth * scale * (2 * (preisach_step(table, x / scale, turns, outputs, memory) - rest) - slope * x / scale)
+            # What a lagging memory leaves of a straight line leads: pushed out it takes more force than coming back, as
+            # whatever loses energy does. The line is what the user's stiffness already holds, of a full stroke.
+            p -= depth * scale * (2 * (preisach_step(table, x / scale, turns, outputs, memory) - rest) - slope * x / scale)
         y[k] = x
     return y
 
