@@ -108,11 +108,12 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall
   const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
   bool any = false;
   for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
-    if (!far && k >= static_cast<std::size_t>(rules::enriched)) break;
     Tried& t = tried[order[k]];
-    if (!(t.fall_validate > 0)) continue;  // a law that brings nothing in its simple form has nothing to enrich
-    if (step > 1 && !within_reach(books, t, first_fall)) continue;
+    // A law that brings nothing in its simple form has nothing to enrich.
+    const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
+                           (step == 1 || within_reach(books, t, first_fall));
     for (std::size_t law = 1; law < t.laws.size(); ++law) {
+      if (!promising && !t.laws[law].apart) continue;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
       Contender richer = with_effect(books.shop, books.current, *t.effect, started_from(t, law), t.place,
                                      t.circumstances, step == 1 ? Effort::full : Effort::screen);

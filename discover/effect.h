@@ -94,6 +94,7 @@ struct Law {
   std::string name;  ///< "one pole", "two poles": shown to people, unique within the effect
   Node block;        ///< type and parameters as they are written into the file (start values)
   std::vector<LawParameter> free;
+  bool apart = false;     ///< no refinement of the first law: tried whatever that one brought
   bool reweighs = false;  ///< the weights of the operators behind the place are found anew with it
 };
 
@@ -128,6 +129,7 @@ struct Effect {
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
+  bool before_sensor = false;       ///< not on a wire that is measured itself: there its law is the sensor's own
   Commutes commutes = Commutes::nothing;
   /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is
   /// found anew.
@@ -137,7 +139,8 @@ struct Effect {
   std::vector<LookAlike> look_alikes;
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
   std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
-  /// Laws, simplest first; those behind the first are tried where the first is among the best.
+  /// Laws, simplest first; those behind the first are tried where the first is among the best, or where they stand
+  /// apart.
   std::function<std::vector<Law>(const Circumstances&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
   std::function<std::string(const Circumstances&)> unseen;

@@ -307,6 +307,14 @@ std::vector<Place> beside(const std::vector<Place>& places, const Effect& effect
   return list;
 }
 
+/// Nothing but a constant lies between a wire and an output.
+bool is_measured(const Wiring& w, const Registry& registry, const std::string& wire) {
+  return std::any_of(w.diagram().outputs.begin(), w.diagram().outputs.end(), [&](const auto& output) {
+    const std::string s = w.signal(output.second);
+    return !s.empty() && on_wire(w, registry, "measured", start_of_chain(w, before_offset(w, s))).wire == wire;
+  });
+}
+
 }  // namespace
 
 std::vector<Place> find_places(const Diagram& diagram, const Registry& registry) {
@@ -331,6 +339,8 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     const bool known = std::any_of(list.begin(), list.end(), [&](const Place& p) { return p.at == place.at; });
     if (!known) list.push_back(std::move(place));
   }
+  if (effect.before_sensor && diagram.places.find("core") == nullptr)
+    std::erase_if(list, [&](const Place& p) { return is_measured(w, registry, p.wire); });
   if (effect.side != Side::none) return beside(list, effect, w, data);
   // The zero of a sensor stands behind everything, and so does what its cable picks up: they enter at the output
   // itself.

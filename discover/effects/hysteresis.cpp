@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "discover/effects/library.h"
 
@@ -63,6 +64,12 @@ Law slip_elements(const Circumstances& at) {
   }
   give(law.block, "contact_stiffness", std::move(stiffness));
   give(law.block, "slip_distance", std::move(distance));
+  // Elements that have not slipped add to the spring, and whoever measured that over a stroke has them in it already.
+  LawParameter spring;
+  spring.path = "stiffness";
+  spring.start = std::numeric_limits<double>::quiet_NaN();
+  spring.lower = 0;
+  law.free.push_back(spring);
   return law;
 }
 
@@ -70,9 +77,9 @@ Law slip_elements(const Circumstances& at) {
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("slip_distance")->content);
   const double range = at.travel_highest - at.travel_lowest;
-  if (list == nullptr || list->size() != values.size() || !(range > 0) || !(at.range() > 0)) return "";
+  if (list == nullptr || list->size() > values.size() || !(range > 0) || !(at.range() > 0)) return "";
   double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
-  for (std::size_t i = 0; i < values.size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);
+  for (std::size_t i = 0; i < list->size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);
   return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
 }
 

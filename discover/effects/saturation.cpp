@@ -61,6 +61,7 @@ Effect saturation() {
 
     Law knee;
     knee.name = "soft knee";
+    knee.apart = true;  // far below a knee nothing is flat, and limits that are hard bring nothing
     knee.block.type = "soft_saturation";
     const double size = std::max({std::abs(at.lowest), std::abs(at.highest), 1e-30});
     give(knee.block, "limit", with_unit(2 * size, at.unit));

@@ -9,18 +9,18 @@
 namespace hysteron::effects {
 namespace {
 
-/// y = c_1 u/range + c_2 (u/range)^2 (+ c_3 (u/range)^3), straight on beyond twice the range. What a curve is bent
+/// y = c_1 u/range + c_2 (u/range)^2 + ... of the given order, straight on beyond twice the range. What a curve is bent
 /// about is its best straight line (Fleming, section 2), whose slope the user's gain stands for: from the rest
 /// position, c_1 is free with it unless a gain behind it is; its constant is the user's zero (moves_zero).
 Law curve(const Circumstances& at, int order) {
   Law law;
-  law.name = order == 2 ? "quadratic" : "cubic";
+  law.name = order == 2 ? "quadratic" : order == 3 ? "cubic" : fmt::format("of order {}", order);
   law.block.type = "polynomial";
   const double range = at.range() > 0 ? at.range() : 1;
   // The linear coefficient is the reference, rounded alike: the neutral curve is exactly u.
   const Number reference = with_unit(range, at.unit), zero = with_unit(0.0, at.unit);
-  NumberList coefficients{zero, reference, zero};
-  if (order == 3) coefficients.push_back(zero);
+  NumberList coefficients{zero, reference};
+  for (int k = 2; k <= order; ++k) coefficients.push_back(zero);
   give(law.block, "coefficients", std::move(coefficients));
   give(law.block, "reference", reference);
   give(law.block, "lower", level(at.lowest - range, at.unit));
@@ -31,8 +31,13 @@ Law curve(const Circumstances& at, int order) {
     c.start = 0.01 * range;
     c.lower = -0.5 * range;
     c.upper = 0.5 * range;
-    c.plausible_lower = -0.15 * range;
-    c.plausible_upper = 0.15 * range;
+    if (order <= 3) {  // of a higher order the powers share what one of them does
+      c.plausible_lower = -0.15 * range;
+      c.plausible_upper = 0.15 * range;
+    } else {
+      c.lower *= 8;
+      c.upper *= 8;
+    }
     law.free.push_back(c);
   }
   if (at.gain_is_free) return law;
@@ -45,6 +50,23 @@ Law curve(const Circumstances& at, int order) {
   return law;
 }
 
+/// A sensor that is calibrated over its range is off at zero too: its constant is free where nobody else's zero is.
+std::vector<Law> curves_of_sensor(const Circumstances& at) {
+  std::vector<Law> laws;
+  for (const int order : {3, 2, 5}) {
+    Law law = curve(at, order);
+    if (!at.offset_is_free && at.zeros.empty()) {
+      LawParameter zero;
+      zero.path = element("coefficients", 0);
+      zero.lower = -0.5 * at.range();
+      zero.upper = 0.5 * at.range();
+      law.free.push_back(zero);
+    }
+    laws.push_back(std::move(law));
+  }
+  return laws;
+}
+
 /// The curve before the operators, and other weights of these: what bends the drive bends the loops too.
 Law reweighed(const Circumstances& at) {
   Law law = curve(at, 3);
@@ -55,9 +77,14 @@ Law reweighed(const Circumstances& at) {
 
 std::string curve_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   std::string text;
-  for (std::size_t k = 0; k < values.size() && law.free[k].path != element("coefficients", 1); ++k)
+  for (std::size_t k = 0; k < values.size() && law.free[k].path.starts_with("coefficients["); ++k) {
+    const int power = static_cast<int>(k) + 2;
+    if (law.free[k].path != element("coefficients", power)) break;
     text += fmt::format("{}{:.2g} % {}", k == 0 ? "" : ", ", 100 * values[k] / std::max(at.range(), 1e-300),
-                        k == 0 ? "quadratic" : "cubic");
+                        power == 2   ? "quadratic"
+                        : power == 3 ? "cubic"
+                                     : fmt::format("of order {}", power));
+  }
   return text + " over the range";
 }
 
@@ -68,8 +95,6 @@ Effect common() {
   e.equation = "y = u + p2*u^2 + p3*u^3";
   e.moves_zero = true;
   e.summary = curve_summary;
-  // The cubic first: an S about the middle has nothing quadratic to begin with.
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{curve(at, 3), curve(at, 2)}; };
   e.unseen = stands_still;
   e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
   e.look_alikes = {{"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
@@ -88,8 +113,10 @@ Effect asymmetry() {
   e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
   e.needs = "Full drive, and small motion about two or more levels.";
   e.places = {"core"};
+  e.before_sensor = true;
   e.laws = [](const Circumstances& at) {
-    std::vector<Law> laws{curve(at, 3), curve(at, 2)};
+    // The cubic first: an S about the middle has nothing quadratic to begin with.
+    std::vector<Law> laws{curve(at, 3), curve(at, 2), curve(at, 5)};
     if (!at.weights.empty()) laws.push_back(reweighed(at));
     return laws;
   };
@@ -107,6 +134,7 @@ Effect sensor_nonlinearity() {
   e.residual = "One curve over the output, the same on rising and falling branches.";
   e.needs = "A second sensor for proof; without it a curve in y or a curved actuator.";
   e.places = {"measured"};
+  e.laws = curves_of_sensor;
   e.parameters.front().range = "0.02 .. 1 % of full scale";
   e.look_alikes.push_back({"asymmetry", "reference_sensor", "a sensor's curve has no memory"});
   return e;
