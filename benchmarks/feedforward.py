@@ -153,7 +153,7 @@ def comparison():
 def by_hysteron(program, folder):
     for wave in ("sine", "triangle"):
         for name in INVERSES:
-            subprocess.run([program, "run", str(CHAPTER / "feedforward.json"), "--choose", f"compensator={name}",
+            subprocess.run([program, "run", str(CHAPTER / "feedforward_fitted.json"), "--choose", f"compensator={name}",
                             "--choose", f"reference={wave}", "-o", f"{folder}/{wave}_{name}", "--quiet"],
                            check=True, stdout=subprocess.DEVNULL)
 
