@@ -121,6 +121,28 @@ TEST(TapiWeights, KeepTheForwardBranchAtEveryThreshold) {
   for (int i = 0; i <= 80; ++i) EXPECT_NEAR(branch(weights, 1, 0.1 * i), branch(plant.c, 0, 0.1 * i), 1e-12) << i;
 }
 
+TEST(TapiWeights, PrintedConversionLosesTheForwardBranch) {
+  // E-43: c*_i = sum c_j - c*_1 (P_s^2/a)(r_i/a) - sum_(j=2)^(i-1) c*_j, where the slope of the saturating part is
+  // c*_1 (P_s/aT) sech^2(r_i/aT) and the sum has to begin with c*_1. At u = 8 V it misses by 1.9 um of 7.7.
+  const PlantT1 plant;
+  const double p = 1.4, b = 3.1;
+  Numbers printed;
+  double sum = 0, taken = 0;
+  for (std::size_t i = 0; i < plant.c.size(); ++i) {
+    sum += plant.c[i];
+    const double first = i == 0 ? sum : printed[0];  // r_1 = 0
+    printed.push_back(i == 0 ? sum : sum - first * p * p / b * (plant.r[i] / b) - taken);
+    if (i > 0) taken += printed[i];
+  }
+  const auto branch = [&](const Numbers& c, double saturating, double u) {
+    double y = c[0] * saturating * p * std::tanh(u / b);
+    for (std::size_t i = 0; i < c.size(); ++i) y += c[i] * std::max(u - plant.r[i], 0.0);
+    return y;
+  };
+  EXPECT_NEAR(branch(tapi_weights(plant.c, plant.r, p, b, 8), 1, 8), branch(plant.c, 0, 8), 1e-12);
+  EXPECT_GT(std::fabs(branch(printed, 1, 8) - branch(plant.c, 0, 8)), 1.5);
+}
+
 TEST(TapiMethod, ReproducesTheIdentificationOfThePlantT1) {
   const PlantT1 plant;
   const DataSet data = recordings(plant, 2000);

@@ -122,6 +122,21 @@ TEST(CoupledTapi, SingleAxisCompensatorsLeaveTheCoupling) {
   EXPECT_LT(worst(23, 23, coupled_tapi::Axes::coupled, true), 1e-12);
 }
 
+TEST(CoupledTapi, SaturationIsInUnitsOfTheOutputUnlikeThatOfOneAxis) {
+  // E-44: c_1 P_s tanh in 5.15 (P_s in V), P_s tanh in 5.26 (P_s in um): the same curve for P_s(5.26) = c_1 P_s(5.15);
+  // with one number in both they differ by the factor c_1 = 0.62 um/V.
+  const Reference ref;
+  const Numbers rest(9, 0.0);
+  const auto law = ref.law();
+  const double t = 296.15, u = 0.5;  // below the first threshold: the saturating and the linear part alone
+  const double here = coupled_tapi::branch_at<double>(law, 0, 0, rest, u, t);
+  EXPECT_NEAR(here, tapi::output_at<double>(law.law(0, 0), law.thresholds, law.branch(0, 0), rest, u, t), 1e-15);
+  auto one_number = law.law(0, 0);
+  one_number.p_s = ref.p_s[0];
+  const double mixed = tapi::output_at<double>(one_number, law.thresholds, law.branch(0, 0), rest, u, t);
+  EXPECT_NEAR((mixed - 0.62 * u) / (here - 0.62 * u), 0.62, 1e-12);
+}
+
 TEST(CoupledTapi, SaysSoWhereAxesHangOnEachOtherTooMuch) {
   Reference ref;
   for (std::size_t at = 0; at < 9; ++at)

@@ -119,6 +119,22 @@ TEST(TransducerCharge, IsWhatTheCapacitorLeaves) {
   EXPECT_LT(q - u_t / c, -1e6);
 }
 
+TEST(TransducerCharge, CountsTheChargeOfDomainsOnce) {
+  // E-42: i = q_C' + q_T' (5.5) with q_C = C u_T + q_P. Adding q_P again, as 5.12 with the q_C of its text does, asks
+  // for more charge than flows, by q_P itself. P_s is a charge density: times the area it is one.
+  const double c = 2.6e-6, t_q = 5.4, k = 45e6, area = 0.0144, p_s = 2e-3, bend = 40;
+  const auto domains = [&](double u) { return area * p_s * std::tanh(u / bend); };
+  double q = 0;  // charge that flows while u_T rises to 80 V: the integral of the capacitance seen at the terminals
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const double u = 80 * (i + 0.5) / n, h = std::tanh(u / bend);
+    q += (c + area * p_s / bend * (1 - h * h) + t_q * 5.4 / k) * 80 / n;
+  }
+  const double q_c = c * 80 + domains(80), q_t = t_q * 5.4 * 80 / k;
+  EXPECT_NEAR(q_c + q_t, q, 1e-9 * q);  // midpoint rule: (80/40/20000)^2/24
+  EXPECT_NEAR(q_c + domains(80) + q_t - q, domains(80), 1e-9 * q);
+}
+
 TEST(Collocation, ReproducesTheGoldenPlates) {
   HYSTERON_NEEDS_GOLDEN("fpi_collocation");
   const auto trace = golden::read("fpi_collocation");
