@@ -257,6 +257,7 @@ Table claim_table(const std::vector<ClaimOutcome>& claims) {
       if (!part.holds && !part.remark.empty()) outcome += ": " + part.remark;
       table.rows.push_back({first ? c.claim.id : "", first ? c.claim.says : "",
                             fmt::format("{}: {}", figure_name(part.job), part.came_out), part.expected, outcome});
+      if (first && !c.claim.remark.empty()) table.rows.back()[1] += fmt::format(" ({})", c.claim.remark);
       first = false;
     }
     if (c.parts.empty())

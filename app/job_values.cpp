@@ -183,6 +183,7 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
   if (what == "mean") return {features::mean(r.y), r.unit, r.difference};
   if (what == "stroke") return {features::stroke(r.y), size, true};
   if (what == "rms") return {features::rms(r.y), size, true};
+  if (what == "deviation") return {features::deviation(r.y), size, true};
   if (what == "max_abs") return {features::largest_size(r.y), size, true};
   if (what == "sum_squares") return {features::sum_of_squares(r.y), squared(size), true};
   if (what == "remanence") return {features::remanence(r.y), parse_unit(""), true};

@@ -220,7 +220,7 @@ std::string counts_text(const std::vector<ClaimOutcome>& claims) {
 
 /// One claim for the terminal: its outcome, what it says, and each part below it.
 void print_claim(const ClaimOutcome& c) {
-  fmt::print("{}", wrapped(fmt::format("{:<6} {:<10}  {}", c.claim.id, c.outcome, c.claim.says)));
+  fmt::print("{}", wrapped(fmt::format("{} {}: {}", c.claim.id, c.outcome, c.claim.says)));
   if (!c.reason.empty()) fmt::print("{}", wrapped(c.reason, 8));
   for (const auto& part : c.parts) {
     fmt::print("{}", wrapped(fmt::format("{}{}: {}; expected {}", part.holds ? "" : "differs: ", part.job,
@@ -228,6 +228,7 @@ void print_claim(const ClaimOutcome& c) {
                              8));
     if (!part.holds && !part.remark.empty()) fmt::print("{}", wrapped(part.remark, 8));
   }
+  if (!c.claim.remark.empty()) fmt::print("{}", wrapped(c.claim.remark, 8));
   if (!c.claim.calibrated.empty() && c.outcome == "calibrated")
     fmt::print("{}", wrapped("calibrated: " + c.claim.calibrated, 8));
 }
@@ -242,8 +243,11 @@ Facts claim_facts(const std::vector<ClaimOutcome>& claims) {
                                      {"came_out", p.came_out},
                                      {"expected", p.expected},
                                      {"remark", p.remark}}));
-    list.set(c.claim.id,
-             Facts::object({{"says", c.claim.says}, {"outcome", c.outcome}, {"reason", c.reason}, {"parts", parts}}));
+    list.set(c.claim.id, Facts::object({{"says", c.claim.says},
+                                        {"outcome", c.outcome},
+                                        {"reason", c.reason},
+                                        {"remark", c.claim.remark},
+                                        {"parts", parts}}));
   }
   return list;
 }

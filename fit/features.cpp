@@ -22,6 +22,12 @@ double mean(std::span<const double> y) {
 double rms(std::span<const double> y) {
   return y.empty() ? 0 : std::sqrt(sum_of_squares(y) / static_cast<double>(y.size()));
 }
+double deviation(std::span<const double> y) {
+  const double middle = mean(y);
+  double sum = 0;
+  for (const double v : y) sum += (v - middle) * (v - middle);
+  return y.empty() ? 0 : std::sqrt(sum / static_cast<double>(y.size()));
+}
 double largest_size(std::span<const double> y) { return std::max(std::abs(smallest(y)), std::abs(largest(y))); }
 
 double loop_area(std::span<const double> x, std::span<const double> y) {

@@ -12,6 +12,7 @@ double largest(std::span<const double> y);
 double stroke(std::span<const double> y);  ///< largest minus smallest
 double mean(std::span<const double> y);
 double rms(std::span<const double> y);           ///< about zero, not about the mean
+double deviation(std::span<const double> y);     ///< rms about the mean
 double largest_size(std::span<const double> y);  ///< max |y|
 double sum_of_squares(std::span<const double> y);
 

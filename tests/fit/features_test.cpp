@@ -17,6 +17,7 @@ TEST(Features, SizesOfAFewRows) {
   EXPECT_EQ(largest_size(y), 3);
   EXPECT_EQ(mean(y), 0);
   EXPECT_EQ(sum_of_squares(y), 14);
+  EXPECT_DOUBLE_EQ(deviation(std::vector<double>{4, 8}), 2);
   EXPECT_DOUBLE_EQ(rms(y), std::sqrt(14.0 / 3));
 }
 
