@@ -97,6 +97,20 @@ void add_errors(RunResult& r, const FitResult& found, const DataModel& model) {
   r.numbers.emplace_back("cost", Quantity{sum, squared(unit), true});
 }
 
+/// What the closed loop makes of a loop gain: where L, T and S are -3 dB, and the largest |T| and |S|.
+void add_closed_loop(RunResult& r, const ClosedLoop& c) {
+  const Unit hertz = parse_unit("Hz");
+  const auto hz = [&](const char* name, const std::optional<double>& w) {
+    if (w) r.numbers.emplace_back(name, Quantity{*w / (2 * pi), hertz, true});
+  };
+  hz("open_3db", c.open_half);
+  hz("closed_3db", c.closed_half);
+  hz("sensitivity_3db", c.sensitivity_half);
+  hz("closed_peak_at", c.closed.at);
+  r.numbers.emplace_back("closed_peak", Quantity{c.closed.magnitude, Unit{}, true});
+  r.numbers.emplace_back("sensitivity_peak", Quantity{c.sensitivity.magnitude, Unit{}, true});
+}
+
 /// Gain and phase over frequency, and what is read off them.
 RunResult bode_result(const Program& program, const LinearizeOptions& wanted, const LinearModel& model,
                       const Response& response, const Bode& b) {
@@ -111,7 +125,9 @@ RunResult bode_result(const Program& program, const LinearizeOptions& wanted, co
   const auto hz = [&](const char* name, double w) {
     r.numbers.emplace_back(name, Quantity{w / (2 * pi), hertz, true});
   };
-  r.numbers.emplace_back("dc_gain", Quantity{b.magnitude.front(), ratio, true});
+  const auto poles = model.poles();
+  const bool at_rest = std::none_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; });
+  r.numbers.emplace_back("dc_gain", Quantity{at_rest ? std::abs(response(0)) : b.magnitude.front(), ratio, true});
   r.numbers.emplace_back("peak", Quantity{features::largest(b.magnitude), ratio, true});
   if (const auto width = bandwidth(response, b)) hz("bandwidth", *width);
   const Margins m = margins(response, b);
@@ -123,8 +139,9 @@ RunResult bode_result(const Program& program, const LinearizeOptions& wanted, co
     r.numbers.emplace_back("gain_margin", Quantity{*m.gain_margin, Unit{}, true});
     hz("gain_margin_at", m.gain_margin_at);
   }
+  if (!wanted.open.empty() && from.dimension == to.dimension) add_closed_loop(r, closed_loop(response, b));
   std::vector<std::complex<double>> modes;
-  for (const auto& p : model.poles())
+  for (const auto& p : poles)
     if (p.imag() >= 0 && p != 0.0) modes.push_back(p);
   std::sort(modes.begin(), modes.end(), [](auto p, auto q) { return std::abs(p) < std::abs(q); });
   for (std::size_t i = 0; i < modes.size(); ++i) {
