@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/job_measured.h"
 #include "app/job_values.h"
 #include "app/load.h"
 #include "app/numbers.h"
@@ -244,6 +245,7 @@ JobPage page_of(JobRunner& runner, const std::vector<std::string>& allowed) {
   add_drawings(job, allowed, page);
   Plotter plotter(runner, page);
   for (const auto& plot : job.plots) plotter.draw(plot);
+  page.section.tables = measured_tables(runner);
   return page;
 }
 

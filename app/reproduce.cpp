@@ -273,7 +273,7 @@ Document chapter_page(const std::string& chapter, const std::vector<Job>& jobs, 
     if (jobs[i].chapter != chapter) continue;
     Section section = std::move(results[i].page.section);
     const auto settled = claims_of(claims, jobs[i].name);
-    if (!settled.empty()) section.tables.push_back(claim_table(settled));
+    if (!settled.empty()) section.tables.insert(section.tables.begin(), claim_table(settled));
     for (const auto& c : claims)
       for (const auto& p : c.parts)
         if (p.job == jobs[i].name &&
