@@ -12,6 +12,7 @@
 #include "draw/drawing.h"
 #include "fit/features.h"
 #include "io/diagram_file.h"
+#include "report/report.h"
 
 namespace hysteron {
 namespace {
@@ -209,7 +210,7 @@ void add_drawings(const RunsJob& job, const std::vector<std::string>& allowed, J
     Figure figure;
     figure.kind = "picture";
     figure.title = caption;
-    figure.picture = fmt::format("{}-{}.svg", job.name, ++number);
+    figure.picture = fmt::format("{}-drawing{}.svg", job.name, ++number);
     try {
       page.files.emplace_back(figure.picture, diagram_svg(diagram, *program, registry(), {}));
       page.section.figures.push_back(std::move(figure));
@@ -218,6 +219,17 @@ void add_drawings(const RunsJob& job, const std::vector<std::string>& allowed, J
       page.section.text.push_back(fmt::format("{}: not drawn, {}.", caption, error.problems.front().what));
     }
   }
+}
+
+/// Each figure as a picture file too, for papers and texts.
+void add_pictures(const RunsJob& job, JobPage& page) {
+  constexpr std::size_t points = 800;
+  Document document;
+  document.traces = page.traces;
+  int number = 0;
+  for (const auto& figure : page.section.figures)
+    if (figure.kind == "curves")
+      page.files.emplace_back(fmt::format("{}-{}.svg", job.name, ++number), figure_file(document, figure, points));
 }
 
 }  // namespace
@@ -246,6 +258,7 @@ JobPage page_of(JobRunner& runner, const std::vector<std::string>& allowed) {
   Plotter plotter(runner, page);
   for (const auto& plot : job.plots) plotter.draw(plot);
   page.section.tables = measured_tables(runner);
+  add_pictures(job, page);
   return page;
 }
 

@@ -43,7 +43,8 @@ constexpr char help[] =
     "  hysteron reproduce C2-07               the figures that settle one claim\n"
     "  hysteron reproduce all --baseline kept     kept at the first time, compared with at the next ones\n\n"
     "Writes into the folder: result.json, traces/*.csv (what each figure draws), report.html with the claims, and\n"
-    "a page per chapter (chapter2.html) with every figure. docs/reproduce.md tells how a job is written.\n"
+    "a page per chapter (chapter2.html) with every figure, each as SVG beside it. docs/reproduce.md tells how a job is "
+    "written.\n"
     "Exit codes: 0 done, whatever was found, 1 a claim that held in the baseline does not any more, 2 a job is\n"
     "wrong, 3 a run failed.";
 
@@ -154,12 +155,26 @@ Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>
   return wanted;
 }
 
-/// What one job gave, or why it did not.
+/// What one job gave. A run whose numerics failed costs its job alone; wrong input ends everything.
 struct Done {
   JobPage page;
   std::vector<PartOutcome> parts;
+  std::string failed{};
   std::exception_ptr error{};
 };
+
+/// What stands in place of a job whose numerics failed: none of its claims holds.
+void tell_failure(const Job& job, const Error& error, JobPool& pool, Done& d) {
+  const Problem& p = error.problems.front();
+  d.failed = fmt::format("{} failed: {}: {}", job.name, p.path, p.what);
+  d.parts.clear();
+  for (const auto& claim : pool.job(job.file).job().claims)
+    d.parts.push_back(
+        {job.name, claim.id, false, "the run failed: " + p.what, claim.expected ? claim.expected->text : "-", p.cure});
+  d.page = {};
+  d.page.section.title = figure_name(job.name);
+  d.page.section.text.push_back(d.failed);
+}
 
 Done done(const Job& job, JobPool& pool) {
   Done d;
@@ -167,6 +182,11 @@ Done done(const Job& job, JobPool& pool) {
     JobRunner& runner = pool.job(job.file);
     for (const auto& claim : runner.job().claims) d.parts.push_back(judge(runner, claim));
     d.page = page_of(runner, pool.allowed());
+  } catch (const Error& error) {
+    if (error.fault == Fault::input)
+      d.error = std::current_exception();
+    else
+      tell_failure(job, error, pool, d);
   } catch (...) {
     d.error = std::current_exception();
   }
@@ -341,6 +361,11 @@ int reproduce(const Arguments& arguments) {
   if (arguments.has("--baseline"))
     code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces),
                          arguments.text("--baseline"), document);
+  for (const auto& r : results)
+    if (!r.failed.empty()) {
+      document.warnings.push_back(r.failed);
+      code = exit_code::numerics;
+    }
   document.facts = to_json(Facts::object({{"claims", claim_facts(claims)}}));
   if (!arguments.quiet())
     for (const auto& c : claims) print_claim(c);

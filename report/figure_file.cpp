@@ -35,8 +35,7 @@ void make_room(std::string& svg, const Canvas& canvas) {
 
 }  // namespace
 
-std::string figure_file(const Document& document, const Figure& figure) {
-  constexpr std::size_t points = 4000;
+std::string figure_file(const Document& document, const Figure& figure, std::size_t points) {
   const PreparedFigure prepared = prepare(document, figure, points);
   std::string svg = figure_svg(prepared);
   if (prepared.curves.size() > 1) {

@@ -123,6 +123,7 @@ TEST_F(Reproduce, ThePageOfAChapterShowsEveryFigureAndSaysWhatIsASurrogate) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_TRUE(folder_.has("out/traces/fig2_1-1-full.csv"));
   EXPECT_TRUE(folder_.has("out/traces/fig2_1-2-half.csv"));
+  EXPECT_TRUE(folder_.read("out/fig2_1-1.svg").starts_with("<svg "));
   EXPECT_TRUE(folder_.read("out/traces/fig2_1-1-full.csv").starts_with("drive [V],y [nm]"))
       << folder_.read("out/traces/fig2_1-1-full.csv").substr(0, 60);
 }
@@ -159,6 +160,17 @@ TEST_F(Reproduce, ABaselineIsKeptFirstAndThenAnswersWithTheExitCode) {
   EXPECT_EQ(worse.code, 1) << worse.out;
   EXPECT_NE(worse.out.find("C2-01 held in the baseline and does not any more"), std::string::npos) << worse.out;
   EXPECT_NE(worse.out.find("fig2_1-1-full.csv: y differs by up to 300 nm"), std::string::npos) << worse.out;
+}
+
+TEST_F(Reproduce, ARunThatFailsCostsItsOwnFigureAlone) {
+  std::string text = figure2;  // no offset up to 4 V makes the drive end at 50 V
+  text.replace(text.find("\"5 V\"}}"), 7, "\"50 V\"}}");
+  folder_.write("diagrams/chapter2/fig2_2.json", text);
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "-o", "out"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_NE(outcome.out.find("fig2_2 failed"), std::string::npos) << outcome.out;
+  EXPECT_EQ(result("out")["facts"]["claims"]["C2-05"]["outcome"], "differs");
+  EXPECT_EQ(result("out")["facts"]["claims"]["C2-01"]["outcome"], "agrees");
 }
 
 TEST_F(Reproduce, ResultsDoNotHangOnHowManyRunAtOnce) {

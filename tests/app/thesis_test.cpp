@@ -1,0 +1,81 @@
+// The jobs of the project on the thesis: what their claims come to, and that docs/thesis.md tells of each figure.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/hysteron_process.h"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+using process::Folder;
+using process::hysteron;
+using process::Outcome;
+namespace fs = std::filesystem;
+
+std::string content(const std::string& file) {
+  std::ifstream stream(std::string(HYSTERON_SOURCE_DIR) + "/" + file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Runs these figures of the project and gives what the claims came to.
+json claims_of(std::vector<std::string> figures) {
+  const Folder folder;
+  std::vector<std::string> words{"reproduce"};
+  words.insert(words.end(), figures.begin(), figures.end());
+  words.insert(words.end(), {"--from", std::string(HYSTERON_SOURCE_DIR) + "/diagrams", "-o", "out"});
+  const Outcome outcome = hysteron(folder.path(), words);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return outcome.code == 0 ? json::parse(folder.read("out/result.json"))["facts"]["claims"] : json{};
+}
+
+void expect(const json& claims, const std::string& outcome, std::initializer_list<const char*> ids) {
+  for (const char* id : ids) EXPECT_EQ(claims[id]["outcome"], outcome) << id << claims[id].dump(1);
+}
+
+TEST(Thesis, ModelsAndInversesOfChapterTwoAreThoseOfTheOracle) {
+  const json claims =
+      claims_of({"fig1_2", "fig1_3", "fig2_1", "fig2_2", "fig2_3", "fig2_7", "fig2_10", "models", "inverses"});
+  expect(claims, "agrees", {"C2-01", "C2-02", "C2-03", "C2-04", "C2-05", "C2-06", "C2-07", "C2-08", "C2-09"});
+  EXPECT_EQ(claims.size(), 9U);
+}
+
+TEST(Thesis, FitsAndFeedForwardReachTheTablesWhereTheSurrogateWasTunedToThem) {
+  const json claims =
+      claims_of({"fig2_12", "fig2_13", "fig2_14", "fig2_15", "fig2_16", "fig2_17", "fig2_18", "fig2_19", "fig2_20"});
+  expect(claims, "calibrated", {"C2-10", "C2-11", "C2-12", "C2-13", "C2-14"});
+  expect(claims, "agrees", {"C2-15"});
+}
+
+TEST(Thesis, WhatStandsOnASurrogateSaysSo) {
+  // Every job whose diagrams hold the actuator S1 tells that it is no measurement.
+  for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/chapter2")) {
+    const std::string text = content("diagrams/chapter2/" + entry.path().filename().string());
+    if (text.find("\"do\": \"runs\"") == text.npos) continue;
+    const bool on_surrogate = text.find("feedforward") != text.npos || text.find("s1_open_loop") != text.npos ||
+                              text.find("\"from\": \"fig2_1") != text.npos;
+    if (on_surrogate) {
+      EXPECT_NE(text.find("\"surrogate\""), text.npos) << entry.path();
+    }
+  }
+}
+
+TEST(Thesis, ThePicturesOfTheTextAreThere) {
+  const std::string text = content("docs/thesis.md");
+  int pictures = 0;
+  for (auto at = text.find("](thesis/"); at != text.npos; at = text.find("](thesis/", at + 1)) {
+    const std::string file = text.substr(at + 2, text.find(')', at) - at - 2);
+    EXPECT_TRUE(fs::exists(std::string(HYSTERON_SOURCE_DIR) + "/docs/" + file)) << file << ": run scripts/pictures";
+    ++pictures;
+  }
+  EXPECT_GT(pictures, 15);
+}
+
+}  // namespace
+}  // namespace hysteron
