@@ -3,8 +3,10 @@
 // errors and what a simulator should reach.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/app/hysteron_process.h"
 #include "tests/models/golden.h"
@@ -117,6 +119,32 @@ TEST(Chapter2Margins, AreThoseOfTheClosedForms) {
     near(f.at("closed_loop").at("sensitivity_3db_hz"), e.sensitivity);
     near(f.at("closed_loop").at("sensitivity_peak"), e.largest);
   }
+}
+
+TEST(Chapter2Loops, SampledOnesBearTheGainThatTheRuleWithoutFurtherDelayBears) {
+  // Limits of a further gain with u_k from e_k at once and forward Euler: 1.699 and 5.16 (backward Euler 1.366 and
+  // 4.07, a sample of delay 1.04 and 3.67). Half a percent on either side settles within 1 s, or has left.
+  const Folder folder;
+  const auto last_error = [&](const std::string& controller, const std::string& gain) {
+    const Outcome run = process::hysteron(
+        folder.path(), {"run", chapter2 + "feedback_sampled.json", "-o", "out", "--quiet", "--choose", "reference=step",
+                        "--choose", "stage=linear", "--choose", "sensor=ideal", "--choose", "converter=ideal",
+                        "--choose", "controller=" + controller, "--set", "stage.gain=" + gain + " um/V"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Outcome compared = process::hysteron(
+        folder.path(),
+        {"compare", "out/traces/signals.csv", "out/traces/signals.csv", "--pair", "reference=position", "-o", "c"});
+    std::istringstream rows(folder.read("c/traces/reference-difference.csv"));
+    std::string row, last;
+    while (std::getline(rows, row)) last = row;
+    std::istringstream cells(last);
+    for (int column = 0; column <= 3; ++column) std::getline(cells, row, ',');
+    return std::abs(std::stod(row));  // [um]
+  };
+  EXPECT_LT(last_error("first", "1.69"), 1e-5);
+  EXPECT_GT(last_error("first", "1.71"), 0.1);
+  EXPECT_LT(last_error("second", "5.13"), 1e-5);
+  EXPECT_GT(last_error("second", "5.19"), 0.1);
 }
 
 TEST(Chapter2Claims, OfClosedLoopsComeOutAsTheyDidBefore) {
