@@ -44,6 +44,12 @@ double read_tolerance(const WrittenText& text, const Quantity& like, double expe
   return std::abs(read_written(text, size).si);
 }
 
+/// "uncompensated_peak" as people read it.
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string shown(const Quantity& value, const Unit& unit) {
   Quantity q = value;
   q.unit = unit;
@@ -56,7 +62,7 @@ void judge_order(JobRunner& runner, const ClaimPart& part, PartOutcome& out) {
   double before = 0;
   for (std::size_t i = 0; i < part.order.size(); ++i) {
     const Quantity& q = runner.value(part.order[i]);
-    texts.push_back(fmt::format("{} {}", part.order[i].text, quantity_text(q, 4)));
+    texts.push_back(fmt::format("{} {}", spoken(part.order[i].text), quantity_text(q, 4)));
     if (i > 0 && !(before < q.si)) out.holds = false;
     before = q.si;
   }
@@ -91,7 +97,7 @@ void judge_value(JobRunner& runner, const ClaimPart& part, PartOutcome& out) {
     wanted.push_back("below " + part.below->text);
   }
   out.holds = holds && std::isfinite(value.si);
-  out.came_out = fmt::format("{} {}", part.value.text, shown(value, unit));
+  out.came_out = fmt::format("{} {}", spoken(part.value.text), shown(value, unit));
   out.expected = fmt::format("{}", fmt::join(wanted, ", "));
 }
 

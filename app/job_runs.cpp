@@ -75,7 +75,7 @@ SimulateOptions options_of(const RunWish& run, const Program& program, const std
   if (options.every < 0 || options.until <= 0 || (options.every > 0 && options.until / options.every > most_rows))
     fail("bad_value", run.every ? run.every->pointer : pointer,
          fmt::format("{} s, every {} s, cannot be simulated", options.until, options.every),
-         "give times above 0 s, and not more than ten million rows");
+         "give times above 0 s, and not more than twenty million rows");
   if (!program.input_names.empty())
     fail("unbound_input", pointer,
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),

@@ -38,6 +38,13 @@ class DiagramReader {
     const JsonPlace root = file_.root();
     if (!root.expect_object("{\"format\": 1, \"blocks\": {...}}")) file_.throw_if_any();
     check_format(root, "diagram");
+    if (const auto what = root.find("do")) {  // of a job every other key would be wrong
+      const bool runs = what->is_text() && *what->text() == "runs";
+      what->add("is_job", "this file is a job, not a diagram",
+                runs ? "run it with \"hysteron reproduce\", or name the diagram that it names"
+                     : "do it with \"hysteron fit\", or name the diagram that it names");
+      file_.throw_if_any();
+    }
     root.only({"$schema", "format", "title", "source", "remark", "parameters", "inputs", "blocks", "outputs", "record",
                "places", "simulate", "effect"});
     // "effect" is what a diagram means where it is put on a wire (discover/effect_file.h); as a diagram it runs

@@ -5,9 +5,11 @@
 #include <random>
 
 #include "engine/error.h"
+#include "io/claims_file.h"
 #include "io/csv.h"
 #include "io/dataset.h"
 #include "io/diagram_file.h"
+#include "io/runs_job.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -27,6 +29,16 @@ const char* dataset = R"json({"format": 1, "title": "t",
  "recordings": [{"file": "a.csv", "role": "train", "start": "1 h", "initial": {"s.x": "1 um"}, "skip": "1 s"},
   {"file": "a.csv", "role": "validate", "until": "4 s", "weight": 2}]}
 )json";
+const char* job =
+    R"json({"format": 1, "do": "runs", "title": "t", "diagram": "d.json", "set": {"a.b": "1 V"}, "until": "1 s",
+ "runs": {"a": {"choose": {"c": "d"}}, "b": {"fit": "f.json", "data": {"run": "a", "columns": {"u": "v"}, "between": [0, "1 s"]}},
+  "c": {"linearize": {"from": "e", "to": "y", "open": "e"}}, "e": {"from": "x.json", "run": "y"}, "g": {"set": {"a.b": {"of": "v", "times": 2}}, "use": {"b": "m"}},
+  "f": {"find": {"parameter": "p", "range": [1, "2 V"], "value": {"take": "last", "of": "y"}, "equals": "0 V"}}},
+ "plots": [{"kind": "curve", "x": {"signal": "u", "from": 0, "to": 6}, "y": {"signals": ["y"], "minus": {"run": "a", "signal": "z"}}, "runs": ["a"]}],
+ "values": {"v": {"take": "area", "of": "y", "over": "u", "run": "a"}, "w": {"ratio": ["v", "v"]}},
+ "claims": [{"id": "C1", "value": "v", "expected": "1 um V", "tolerance": "1 %"}, {"id": "C2", "order": ["v", "w"]}]})json";
+const char* claims =
+    R"json({"format": 1, "claims": {"C1": {"says": "a", "calibrated": "b"}, "C2": {"says": "c", "cannot": "d"}}})json";
 const char* csv = "# comment\r\nt [s],\"u [V]\",y [um]\r\n0,1,2\r\n1,+1.5,-2e-3\n2,1,2\n3,1,2\n4,1,2\n5,1,2\n";
 
 /// A few bytes of `text` lost, doubled or replaced; the replacements are those that formats are made of.
@@ -88,6 +100,10 @@ TEST(DamagedFiles, DataSetsAreReadOrRefused) {
 }
 TEST(DamagedFiles, RecordingsAreReadOrRefused) {
   EXPECT_GT(refusals(csv, "x.csv", [](const std::string& file) { read_dataset(file); }), 100);
+}
+TEST(DamagedFiles, JobsAndClaimsAreReadOrRefused) {
+  EXPECT_GT(refusals(job, "j.json", [](const std::string& file) { read_runs_job(file); }), 250);
+  EXPECT_GT(refusals(claims, "c.json", [](const std::string& file) { read_claims(file); }), 250);
 }
 
 }  // namespace
