@@ -221,15 +221,35 @@ void add_drawings(const RunsJob& job, const std::vector<std::string>& allowed, J
   }
 }
 
+/// The figure with the rows inside its range alone: nobody can move a picture to see the others.
+Figure cut_to_range(Figure figure, const std::vector<CsvTable>& traces) {
+  if (figure.x_range.size() != 2) return figure;
+  for (auto& curve : figure.curves) {
+    const auto table =
+        std::find_if(traces.begin(), traces.end(), [&](const CsvTable& t) { return t.file == curve.trace; });
+    if (table == traces.end() || table->find(curve.x_column) == nullptr || table->find(curve.y_column) == nullptr)
+      continue;
+    const auto &x = table->find(curve.x_column)->values, &y = table->find(curve.y_column)->values;
+    curve.trace.clear();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (x[i] < figure.x_range[0] || x[i] > figure.x_range[1]) continue;
+      curve.x.push_back(x[i]);
+      curve.y.push_back(y[i]);
+    }
+  }
+  return figure;
+}
+
 /// Each figure as a picture file too, for papers and texts.
 void add_pictures(const RunsJob& job, JobPage& page) {
-  constexpr std::size_t points = 800;
+  constexpr std::size_t points = 1600;
   Document document;
   document.traces = page.traces;
   int number = 0;
   for (const auto& figure : page.section.figures)
     if (figure.kind == "curves")
-      page.files.emplace_back(fmt::format("{}-{}.svg", job.name, ++number), figure_file(document, figure, points));
+      page.files.emplace_back(fmt::format("{}-{}.svg", job.name, ++number),
+                              figure_file(document, cut_to_range(figure, page.traces), points));
 }
 
 }  // namespace

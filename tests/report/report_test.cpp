@@ -236,6 +236,21 @@ TEST(FigureFile, OfCurvesNamesThemAboveThePicture) {
   EXPECT_FALSE(has(figure_file(Document{}, figure), ">without</text>")) << "one curve needs no name";
 }
 
+TEST(FigureFile, TakesAsManyLinesForItsNamesAsItsWidthAsksFor) {
+  Figure figure;
+  for (int i = 0; i < 8; ++i) {  // 8 names of 40 letters, of 6 px and more each, on less than 1000 px
+    Curve curve;
+    curve.name = std::string(40, static_cast<char>('a' + i));
+    curve.style = "line";
+    curve.x = {0, 1};
+    curve.y = {0, 1.0 + i};
+    figure.curves.push_back(curve);
+  }
+  const std::string svg = figure_file(Document{}, figure);
+  EXPECT_FALSE(has(svg, "viewBox=\"0 -24 "));
+  for (const auto& curve : figure.curves) EXPECT_TRUE(has(svg, ">" + curve.name + "</text>")) << curve.name;
+}
+
 TEST(Report, IsTheSameForTheSameDocument) {
   EXPECT_EQ(report_html(example::discovery()), report_html(example::discovery()));
 }
