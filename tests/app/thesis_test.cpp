@@ -98,6 +98,36 @@ TEST(Thesis, CompensatorsOnTheirSteadyLoopsGiveTheGoldenCommands) {
   }
 }
 
+TEST(Thesis, PolarisationOfChapterThreeIsSensedAsTheOracleSays) {
+  const json claims = claims_of({"chapter3"});
+  expect(claims, "agrees", {"C3-01", "C3-02", "C3-03"});
+  expect(claims, "calibrated", {"C3-04", "C3-05", "C3-06", "C3-07"});
+  EXPECT_EQ(claims.size(), 7U);
+}
+
+TEST(Thesis, TemperatureAndCoupledAxesOfChapterFiveAreCompensated) {
+  const json claims = claims_of({"chapter5"});
+  expect(claims, "agrees", {"C5-01", "C5-02", "C5-03", "C5-04", "C5-06", "C5-07", "C5-08", "C5-09", "C5-10"});
+  expect(claims, "calibrated", {"C5-05"});
+  EXPECT_EQ(claims.size(), 10U);
+}
+
+TEST(Thesis, JobsOfChaptersThreeAndFiveSayWhatIsAssumed) {
+  // The thesis gives hardly a number of these chapters; every job says which are ours, and that no plant is measured.
+  for (const char* chapter : {"chapter3", "chapter5"})
+    for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter)) {
+      const std::string text = content("diagrams/" + std::string(chapter) + "/" + entry.path().filename().string());
+      if (text.find("\"do\": \"runs\"") == text.npos) continue;
+      EXPECT_NE(text.find("\"assumed\""), text.npos) << entry.path();
+      const bool on_a_stand_in = text.find("polarisation.json") != text.npos ||
+                                 text.find("fabry_perot.json") != text.npos ||
+                                 text.find("over_temperature.json") != text.npos;
+      if (on_a_stand_in) {
+        EXPECT_NE(text.find("\"surrogate\""), text.npos) << entry.path();
+      }
+    }
+}
+
 TEST(Thesis, WhatStandsOnASurrogateSaysSo) {
   // Every job whose diagrams hold the actuator S1 tells that it is no measurement.
   for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/chapter2")) {
