@@ -5,35 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "app/job_values.h"
 #include "app/load.h"
 #include "engine/error.h"
-#include "engine/linearize.h"
-#include "engine/margins.h"
 #include "engine/simulate.h"
-#include "fit/features.h"
-#include "fit/fit.h"
 #include "fit/model.h"
-#include "fit/problem.h"
-#include "fit/thesis_methods.h"
 #include "io/csv.h"
 #include "io/diagram_file.h"
 
 namespace hysteron {
 namespace {
 
-using std::numbers::pi;
-
 constexpr double most_rows = 2e7;
-
-/// The diagram of a run with its settings, compiled. Problems of the settings belong to the job, others to the diagram.
-ProgramPointer program_of(const RunWish& run, const std::vector<std::string>& allowed) {
-  Diagram diagram = read_diagram(run.file, allowed);
-  apply_settings(diagram, run.set, run.choose);
-  return compile_file(diagram);
-}
 
 /// The name behind the last dot: "model.weights[2]" -> "weights[2]".
 std::string last_name(const std::string& path) {
@@ -45,17 +29,6 @@ void put(const Program& program, Run& run, const std::string& path, double si) {
   const ParameterInfo* info = program.find_parameter(path);
   if (info == nullptr) set_parameter(program, run, path, si);  // throws, with the nearest name
   for (const int slot : info->slots) run.p[static_cast<std::size_t>(slot)] = si;
-}
-
-/// A signal by its path, or an output of the diagram by its name; -1 if there is none.
-int find_named(const Program& program, const std::string& name) {
-  for (std::size_t i = 0; i < program.output_names.size(); ++i)
-    if (program.output_names[i] == name) return program.output_signals[i];
-  return program.find_signal(name);
-}
-int named_signal(const Program& program, const std::string& name) {
-  const int signal = find_named(program, name);
-  return signal >= 0 ? signal : program.signal(name);  // throws, with the nearest name
 }
 
 void check_dimension(const Unit& found, const Unit& expected, const std::string& path, const std::string& what) {
@@ -81,75 +54,6 @@ SimulateOptions options_of(const RunWish& run, const Program& program, const std
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
          "put a source block (sine, step ...) in its place, or name a diagram that has one");
   return options;
-}
-
-/// What a fit could not reach: rms of the residual of the first output, and the sum of its squares.
-void add_errors(RunResult& r, const FitResult& found, const DataModel& model) {
-  double sum = 0, rows = 0;
-  for (const auto& one : found.after.recordings) {
-    if (one.role != Role::train || model.measured(one.recording, 0).empty()) continue;
-    const auto n = static_cast<double>(model.measured(one.recording, 0).size());
-    sum += n * one.rms[0] * one.rms[0];
-    rows += n;
-  }
-  const Unit unit = without_offset(model.output_unit(0));
-  r.numbers.emplace_back("rms", Quantity{rows > 0 ? std::sqrt(sum / rows) : 0, unit, true});
-  r.numbers.emplace_back("cost", Quantity{sum, squared(unit), true});
-}
-
-/// What the closed loop makes of a loop gain: where L, T and S are -3 dB, and the largest |T| and |S|.
-void add_closed_loop(RunResult& r, const ClosedLoop& c) {
-  const Unit hertz = parse_unit("Hz");
-  const auto hz = [&](const char* name, const std::optional<double>& w) {
-    if (w) r.numbers.emplace_back(name, Quantity{*w / (2 * pi), hertz, true});
-  };
-  hz("open_3db", c.open_half);
-  hz("closed_3db", c.closed_half);
-  hz("sensitivity_3db", c.sensitivity_half);
-  hz("closed_peak_at", c.closed.at);
-  r.numbers.emplace_back("closed_peak", Quantity{c.closed.magnitude, Unit{}, true});
-  r.numbers.emplace_back("sensitivity_peak", Quantity{c.sensitivity.magnitude, Unit{}, true});
-}
-
-/// Gain and phase over frequency, and what is read off them.
-RunResult bode_result(const Program& program, const LinearizeOptions& wanted, const LinearModel& model,
-                      const Response& response, const Bode& b) {
-  const Unit from = without_offset(program.signals[static_cast<std::size_t>(wanted.from.front())].unit);
-  const Unit to = without_offset(program.signals[static_cast<std::size_t>(wanted.to.front())].unit);
-  const Unit ratio = quotient(to, from), hertz = parse_unit("Hz"), degree = parse_unit("deg");
-  RunResult r;
-  std::vector<double> f;
-  for (const double w : b.w) f.push_back(w / (2 * pi));
-  r.columns = {
-      {"f", "f", hertz, std::move(f)}, {"gain", "gain", ratio, b.magnitude}, {"phase", "phase", degree, b.phase}};
-  const auto hz = [&](const char* name, double w) {
-    r.numbers.emplace_back(name, Quantity{w / (2 * pi), hertz, true});
-  };
-  const auto poles = model.poles();
-  const bool at_rest = std::none_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; });
-  r.numbers.emplace_back("dc_gain", Quantity{at_rest ? std::abs(response(0)) : b.magnitude.front(), ratio, true});
-  r.numbers.emplace_back("peak", Quantity{features::largest(b.magnitude), ratio, true});
-  if (const auto width = bandwidth(response, b)) hz("bandwidth", *width);
-  const Margins m = margins(response, b);
-  if (m.phase_margin) {
-    hz("crossover", m.phase_margin_at);
-    r.numbers.emplace_back("phase_margin", Quantity{*m.phase_margin, degree, true});
-  }
-  if (m.gain_margin) {
-    r.numbers.emplace_back("gain_margin", Quantity{*m.gain_margin, Unit{}, true});
-    hz("gain_margin_at", m.gain_margin_at);
-  }
-  if (!wanted.open.empty() && from.dimension == to.dimension) add_closed_loop(r, closed_loop(response, b));
-  std::vector<std::complex<double>> modes;
-  for (const auto& p : poles)
-    if (p.imag() >= 0 && p != 0.0) modes.push_back(p);
-  std::sort(modes.begin(), modes.end(), [](auto p, auto q) { return std::abs(p) < std::abs(q); });
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    hz(fmt::format("frequency{}", i + 1).c_str(), std::abs(modes[i]));
-    r.numbers.emplace_back(fmt::format("damping{}", i + 1),
-                           Quantity{-modes[i].real() / std::abs(modes[i]), Unit{}, true});
-  }
-  return r;
 }
 
 }  // namespace
@@ -182,9 +86,21 @@ JobRunner& JobPool::job(const std::string& file) {
   RunsJob job = read_runs_job(file, allowed_);
   opening_.push_back(identity);
   for (const auto& run : job.runs)
-    if (run.kind == RunKind::elsewhere) this->job(run.file);
+    if (run.kind == RunKind::elsewhere) open(run, file);
   opening_.pop_back();
   return *jobs_.emplace(identity, std::make_unique<JobRunner>(*this, std::move(job))).first->second;
+}
+
+/// The job from which a run is taken; where it cannot be had, the place that names it is told.
+void JobPool::open(const RunWish& run, const std::string& from) {
+  try {
+    job(run.file);
+  } catch (Error& error) {
+    for (auto& p : error.problems)
+      if (p.line == 0) p.path = run.pointer;
+    locate_problems(error, from);
+    throw Error(error.fault, error.problems);
+  }
 }
 
 // ---- one job --------------------------------------------------------------------------------------------------------
@@ -319,8 +235,15 @@ Run JobRunner::started(const RunWish& run, const Program& program) {
   return start_of;
 }
 
+/// The diagram of a run with its settings, compiled. Problems of the settings belong to the job, others to the diagram.
+ProgramPointer JobRunner::program_of(const RunWish& run) const {
+  Diagram diagram = read_diagram(run.file, pool_->allowed());
+  apply_settings(diagram, run.set, run.choose);
+  return compile_file(diagram);
+}
+
 RunResult JobRunner::simulated(const RunWish& run) {
-  const ProgramPointer program = program_of(run, pool_->allowed());
+  const ProgramPointer program = program_of(run);
   SimulateOptions options = options_of(run, *program, run.pointer);
   Run start_of = started(run, *program);
   const auto asked = signals_of(run, *program);
@@ -341,97 +264,6 @@ RunResult JobRunner::simulated(const RunWish& run) {
   return r;
 }
 
-RunResult JobRunner::linearized(const RunWish& run) {
-  const ProgramPointer program = program_of(run, pool_->allowed());
-  const auto signal = [&](const WrittenText& name) {
-    return at(name.pointer, [&] { return named_signal(*program, name.text); });
-  };
-  LinearizeOptions wanted_of;
-  wanted_of.from = {signal(run.from)};
-  wanted_of.to = {signal(run.to)};
-  for (const auto& name : run.open) wanted_of.open.push_back(signal(name));
-  Run point = started(run, *program);
-  const auto zero = std::make_shared<const Series>(Series{{0.0}, {0.0}, Between::linear});
-  for (const auto& input : program->input_names) bind_input(*program, point, input, zero);
-  if (run.at) {
-    SimulateOptions settings = simulate_options(*program);
-    settings.until = seconds(*run.at);
-    settings.instants = {settings.until};
-    if (settings.method == Method::automatic || settings.method == Method::exact) settings.method = Method::bdf;
-    point = *simulate(*program, std::move(point), settings).end;
-  } else {
-    settle_at_rest(*program, point, 0);
-  }
-  const LinearModel model = linearize(*program, point, wanted_of);
-  const Response response = [&](double w) { return model.response(w).front(); };
-  const auto poles = model.poles();
-  double longest = 0;
-  for (const double delay : model.delays) longest = std::max(longest, delay);
-  const Bode b = bode(response, frequencies(poles, longest));
-  return bode_result(*program, wanted_of, model, response, b);
-}
-
-/// The rows of another run as one recording, from rest.
-DataSet JobRunner::data_of(const FitDataWish& wish) {
-  const RunResult& from = result(wish.run);
-  Recording recording;
-  recording.name = wish.run.text;
-  recording.t = from.columns.front().values;
-  const auto [first, last] = window_rows(recording.t, wish.between);
-  recording.first = first;
-  recording.last = last;
-  DataSet data;
-  for (const auto& [column, signal] : wish.columns) {
-    const RunColumn& c = at(signal.pointer, [&]() -> const RunColumn& { return column_of(from, signal); });
-    auto values = c.values;
-    if (std::find(wish.rezero.begin(), wish.rezero.end(), column) != wish.rezero.end())
-      for (auto& v : values) v -= c.values[first];
-    recording.columns[column] = std::move(values);
-    recording.units[column] = c.unit;
-    data.notes[column].to = column;
-    // Every row counts alike: a plain sum of squares, as the thesis has it (Eq. 2.42).
-    data.notes[column].noise = {1e-3 * features::stroke(c.values), {}, 0.0};
-  }
-  data.recordings.push_back(std::move(recording));
-  return data;
-}
-
-RunResult JobRunner::fitted(const RunWish& run) {
-  FitJob job;
-  if (is_job(run.file)) {
-    job = read_fit_job(run.file, pool_->allowed());
-  } else {
-    job.diagram = run.file;
-    job.methods.emplace_back();
-  }
-  if (job.thresholds)
-    fail("not_yet", run.pointer, "a run does not place thresholds",
-         "write them into the diagram, as \"hysteron fit\" found them");
-  if (!run.data && job.data.empty())
-    fail("missing_key", run.pointer, "there is nothing to fit",
-         "write \"data\": {\"run\": \"loop\", \"columns\": {...}}, or name a fit job");
-  Diagram diagram = read_diagram(job.diagram, pool_->allowed());
-  apply_settings(diagram, job.set, job.choose);
-  apply_settings(diagram, run.set, run.choose);
-  const ProgramPointer program = compile_file(diagram);
-  const auto data =
-      std::make_shared<const DataSet>(run.data ? data_of(*run.data) : read_dataset(job.data, pool_->allowed()));
-  check_binding(*data, *program);
-  FitProblem problem = problem_of(job, *program, *data, run.free);
-  DataModel model(program, data, {});
-  const NoiseModel noise = noise_before_fit(model);
-  FitMethod& method = problem.methods.front();
-  method.options.intervals = false;
-  const FitResult found =
-      method.of_thesis ? fit_as_thesis(model, noise, method.name) : fit(model, noise, problem.free, method.options);
-  if (!found.ok)
-    fail_numerics("fit_failed", run.pointer, found.error, "start from other values, or give narrower bounds");
-  RunResult r;
-  for (const auto& e : found.estimates) r.numbers.emplace_back(e.path, Quantity{e.used, e.unit, e.difference});
-  add_errors(r, found, model);
-  return r;
-}
-
 RunResult JobRunner::table(const RunWish& run) const {
   const CsvTable csv = read_csv(run.file);
   RunResult r;
@@ -446,7 +278,7 @@ RunResult JobRunner::table(const RunWish& run) const {
 /// Secant steps that keep the sign change between them (Illinois), until the aim is met to a relative 1e-12 or the
 /// parameter no longer changes.
 RunResult JobRunner::sought(const RunWish& run) {
-  const ProgramPointer program = program_of(run, pool_->allowed());
+  const ProgramPointer program = program_of(run);
   const ParameterInfo* info = program->find_parameter(run.parameter.text);
   if (info == nullptr) {
     std::vector<std::string> names;

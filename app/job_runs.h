@@ -52,6 +52,8 @@ class JobPool {
   const std::vector<std::string>& allowed() const { return allowed_; }
 
  private:
+  void open(const RunWish& run, const std::string& from);
+
   std::vector<std::string> allowed_;
   std::recursive_mutex mutex_;
   std::map<std::string, std::unique_ptr<JobRunner>> jobs_;
@@ -89,6 +91,7 @@ class JobRunner {
  private:
   const RunWish& wish(const WrittenText& run) const;
   RunResult done(const RunWish& run);
+  ProgramPointer program_of(const RunWish& run) const;
   Run started(const RunWish& run, const Program& program);
   std::vector<std::pair<std::string, int>> signals_of(const RunWish& run, const Program& program);
   DataSet data_of(const FitDataWish& wish);

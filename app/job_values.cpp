@@ -128,6 +128,16 @@ const RunColumn& column_of(const RunResult& result, const WrittenText& signal) {
            " A run of another job has what its diagram records and what that job asks for.");
 }
 
+int find_named(const Program& program, const std::string& name) {
+  for (std::size_t i = 0; i < program.output_names.size(); ++i)
+    if (program.output_names[i] == name) return program.output_signals[i];
+  return program.find_signal(name);
+}
+int named_signal(const Program& program, const std::string& name) {
+  const int signal = find_named(program, name);
+  return signal >= 0 ? signal : program.signal(name);  // throws, with the nearest name
+}
+
 std::string quantity_text(const Quantity& q, int digits) {
   return q.difference ? difference_text(q.si, q.unit, digits) : quantity_text(q.si, q.unit, digits);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/job_runs.h"
+#include "engine/program.h"
 
 namespace hysteron {
 
@@ -21,6 +22,11 @@ std::pair<std::size_t, std::size_t> window_rows(std::span<const double> base, co
 
 /// Throws Error "unknown_signal" with the nearest name.
 const RunColumn& column_of(const RunResult& result, const WrittenText& signal);
+
+/// A signal by its path, or an output of the diagram by its name; -1 if there is none.
+int find_named(const Program& program, const std::string& name);
+/// The same; throws Error "unknown_signal" with the nearest name.
+int named_signal(const Program& program, const std::string& name);
 
 /// "6.616718 um", as wide as it is worth reading.
 std::string quantity_text(const Quantity& q, int digits = 7);

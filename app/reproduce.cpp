@@ -309,6 +309,22 @@ Document chapter_page(const std::string& chapter, const std::vector<Job>& jobs, 
   return page;
 }
 
+/// What the reader of any of these figures must know: what stands in for a measurement, and where numbers are assumed.
+std::vector<std::string> notes_on(const std::vector<Job>& jobs, const std::string& chapter, JobPool& pool) {
+  std::vector<std::string> notes, assumed;
+  for (const auto& job : jobs) {
+    if (!chapter.empty() && job.chapter != chapter) continue;
+    const RunsJob& wish = pool.job(job.file).job();
+    if (!wish.surrogate.empty() && std::find(notes.begin(), notes.end(), wish.surrogate) == notes.end())
+      notes.push_back(wish.surrogate);
+    if (!wish.assumed.empty()) assumed.push_back(job.name);
+  }
+  if (!assumed.empty())
+    notes.push_back(fmt::format("Numbers that the published work does not give are assumed in {}; each says which.",
+                                fmt::join(assumed, ", ")));
+  return notes;
+}
+
 int tell_baseline(const BaselineAnswer& answer, const std::string& folder, Document& document) {
   if (answer.kept) {
     document.sentences.push_back(fmt::format("Kept as the baseline in {}.", folder));
@@ -352,11 +368,13 @@ int reproduce(const Arguments& arguments) {
     if (std::find(chapters.begin(), chapters.end(), job.chapter) == chapters.end()) chapters.push_back(job.chapter);
   for (const auto& chapter : chapters) {
     Document page = chapter_page(chapter, wanted.jobs, results, claims);
+    page.warnings = notes_on(wanted.jobs, chapter, pool);
     document.files.emplace_back(chapter + ".html", report_html(page));
     for (auto& section : page.sections) document.sections.push_back(std::move(section));
     for (auto& table : page.traces) document.traces.push_back(std::move(table));
     for (auto& file : page.files) document.files.push_back(std::move(file));
   }
+  document.warnings = notes_on(wanted.jobs, "", pool);
   int code = exit_code::done;
   if (arguments.has("--baseline"))
     code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces),

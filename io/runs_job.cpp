@@ -173,7 +173,6 @@ class RunsReader {
     r.kind = kind;
     if (place.find("diagram")) r.file = path(place, "diagram");
     if (r.title.empty()) r.title = name;
-    for (auto& c : r.choose) c.path = c.path;
     settings(place, r);
     if (const auto until = number_of(place, "until")) r.until = until;
     if (const auto every = number_of(place, "every")) r.every = every;

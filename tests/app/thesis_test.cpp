@@ -141,6 +141,17 @@ TEST(Thesis, WhatStandsOnASurrogateSaysSo) {
   }
 }
 
+TEST(Thesis, TheTextTellsOfEveryFigureOfChaptersOneAndTwo) {
+  const std::string text = content("docs/thesis.md");
+  for (const char* chapter : {"chapter1", "chapter2"})
+    for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter)) {
+      const std::string name = entry.path().stem().string();
+      if (name.starts_with("fig")) {
+        EXPECT_NE(text.find(name + "`"), text.npos) << name << " is not named in docs/thesis.md";
+      }
+    }
+}
+
 TEST(Thesis, ThePicturesOfTheTextAreThere) {
   const std::string text = content("docs/thesis.md");
   int pictures = 0;
