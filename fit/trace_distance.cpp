@@ -54,19 +54,55 @@ bool consider_points(const TraceLine& line, double x, double width, Nearest& nea
   return nearest.found;
 }
 
-double nearest_value(const TraceLine& line, TraceCourse course, double x, double wanted, double along, double slack) {
-  Nearest nearest{wanted};
-  if (line.x.size() == 1) return line.y.front();
-  if (course == TraceCourse::to_and_fro) {
-    for (std::size_t i = 0; i + 1 < line.x.size(); ++i) consider_segment(line, i, x, along, nearest);
-  } else {
-    if (consider_points(line, x, slack, nearest) && along == 0) return nearest.value;
-    const auto begin = std::lower_bound(line.x.begin(), line.x.end(), x - along);
-    std::size_t i = begin == line.x.begin() ? 0 : static_cast<std::size_t>(begin - line.x.begin()) - 1;
-    for (; i + 1 < line.x.size() && line.x[i] <= x + along; ++i) consider_segment(line, i, x, along, nearest);
+/// A curve with its segments sorted into bins along x, so that a loop of many rows is not gone through for each point.
+class Loop {
+ public:
+  Loop(const TraceLine& line, const Range& range) : line_(&line), low_(range.low) {
+    constexpr std::size_t rows_per_bin = 16, most_bins = 256;
+    const std::size_t n = std::clamp<std::size_t>(line.x.size() / rows_per_bin, 1, most_bins);
+    width_ = range.high > range.low ? (range.high - range.low) / static_cast<double>(n) : 1;
+    bins_.resize(n);
+    for (std::size_t i = 0; i + 1 < line.x.size(); ++i) {
+      const auto [a, b] = std::minmax(line.x[i], line.x[i + 1]);
+      for (std::size_t bin = bin_of(a); bin <= bin_of(b); ++bin) bins_[bin].push_back(i);
+    }
   }
-  if (nearest.found) return nearest.value;
-  return x < line.x.front() ? line.y.front() : line.y.back();  // within rounding of an end
+
+  void consider(double x, double along, Nearest& nearest) const {
+    for (std::size_t bin = bin_of(x - along); bin <= bin_of(x + along); ++bin)
+      for (const std::size_t i : bins_[bin]) consider_segment(*line_, i, x, along, nearest);
+  }
+
+ private:
+  std::size_t bin_of(double x) const {
+    const double bin = (x - low_) / width_;
+    return bin <= 0 ? 0 : std::min(static_cast<std::size_t>(bin), bins_.size() - 1);
+  }
+
+  const TraceLine* line_;
+  double low_, width_ = 1;
+  std::vector<std::vector<std::size_t>> bins_;
+};
+
+/// What a rising curve passes within x - along ... x + along; without `along` a point at x itself counts alone.
+void consider_rising(const TraceLine& line, double x, double along, double slack, Nearest& nearest) {
+  if (consider_points(line, x, slack, nearest) && along == 0) return;
+  const auto begin = std::lower_bound(line.x.begin(), line.x.end(), x - along);
+  std::size_t i = begin == line.x.begin() ? 0 : static_cast<std::size_t>(begin - line.x.begin()) - 1;
+  for (; i + 1 < line.x.size() && line.x[i] <= x + along; ++i) consider_segment(line, i, x, along, nearest);
+}
+
+/// The nearest of the points at the largest or smallest x: for one that lies beyond them by rounding.
+double at_the_end(const TraceLine& line, double x, double wanted) {
+  const auto nearer = [&](std::size_t a, std::size_t b) {
+    return std::abs(line.x[a] - x) != std::abs(line.x[b] - x)
+               ? std::abs(line.x[a] - x) < std::abs(line.x[b] - x)
+               : std::abs(line.y[a] - wanted) < std::abs(line.y[b] - wanted);
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < line.x.size(); ++i)
+    if (nearer(i, best)) best = i;
+  return line.y[best];
 }
 
 std::vector<std::size_t> points_within(const TraceLine& line, const Range& range, double slack) {
@@ -101,10 +137,20 @@ TraceDistance distance_of(const TraceLine& first, const TraceLine& second, Trace
   const TraceLine& curve = d.points_of_first ? second : first;
   const auto& rows = d.points_of_first ? of_first : of_second;
   d.left_out = points.x.size() - rows.size();
+  const TraceLine nothing;
+  const Loop loop(course == TraceCourse::to_and_fro ? curve : nothing, d.points_of_first ? b : a);
+  const auto value_near = [&](double x, double wanted, double along) {
+    Nearest nearest{wanted};
+    if (course == TraceCourse::to_and_fro)
+      loop.consider(x, along, nearest);
+    else
+      consider_rising(curve, x, along, slack, nearest);
+    return nearest.found ? nearest.value : at_the_end(curve, x, wanted);
+  };
   for (const std::size_t row : rows) {
     const double x = points.x[row], y = points.y[row];
-    const double there = nearest_value(curve, course, x, y, 0, slack);
-    const double near = tolerance.along > 0 ? nearest_value(curve, course, x, y, tolerance.along, slack) : there;
+    const double there = value_near(x, y, 0);
+    const double near = tolerance.along > 0 ? value_near(x, y, tolerance.along) : there;
     d.x.push_back(x);
     d.first.push_back(d.points_of_first ? y : there);
     d.second.push_back(d.points_of_first ? there : y);

@@ -1,6 +1,8 @@
 // compare on two files of traces, as a user calls it: exit code, what is printed and written.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hysteron_process.h"
@@ -50,6 +52,22 @@ TEST(CompareTraces, ALoopIsComparedOverItsDrive) {
   bad.emplace_back("5 nm");
   EXPECT_EQ(hysteron(folder.path(), good).code, 0);
   EXPECT_EQ(hysteron(folder.path(), bad).code, 1);
+}
+
+TEST(CompareTraces, TheCommandOfItsPageDoesWhatItSays) {
+  const Folder folder;
+  std::ifstream page(std::string(HYSTERON_SOURCE_DIR) + "/docs/compare.md");
+  std::string command;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("hysteron compare ")) command = line;
+  ASSERT_NE(command.find("reference.csv out/traces/signals.csv"), std::string::npos) << command;
+  std::filesystem::create_directories(folder.path() + "/out/traces");
+  folder.write("reference.csv", reference);
+  // 3 nm off where 1 um has 2 nm + 0.1 %, and 0.05 ms late, which is 0.5 nm on this slope.
+  folder.write("out/traces/signals.csv", "t [s],y [nm]\n0,0\n0.05005,500\n0.10005,1003\n0.20005,2000\n");
+  EXPECT_EQ(process::shell(folder.path(), command).code, 0);
+  folder.write("out/traces/signals.csv", "t [s],y [nm]\n0,0\n0.05005,500\n0.10005,1006\n0.20005,2000\n");
+  EXPECT_EQ(process::shell(folder.path(), command).code, 1);
 }
 
 TEST(CompareTraces, WordsThatFitNeitherUseAreRefused) {

@@ -104,6 +104,27 @@ TEST(TraceDistance, OnALoopTheNearestBranchCounts) {
   EXPECT_NEAR(d.largest, 0.4, 1e-5);  // chords of 2000: the sagitta is 2.5e-6
 }
 
+TEST(TraceDistance, ALoopOfManyRowsGivesTheSameAsOneOfFew) {
+  // The same square, its sides once straight and once in 50 000 pieces: bins along x must not lose any of them.
+  const TraceLine few{{0, 1, 1, 0, 0}, {0, 0, 1, 1, 0}};
+  TraceLine many;
+  for (std::size_t side = 0; side < 4; ++side)
+    for (int i = 0; i < 50000; ++i) {
+      const double part = i / 50000.0;
+      many.x.push_back(few.x[side] + part * (few.x[side + 1] - few.x[side]));
+      many.y.push_back(few.y[side] + part * (few.y[side + 1] - few.y[side]));
+    }
+  const TraceLine points{{0, 0.3, 1, 0.999}, {0.5, 0.2, 1.5, 0.5}};  // the last one is beside a side that is upright
+  for (const double along : {0.0, 0.01}) {
+    const TraceTolerance tolerance{0.05, 0, along};
+    const TraceDistance a = distance_of(points, few, TraceCourse::to_and_fro, tolerance);
+    const TraceDistance b = distance_of(points, many, TraceCourse::to_and_fro, tolerance);
+    EXPECT_EQ(a.outside, along > 0 ? 2U : 3U);
+    ASSERT_EQ(a.x, b.x);
+    for (std::size_t i = 0; i < a.x.size(); ++i) EXPECT_NEAR(a.beyond[i], b.beyond[i], 1e-9) << i;
+  }
+}
+
 TEST(TraceFiles, UnitsAreConvertedAndRowsPutInOrder) {
   const CsvTable digitized = table("figure.csv", {{"t [ms]", {200, 0, 100}}, {"y [nm]", {2000, 0, 1000}}});
   const CsvTable simulated = table("run.csv", {{"t [s]", {0, 0.1, 0.2, 0.3}}, {"y [um]", {0, 1, 2.002, 3}}});
