@@ -14,6 +14,8 @@
 namespace hysteron {
 namespace {
 
+constexpr double settled = 0.02;  // of the step: the usual 2 %
+
 bool compound(const Unit& unit) { return unit.text.find_first_of("/ *.") != std::string::npos; }
 
 /// Text that parse_unit reads, and the numbers that belong to it.
@@ -196,6 +198,8 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
   if (what == "deviation") return {features::deviation(r.y), size, true};
   if (what == "max_abs") return {features::largest_size(r.y), size, true};
   if (what == "sum_squares") return {features::sum_of_squares(r.y), squared(size), true};
+  if (what == "overshoot") return {features::overshoot(r.y), parse_unit(""), true};
+  if (what == "settling") return {features::settling(r.t, r.y, settled), parse_unit("s"), true};
   if (what == "remanence") return {features::remanence(r.y), parse_unit(""), true};
   if (what == "area") {
     const Rows x = rows({*wish.over, {}, {}}, result, wish.between, false);

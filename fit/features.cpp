@@ -46,6 +46,24 @@ double remanence(std::span<const double> y) {
   return y.empty() || top == 0 ? 0 : (y.back() - y.front()) / top;
 }
 
+double overshoot(std::span<const double> y) {
+  const double step = y.back() - y.front();
+  if (step == 0) return 0;
+  double most = 0;
+  for (const double v : y) most = std::max(most, (v - y.back()) / step);
+  return most;
+}
+
+double settling(std::span<const double> t, std::span<const double> y, double share) {
+  const double band = share * std::abs(y.back() - y.front());
+  const auto away = [&](std::size_t i) { return std::abs(y[i] - y.back()); };
+  std::size_t last = y.size();  // row behind the last one outside
+  while (last > 0 && away(last - 1) <= band) --last;
+  if (last == 0) return 0;
+  const double before = away(last - 1), after = away(last);
+  return t[last - 1] - t[0] + (t[last] - t[last - 1]) * (before - band) / (before - after);
+}
+
 double value_at(std::span<const double> t, std::span<const double> y, double at) {
   if (t.empty()) return 0;
   const auto after = std::lower_bound(t.begin(), t.end(), at);

@@ -23,6 +23,12 @@ double loop_area(std::span<const double> x, std::span<const double> y);
 /// What is left at the end of a cycle, over its largest value: (y_last - y_first) / max y (thesis Eq. 4.10).
 double remanence(std::span<const double> y);
 
+/// By how much a step response passes its last value, over the whole step: 0 where it never does.
+double overshoot(std::span<const double> y);
+/// From the first time until y stays within `share` of the whole step around its last value, between rows by a straight
+/// line.
+double settling(std::span<const double> t, std::span<const double> y, double share);
+
 /// Value at `t` by a straight line between rows, in rows whose times increase; held beyond the ends.
 double value_at(std::span<const double> t, std::span<const double> y, double at);
 

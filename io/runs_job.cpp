@@ -451,10 +451,10 @@ class RunsReader {
 
 const std::vector<std::string>& takes() {
   static const std::vector<std::string> names{
-      "at",        "first",   "last",    "min",       "max",         "stroke",       "mean",
-      "rms",       "max_abs", "area",    "remanence", "sum_squares", "rss_above",    "line_above",
-      "parameter", "cost",    "dc_gain", "bandwidth", "crossover",   "phase_margin", "gain_margin",
-      "frequency", "damping", "peak",    "deviation", "computed"};
+      "at",           "first",       "last",      "min",       "max",       "stroke",    "mean",
+      "rms",          "max_abs",     "area",      "remanence", "overshoot", "settling",  "sum_squares",
+      "rss_above",    "line_above",  "parameter", "cost",      "dc_gain",   "bandwidth", "crossover",
+      "phase_margin", "gain_margin", "frequency", "damping",   "peak",      "deviation", "computed"};
   return names;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace hysteron::features {
 namespace {
@@ -73,6 +74,27 @@ TEST(Features, AHistogramCountsEveryRow) {
   const Histogram h = histogram(std::vector<double>{0, 1, 1, 2, 4}, 4);
   EXPECT_EQ(h.count, (std::vector<double>{1, 2, 1, 1}));
   EXPECT_EQ(h.middle, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+}
+
+TEST(Features, AStepOvershootsAndSettlesAsTheSecondOrderLagDoes) {
+  // y = 1 - exp(-d w t) (cos q t + d w/q sin q t), q = w sqrt(1 - d^2): overshoot exp(-pi d/sqrt(1 - d^2)) at t = pi/q.
+  const double w = 100, d = 0.5, q = w * std::sqrt(1 - d * d);
+  std::vector<double> t, y;
+  for (int i = 0; i <= 5000; ++i) {
+    t.push_back(1 + i * 1e-4);  // [s] counted from the first row
+    const double s = t.back() - 1;
+    y.push_back(2 - 2 * std::exp(-d * w * s) * (std::cos(q * s) + d * w / q * std::sin(q * s)));
+  }
+  EXPECT_NEAR(overshoot(y), std::exp(-std::numbers::pi * d / std::sqrt(1 - d * d)), 1e-5);  // rows of 1e-2/w: 1e-4^2/2
+  const double found = settling(t, y, 0.02);
+  // There it enters the band for good: on it, and never outside behind it.
+  const double there = std::exp(-d * w * found) * (std::cos(q * found) + d * w / q * std::sin(q * found));
+  EXPECT_NEAR(std::abs(there), 0.02, 1e-5);
+  for (std::size_t i = 0; i < t.size(); ++i)
+    EXPECT_TRUE(t[i] - 1 <= found || std::abs(y[i] - 2) / 2 <= 0.02 + 1e-9) << t[i];
+  EXPECT_EQ(overshoot(std::vector<double>{0, -1, -2}), 0);
+  EXPECT_DOUBLE_EQ(overshoot(std::vector<double>{0, -3, -2}), 0.5);
+  EXPECT_EQ(settling(std::vector<double>{0, 1}, std::vector<double>{2, 2}, 0.02), 0);
 }
 
 }  // namespace
