@@ -165,13 +165,18 @@ TEST(Chapter2FeedForward, OfTheFittedCompensatorsHasThePeaksOfTheOracle) {
     ASSERT_EQ(run.code, 0) << run.err;
     std::istringstream rows(folder.read("out/traces/signals.csv"));
     double first = 0, above = 0, below = 0;
-    std::string row, t, reference, deviation;
+    std::string row, t, reference, deviation, position, command;
     std::getline(rows, row);
-    ASSERT_TRUE(row.starts_with("t [s],reference [um],deviation [um]")) << row;
+    ASSERT_EQ(row, "t [s],reference [um],deviation [um],position [um],compensator [V]");
     for (int k = 0; std::getline(rows, row); ++k) {
       std::istringstream cells(row);
       std::getline(std::getline(std::getline(cells, t, ','), reference, ','), deviation, ',');
-      if (k == 12000) first = std::stod(deviation);  // 1.2 s: the last of seven periods begins
+      if (k == 12000) {  // 1.2 s: the last of seven periods begins
+        first = std::stod(deviation);
+        std::getline(std::getline(cells, position, ','), command, ',');
+        // On its steady loop a compensator comes back to 0 V: the solver's 1e-6 of 5.5 V, over six periods.
+        EXPECT_NEAR(std::stod(command), 0, 3e-5) << e.compensator;
+      }
       if (k < 12000) continue;
       above = std::max(above, std::stod(deviation) - first);
       below = std::min(below, std::stod(deviation) - first);
@@ -191,6 +196,7 @@ TEST(Chapter2Claims, OfClosedLoopsComeOutAsTheyDidBefore) {
   };
   const auto outcome = [](const json& all, const char* id) { return all.at(id).at("outcome").get<std::string>(); };
   EXPECT_EQ(outcome(claims("fig2_21"), "C2-16"), "agrees");
+  EXPECT_EQ(outcome(claims("fitted_models"), "C2-10"), "calibrated");  // parameters are those of the fits
   const json margins = claims("fig2_22");
   for (const char* id : {"C2-17", "C2-18", "C2-19"}) EXPECT_EQ(outcome(margins, id), "agrees") << margins.dump(1);
   const json first = claims("fig2_24"), second = claims("fig2_25"), triangle = claims("fig2_28");
