@@ -105,7 +105,9 @@ void JobPool::open(const RunWish& run, const std::string& from) {
 
 // ---- one job --------------------------------------------------------------------------------------------------------
 
-JobRunner::JobRunner(JobPool& pool, RunsJob job) : pool_(&pool), job_(std::move(job)) {}
+JobRunner::JobRunner(JobPool& pool, RunsJob job) : pool_(&pool), job_(std::move(job)) {
+  for (const auto& run : job_.runs) slots_[run.name];
+}
 
 void JobRunner::blame(Error& error, const std::string& pointer) const {
   auto problems = error.problems;
@@ -139,35 +141,24 @@ const RunWish& JobRunner::wish(const WrittenText& run) const {
        did_you_mean(run.text, known));
 }
 
-const RunResult& JobRunner::result(const WrittenText& run) {
-  const std::lock_guard lock(mutex_);
-  if (const auto found = results_.find(run.text); found != results_.end()) return found->second;
+std::shared_ptr<const RunResult> JobRunner::shared_result(const WrittenText& run) {
   const RunWish& wanted = wish(run);
-  if (std::find(doing_.begin(), doing_.end(), run.text) != doing_.end())
-    fail("circular", run.pointer, fmt::format("run \"{}\" needs itself", run.text),
-         "take its numbers from another run");
-  doing_.push_back(run.text);
-  const std::shared_ptr<void> leave(nullptr, [&](void*) { doing_.pop_back(); });
-  RunResult found = at(wanted.pointer, [&] { return done(wanted); });
-  return results_.emplace(run.text, std::move(found)).first->second;
+  Slot& slot = slots_.at(run.text);
+  const std::lock_guard lock(slot.mutex);
+  if (!slot.result) slot.result = at(wanted.pointer, [&] { return done(wanted); });
+  return slot.result;
 }
 
-RunResult JobRunner::done(const RunWish& run) {
-  switch (run.kind) {
-    case RunKind::linearize:
-      return linearized(run);
-    case RunKind::fit:
-      return fitted(run);
-    case RunKind::table:
-      return table(run);
-    case RunKind::find:
-      return sought(run);
-    case RunKind::elsewhere:
-      return pool_->job(run.file).result(run.other_run);
-    case RunKind::simulate:
-      break;
-  }
-  return simulated(run);
+std::shared_ptr<const RunResult> JobRunner::done(const RunWish& run) {
+  if (run.kind == RunKind::elsewhere) return pool_->job(run.file).shared_result(run.other_run);
+  const auto made = [&]() -> RunResult {
+    if (run.kind == RunKind::linearize) return linearized(run);
+    if (run.kind == RunKind::fit) return fitted(run);
+    if (run.kind == RunKind::table) return table(run);
+    if (run.kind == RunKind::find) return sought(run);
+    return simulated(run);
+  };
+  return std::make_shared<const RunResult>(made());
 }
 
 std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {

@@ -60,14 +60,15 @@ class JobPool {
   std::vector<std::string> opening_;
 };
 
-/// One job and what its runs have given so far.
+/// One job and what its runs have given so far; several threads may ask at once.
 class JobRunner {
  public:
   JobRunner(JobPool& pool, RunsJob job);
   const RunsJob& job() const { return job_; }
 
   /// Throws Error whose problems tell file and line of the job or of the diagram.
-  const RunResult& result(const WrittenText& run);
+  const RunResult& result(const WrittenText& run) { return *shared_result(run); }
+  std::shared_ptr<const RunResult> shared_result(const WrittenText& run);
   const Quantity& value(const WrittenText& name);
   /// What `wish` takes from `result`; used for values of the job, and while something is sought.
   Quantity take(const ValueWish& wish, const RunResult& result);
@@ -90,7 +91,7 @@ class JobRunner {
 
  private:
   const RunWish& wish(const WrittenText& run) const;
-  RunResult done(const RunWish& run);
+  std::shared_ptr<const RunResult> done(const RunWish& run);
   ProgramPointer program_of(const RunWish& run) const;
   Run started(const RunWish& run, const Program& program);
   std::vector<std::pair<std::string, int>> signals_of(const RunWish& run, const Program& program);
@@ -106,10 +107,14 @@ class JobRunner {
 
   JobPool* pool_;
   RunsJob job_;
-  std::recursive_mutex mutex_;
-  std::map<std::string, RunResult> results_;
+  /// Runs need no circle of each other (io/runs_job.h), so threads that wait for one never wait for each other.
+  struct Slot {
+    std::mutex mutex;
+    std::shared_ptr<const RunResult> result{};
+  };
+  std::map<std::string, Slot> slots_;  ///< one per run, from the start
+  std::mutex values_mutex_;
   std::map<std::string, Quantity> values_;
-  std::vector<std::string> doing_;  ///< what is being worked out: a value that needs itself is noticed
 };
 
 template <class Action>

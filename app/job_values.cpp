@@ -211,15 +211,12 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
 }
 
 const Quantity& JobRunner::value(const WrittenText& name) {
-  const std::lock_guard lock(mutex_);
-  if (const auto found = values_.find(name.text); found != values_.end()) return found->second;
+  {
+    const std::lock_guard lock(values_mutex_);
+    if (const auto found = values_.find(name.text); found != values_.end()) return found->second;
+  }
   const auto wish =
       std::find_if(job_.values.begin(), job_.values.end(), [&](const auto& v) { return v.name == name.text; });
-  const std::string mark = "value " + name.text;
-  if (std::find(doing_.begin(), doing_.end(), mark) != doing_.end())
-    fail("circular", name.pointer, fmt::format("value \"{}\" needs itself", name.text), "take it from something else");
-  doing_.push_back(mark);
-  const std::shared_ptr<void> leave(nullptr, [&](void*) { doing_.pop_back(); });
   const Quantity found = at(wish->pointer, [&] {
     if (!wish->over_values.empty()) {
       std::vector<Quantity> parts;
@@ -229,6 +226,7 @@ const Quantity& JobRunner::value(const WrittenText& name) {
     if (wish->take.text == "computed") return computed(wish->figure);
     return take(*wish, result(wish->run));
   });
+  const std::lock_guard lock(values_mutex_);
   return values_.emplace(name.text, found).first->second;
 }
 

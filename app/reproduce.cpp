@@ -180,8 +180,8 @@ void tell_failure(const Job& job, const Error& error, JobPool& pool, Done& d) {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+/// Claims judged and figures drawn, from runs that are done by now or are done here.
 Done done(const Job& job, JobPool& pool) {
-  const auto begin = Clock::now();
   Done d;
   try {
     JobRunner& runner = pool.job(job.file);
@@ -195,17 +195,49 @@ Done done(const Job& job, JobPool& pool) {
   } catch (...) {
     d.error = std::current_exception();
   }
-  d.seconds = seconds_since(begin);
   return d;
 }
 
-/// All jobs, several at once; what comes out does not depend on how many.
+/// One piece of work for a thread: a run of a job, or (no run) its claims and figures.
+struct Task {
+  std::size_t job = 0;
+  const RunWish* run = nullptr;
+  double seconds = 0;
+};
+
+/// The runs of each job, then what is made of them.
+std::vector<Task> tasks_of(const std::vector<Job>& jobs, JobPool& pool) {
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    for (const auto& run : pool.job(jobs[i].file).job().runs)
+      if (run.kind != RunKind::elsewhere) tasks.push_back({i, &run});
+    tasks.push_back({i, nullptr});
+  }
+  return tasks;
+}
+
+void do_task(Task& task, const std::vector<Job>& jobs, JobPool& pool, std::vector<Done>& results) {
+  const auto begin = Clock::now();
+  if (task.run == nullptr) {
+    results[task.job] = done(jobs[task.job], pool);
+  } else {
+    try {
+      pool.job(jobs[task.job].file).shared_result({task.run->name, task.run->pointer});
+    } catch (const std::exception&) {
+      // Told by the task that needs the run, with what it was needed for.
+    }
+  }
+  task.seconds = seconds_since(begin);
+}
+
+/// All jobs, several runs at once; what comes out does not depend on how many.
 std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet) {
   std::vector<Done> results(jobs.size());
+  std::vector<Task> tasks = tasks_of(jobs, pool);
   std::atomic<std::size_t> next{0}, ready{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      results[i] = done(jobs[i], pool);
+    for (std::size_t i = next++; i < tasks.size(); i = next++) {
+      do_task(tasks[i], jobs, pool, results);
       ++ready;
     }
   };
@@ -214,15 +246,15 @@ std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet
   for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
   {
     Progress progress(quiet);
-    while (ready < jobs.size()) {
-      const std::size_t now = std::min<std::size_t>(next, jobs.size());
-      progress.show(
-          static_cast<double>(ready) / static_cast<double>(jobs.size()),
-          fmt::format("{} of {} figures{}", ready.load(), jobs.size(), now > 0 ? ", " + jobs[now - 1].name : ""));
+    while (ready < tasks.size()) {
+      const std::size_t now = std::clamp<std::size_t>(next, 1, tasks.size()) - 1;
+      progress.show(static_cast<double>(ready) / static_cast<double>(tasks.size()),
+                    fmt::format("{}, figure {} of {}", jobs[tasks[now].job].name, tasks[now].job + 1, jobs.size()));
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   }
   for (auto& thread : threads) thread.join();
+  for (const auto& task : tasks) results[task.job].seconds += task.seconds;
   for (const auto& d : results)
     if (d.error) std::rethrow_exception(d.error);
   return results;
@@ -346,13 +378,13 @@ int tell_baseline(const BaselineAnswer& answer, const std::string& folder, Docum
   return answer.worse.empty() ? exit_code::done : exit_code::no;
 }
 
-/// "time: 12 s, longest fig2_13 with 2.1 s"
+/// "time: 12 s, most work in fig2_13 with 2.1 s": runs that wait for others count too
 std::string times_text(double seconds, const std::vector<Job>& jobs, const std::vector<Done>& results) {
   const auto longest = std::max_element(results.begin(), results.end(),
                                         [](const Done& a, const Done& b) { return a.seconds < b.seconds; });
   std::string text = fmt::format("time: {} s", number_text(seconds, 3));
   if (results.size() > 1)
-    text += fmt::format(", longest {} with {} s", jobs[static_cast<std::size_t>(longest - results.begin())].name,
+    text += fmt::format(", most work in {} with {} s", jobs[static_cast<std::size_t>(longest - results.begin())].name,
                         number_text(longest->seconds, 2));
   return text;
 }

@@ -1,6 +1,7 @@
 #include "io/runs_job.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -70,6 +71,8 @@ class RunsReader {
     if (const auto claims = root.find("claims"); claims && claims->expect_array("[{\"id\": \"C2-07\", ...}]"))
       for (const auto& place : claims->elements()) claim(place);
     check_names();
+    file_.throw_if_any();
+    check_circles();
     file_.throw_if_any();
     return std::move(job_);
   }
@@ -439,6 +442,62 @@ class RunsReader {
       check_value(c.value);
       for (const auto& name : c.order) check_value(name);
     }
+  }
+
+  // ---- circles ------------------------------------------------------------------------------------------------------
+
+  static void add_needs_of(const ValueWish& v, bool with_run, std::vector<std::string>& needs) {
+    for (const auto& name : v.over_values) needs.push_back("value " + name.text);
+    if (with_run && !v.run.text.empty()) needs.push_back("run " + v.run.text);
+    if (v.of.minus_run) needs.push_back("run " + v.of.minus_run->text);
+  }
+
+  /// What a run or a value ("run none", "value stroke") must have before it can be worked out.
+  std::vector<std::string> needs_of(const std::string& what) const {
+    std::vector<std::string> needs;
+    for (const auto& r : job_.runs) {
+      if ("run " + r.name != what) continue;
+      for (const auto& u : r.use) needs.push_back("run " + u.run.text);
+      for (const auto& s : r.set_of) needs.push_back("value " + s.value.text);
+      if (r.data) needs.push_back("run " + r.data->run.text);
+      if (r.kind == RunKind::find) add_needs_of(r.aim, false, needs);
+    }
+    for (const auto& v : job_.values)
+      if ("value " + v.name == what) add_needs_of(v, true, needs);
+    return needs;
+  }
+
+  /// Depth first; `way` leads to `what`, `seen` is known to be free of circles. Returns the circle, or nothing.
+  std::vector<std::string> circle_from(const std::string& what, std::vector<std::string>& way,
+                                       std::vector<std::string>& seen) const {
+    if (std::find(seen.begin(), seen.end(), what) != seen.end()) return {};
+    if (const auto begin = std::find(way.begin(), way.end(), what); begin != way.end()) {
+      std::vector<std::string> circle(begin, way.end());
+      circle.push_back(what);
+      return circle;
+    }
+    way.push_back(what);
+    for (const auto& need : needs_of(what))
+      if (auto circle = circle_from(need, way, seen); !circle.empty()) return circle;
+    way.pop_back();
+    seen.push_back(what);
+    return {};
+  }
+
+  void check_circles() {
+    std::vector<std::string> seen;
+    const auto check = [&](const std::string& what, const std::string& pointer) {
+      std::vector<std::string> way;
+      const auto circle = circle_from(what, way, seen);
+      if (circle.empty()) return false;
+      file_.add("circular", pointer, fmt::format("{} needs itself: {}", circle.front(), fmt::join(circle, " -> ")),
+                "take one of them from something else");
+      return true;
+    };
+    for (const auto& r : job_.runs)
+      if (check("run " + r.name, r.pointer)) return;
+    for (const auto& v : job_.values)
+      if (check("value " + v.name, v.pointer)) return;
   }
 
   JsonFile file_;

@@ -127,7 +127,7 @@ const std::vector<std::string>& combinations();
 std::string what_a_job_does(const std::string& file);
 
 /// Throws Error with file, line and JSON path for syntax, unknown keys and names, wrong types, a newer format, paths
-/// outside the project.
+/// outside the project, runs and values that need themselves.
 RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed = {});
 
 }  // namespace hysteron

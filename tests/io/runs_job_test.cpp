@@ -106,6 +106,14 @@ TEST(RunsJob, WrongInputIsToldWithItsPlace) {
             "missing_key /claims/0");
 }
 
+TEST(RunsJob, RunsAndValuesThatNeedThemselvesAreRefused) {
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"use": "b"}, "b": {"set": {"g.gain": {"of": "v"}}}},
+    "values": {"v": {"take": "max", "of": "y", "run": "a"}})"),
+            "circular /runs/a");
+  EXPECT_EQ(problem_of_job(R"("values": {"v": {"ratio": ["v", "v"]}})"), "circular /values/v");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"use": "c"}, "b": {"use": "c"}, "c": {}})"), "");
+}
+
 TEST(Claims, AreReadInTheOrderOfTheFile) {
   const TemporaryFolder folder;
   const auto claims = read_claims(folder.write("claims.json", R"({"format": 1, "claims": {
