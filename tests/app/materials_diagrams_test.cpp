@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/app/hysteron_process.h"
@@ -190,6 +192,23 @@ TEST(Stages, ElectromechanicalCircuitIsAtRestWhereItsEquationsSay) {
   }
 }
 
+TEST(Stages, AmplifierKeepsItsVoltageAndItsCurrent) {
+  // 120 mA into 2.6 uF are 46.15 V/ms; the range ends at 130 V and at -30 V. 1 % for the lag that sets the limit.
+  const Folder folder;
+  folder.write("hysteron.project", "");
+  folder.write("step.json", R"({"format": 1, "title": "step", "blocks": {
+    "u": {"type": "staircase", "levels": {"value": [0, 15, -15], "unit": "V"}, "duration": "10 ms"},
+    "amplifier": {"type": "diagram", "file": ")" +
+                                diagrams + R"(stages/e625.json", "in": "u"}},
+    "record": ["amplifier.voltage"], "simulate": {"until": "29 ms", "every": "0.1 ms"}})");
+  const auto y = run(folder.path() + "/step.json", {"--allow", diagrams}).at("amplifier/output");
+  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 130, 1e-3);
+  EXPECT_NEAR(*std::min_element(y.begin(), y.end()), -30, 1e-3);
+  double fastest = 0;  // V per 0.1 ms
+  for (std::size_t k = 1; k < y.size(); ++k) fastest = std::max(fastest, std::fabs(y[k] - y[k - 1]));
+  EXPECT_NEAR(fastest, 4.615, 0.05);
+}
+
 TEST(Stages, LinearStageIsThePrintedTransferFunction) {
   // Thesis Eq. 2.47: static gain and what is left at 1105.4 Hz, -3 dB. The current limit adds a lag of 1 us.
   const Folder folder;
@@ -203,6 +222,32 @@ TEST(Stages, LinearStageIsThePrintedTransferFunction) {
   EXPECT_NEAR(y.front(), 0.755763, 1e-5);
   y.erase(y.begin(), y.begin() + 10000);  // 10 ms: forty time constants
   EXPECT_NEAR(span(y) / 2 / (0.01 * 0.755763), std::sqrt(0.5), 1e-3);
+}
+
+TEST(LongIdentification, ParametersOfT1AreWhatTheFourStepsFind) {
+  // diagrams/parameters/t1_tapi.json against a new identification on new runs of T1; it is written with eight digits.
+  const Folder folder;
+  std::filesystem::create_directories(folder.path() + "/diagrams");
+  folder.write("diagrams/hysteron.project", "");
+  for (const char* part : {"chapter5", "parameters"})
+    std::filesystem::copy(diagrams + part, folder.path() + "/diagrams/" + part);
+  for (const char* t : {"22", "30", "40", "50", "60", "70"})
+    ASSERT_EQ(process::hysteron(folder.path() + "/diagrams/chapter5",
+                                {"run", "t1_staircase.json", "--set", std::string("oven.value=") + t + " degC", "-o",
+                                 std::string("t1_staircase_") + t + ".run", "--quiet"})
+                  .code,
+              0);
+  const Outcome fit =
+      process::hysteron(folder.path() + "/diagrams/chapter5", {"fit", "identify_tapi.json", "-o", "found", "--quiet"});
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  const auto found = nlohmann::json::parse(folder.read("diagrams/chapter5/found/parameters.json"));
+  const auto kept = nlohmann::json::parse(folder.read("diagrams/parameters/t1_tapi.json"));
+  for (const char* key : {"p_s", "a", "beta"})
+    EXPECT_NEAR(found[key]["value"].get<double>(), kept[key]["value"].get<double>(),
+                1e-6 * kept[key]["value"].get<double>())
+        << key;
+  for (std::size_t i = 0; i < 80; ++i)
+    EXPECT_NEAR(found["weights"]["value"][i].get<double>(), kept["weights"]["value"][i].get<double>(), 1e-7) << i;
 }
 
 }  // namespace
