@@ -37,12 +37,6 @@ std::string label(const AxisWish& axis, const std::string& otherwise, const Unit
   return axis_text(axis.label.empty() ? otherwise : axis.label, unit);
 }
 
-/// One curve: its numbers as a table, and the curve that reads them.
-struct Drawn {
-  CsvTable table;
-  Curve curve;
-};
-
 class Plotter {
  public:
   Plotter(JobRunner& runner, JobPage& page) : runner_(runner), page_(page) {}
@@ -95,49 +89,46 @@ class Plotter {
 
   void add_run(const PlotWish& plot, const WrittenText& run, Figure& figure) {
     const RunResult& result = runner_.result(run);
+    const bool several = plot.y.signals.size() > 1;
     for (const auto& signal : plot.y.signals) {
-      JobRunner::Rows y = runner_.rows(signal, result, plot.between, plot.rezero);
-      const Unit y_unit = axis_unit(plot.y, y.unit, y.difference);
-      std::vector<double> x = y.t;
-      Unit x_unit = result.columns.front().unit;
-      if (!plot.x.signals.empty()) {
-        JobRunner::Rows rows = runner_.rows(plot.x.signals.front(), result, plot.between, false);
-        x = std::move(rows.y);
-        x_unit = rows.unit;
-      }
-      std::string x_name = plot.x.signals.empty() ? result.columns.front().name : plot.x.signals.front().signal.text;
-      std::string y_name = plot.y.signals.size() == 1 ? "" : signal.signal.text;
-      Unit drawn_y = y_unit;
-      if (plot.kind == "spectrum") {
-        const double dt = y.t.size() < 2 ? 0 : (y.t.back() - y.t.front()) / static_cast<double>(y.t.size() - 1);
-        auto lines = features::spectrum(y.y, dt);
-        x = std::move(lines.frequency);
-        y.y = std::move(lines.amplitude);
-        x_unit = parse_unit("Hz");
-        x_name = "f";
-        drawn_y = without_offset(y_unit);
-      } else if (plot.kind == "histogram") {
-        auto bars = features::histogram(y.y, plot.bins);
-        x = std::move(bars.middle);
-        y.y = std::move(bars.count);
-        x_unit = y_unit;
-        x_name = signal.signal.text;
-        drawn_y = parse_unit("");
-      }
-      const Unit shown_x = axis_unit(plot.x, x_unit, false);
-      to_unit(x, shown_x);
-      to_unit(y.y, drawn_y);
-      figure.x_label = label(plot.x, x_name, shown_x);
-      figure.y_label = label(plot.y, plot.kind == "histogram" ? "count" : signal.signal.text, drawn_y);
-      const std::string name =
-          y_name.empty() ? title_of(run.text) : y_name + (plot.runs.size() == 1 ? "" : " " + title_of(run.text));
-      add_curve(figure, name,
-                plot.kind == "scatter"     ? "points"
-                : plot.kind == "histogram" ? "steps"
-                                           : "line",
-                run.text + (y_name.empty() ? "" : "-" + signal.signal.text), {x_name, shown_x, std::move(x)},
-                {y_name.empty() ? signal.signal.text : y_name, drawn_y, std::move(y.y)});
+      auto [x, y] = points(plot, signal, result);
+      figure.x_label = label(plot.x, x.name, x.unit);
+      figure.y_label = label(plot.y, y.name, y.unit);
+      std::string name = several ? signal.signal.text : title_of(run.text);
+      if (several && plot.runs.size() != 1) name += " " + title_of(run.text);
+      add_curve(figure, name, style_of(plot.kind), run.text + (several ? "-" + signal.signal.text : ""), std::move(x),
+                std::move(y));
     }
+  }
+
+  static const char* style_of(const std::string& kind) {
+    return kind == "scatter" ? "points" : kind == "histogram" ? "steps" : "line";
+  }
+
+  /// One signal of one run as it is drawn: what stands along x and along y, in the units of the axes.
+  std::pair<CsvColumn, CsvColumn> points(const PlotWish& plot, const SignalWish& signal, const RunResult& result) {
+    JobRunner::Rows rows = runner_.rows(signal, result, plot.between, plot.rezero);
+    CsvColumn x{result.columns.front().name, result.columns.front().unit, rows.t};
+    CsvColumn y{signal.signal.text, axis_unit(plot.y, rows.unit, rows.difference), std::move(rows.y)};
+    if (!plot.x.signals.empty()) {
+      JobRunner::Rows along = runner_.rows(plot.x.signals.front(), result, plot.between, false);
+      x = {plot.x.signals.front().signal.text, along.unit, std::move(along.y)};
+    }
+    if (plot.kind == "spectrum") {
+      const double dt =
+          rows.t.size() < 2 ? 0 : (rows.t.back() - rows.t.front()) / static_cast<double>(rows.t.size() - 1);
+      auto lines = features::spectrum(y.values, dt);
+      x = {"f", parse_unit("Hz"), std::move(lines.frequency)};
+      y = {y.name, without_offset(y.unit), std::move(lines.amplitude)};
+    } else if (plot.kind == "histogram") {
+      auto bars = features::histogram(y.values, plot.bins);
+      x = {y.name, y.unit, std::move(bars.middle)};
+      y = {"count", parse_unit(""), std::move(bars.count)};
+    }
+    x.unit = axis_unit(plot.x, x.unit, false);
+    to_unit(x.values, x.unit);
+    to_unit(y.values, y.unit);
+    return {std::move(x), std::move(y)};
   }
 
   void bode(const PlotWish& plot, const std::string& what) {

@@ -73,6 +73,38 @@ constexpr char model[] = R"({
   "outputs": {"y": "model"}
 })";
 
+// A lag of 1 ms and gain 2: -3 dB at 1/(2 pi 1 ms) = 159.155 Hz, against the gain at a hundredth of that, which is 1e-4
+// low. A table of two rows, held against a run.
+constexpr char figure3[] = R"({
+  "format": 1, "do": "runs", "title": "Kinds", "diagram": "lag.json",
+  "runs": {"lag":   {"linearize": {"from": "drive", "to": "y"}},
+           "step":  {},
+           "table": {"table": "points.csv"}},
+  "plots": [{"title": "Bode", "kind": "bode", "runs": ["lag"]},
+            {"title": "Counts", "kind": "histogram", "y": {"signal": "y"}, "runs": ["step"], "bins": 4},
+            {"title": "Points", "kind": "scatter", "x": {"signal": "t", "unit": "ms"}, "y": {"signal": "y"}, "runs": ["table", "step"]}],
+  "values": {"gain":    {"take": "dc_gain", "run": "lag"},
+             "corner":  {"take": "bandwidth", "run": "lag"},
+             "pole":    {"take": "frequency", "run": "lag"},
+             "late":    {"take": "at", "of": "y", "at": "1 ms", "run": "step"},
+             "off":     {"take": "max_abs", "of": "y", "minus": {"run": "step", "signal": "y"}, "run": "table"},
+             "all":     {"largest": ["late", "off"]},
+             "figure":  {"take": "computed", "figure": "prandtl_ishlinskii_inverse_threshold_1"}},
+  "claims": [{"id": "C3-02", "value": "gain", "expected": 2, "tolerance": 1e-9},
+             {"id": "C3-02", "value": "corner", "expected": "159.155 Hz", "tolerance": "0.02 Hz"},
+             {"id": "C3-02", "value": "pole", "expected": "159.1549431 Hz", "tolerance": "1e-6 Hz"},
+             {"id": "C3-02", "value": "late", "expected": "1.264241118 V", "tolerance": "1e-6 V"},
+             {"id": "C3-02", "value": "off", "below": "1e-6 V"},
+             {"id": "C3-02", "value": "all", "above": "1 V"},
+             {"id": "C3-02", "value": "figure", "expected": "0.45126 um", "tolerance": "1e-9 um"}]
+})";
+constexpr char lag[] = R"({
+  "format": 1, "title": "Lag",
+  "blocks": {"drive": {"type": "constant", "value": "1 V"}, "double": {"type": "gain", "gain": 2, "in": "drive"},
+             "lag": {"type": "lag", "times": ["1 ms"], "in": "double"}},
+  "outputs": {"y": "lag"}, "simulate": {"until": "5 ms", "every": "0.5 ms"}
+})";
+
 class Reproduce : public testing::Test {
  protected:
   void SetUp() override {
@@ -161,6 +193,27 @@ TEST_F(Reproduce, ABaselineIsKeptFirstAndThenAnswersWithTheExitCode) {
   EXPECT_EQ(worse.code, 1) << worse.out;
   EXPECT_NE(worse.out.find("C2-01 held in the baseline and does not any more"), std::string::npos) << worse.out;
   EXPECT_NE(worse.out.find("fig2_1-1-full.csv: y differs by up to 300 nm"), std::string::npos) << worse.out;
+}
+
+TEST_F(Reproduce, LinearizationsTablesAndEveryKindOfPlot) {
+  folder_.write("diagrams/chapter3/lag.json", lag);
+  folder_.write("diagrams/chapter3/points.csv", "t [ms],y [mV]\n0,0\n1,1264.241118\n");
+  folder_.write("diagrams/chapter3/fig3_1.json", figure3);
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig3_1", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(result("out")["facts"]["claims"]["C3-02"]["outcome"], "agrees") << outcome.out;
+  EXPECT_TRUE(folder_.read("out/traces/fig3_1-1-gain-lag.csv").starts_with("f [Hz],gain\n"));
+  EXPECT_TRUE(folder_.read("out/traces/fig3_1-3-table.csv").starts_with("t [ms],y [mV]\n0,0\n1,1264.24"));
+  // Eleven rows from 0 to 1.987 V in four bins of 0.497 V: 0 | 0.787 | 1.264 | the others.
+  const std::string counts = folder_.read("out/traces/fig3_1-2-step.csv");
+  EXPECT_TRUE(counts.starts_with("y [V],count\n") && counts.ends_with(",8\n")) << counts;
+}
+
+TEST_F(Reproduce, ADamagedBaselineIsRefused) {
+  folder_.write("kept/baseline.json", "{\"outcomes\": 3}");
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "--baseline", "kept"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("baseline.json"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Reproduce, ARunThatFailsCostsItsOwnFigureAlone) {
