@@ -9,6 +9,7 @@
 
 #include "fit/fit.h"
 #include "io/job_file.h"
+#include "io/runs_job.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {
@@ -30,17 +31,21 @@ INSTANTIATE_TEST_SUITE_P(Traces, SurrogateGolden, testing::Values("sine", "trian
                          [](const auto& made) { return std::string(made.param); });
 
 TEST(Surrogate, EveryDiagramAndJobBesideItCanBeReadAndCompiled) {
-  int diagrams = 0, jobs = 0;
-  for (const char* chapter : {"chapter2", "chapter5"}) {
+  int diagrams = 0, fits = 0, figures = 0;
+  for (const char* chapter : {"chapter1", "chapter2", "chapter3", "chapter5"}) {
     const std::string folder = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       const std::string file = entry.path().string();
       if (entry.path().extension() != ".json" || file.find("dataset") != std::string::npos) continue;
-      if (is_job(file)) {
+      const std::string does = what_a_job_does(file);
+      if (does == "runs") {
+        EXPECT_NO_THROW(read_runs_job(file)) << file;
+        ++figures;
+      } else if (does == "fit") {
         const FitJob job = read_fit_job(file);
         EXPECT_TRUE(std::filesystem::exists(job.diagram)) << file;
         EXPECT_TRUE(std::filesystem::exists(job.data)) << file;
-        ++jobs;
+        ++fits;
       } else {
         EXPECT_NO_THROW(compile(read_diagram(file), lab::registry())) << file;
         ++diagrams;
@@ -48,7 +53,8 @@ TEST(Surrogate, EveryDiagramAndJobBesideItCanBeReadAndCompiled) {
     }
   }
   EXPECT_GE(diagrams, 9);
-  EXPECT_GE(jobs, 2);
+  EXPECT_GE(fits, 2);
+  EXPECT_GE(figures, 40);
 }
 
 TEST(Surrogate, SteadyLoopHasTheStrokeAndTheAreaOfItsDescription) {
