@@ -141,9 +141,9 @@ TEST(Thesis, WhatStandsOnASurrogateSaysSo) {
   }
 }
 
-TEST(Thesis, TheTextTellsOfEveryFigureOfChaptersOneAndTwo) {
+TEST(Thesis, TheTextTellsOfEveryFigure) {
   const std::string text = content("docs/thesis.md");
-  for (const char* chapter : {"chapter1", "chapter2"})
+  for (const char* chapter : {"chapter1", "chapter2", "chapter3", "chapter5"})
     for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter)) {
       const std::string name = entry.path().stem().string();
       if (name.starts_with("fig")) {
