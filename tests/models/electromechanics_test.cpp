@@ -106,10 +106,33 @@ TEST(MaxwellCapacitor, SmallSignalCapacitanceIsThatOfTheSeriesCircuit) {
   EXPECT_GT(printed, 1.9 * q / u);
 }
 
-TEST(MaxwellCapacitor, MoreCapacitorsInSeriesHoldLessWhileTheWeightsOfAModelAddUpToMore) {
-  // E-41: the printed reading sum C_i = C_eq of capacitors switched on one after the other cannot hold.
-  const double c_t = 3e-6;
-  EXPECT_LT(maxwell_capacitor::series_capacitance(c_t, 1e5), maxwell_capacitor::series_capacitance(c_t, 5e4));
+TEST(MaxwellCapacitor, TakesMoreChargePerVoltWithEveryElementThatYields) {
+  // E-41: the weights of a rising branch add up, dq/du = c_1 + c_2 + ..., because an element that has yielded is
+  // shorted. Read as printed, capacitors in series that are switched on one after the other, dq/du would fall.
+  const Elements e;
+  const double c_t = 2.6e-6 + 5.4 * 5.4 / 45e6;
+  const auto slope_at = [&](double q) {  // dq/du of the whole circuit on the virgin branch, by a step of 1 nC
+    const auto voltage = [&](double charge) {
+      std::vector<double> w(10);
+      for (std::size_t i = 0; i < 10; ++i) w[i] = play::follow(e.charges[i], 0.0, charge);
+      return charge / c_t + maxwell_capacitor::voltage<double>(e.elastances, w, charge);
+    };
+    return 1e-9 / (voltage(q + 1e-9) - voltage(q));
+  };
+  double stiff = 0;  // 1/C_i of the elements that still hold
+  for (const double x : e.elastances) stiff += x;
+  double before = 0, switched_on = HUGE_VAL;
+  for (std::size_t i = 0; i < 10; ++i) {
+    const double slope = slope_at(26e-6 * (static_cast<double>(i) + 0.5));
+    EXPECT_NEAR(slope, maxwell_capacitor::series_capacitance(c_t, stiff), 1e-6 * slope);  // rounding of 1 nC in 250 uC
+    EXPECT_GT(slope, before);
+    double in_series = 0;
+    for (std::size_t k = 0; k <= i; ++k) in_series += e.elastances[k];
+    EXPECT_LT(maxwell_capacitor::series_capacitance(c_t, in_series), switched_on);
+    switched_on = maxwell_capacitor::series_capacitance(c_t, in_series);
+    before = slope;
+    stiff -= e.elastances[i];
+  }
 }
 
 TEST(TransducerCharge, IsWhatTheCapacitorLeaves) {
