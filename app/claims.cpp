@@ -36,9 +36,7 @@ Written read_written(const WrittenText& text, const Quantity& like) {
 double read_tolerance(const WrittenText& text, const Quantity& like, double expected) {
   double number = 0;
   std::string unit_name;
-  if (split_quantity(text.text, number, unit_name) && unit_name == "%" && !like.unit.dimension.none())
-    return std::abs(expected) * number / 100;
-  if (unit_name == "%") return std::abs(expected) * number / 100;
+  if (split_quantity(text.text, number, unit_name) && unit_name == "%") return std::abs(expected) * number / 100;
   Quantity size = like;
   size.difference = true;
   return std::abs(read_written(text, size).si);

@@ -110,8 +110,9 @@ std::vector<Job> jobs_in(const std::string& folder) {
 
 /// What the user asked for: jobs, and the beginnings of the ids of claims that are told even without a job.
 struct Wanted {
-  std::vector<Job> jobs;
+  std::vector<Job> jobs, others;
   std::vector<std::string> prefixes;
+  bool claims_alone = true;  ///< nothing but claims was named: no others are told
 };
 
 /// "chapter2" -> "C2-".
@@ -128,6 +129,7 @@ Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>
     if (known) {
       take.assign(all.size(), true);
       wanted.prefixes.emplace_back("");
+      wanted.claims_alone = false;
       continue;
     }
     const bool place =
@@ -145,13 +147,13 @@ Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>
       if (std::find(names.begin(), names.end(), all[i].chapter) == names.end()) names.push_back(all[i].chapter);
     }
     if (claim) wanted.prefixes.push_back(word);
+    wanted.claims_alone = wanted.claims_alone && claim;
     for (const auto& c : claims) names.push_back(c.id);
     if (!known && !claim)
       fail("unknown_figure", word, fmt::format("there is no chapter, figure or claim \"{}\"", word),
            did_you_mean(word, names));
   }
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (take[i]) wanted.jobs.push_back(all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) (take[i] ? wanted.jobs : wanted.others).push_back(all[i]);
   return wanted;
 }
 
@@ -258,6 +260,22 @@ std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet
   for (const auto& d : results)
     if (d.error) std::rethrow_exception(d.error);
   return results;
+}
+
+/// Claims of which jobs that were not run settle further parts: the outcome is that of the parts that were.
+void tell_missing_parts(std::vector<ClaimOutcome>& claims, const std::vector<Job>& others, JobPool& pool) {
+  std::map<std::string, std::vector<std::string>> elsewhere;
+  for (const auto& job : others) try {
+      for (const auto& part : pool.job(job.file).job().claims) {
+        auto& names = elsewhere[part.id];
+        if (names.empty() || names.back() != job.name) names.push_back(job.name);
+      }
+    } catch (const Error&) {
+      continue;  // a job that was not asked for need not be right
+    }
+  for (auto& c : claims)
+    if (const auto found = elsewhere.find(c.claim.id); found != elsewhere.end() && c.reason.empty())
+      c.reason = fmt::format("further parts of it are settled by {}, not run here", fmt::join(found->second, ", "));
 }
 
 // ---- what is told ---------------------------------------------------------------------------------------------------
@@ -402,7 +420,11 @@ int reproduce(const Arguments& arguments) {
 
   std::vector<PartOutcome> parts;
   for (const auto& r : results) parts.insert(parts.end(), r.parts.begin(), r.parts.end());
-  const auto claims = judge_all(published, parts, wanted.prefixes);
+  auto claims = judge_all(published, parts, wanted.prefixes);
+  if (wanted.claims_alone)
+    std::erase_if(claims,
+                  [&](const auto& c) { return std::find(words.begin(), words.end(), c.claim.id) == words.end(); });
+  tell_missing_parts(claims, wanted.others, pool);
   Document document;
   document.verb = "reproduce";
   document.title = fmt::format("{}", fmt::join(words, " "));

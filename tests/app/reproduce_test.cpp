@@ -63,7 +63,8 @@ constexpr char figure2[] = R"({
              "top":    {"take": "max", "of": "drive", "run": "less"}},
   "claims": [{"id": "C2-05", "value": "weight", "expected": "0.5 um/V", "tolerance": "1e-6 um/V"},
              {"id": "C2-05", "value": "error", "below": "1e-6 um"},
-             {"id": "C2-05", "value": "top", "expected": "5 V", "tolerance": "1e-9 V"}]
+             {"id": "C2-05", "value": "top", "expected": "5 V", "tolerance": "1e-9 V"},
+             {"id": "C2-03", "value": "top", "above": "4 V"}]
 })";
 
 constexpr char model[] = R"({
@@ -177,7 +178,10 @@ TEST_F(Reproduce, AFigureOrAClaimAloneRunsOnlyWhatItNeeds) {
   EXPECT_FALSE(folder_.has("out/traces/fig2_1-1-full.csv"));
   EXPECT_EQ(result("out")["facts"]["claims"].size(), 1U);
   ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "fig2_1", "-o", "one"}).code, 0);
-  EXPECT_EQ(result("one")["facts"]["claims"].size(), 3U);
+  const json one = result("one")["facts"]["claims"];
+  EXPECT_EQ(one.size(), 3U);
+  EXPECT_NE(one["C2-03"]["reason"].get<std::string>().find("fig2_2"), std::string::npos) << one.dump(1);
+  EXPECT_EQ(one["C2-01"]["reason"], "");
 }
 
 TEST_F(Reproduce, ABaselineIsKeptFirstAndThenAnswersWithTheExitCode) {
