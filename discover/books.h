@@ -1,6 +1,7 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
-// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp), the verdict (conclude.cpp).
+// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, reconsider.cpp,
+// another_beginning.cpp), the verdict (conclude.cpp).
 #pragma once
 
 #include <memory>
@@ -58,6 +59,13 @@ void join_twins(std::vector<Tried>& tried);
 /// the noise.
 double blur(const Contender& contender);
 
+void fit_candidates(Books& books, std::vector<Tried>& tried, int step);
+
+/// More than noise, on validation recordings of some output.
+bool structure_is_left(const Books& books);
+/// Of chi2 on validation, by the first step; 0 before there is one.
+double first_fall(const Books& books);
+
 /// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried);
 /// The first of them that passes the rules of a claim; -1 = none.
@@ -88,6 +96,18 @@ bool would_tell(const Experiment& experiment, bool hidden);
 /// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
            double bar);
+
+/// The fitted candidate becomes the present model, told as a step.
+void take(Books& books, int step, Tried& w, FoundStep found);
+/// A set that was found one by one need not hold together: what another member has made needless is taken out, and what
+/// a look-alike does better beside the others is replaced. The steps are then told anew.
+void reconsider(Books& books, double bar);
+
+/// Where structure is left: begins with the next best of the first step instead, one more effect on each, and takes the
+/// pair that explains the recordings better than what stands. True if there is one.
+bool another_beginning(Books& books, std::vector<Tried>& first);
+/// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had.
+bool tell_again(Books& books, const Contender& set);
 
 /// As the recordings have it.
 Unit output_unit(const Books& books);

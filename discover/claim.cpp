@@ -1,10 +1,6 @@
-// Decides what is claimed in a step: the best candidate with its intervals and ties, or the look-alike that the
-// recordings prefer once another effect stands beside it.
-#include <fmt/format.h>
-
+// Decides what a claim says: the best candidate of a step with its intervals, its ties, and the experiment that would
+// break them.
 #include "discover/books.h"
-#include "discover/circumstances.h"
-#include "discover/wiring.h"
 
 namespace hysteron {
 namespace {
@@ -18,32 +14,6 @@ void judge_again(Tried& w, const ModelError& before) {
   const bool admitted = w.admitted;
   judge(w, was, 0);
   w.admitted = admitted;
-}
-
-/// Greedy search takes a look-alike where the right one was masked: in sets of two or more each member is replaced in
-/// turn.
-void exchange(Books& books, Tried& w, double bar) {
-  for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i) {
-    const Effect& member = *books.current.standing[i].effect;
-    for (const auto& e : books.effects.list()) {
-      if (!books.wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(books, e))) continue;
-      Contender rest = without(books.shop, books.current, i);
-      const auto places = places_of(e, rest.diagram, books.registry, books.data.get());
-      if (places.empty()) continue;
-      const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, books.options.free_paths);
-      for (std::size_t p = 0; p < places.size() && !books.stopped(); ++p) {
-        if (!e.unseen(at[p]).empty()) continue;
-        books.progress(fmt::format("{} in place of {}", e.id, member.id), bar);
-        Contender other = with_effect(books.shop, rest, e, e.laws(at[p]).front(), places[p], at[p], Effort::full);
-        books.d.model_runs += other.runs;
-        if (!other.ok || other.score() > books.current.score() - rules::exchange) continue;
-        books.d.data_remarks.push_back(fmt::format(
-            "{} was taken at first; together with {} the recordings speak for {}", member.id, w.effect->id, e.id));
-        books.current = std::move(other);
-        return;
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -69,9 +39,12 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
     if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
       found.experiment = e;
   }
-  const ModelError before = books.current.error_of;
+  take(books, step, w, std::move(found));
+  if (books.current.standing.size() > 1) reconsider(books, bar);
+}
+
+void take(Books& books, int step, Tried& w, FoundStep found) {
   books.current = w.contender;
-  if (books.current.standing.size() > 1) exchange(books, w, bar);
   books.settle(books.current);
   found.before =
       books.evidence->error(books.before_prediction.y.empty() ? books.base.prediction : books.before_prediction);

@@ -9,6 +9,28 @@
 namespace hysteron {
 namespace {
 
+double evidence_of(const Contender& contender, const std::string& output) {
+  double sum = 0;
+  for (const auto& r : contender.error_of.recordings)
+    if (r.output == output) sum += r.evidence;
+  return sum;
+}
+
+/// What each output's best model leaves there: the noise of one axis is not known from who explains another one.
+Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tried) {
+  Prediction best = books.current.prediction;
+  for (std::size_t o = 0; o < books.base_model->outputs().size(); ++o) {
+    const std::string& output = books.base_model->outputs()[o];
+    const Contender* who = &books.current;
+    for (const auto& t : tried)
+      if (t.contender.ok && evidence_of(t.contender, output) < evidence_of(*who, output)) who = &t.contender;
+    if (books.base_model->outputs().size() == 1) return who->prediction;
+    for (std::size_t r = 0; r < best.y.size(); ++r)
+      if (!best.y[r].empty()) best.y[r][o] = who->prediction.y[r][o];
+  }
+  return best;
+}
+
 /// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name.
 void leave_to_calibration(std::vector<Tried>& tried) {
   for (const auto& plain : tried) {
@@ -65,14 +87,7 @@ int best_admitted(const std::vector<Tried>& tried) {
 }
 
 void compare_all(Books& books, std::vector<Tried>& tried, double first_fall) {
-  Tried* best = nullptr;
-  for (auto& t : tried)
-    if (t.contender.ok && (best == nullptr || t.contender.error_of.evidence() < best->contender.error_of.evidence()))
-      best = &t;
-  if (best != nullptr && best->contender.error_of.evidence() < books.current.error_of.evidence())
-    books.settle(best->contender);
-  else
-    books.settle(books.current);
+  books.evidence->settle(best_of_each_output(books, tried));
   books.current.error_of = books.evidence->error(books.current.prediction);
   for (auto& t : tried) {
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);

@@ -38,8 +38,6 @@ void Books::settle(Contender& best) {
   best.error_of = evidence->error(best.prediction);
 }
 
-namespace {
-
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
   for (std::size_t i = 0; i < tried.size() && !books.stopped(); ++i) {
     Tried& t = tried[i];
@@ -51,6 +49,8 @@ void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
     books.d.model_runs += t.contender.runs;
   }
 }
+
+namespace {
 
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner,
                      const std::vector<int>& ties) {
@@ -65,8 +65,9 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
   }
 }
 
-/// False if nothing was claimed. `first_fall` = fall of chi2 on validation by the first finding.
-bool one_step(Books& books, int step, double first_fall) {
+/// False if nothing was claimed. `first_fall` = fall of chi2 on validation by the first finding; `kept`: what was
+/// tried.
+bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kept) {
   const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
   auto tried = list_candidates(books, step);
   fit_candidates(books, tried, step);
@@ -86,22 +87,39 @@ bool one_step(Books& books, int step, double first_fall) {
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
   }
   keep_candidates(books, tried, step, winner, ties);
+  if (kept != nullptr) *kept = std::move(tried);
   return winner >= 0;
 }
 
+/// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
+void one_by_one(Books& books, std::vector<Tried>& first) {
+  for (int step = static_cast<int>(books.d.steps.size()) + 1; step <= books.options.max_steps && !books.stopped();
+       ++step) {
+    if (step > 1 && !structure_is_left(books)) break;
+    if (!one_step(books, step, first_fall(books), step == 1 ? &first : nullptr)) break;
+  }
+}
+
 }  // namespace
+
+bool structure_is_left(const Books& books) {
+  return books.evidence->over_usual_floor(books.current.prediction) > rules::floor_gate;
+}
+
+double first_fall(const Books& books) {
+  if (books.d.steps.empty()) return 0;
+  const FoundStep& first = books.d.steps.front();
+  return first.before.chi2_validate - first.after.chi2_validate;
+}
 
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options) {
   Books books(diagram, data, registry, effects, options);
   fit_base(books);
-  double first_fall = 0;
-  for (int step = 1; step <= options.max_steps && !books.stopped(); ++step) {
-    if (step > 1 && books.evidence->over_usual_floor(books.current.prediction) <= rules::floor_gate) break;
-    const ModelError before = books.current.error_of;
-    if (!one_step(books, step, first_fall)) break;
-    if (step == 1) first_fall = before.chi2_validate - books.current.error_of.chi2_validate;
-  }
+  std::vector<Tried> first;
+  one_by_one(books, first);
+  // A look-alike that went first can bar the way to a pair that explains everything.
+  if (books.d.steps.size() > 0 && another_beginning(books, first)) one_by_one(books, first);
   conclude(books);
   return std::move(books.d);
 }

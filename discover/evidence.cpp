@@ -114,15 +114,22 @@ double Evidence::over_usual_floor(const Prediction& prediction) const {
   NoiseModel usual = noise();
   for (std::size_t o = 0; o < usual.outputs.size(); ++o) usual.outputs[o].one_over_f = before_.outputs[o].one_over_f;
   const Judge judge(base_, usual);
-  double chi2 = 0, n = 0;
+  std::vector<double> chi2(base_.outputs().size(), 0.0), n(base_.outputs().size(), 0.0);
   for (const int r : recordings_) {
     if (base_.recording(r).role == Role::train || prediction.y[static_cast<std::size_t>(r)].empty()) continue;
-    for (const double w : judge.residual(base_, prediction, r)) {
-      chi2 += w * w;
-      n += 1;
+    const auto w = judge.residual(base_, prediction, r);
+    std::size_t begin = 0;
+    for (std::size_t o = 0; o < chi2.size(); ++o) {
+      const std::size_t rows = base_.measured(r, static_cast<int>(o)).size();
+      for (std::size_t k = begin; k < begin + rows; ++k) chi2[o] += w[k] * w[k];
+      n[o] += static_cast<double>(rows);
+      begin += rows;
     }
   }
-  return n > 0 ? chi2 / n : 0;
+  double most = 0;
+  for (std::size_t o = 0; o < chi2.size(); ++o)
+    if (n[o] > 0) most = std::max(most, chi2[o] / n[o]);
+  return most;
 }
 
 std::vector<double> Evidence::pieces(const Prediction& prediction) const {

@@ -68,7 +68,7 @@ class Evidence {
   std::vector<double> pieces(const Prediction& prediction) const;
 
   /// chi2 per row on validation with as much 1/f noise as sensors usually have, whatever this residual speaks for: slow
-  /// structure that passes for noise until somebody tries an effect on it.
+  /// structure that passes for noise until somebody tries an effect on it. Of several outputs the largest.
   double over_usual_floor(const Prediction& prediction) const;
 
   const Judge& judge() const { return *judge_; }

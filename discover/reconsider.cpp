@@ -1,0 +1,189 @@
+// Decides whether a set of effects holds once it stands together. Greedy search takes a look-alike where the right one
+// was masked, and what a later effect explains better stays in from before.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "discover/books.h"
+#include "discover/circumstances.h"
+
+namespace hysteron {
+namespace {
+
+/// One effect of a set: where it enters and by which law.
+struct Member {
+  const Effect* effect = nullptr;
+  Place place;
+  std::string law;
+};
+
+std::vector<Member> members_of(const Contender& contender) {
+  std::vector<Member> list;
+  for (const auto& s : contender.standing) list.push_back({s.effect, s.place, s.law.name});
+  return list;
+}
+
+/// Laws by which a look-alike is tried beside others: the simplest, and those that refine none.
+std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at) {
+  auto laws = effect.laws(at);
+  if (!laws.empty())
+    laws.erase(std::remove_if(laws.begin() + 1, laws.end(), [](const Law& l) { return !l.apart; }), laws.end());
+  return laws;
+}
+
+std::optional<Tried> tried_at(Books& books, const Contender& model, const Member& m, const Place& place) {
+  Tried t;
+  t.effect = m.effect;
+  t.place = place;
+  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, books.options.free_paths);
+  t.laws = m.effect->laws(t.circumstances);
+  const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
+  if (law == t.laws.end()) return std::nullopt;
+  t.law = static_cast<std::size_t>(law - t.laws.begin());
+  t.contender = with_effect(books.shop, model, *t.effect, *law, t.place, t.circumstances, Effort::full);
+  books.d.model_runs += t.contender.runs;
+  if (!t.contender.ok) return std::nullopt;
+  t.admitted = true;
+  return t;
+}
+
+/// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
+/// one; nullopt if it cannot be had.
+std::optional<Tried> tried_again(Books& books, const Contender& model, const Member& m) {
+  auto places = places_of(*m.effect, model.diagram, books.registry, books.data.get());
+  const auto same = [&](const Place& p) { return p.at == m.place.at; };
+  if (std::any_of(places.begin(), places.end(), same)) std::erase_if(places, [&](const Place& p) { return !same(p); });
+  std::optional<Tried> best;
+  for (const auto& place : places) {
+    auto t = tried_at(books, model, m, place);
+    if (t && (!best || t->contender.score() < best->contender.score())) best = std::move(t);
+  }
+  return best;
+}
+
+/// The set without member `i`, the others from the user's own model on: a law may have found the user's weights and
+/// zeros anew, and these hold only beside it.
+std::optional<Contender> rest_of(Books& books, std::size_t i) {
+  const auto members = members_of(books.current);
+  Contender rest = books.base;
+  for (std::size_t j = 0; j < members.size(); ++j) {
+    if (j == i) continue;
+    auto t = tried_again(books, rest, members[j]);
+    if (!t) return std::nullopt;
+    rest = std::move(t->contender);
+  }
+  return rest;
+}
+
+/// A set without one that the others have made needless: it gives back less than a claim has to take away.
+std::optional<Contender> without_a_needless_one(Books& books, double bar) {
+  for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i) {
+    books.progress("without " + books.current.standing[i].effect->id, bar);
+    auto rest = rest_of(books, i);
+    if (!rest) continue;
+    const double given_back = rest->error_of.evidence_validate - books.current.error_of.evidence_validate;
+    if (given_back < rules::claim_fall && rest->score() < books.current.score()) return rest;
+  }
+  return std::nullopt;
+}
+
+/// The set with a look-alike in place of member `i`, if the recordings speak for it.
+std::optional<Contender> with_a_look_alike(Books& books, std::size_t i, double bar) {
+  const Effect& member = *books.current.standing[i].effect;
+  const auto rest = rest_of(books, i);
+  if (!rest) return std::nullopt;
+  for (const auto& e : books.effects.list()) {
+    if (!books.wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(books, e))) continue;
+    const auto places = places_of(e, rest->diagram, books.registry, books.data.get());
+    if (places.empty()) continue;
+    const auto at = circumstances_at(rest->diagram, books.registry, *books.data, places, books.options.free_paths);
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (!e.unseen(at[p]).empty()) continue;
+      for (const auto& law : laws_to_try(e, at[p])) {
+        if (books.stopped()) return std::nullopt;
+        books.progress(fmt::format("{} in place of {}", e.id, member.id), bar);
+        Contender other = with_effect(books.shop, *rest, e, law, places[p], at[p], Effort::full);
+        books.d.model_runs += other.runs;
+        if (other.ok && other.score() < books.current.score() - rules::exchange) return other;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Which of the members takes most away from the present model, and its index.
+std::pair<std::optional<Tried>, std::size_t> largest_of(Books& books, const std::vector<Member>& members) {
+  std::pair<std::optional<Tried>, std::size_t> best;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    auto t = tried_again(books, books.current, members[i]);
+    if (t && (!best.first || t->contender.score() < best.first->contender.score())) best = {std::move(t), i};
+  }
+  return best;
+}
+
+/// Marks what was claimed before and is no more, and the other way round.
+void mark_claimed(Books& books, const std::vector<Member>& before) {
+  for (auto& c : books.d.candidates)
+    if (c.claimed) c.reason = "taken at first, surpassed by what was found later: " + c.reason;
+  for (auto& c : books.d.candidates) c.claimed = false;
+  for (const auto& s : books.d.steps) {
+    const auto is = [&](const Candidate& c) { return s.winner.effect == c.effect && s.winner.place == c.place; };
+    const auto here = std::find_if(books.d.candidates.begin(), books.d.candidates.end(), is);
+    if (here == books.d.candidates.end()) continue;
+    here->claimed = true;
+    here->reason = s.winner.reason;
+  }
+  for (const auto& m : before)
+    if (std::none_of(books.d.steps.begin(), books.d.steps.end(),
+                     [&](const FoundStep& s) { return s.winner.effect == m.effect->id; }))
+      books.d.data_remarks.push_back(fmt::format(
+          "{} was taken at first; beside what came later the recordings do not speak for it", m.effect->id));
+}
+
+}  // namespace
+
+bool tell_again(Books& books, const Contender& set) {
+  const Contender current = books.current;
+  const auto steps = books.d.steps;
+  const Prediction before = books.before_prediction;
+  books.current = books.base;
+  books.before_prediction = {};
+  books.d.steps.clear();
+  auto left = members_of(set);
+  const std::size_t all = left.size();
+  while (!left.empty()) {
+    auto [t, which] = largest_of(books, left);
+    if (!t) break;
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
+    if (left.empty()) {
+      if (set.score() < t->contender.score()) t->contender = set;
+      sharpen(books, *t);
+    }
+    FoundStep found;
+    for (const auto& was : steps)
+      if (was.winner.effect == t->effect->id && was.winner.place == t->place.at) {
+        found.ties = was.ties;
+        found.experiment = was.experiment;
+        found.experiment_would_tell = was.experiment_would_tell;
+      }
+    take(books, static_cast<int>(books.d.steps.size()) + 1, *t, std::move(found));
+  }
+  if (books.d.steps.size() == all) {
+    mark_claimed(books, members_of(current));
+    return true;
+  }
+  books.current = current;
+  books.before_prediction = before;
+  books.d.steps = steps;
+  books.settle(books.current);
+  return false;
+}
+
+void reconsider(Books& books, double bar) {
+  if (auto rest = without_a_needless_one(books, bar)) tell_again(books, *rest);
+  for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i)
+    if (auto other = with_a_look_alike(books, i, bar); other && tell_again(books, *other)) break;
+}
+
+}  // namespace hysteron
