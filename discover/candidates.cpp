@@ -103,7 +103,7 @@ std::vector<Tried> list_candidates(Books& books, int step) {
     auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
     std::erase_if(where, [&](const Place& p) { return standing_before(books, e, p); });
     if (where.empty() && standing(books, e)) continue;
-    if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e)});
+    if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e, books.registry)});
     for (const auto& p : where) {
       Tried t;
       t.effect = &e;

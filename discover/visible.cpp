@@ -9,12 +9,24 @@
 
 namespace hysteron {
 
-std::string why_no_place(const Effect& e) {
+namespace {
+
+/// "mass_spring_damper, mass_with_drag": the types that offer a variation.
+std::string offered_by(const std::string& variation, const Registry& registry) {
+  std::vector<std::string> types;
+  for (const auto& type : registry.types()) {
+    const auto& offered = registry.find(type)->declaration.variations;
+    if (std::any_of(offered.begin(), offered.end(), [&](const auto& v) { return v.name == variation; }))
+      types.push_back(type);
+  }
+  return fmt::format("{}", fmt::join(types, ", "));
+}
+
+}  // namespace
+
+std::string why_no_place(const Effect& e, const Registry& registry) {
   if (!e.variation.empty())
-    return fmt::format("no block of the diagram offers the variation \"{}\" ({})", e.variation,
-                       e.variation == "late"                                               ? "a hysteresis"
-                       : e.variation == "square_root_outflow" || e.variation == "overflow" ? "a tank"
-                                                                                           : "a mass on a spring");
+    return fmt::format("it varies a block, and the diagram has none of: {}", offered_by(e.variation, registry));
   if (e.way == Way::vary)
     return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
   if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";
@@ -36,7 +48,7 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
       places.push_back(std::move(p));
     }
     if (!of.empty() && of.back() == list.size() - 1) continue;
-    list.back().reason = why_no_place(e);
+    list.back().reason = why_no_place(e, registry);
     list.back().needs_block = e.way == Way::vary || !e.variation.empty();
   }
   if (places.empty()) return list;

@@ -26,6 +26,6 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
                                      const Effects& effects, const std::vector<std::string>& free_paths = {});
 
 /// Why an effect has no place in a diagram with these data, for people.
-std::string why_no_place(const Effect& effect);
+std::string why_no_place(const Effect& effect, const Registry& registry);
 
 }  // namespace hysteron
