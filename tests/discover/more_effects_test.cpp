@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/register_all.h"
-#include "discover/discover.h"
 #include "io/diagram_file.h"
+#include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -15,23 +14,13 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
-class MoreEffects : public ::testing::Test {
+class MoreEffects : public Discoveries {
  protected:
-  Discovery found(const Diagram& d, const DataSet& data) { return diagnose(d, data, registry, effects); }
-  static std::string tried(const Discovery& d) {
-    std::string text = d.headline;
-    for (const auto& c : d.candidates)
-      text += "\n  " + c.effect + " at " + c.place + ": " + c.summary + "; " + c.reason;
-    for (const auto& r : d.refused) text += "\n  refused " + r.effect + ": " + r.reason;
-    return text;
-  }
   static const Refused* refusal(const Discovery& d, const std::string& effect) {
     for (const auto& r : d.refused)
       if (r.effect == effect) return &r;
     return nullptr;
   }
-  Registry registry = all_blocks();
-  Effects effects = all_effects();
 };
 
 struct Made {
@@ -85,7 +74,7 @@ DataSet expanding(double span) {
 }
 
 TEST_F(MoreEffects, ThermalExpansionIsNamedWithItsDelayAndBringsTheColumnIn) {
-  const Discovery d = found(plain_gain(), expanding(6));
+  const Discovery d = diagnosed(plain_gain(), expanding(6));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   ASSERT_EQ(winner.effect, "thermal_expansion") << tried(d);
@@ -109,21 +98,21 @@ TEST_F(MoreEffects, AGainThatFollowsTheTemperatureIsNoExpansion) {
     for (std::size_t k = 0; k < u.size(); ++k) y.push_back(u[k] * (1 + 0.004 * (warm[k] - 300)));
     return y;
   });
-  const Discovery d = found(plain_gain(), data);
+  const Discovery d = diagnosed(plain_gain(), data);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "temperature_gain") << tried(d);
   EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 0.004, 4e-4);  // 1/K: noise and 1/f leave a tenth
 }
 
 TEST_F(MoreEffects, AnExpansionIsRefusedWhereTheTemperatureStandsStillOrIsNotRecorded) {
-  const Discovery still = found(plain_gain(), expanding(0.2));
+  const Discovery still = diagnosed(plain_gain(), expanding(0.2));
   const auto* narrow = refusal(still, "thermal_expansion");
   ASSERT_NE(narrow, nullptr) << tried(still);
   EXPECT_NE(narrow->reason.find("0.5 K"), std::string::npos) << narrow->reason;
   DataSet data = expanding(6);
   data.notes.erase("T");
   for (auto& r : data.recordings) r.columns.erase("T");
-  const Discovery blind = found(plain_gain(), data);
+  const Discovery blind = diagnosed(plain_gain(), data);
   const auto* missing = refusal(blind, "thermal_expansion");
   ASSERT_NE(missing, nullptr) << tried(blind);
   EXPECT_NE(missing->reason.find("no column"), std::string::npos) << missing->reason;
@@ -144,7 +133,7 @@ TEST_F(MoreEffects, AnotherAxisIsNamedFromItsDrive) {
   }
   DataSet data = data_set(list, 1e-3);
   data.notes["u2"].to = "u2";
-  const Discovery d = found(plain_gain(), data);
+  const Discovery d = diagnosed(plain_gain(), data);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "cross_coupling") << tried(d);
   EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 0.03,
@@ -172,7 +161,7 @@ TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
     }
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
   }
-  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  const Discovery d = diagnosed(plain_gain(), data_set(list, 1e-3));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "structural_resonance") << tried(d);
   EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, hertz,
@@ -187,7 +176,7 @@ TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += std::min(m.u[k], 0.83);
     list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
   }
-  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  const Discovery d = diagnosed(plain_gain(), data_set(list, 1e-3));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "saturation") << tried(d);
   EXPECT_NEAR(d.steps.front().winner.found.at(1).estimate.used, 0.83, 2e-3);  // twice the noise of a row
@@ -213,7 +202,7 @@ DataSet slewing(double up, double down) {
 }
 
 TEST_F(MoreEffects, ALimitedRateIsNamedWithItsRate) {
-  const Discovery d = found(plain_gain(), slewing(0.6, 0.6));
+  const Discovery d = diagnosed(plain_gain(), slewing(0.6, 0.6));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "slew_limit") << tried(d);
   // V/s: some hundred limited rows tell a ramp of a volt to 1 mm/sqrt(100) each.
@@ -222,7 +211,7 @@ TEST_F(MoreEffects, ALimitedRateIsNamedWithItsRate) {
 }
 
 TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
-  const Discovery d = found(plain_gain(), slewing(0.7, 0.5));
+  const Discovery d = diagnosed(plain_gain(), slewing(0.7, 0.5));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   ASSERT_EQ(winner.effect, "slew_limit") << tried(d);
@@ -231,23 +220,6 @@ TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
   EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5, 0.01);
 }
 
-/// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
-Diagram mass_on_spring() {
-  Diagram d;
-  d.inputs["u"].unit = "V";
-  Node& force = d.blocks["force"];
-  force.type = "gain";
-  force.parameters["gain"] = Value("10 N/V");
-  force.in = {{"", "u"}};
-  Node& stage = d.blocks["stage"];
-  stage.type = "mass_spring_damper";
-  stage.parameters["mass"] = Value("1 kg");
-  stage.parameters["stiffness"] = Value("400 N/m");
-  stage.parameters["damping"] = Value("4 N s/m");
-  stage.in = {{"", "force"}};
-  d.outputs["y"] = "stage.position";
-  return d;
-}
 
 /// The mass with a further force(x, v), by small semi-implicit Euler steps.
 template <class Force>
@@ -273,7 +245,7 @@ DataSet moving_mass(Force force) {
 
 TEST_F(MoreEffects, AStiffeningSpringIsNamedAndReplacesTheBlock) {
   const auto data = moving_mass([](double x, double, double) { return 8e4 * x * x * x; });
-  const Discovery d = found(mass_on_spring(), data);
+  const Discovery d = diagnosed(mass_on_spring(), data);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "stiffening") << tried(d);
   EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 8e4,
@@ -294,7 +266,7 @@ TEST_F(MoreEffects, FrictionOfAGuideIsNamedWithItsForce) {
       return 2e4 * z;
     }
   };
-  const Discovery d = found(mass_on_spring(), moving_mass(Bristle{}));
+  const Discovery d = diagnosed(mass_on_spring(), moving_mass(Bristle{}));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
   const auto& f = d.steps.front().winner.found;

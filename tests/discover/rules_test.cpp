@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "blocks/register_all.h"
-#include "discover/discover.h"
+#include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -13,24 +12,7 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
-class Rules : public ::testing::Test {
- protected:
-  Discovery found(const Diagram& d, const DataSet& data, const std::vector<std::string>& only,
-                  DiscoverOptions options = {}) {
-    options.only = only;
-    return discover(d, data, registry, effects, options);
-  }
-  /// Everything that was tried, for a failure.
-  static std::string tried(const Discovery& d) {
-    std::string text = d.headline + "\n";
-    for (const auto& c : d.candidates)
-      text += "step " + std::to_string(c.step) + " " + c.effect + " at " + c.place + ": fall " +
-              std::to_string(c.fall_validate) + ", " + c.reason + "\n";
-    return text;
-  }
-  Registry registry = all_blocks();
-  Effects effects = all_effects();
-};
+class Rules : public Discoveries {};
 
 std::vector<double> plus(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
@@ -118,7 +100,7 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += m.u[k] + 0.05;
     list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
   }
-  const Discovery d = found(gain_and_sensor(), data_set(list, 1e-3),
+  const Discovery d = discovered(gain_and_sensor(), data_set(list, 1e-3),
                             {"calibration", "backlash", "asymmetry", "hysteresis", "sensor_nonlinearity"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "calibration") << tried(d);
@@ -140,7 +122,7 @@ TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
         recording(std::to_string(seed) + ".csv", m.role, m.t, m.u, plus(m.u, noise(m.t.size(), 1e-3, 0.9e-3, seed))));
     ++seed;
   }
-  const Discovery d = found(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "saturation"});
+  const Discovery d = discovered(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "saturation"});
   EXPECT_GT(d.base.over_floor(), 1.12) << "the noise is not slow enough to be taken for structure";
   EXPECT_TRUE(d.steps.empty()) << tried(d);
   EXPECT_EQ(to_text(d.verdict), "adequate") << d.headline;
@@ -150,7 +132,7 @@ TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
 
 TEST_F(Rules, EachAxisHasALagOfItsOwnAndNoneHasTwo) {
   const auto lag = [](double tau) { return [tau](const auto& t, const auto& u) { return lagged(t, u, tau); }; };
-  const Discovery d = found(two_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
+  const Discovery d = discovered(two_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
   ASSERT_EQ(d.steps.size(), 2U) << tried(d);
   const auto is_second = [](const Candidate& c) { return c.place.ends_with("2"); };
   EXPECT_NE(is_second(d.steps[0].winner), is_second(d.steps[1].winner)) << tried(d);
@@ -168,7 +150,7 @@ TEST_F(Rules, WhatAnotherAxisLeavesIsNoReproachToTheEffectOfThisOne) {
     return y;
   };
   const Law lag = [](const auto& t, const auto& u) { return lagged(t, u, 1e-3); };
-  const Discovery d = found(two_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
+  const Discovery d = discovered(two_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
   const auto at_first = std::find_if(d.candidates.begin(), d.candidates.end(),
                                      [](const Candidate& c) { return !c.place.ends_with("2"); });
   ASSERT_NE(at_first, d.candidates.end()) << tried(d);
@@ -195,7 +177,7 @@ TEST_F(Rules, ALookAlikeIsFittedTogetherWithWhatStands) {
                              plus(lagged(m.t, lagged(m.t, u_late, 12e-3), 6e-3), noise(m.t.size(), 1e-3, 1e-4, seed))));
     ++seed;
   }
-  const Discovery d = found(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "dead_time"});
+  const Discovery d = discovered(plain_gain(), data_set(list, 1e-3), {"amplifier_lag", "dead_time"});
   ASSERT_EQ(d.steps.size(), 2U) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "amplifier_lag") << tried(d);
   EXPECT_EQ(d.steps[1].winner.effect, "dead_time") << tried(d);
@@ -218,7 +200,7 @@ DataSet slow_recordings(int n) {
 }
 
 TEST_F(Rules, AfterFewRecordingsTheExperimentMayBeSampledFaster) {
-  const Discovery few = found(plain_gain(), slow_recordings(2), {"amplifier_lag", "dead_time"});
+  const Discovery few = discovered(plain_gain(), slow_recordings(2), {"amplifier_lag", "dead_time"});
   ASSERT_EQ(few.steps.size(), 1U) << tried(few);
   EXPECT_EQ(few.steps.front().ties.size(), 1U) << tried(few);
   EXPECT_EQ(to_text(few.verdict), "not_distinguishable") << few.headline;
@@ -227,7 +209,7 @@ TEST_F(Rules, AfterFewRecordingsTheExperimentMayBeSampledFaster) {
 }
 
 TEST_F(Rules, AfterManyRecordingsOfOneRateNobodySamplesFaster) {
-  const Discovery many = found(plain_gain(), slow_recordings(6), {"amplifier_lag", "dead_time"});
+  const Discovery many = discovered(plain_gain(), slow_recordings(6), {"amplifier_lag", "dead_time"});
   ASSERT_EQ(many.steps.size(), 1U) << tried(many);
   EXPECT_EQ(many.steps.front().ties.size(), 1U) << tried(many);
   EXPECT_EQ(to_text(many.verdict), "missing_effect") << many.headline << (many.experiment ? many.experiment->text : "");
@@ -235,23 +217,6 @@ TEST_F(Rules, AfterManyRecordingsOfOneRateNobodySamplesFaster) {
 
 // --- tolerances ------------------------------------------------------------------------------------------------------
 
-/// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
-Diagram mass_on_spring() {
-  Diagram d;
-  d.inputs["u"].unit = "V";
-  Node& force = d.blocks["force"];
-  force.type = "gain";
-  force.parameters["gain"] = Value("10 N/V");
-  force.in = {{"", "u"}};
-  Node& stage = d.blocks["stage"];
-  stage.type = "mass_spring_damper";
-  stage.parameters["mass"] = Value("1 kg");
-  stage.parameters["stiffness"] = Value("400 N/m");
-  stage.parameters["damping"] = Value("4 N s/m");
-  stage.in = {{"", "force"}};
-  d.outputs["y"] = "stage.position";
-  return d;
-}
 
 /// The same on a spring with 3e4 N/m^3 besides, by semi-implicit Euler steps of 25 us.
 DataSet on_stiffening_spring() {
@@ -280,7 +245,7 @@ TEST_F(Rules, TheRankingIsTheSameWithTenTimesLooserOrTighterTolerances) {
   for (const double looser : {1.0, 10.0, 0.1}) {
     DiscoverOptions options;
     options.looser = looser;
-    const Discovery d = found(mass_on_spring(), data, {"stiffening", "friction", "quadratic_drag"}, options);
+    const Discovery d = discovered(mass_on_spring(), data, {"stiffening", "friction", "quadratic_drag"}, options);
     auto list = d.candidates;
     std::stable_sort(list.begin(), list.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score < b.score; });

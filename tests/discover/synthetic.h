@@ -113,4 +113,22 @@ inline Diagram plain_gain() {
   return d;
 }
 
+/// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
+inline Diagram mass_on_spring() {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& force = d.blocks["force"];
+  force.type = "gain";
+  force.parameters["gain"] = Value("10 N/V");
+  force.in = {{"", "u"}};
+  Node& stage = d.blocks["stage"];
+  stage.type = "mass_spring_damper";
+  stage.parameters["mass"] = Value("1 kg");
+  stage.parameters["stiffness"] = Value("400 N/m");
+  stage.parameters["damping"] = Value("4 N s/m");
+  stage.in = {{"", "force"}};
+  d.outputs["y"] = "stage.position";
+  return d;
+}
+
 }  // namespace hysteron::testing

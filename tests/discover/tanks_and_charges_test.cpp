@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/register_all.h"
-#include "discover/discover.h"
 #include "discover/places.h"
+#include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -16,29 +15,7 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
-class TanksAndCharges : public ::testing::Test {
- protected:
-  Discovery found(const Diagram& d, const DataSet& data, std::vector<std::string> only = {}) {
-    DiscoverOptions options;
-    options.only = std::move(only);
-    return diagnose(d, data, registry, effects, options);
-  }
-  static std::string tried(const Discovery& d) {
-    std::string text = d.headline;
-    for (const auto& c : d.candidates)
-      text += "\n  " + c.effect + " at " + c.place + ", " + c.law + ": " + c.summary + "; " + c.reason;
-    for (const auto& r : d.refused) text += "\n  refused " + r.effect + ": " + r.reason;
-    return text;
-  }
-  static std::string winner(const Discovery& d) { return d.steps.empty() ? "" : d.steps.front().winner.effect; }
-  static double value(const Discovery& d, const std::string& path) {
-    for (const auto& f : d.steps.front().winner.found)
-      if (f.estimate.path.ends_with("." + path)) return f.estimate.used;
-    return std::nan("");
-  }
-  Registry registry = all_blocks();
-  Effects effects = all_effects();
-};
+class TanksAndCharges : public Discoveries {};
 
 struct Made {
   Role role;
@@ -85,7 +62,7 @@ DataSet counted(double step, double white) {
 }
 
 TEST_F(TanksAndCharges, CoarseLevelsAreNamedWithTheirStep) {
-  const Discovery d = found(plain_gain(), counted(0.04, 2e-3));
+  const Discovery d = diagnosed(plain_gain(), counted(0.04, 2e-3));
   ASSERT_EQ(winner(d), "quantization") << tried(d);
   EXPECT_NEAR(value(d, "step"), 0.04, 1e-4);  // the noise of 2 mm is 8e-5 for each of the 24 steps below the top one
   // A row whose signal lies within the noise of an edge falls on the other side: sqrt(2 * 0.8 * 2e-3/0.04) of a step at
@@ -95,7 +72,7 @@ TEST_F(TanksAndCharges, CoarseLevelsAreNamedWithTheirStep) {
 }
 
 TEST_F(TanksAndCharges, LevelsFinerThanTheNoiseAreNoEffect) {
-  const Discovery fine = found(plain_gain(), counted(1e-3, 4e-3));
+  const Discovery fine = diagnosed(plain_gain(), counted(1e-3, 4e-3));
   EXPECT_EQ(fine.verdict, Verdict::adequate) << tried(fine);
   const Effect& e = effects.get("quantization");
   Circumstances at;
@@ -148,7 +125,7 @@ TEST_F(TanksAndCharges, AChargeThatHeatMakesAndThatLeaksAwayIsNamed) {
     }
     return w;
   });
-  const Discovery d = found(plain_gain(), data);
+  const Discovery d = diagnosed(plain_gain(), data);
   ASSERT_EQ(winner(d), "pyro_charge_drift") << tried(d);
   EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
   EXPECT_NEAR(value(d, "coefficient"), 0.02, 0.002);  // V/K; as for an expansion: noise and 1/f leave less than a tenth
@@ -166,7 +143,7 @@ TEST_F(TanksAndCharges, AnExpansionIsNoCharge) {
     }
     return y;
   });
-  const Discovery d = found(plain_gain(), data);
+  const Discovery d = diagnosed(plain_gain(), data);
   EXPECT_EQ(winner(d), "thermal_expansion") << tried(d);
 }
 
@@ -215,14 +192,14 @@ DataSet tank_level(double brim, Outflow leaves) {
 }
 
 TEST_F(TanksAndCharges, AnOutletByTheRootIsNamed) {
-  const Discovery d = found(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * std::pow(h, 0.5); }), of_tanks);
+  const Discovery d = diagnosed(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * std::pow(h, 0.5); }), of_tanks);
   ASSERT_EQ(winner(d), "sqrt_outflow") << tried(d);
   EXPECT_NEAR(value(d, "outlet"), 0.5, 0.005);  // levels of 2 m, noise of 2 mm over 240 rows
   EXPECT_NEAR(d.final_error.rms_validate, 2e-3, 3e-4);
 }
 
 TEST_F(TanksAndCharges, ATankThatRunsOverIsNamedWithItsBrim) {
-  const Discovery d = found(linear_tank(), tank_level(1.1, [](double h) { return 0.5 * h; }), of_tanks);
+  const Discovery d = diagnosed(linear_tank(), tank_level(1.1, [](double h) { return 0.5 * h; }), of_tanks);
   ASSERT_EQ(winner(d), "overflow") << tried(d);
   EXPECT_NEAR(value(d, "brim"), 1.1, 0.002);  // the flat tops have dozens of rows of 2 mm
   EXPECT_NEAR(d.final_error.rms_validate, 2e-3, 3e-4);
@@ -232,15 +209,15 @@ TEST_F(TanksAndCharges, ASensorThatIsFullIsNoOverflowAndAGainNoRoot) {
   DataSet clipped = tank_level(1e9, [](double h) { return 0.5 * h; });
   for (auto& r : clipped.recordings)
     for (auto& y : r.columns["y"]) y = std::min(y, 1.1);
-  const Discovery full = found(linear_tank(), clipped, {"saturation", "overflow"});
+  const Discovery full = diagnosed(linear_tank(), clipped, {"saturation", "overflow"});
   EXPECT_EQ(winner(full), "saturation") << tried(full);
   DataSet scaled = tank_level(1e9, [](double h) { return 0.5 * h; });
   for (auto& r : scaled.recordings)
     for (auto& y : r.columns["y"]) y *= 1.05;
-  const Discovery gain = found(linear_tank(), scaled, {"calibration", "sqrt_outflow"});
+  const Discovery gain = diagnosed(linear_tank(), scaled, {"calibration", "sqrt_outflow"});
   EXPECT_EQ(winner(gain), "calibration") << tried(gain);
   const Discovery nothing =
-      found(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * h; }), {"sqrt_outflow", "overflow"});
+      diagnosed(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * h; }), {"sqrt_outflow", "overflow"});
   EXPECT_EQ(nothing.verdict, Verdict::adequate) << tried(nothing);
 }
 
