@@ -49,8 +49,11 @@ bool standing(const Books& books, const Effect& effect);
 /// with these held it would not be seen.
 bool taken_up(const Books& books, const Effect& effect);
 /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once, or as
-/// twins. What the recordings cannot show and may have acted all the same goes to `books.hidden`.
-std::vector<Tried> list_candidates(Books& books, int step);
+/// twins. What the recordings cannot show and may have acted all the same goes to `books.hidden`. `outputs`: only what
+/// moves none but these, all if empty.
+std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs = {});
+/// Outputs that no standing effect moves.
+std::vector<std::string> untouched_outputs(const Books& books);
 /// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.
 Tried* same_finding(std::vector<Tried>& kept, const Tried& t);
 /// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both places.

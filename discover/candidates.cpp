@@ -31,6 +31,16 @@ std::vector<int> moved_by(const Books& books, const std::string& written) {
   return list;
 }
 
+/// The place moves none but these outputs; any will do where none is named.
+bool only_moves(const Books& books, const Place& place, const std::vector<std::string>& outputs) {
+  if (outputs.empty()) return true;
+  const auto moved = moved_by(books, place.wire);
+  return !moved.empty() && std::all_of(moved.begin(), moved.end(), [&](int o) {
+    return std::find(outputs.begin(), outputs.end(), books.base_model->outputs()[static_cast<std::size_t>(o)]) !=
+           outputs.end();
+  });
+}
+
 /// The effect stands already on the way to an output that this place moves: each axis has its own.
 bool standing_before(const Books& books, const Effect& e, const Place& place) {
   if (e.side == Side::other_axis) return false;
@@ -94,14 +104,28 @@ Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
 }
 
 /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
-std::vector<Tried> list_candidates(Books& books, int step) {
+std::vector<std::string> untouched_outputs(const Books& books) {
+  std::vector<bool> moved(books.base_model->outputs().size(), false);
+  for (const auto& s : books.current.standing) {
+    const auto by_it = moved_by(books, s.place.wire);
+    if (by_it.empty()) return {};  // nobody knows which
+    for (const int o : by_it) moved[static_cast<std::size_t>(o)] = true;
+  }
+  std::vector<std::string> list;
+  for (std::size_t o = 0; o < moved.size(); ++o)
+    if (!moved[o]) list.push_back(books.base_model->outputs()[o]);
+  return list;
+}
+
+std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs) {
   books.hidden.clear();
   std::vector<Tried> list;
   std::vector<Place> places;
   for (const auto& e : books.effects.list()) {
     if (!books.wanted(e)) continue;
     auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
-    std::erase_if(where, [&](const Place& p) { return standing_before(books, e, p); });
+    std::erase_if(where,
+                  [&](const Place& p) { return standing_before(books, e, p) || !only_moves(books, p, outputs); });
     if (where.empty() && standing(books, e)) continue;
     if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e, books.registry)});
     for (const auto& p : where) {

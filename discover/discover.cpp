@@ -66,10 +66,11 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
 }
 
 /// False if nothing was claimed. `first_fall` = fall of chi2 on validation by the first finding; `kept`: what was
-/// tried.
-bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kept) {
+/// tried; `outputs`: only what moves none but these, all if empty.
+bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kept,
+              const std::vector<std::string>& outputs = {}) {
   const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
-  auto tried = list_candidates(books, step);
+  auto tried = list_candidates(books, step, outputs);
   fit_candidates(books, tried, step);
   join_twins(tried);
   compare_all(books, tried, first_fall);
@@ -95,8 +96,12 @@ bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kep
 void one_by_one(Books& books, std::vector<Tried>& first) {
   for (int step = static_cast<int>(books.d.steps.size()) + 1; step <= books.options.max_steps && !books.stopped();
        ++step) {
-    if (step > 1 && !structure_is_left(books)) break;
-    if (!one_step(books, step, first_fall(books), step == 1 ? &first : nullptr)) break;
+    const bool go_on = step == 1 || structure_is_left(books);
+    if (go_on && one_step(books, step, first_fall(books), step == 1 ? &first : nullptr)) continue;
+    // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
+    // there.
+    const auto alone = untouched_outputs(books);
+    if (step == 1 || alone.empty() || !one_step(books, step, 0, nullptr, alone)) break;
   }
 }
 

@@ -101,7 +101,7 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
     list.push_back(recording(std::to_string(seed++) + ".csv", m.role, m.t, m.u, y));
   }
   const Discovery d = discovered(gain_and_sensor(), data_set(list, 1e-3),
-                            {"calibration", "backlash", "asymmetry", "hysteresis", "sensor_nonlinearity"});
+                                 {"calibration", "backlash", "asymmetry", "hysteresis", "sensor_nonlinearity"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "calibration") << tried(d);
   EXPECT_TRUE(d.steps.front().ties.empty()) << tried(d);
@@ -215,8 +215,24 @@ TEST_F(Rules, AfterManyRecordingsOfOneRateNobodySamplesFaster) {
   EXPECT_EQ(to_text(many.verdict), "missing_effect") << many.headline << (many.experiment ? many.experiment->text : "");
 }
 
-// --- tolerances ------------------------------------------------------------------------------------------------------
+TEST_F(Rules, AnOutputThatNothingFoundMovesIsJudgedAsIfItWereAlone) {
+  // 3 % more gain than noise on one axis, and on the other a gain that adds 5 % to chi2: certain over 2400 rows, and
+  // less than what a further effect on the first axis would have to bring.
+  constexpr double white = 1e-3;
+  const auto times = [](double gain) {
+    return [gain](const std::vector<double>&, const std::vector<double>& u) {
+      auto y = u;
+      for (auto& v : y) v *= gain;
+      return y;
+    };
+  };
+  const Discovery d = discovered(two_axes(), of_two_axes(white, times(1.03), times(1 + 0.55e-3)), {"calibration"});
+  ASSERT_EQ(d.steps.size(), 2u) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.place, "stage");
+  EXPECT_EQ(d.steps[1].winner.place, "stage2");
+}
 
+// --- tolerances ------------------------------------------------------------------------------------------------------
 
 /// The same on a spring with 3e4 N/m^3 besides, by semi-implicit Euler steps of 25 us.
 DataSet on_stiffening_spring() {
