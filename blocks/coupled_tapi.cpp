@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "blocks/prandtl_ishlinskii.h"
 #include "models/prandtl_ishlinskii_inverse.h"
 
 namespace hysteron::blocks {
@@ -58,6 +59,7 @@ void CoupledTapi::describe(Declaration& d) {
       "Here p_s is in the unit of the output; in the block tapi, which multiplies it by its first weight, of the "
       "input.");
   d.remark("Rows of p_s, beta and a are outputs, columns are inputs, as in a matrix_gain.");
+  d.remembers("u", "the output w_i,k of each operator, axis by axis");
   d.input("u", "$a", "drive of each axis").vector();
   d.input("temperature", "K", "temperature of the material");
   d.output("y", "$b", "displacement of each axis").vector();
@@ -71,6 +73,13 @@ Sizes CoupledTapi::sizes(const Shape& shape) {
 }
 
 std::string CoupledTapi::check(const View<double>& v) { return check_first(v.list(thresholds)[0]); }
+
+std::string CoupledTapi::check_memory(const View<double>& v) {
+  const auto r = v.list(thresholds);
+  for (std::size_t from = 0; from < v.memory().size(); from += r.size())
+    if (auto why = check_nested(play::Sides::one, r, v.memory().subspan(from, r.size())); !why.empty()) return why;
+  return "";
+}
 
 void SampledCoupledTapiInverse::describe(Declaration& d) {
   d.name("sampled_coupled_tapi_inverse", "drives that make coupled TAPI axes follow the wanted displacements")

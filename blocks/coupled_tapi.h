@@ -17,6 +17,7 @@ struct CoupledTapi {
   static void describe(Declaration& d);
   static Sizes sizes(const Shape& shape);
   static std::string check(const View<double>& v);
+  static std::string check_memory(const View<double>& v);
   template <class T>
   static coupled_tapi::Params<T> law(const View<T>& v) {
     return {v.list(thresholds), v.list(weights), v.list(p_s), v.list(beta), v.list(a), v.parameter(t_c)};

@@ -132,7 +132,8 @@ TraceDistance distance_of(const TraceLine& first, const TraceLine& second, Trace
   const double slack = same_place * std::max(a.high - a.low, b.high - b.low);
   const auto of_first = points_within(first, b, slack), of_second = points_within(second, a, slack);
   TraceDistance d;
-  d.points_of_first = of_first.size() <= of_second.size();
+  // Few points lie between rows: the file that has none within the other is the curve.
+  d.points_of_first = of_second.empty() || (!of_first.empty() && of_first.size() <= of_second.size());
   const TraceLine& points = d.points_of_first ? first : second;
   const TraceLine& curve = d.points_of_first ? second : first;
   const auto& rows = d.points_of_first ? of_first : of_second;

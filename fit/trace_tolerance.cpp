@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 
 #include "engine/error.h"
 
@@ -33,7 +34,8 @@ std::size_t plus_of(const std::string& text) {
 
 double read_part(const std::string& written, const std::string& text, std::string& unit) {
   double value = 0;
-  if (!split_quantity(text, value, unit) || !(value >= 0)) fail_text(written, fmt::format("\"{}\" is no limit", text));
+  if (!split_quantity(text, value, unit) || !(value >= 0) || !std::isfinite(value))
+    fail_text(written, fmt::format("\"{}\" is no limit", text));
   return value;
 }
 

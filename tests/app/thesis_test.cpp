@@ -107,8 +107,8 @@ TEST(Thesis, PolarisationOfChapterThreeIsSensedAsTheOracleSays) {
 
 TEST(Thesis, TemperatureAndCoupledAxesOfChapterFiveAreCompensated) {
   const json claims = claims_of({"chapter5"});
-  expect(claims, "agrees", {"C5-01", "C5-02", "C5-03", "C5-04", "C5-06", "C5-07", "C5-08", "C5-09", "C5-10"});
-  expect(claims, "calibrated", {"C5-05"});
+  expect(claims, "agrees", {"C5-01", "C5-02", "C5-03", "C5-04", "C5-06", "C5-07", "C5-08", "C5-09"});
+  expect(claims, "calibrated", {"C5-05", "C5-10"});
   EXPECT_EQ(claims.size(), 10U);
 }
 

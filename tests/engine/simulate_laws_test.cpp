@@ -16,6 +16,17 @@ namespace {
 using namespace tools;
 using std::numbers::pi;
 
+Value matrix(const std::vector<std::vector<double>>& rows, const char* unit) {
+  Value value;
+  NumberMatrix numbers;
+  for (const auto& row : rows) {
+    numbers.rows.emplace_back();
+    for (const double v : row) numbers.rows.back().push_back(Number{v, unit});
+  }
+  value.content = std::move(numbers);
+  return value;
+}
+
 TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
   // Every block with memory or history at once, driven by a random walk.
   auto d = diagram(
@@ -41,6 +52,25 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
                        {"beta", 0.5},
                        {"a", "0.02 V/K"}},
                       {"u", "warm"})},
+       {"bent", block("asymmetric_prandtl_ishlinskii",
+                      {{"thresholds", list({0, 0.1, 0.7}, "V")},
+                       {"weights", list({1, 0.4, 0.2}, "um/V")},
+                       {"saturation", "2 V"},
+                       {"bend", "3 V"}},
+                      {"u"})},
+       {"axes", block("mux", {}, {"u", "u"})},
+       {"coupled", block("coupled_tapi",
+                         {{"thresholds", list({0, 0.4}, "V")},
+                          {"weights", matrix({{1, 0.3}, {0.1, -0.05}, {-0.2, 0.1}, {1.2, 0.1}}, "um/V")},
+                          {"p_s", matrix({{0.4, 0.1}, {-0.1, 0.3}}, "um")},
+                          {"t_c", "600 K"},
+                          {"beta", matrix({{0.5, 1}, {1.2, 0.7}}, "")},
+                          {"a", matrix({{0.02, 0.02}, {0.02, 0.02}}, "V/K")}},
+                         {"axes", "warm"})},
+       {"charge", block("gain", {{"gain", "1 C/V"}}, {"u"})},
+       {"stack",
+        block("maxwell_capacitor", {{"yield_charges", list({0.4, 1.1}, "C")}, {"elastances", list({0.7, 0.3}, "1/F")}},
+              {"charge"})},
        {"used", block("constant", {{"value", 10.0}})},
        {"aged", block("ageing", {{"per_decade", 0.02}, {"first", 100.0}, {"swing", "0.5 V"}}, {"u", "used"})},
        {"behind",
@@ -48,7 +78,7 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
               {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, 0.2}, "um/V")}, {"time", "0.2 s"}},
               {"u"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"two", "one", "joint", "tapi", "aged", "behind", "late"}, {{"u", "V"}});
+      {"two", "one", "joint", "tapi", "aged", "behind", "late", "bent", "coupled", "stack"}, {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;

@@ -72,6 +72,7 @@ TEST(TapiModel, SaturationFallsToZeroAtTheCurieTemperature) {
 }
 
 TEST(TapiModel, LoopAreaDoesNotDependOnTheTemperature) {
+  // E-47: not narrower when it is warm, as the text has it.
   // What the temperature changes has no memory. The area of the operators alone is sum c_i r_i (U - r_i).
   const Reference ref;
   const double expected = prandtl_ishlinskii::loop_area<double>(ref.r, ref.c, 8.0);
