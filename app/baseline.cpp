@@ -19,6 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr double same = 1e-6;  ///< of the span: above the integrators' own error, below what a figure shows
 
+/// Last of all that is kept: a folder without it is none.
+void write_outcomes(const fs::path& folder, const std::map<std::string, std::string>& outcomes) {
+  const nlohmann::ordered_json all{{"format", 1}, {"outcomes", outcomes}};
+  write_file((folder / "baseline.json").string(), all.dump(2) + "\n");
+}
+
 void keep(const fs::path& folder, const std::vector<ClaimOutcome>& claims, const std::vector<CsvTable>& traces) {
   std::error_code code;
   fs::create_directories(folder / "traces", code);
@@ -26,10 +32,11 @@ void keep(const fs::path& folder, const std::vector<ClaimOutcome>& claims, const
     fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(),
          "name another with --baseline");
   for (const auto& table : traces) write_csv((folder / "traces" / table.file).string(), table);
-  nlohmann::ordered_json outcomes;
-  for (const auto& c : claims) outcomes[c.claim.id] = c.outcome;
-  const nlohmann::ordered_json all{{"format", 1}, {"outcomes", outcomes}};
-  write_file((folder / "baseline.json").string(), all.dump(2) + "\n");  // last: a folder without it is none
+  write_outcomes(folder, [&] {
+    std::map<std::string, std::string> outcomes;
+    for (const auto& c : claims) outcomes[c.claim.id] = c.outcome;
+    return outcomes;
+  }());
 }
 
 std::map<std::string, std::string> outcomes_in(const fs::path& file) {
@@ -61,7 +68,7 @@ std::string difference(const CsvTable& before, const CsvTable& now) {
 }  // namespace
 
 BaselineAnswer hold_against(const std::string& folder, const std::vector<ClaimOutcome>& claims,
-                            const std::vector<CsvTable>& traces) {
+                            const std::vector<CsvTable>& traces, bool everything) {
   BaselineAnswer answer;
   const fs::path root(folder);
   if (!fs::exists(root / "baseline.json")) {
@@ -69,20 +76,33 @@ BaselineAnswer hold_against(const std::string& folder, const std::vector<ClaimOu
     answer.kept = true;
     return answer;
   }
-  const auto before = outcomes_in(root / "baseline.json");
+  auto before = outcomes_in(root / "baseline.json");
   const auto held = [](const std::string& outcome) { return outcome == "agrees" || outcome == "calibrated"; };
   for (const auto& c : claims) {
     const auto found = before.find(c.claim.id);
-    if (found == before.end()) continue;
+    if (found == before.end()) {
+      answer.added.push_back(c.claim.id);
+      before[c.claim.id] = c.outcome;
+      continue;
+    }
     if (held(found->second) && !c.holds()) answer.worse.push_back(c.claim.id);
     if (!held(found->second) && c.holds()) answer.better.push_back(c.claim.id);
   }
   for (const auto& table : traces) {
     const fs::path file = root / "traces" / table.file;
-    if (!fs::exists(file)) continue;
+    if (!fs::exists(file)) {
+      write_csv(file.string(), table);
+      answer.added.push_back(table.file);
+      continue;
+    }
     const std::string text = difference(read_csv(file.string()), table);
     if (!text.empty()) answer.changed.push_back(text);
   }
+  for (const auto& [id, outcome] : before)
+    if (everything && held(outcome) &&
+        std::none_of(claims.begin(), claims.end(), [&, &name = id](const auto& c) { return c.claim.id == name; }))
+      answer.worse.push_back(id);
+  if (!answer.added.empty()) write_outcomes(root, before);
   return answer;
 }
 

@@ -391,6 +391,9 @@ int tell_baseline(const BaselineAnswer& answer, const std::string& folder, Docum
   for (const auto& id : answer.better)
     document.sentences.push_back(fmt::format("{} holds now; in the baseline it did not.", id));
   for (const auto& text : answer.changed) document.warnings.push_back(text);
+  if (!answer.added.empty())
+    document.sentences.push_back(
+        fmt::format("Added to the baseline, which did not have them: {}.", fmt::join(answer.added, ", ")));
   if (answer.worse.empty() && answer.changed.empty())
     document.sentences.push_back(fmt::format("Nothing differs from the baseline in {}.", folder));
   return answer.worse.empty() ? exit_code::done : exit_code::no;
@@ -448,7 +451,7 @@ int reproduce(const Arguments& arguments) {
   document.warnings = notes_on(wanted.jobs, "", pool);
   int code = exit_code::done;
   if (arguments.has("--baseline"))
-    code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces),
+    code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces, wanted.others.empty()),
                          arguments.text("--baseline"), document);
   for (const auto& r : results)
     if (!r.failed.empty()) {

@@ -199,6 +199,20 @@ TEST_F(Reproduce, ABaselineIsKeptFirstAndThenAnswersWithTheExitCode) {
   EXPECT_NE(worse.out.find("fig2_1-1-full.csv: y differs by up to 300 nm"), std::string::npos) << worse.out;
 }
 
+TEST_F(Reproduce, ABaselineThatBeganWithOneFigureTakesTheOthersInAndKnowsWhatIsGone) {
+  ASSERT_EQ(hysteron(folder_.path(), {"reproduce", "fig2_1", "--baseline", "kept", "-o", "a"}).code, 0);
+  const Outcome more = hysteron(folder_.path(), {"reproduce", "all", "--baseline", "kept", "-o", "b"});
+  EXPECT_EQ(more.code, 0) << more.out;
+  EXPECT_NE(more.out.find("Added to the baseline"), std::string::npos) << more.out;
+  const Outcome again = hysteron(folder_.path(), {"reproduce", "all", "--baseline", "kept", "-o", "c"});
+  EXPECT_EQ(again.out.find("Added to the baseline"), std::string::npos) << again.out;
+  // A claim that held and that nobody makes any more.
+  folder_.write("kept/baseline.json", R"({"format": 1, "outcomes": {"C2-99": "agrees"}})");
+  const Outcome gone = hysteron(folder_.path(), {"reproduce", "all", "--baseline", "kept", "-o", "d"});
+  EXPECT_EQ(gone.code, 1) << gone.out;
+  EXPECT_NE(gone.out.find("C2-99"), std::string::npos) << gone.out;
+}
+
 TEST_F(Reproduce, LinearizationsTablesAndEveryKindOfPlot) {
   folder_.write("diagrams/chapter3/lag.json", lag);
   folder_.write("diagrams/chapter3/points.csv", "t [ms],y [mV]\n0,0\n1,1264.241118\n");
