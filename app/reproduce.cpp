@@ -102,6 +102,9 @@ std::vector<Job> jobs_in(const std::string& folder) {
     if (what_a_job_does(path.string()) != "runs") continue;
     jobs.push_back({path.string(), path.stem().string(), path.parent_path().filename().string()});
   }
+  if (jobs.empty())
+    fail("no_jobs", folder, "no file in this folder is a job with \"do\": \"runs\"",
+         "name the folder of the jobs with --from FOLDER");
   std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
     return a.chapter != b.chapter ? natural_less(a.chapter, b.chapter) : natural_less(a.name, b.name);
   });

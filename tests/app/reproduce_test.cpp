@@ -213,6 +213,13 @@ TEST_F(Reproduce, ABaselineThatBeganWithOneFigureTakesTheOthersInAndKnowsWhatIsG
   EXPECT_NE(gone.out.find("C2-99"), std::string::npos) << gone.out;
 }
 
+TEST_F(Reproduce, AFolderWithoutJobsIsWrongInput) {
+  folder_.write("empty/notes.json", "{}");
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "--from", "empty"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_NE(outcome.err.find("empty"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Reproduce, LinearizationsTablesAndEveryKindOfPlot) {
   folder_.write("diagrams/chapter3/lag.json", lag);
   folder_.write("diagrams/chapter3/points.csv", "t [ms],y [mV]\n0,0\n1,1264.241118\n");
