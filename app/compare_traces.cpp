@@ -44,7 +44,8 @@ std::string sentence_of(const TraceComparison& c, const TracePair& pair) {
   const auto points = static_cast<long>(d.x.size());
   const std::string how_far =
       fmt::format("largest difference {} at {}, RMS {}, {}", difference_text(d.largest, pair.unit),
-                  place_text(c, d.x[d.largest_at]), difference_text(d.rms, pair.unit), count_text(points, "point"));
+                  place_text(c, d.x[d.largest_at]), difference_text(d.rms, pair.unit), count_text(points, "point")) +
+      (d.left_out == 0 ? "" : fmt::format(" ({} more outside the common range)", d.left_out));
   if (!pair.written) return fmt::format("{}: {}.", name_of(pair), how_far);
   if (d.outside == 0) return fmt::format("{}: within \"{}\"; {}.", name_of(pair), pair.written->written, how_far);
   return fmt::format("{}: OUTSIDE \"{}\" in {} of {}, furthest at {}, {} beyond it; {}.", name_of(pair),
@@ -88,18 +89,6 @@ CsvTable difference_table(const TraceComparison& c, const TracePair& pair, const
   return table;
 }
 
-Curve curve_of(const CsvTable& table, const std::string& x, const std::string& y, const std::string& name,
-               const std::string& style, const std::string& role) {
-  Curve curve;
-  curve.name = name;
-  curve.style = style;
-  curve.role = role;
-  curve.trace = table.file;
-  curve.x_column = x;
-  curve.y_column = y;
-  return curve;
-}
-
 /// The points outside the tolerance, at `values` (SI) of the pair.
 Curve outside_curve(const TraceComparison& c, const TracePair& pair, const std::vector<double>& values,
                     const Unit& unit) {
@@ -130,9 +119,9 @@ Figure both_curves(const TraceComparison& c, const TracePair& pair, const CsvTab
     return 2 * line.x.size() < other.x.size() ? "points" : "line";  // the few points of a digitized figure
   };
   figure.curves.push_back(
-      curve_of(first, c.axis, pair.first, "first", style(pair.first_line, pair.second_line), "measured"));
+      trace_curve(first, c.axis, pair.first, "first", style(pair.first_line, pair.second_line), "measured"));
   figure.curves.push_back(
-      curve_of(second, c.axis, pair.first, "second", style(pair.second_line, pair.first_line), "simulated"));
+      trace_curve(second, c.axis, pair.first, "second", style(pair.second_line, pair.first_line), "simulated"));
   if (pair.written && pair.distance.outside > 0)
     figure.curves.push_back(outside_curve(c, pair, points ? pair.distance.first : pair.distance.second, pair.unit));
   return figure;
@@ -142,12 +131,12 @@ Figure differences(const TraceComparison& c, const TracePair& pair, const CsvTab
   const Unit unit = unit_of_differences(pair.unit);
   Figure figure = figure_of("second minus first", c, axis_text("difference", unit));
   const char* style = c.course == TraceCourse::rising ? "line" : "points";
-  figure.curves.push_back(curve_of(table, c.axis, "difference", "difference", style, "residual"));
+  figure.curves.push_back(trace_curve(table, c.axis, "difference", "difference", style, "residual"));
   if (!pair.written) return figure;
   if (pair.written->along) figure.caption = "The difference at the same place; the tolerance also looks beside it.";
   if (c.course == TraceCourse::rising)
     for (const char* side : {"allowed", "allowed_below"})
-      figure.curves.push_back(curve_of(table, c.axis, side, "tolerance", "line", "before"));
+      figure.curves.push_back(trace_curve(table, c.axis, side, "tolerance", "line", "before"));
   std::vector<double> difference;
   for (std::size_t i = 0; i < pair.distance.x.size(); ++i) difference.push_back(unit.to_si(table.columns[3].values[i]));
   if (pair.distance.outside > 0) figure.curves.push_back(outside_curve(c, pair, difference, unit));

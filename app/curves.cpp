@@ -45,18 +45,6 @@ void add_column(CsvTable& table, const std::string& name, const Unit& unit, cons
   table.columns.push_back({name, written, converted(si, written, difference)});
 }
 
-Curve trace_curve(const CsvTable& table, const std::string& x, const std::string& y, const std::string& name,
-                  const std::string& style, const std::string& role) {
-  Curve curve;
-  curve.name = name;
-  curve.style = style;
-  curve.role = role;
-  curve.trace = table.file;
-  curve.x_column = x;
-  curve.y_column = y;
-  return curve;
-}
-
 Figure figure_of(const std::string& title, const std::string& x_label, const std::string& y_label) {
   Figure figure;
   figure.title = title;
@@ -112,6 +100,18 @@ std::string name_of(const DataModel& model, const MetricsOf& m) {
 }
 
 }  // namespace
+
+Curve trace_curve(const CsvTable& table, const std::string& x, const std::string& y, const std::string& name,
+                  const std::string& style, const std::string& role) {
+  Curve curve;
+  curve.name = name;
+  curve.style = style;
+  curve.role = role;
+  curve.trace = table.file;
+  curve.x_column = x;
+  curve.y_column = y;
+  return curve;
+}
 
 Unit unit_of_differences(const Unit& unit) { return unit.offset == 0 ? unit : si_unit(unit.dimension); }
 

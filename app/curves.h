@@ -34,6 +34,10 @@ std::string residual_column(const Beside& view, const std::string& output, std::
 /// In which unit differences of an output are shown: a residual of 1 degC would be read as 274.15 K.
 Unit unit_of_differences(const Unit& unit);
 
+/// Column `y` of a trace over its column `x`.
+Curve trace_curve(const CsvTable& table, const std::string& x, const std::string& y, const std::string& name,
+                  const std::string& style, const std::string& role);
+
 /// Measured and simulated, and the residual, over time; the figures share their time axis.
 void add_time_figures(Section& section, const Beside& view, const CsvTable& table);
 

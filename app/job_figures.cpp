@@ -109,15 +109,13 @@ class Plotter {
   std::pair<CsvColumn, CsvColumn> points(const PlotWish& plot, const SignalWish& signal, const RunResult& result) {
     JobRunner::Rows rows = runner_.rows(signal, result, plot.between, plot.rezero);
     CsvColumn x{result.columns.front().name, result.columns.front().unit, rows.t};
-    CsvColumn y{signal.signal.text, axis_unit(plot.y, rows.unit, rows.difference), std::move(rows.y)};
+    CsvColumn y{signal.signal.text, axis_unit(plot.y, rows.unit, rows.difference), rows.y};
     if (!plot.x.signals.empty()) {
       JobRunner::Rows along = runner_.rows(plot.x.signals.front(), result, plot.between, false);
       x = {plot.x.signals.front().signal.text, along.unit, std::move(along.y)};
     }
     if (plot.kind == "spectrum") {
-      const double dt =
-          rows.t.size() < 2 ? 0 : (rows.t.back() - rows.t.front()) / static_cast<double>(rows.t.size() - 1);
-      auto lines = features::spectrum(y.values, dt);
+      auto lines = spectrum_of(rows, plot.pointer);
       x = {"f", parse_unit("Hz"), std::move(lines.frequency)};
       y = {y.name, without_offset(y.unit), std::move(lines.amplitude)};
     } else if (plot.kind == "histogram") {

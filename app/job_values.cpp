@@ -75,7 +75,8 @@ Quantity combined(const std::string& how, const std::vector<Quantity>& q, const 
   return {sum, unit, q.front().difference};
 }
 
-/// Lines of a spectrum of these rows. Throws where they do not stand evenly.
+}  // namespace
+
 features::Spectrum spectrum_of(const JobRunner::Rows& rows, const std::string& pointer) {
   const double dt = base_distance(rows.t);
   for (std::size_t i = 1; i < rows.t.size(); ++i)
@@ -83,8 +84,6 @@ features::Spectrum spectrum_of(const JobRunner::Rows& rows, const std::string& p
       fail("uneven_rows", pointer, "a spectrum needs rows that stand evenly in time", "give the run an \"every\"");
   return features::spectrum(rows.y, dt);
 }
-
-}  // namespace
 
 Unit without_offset(Unit unit) {
   unit.offset = 0;

@@ -154,7 +154,9 @@ Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>
     for (const auto& c : claims) names.push_back(c.id);
     if (!known && !claim)
       fail("unknown_figure", word, fmt::format("there is no chapter, figure or claim \"{}\"", word),
-           did_you_mean(word, names));
+           nearest_name(word, names).empty()
+               ? "name \"all\", a chapter (chapter2), a figure (fig2_15) or a claim (C2-07)"
+               : fmt::format("did you mean \"{}\"?", nearest_name(word, names)));
   }
   for (std::size_t i = 0; i < all.size(); ++i) (take[i] ? wanted.jobs : wanted.others).push_back(all[i]);
   return wanted;

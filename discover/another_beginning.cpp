@@ -29,7 +29,7 @@ std::optional<Contender> with_one_more(Books& books, const std::string& begun, d
 
 }  // namespace
 
-bool another_beginning(Books& books, std::vector<Tried>& first) {
+bool another_beginning(Books& books, const std::vector<Tried>& first) {
   if (books.stopped() || books.options.max_steps < 2 || !structure_is_left(books)) return false;
   const Contender stands = books.current;
   const std::string begun = books.d.steps.front().winner.effect;

@@ -108,7 +108,7 @@ void reconsider(Books& books, double bar);
 
 /// Where structure is left: begins with the next best of the first step instead, one more effect on each, and takes the
 /// pair that explains the recordings better than what stands. True if there is one.
-bool another_beginning(Books& books, std::vector<Tried>& first);
+bool another_beginning(Books& books, const std::vector<Tried>& first);
 /// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had.
 bool tell_again(Books& books, const Contender& set);
 

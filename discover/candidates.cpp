@@ -87,8 +87,6 @@ bool standing(const Books& books, const Effect& e) {
                      [&](const Standing& s) { return s.effect->family == e.family; });
 }
 
-/// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
-/// with these held it would not be seen.
 bool taken_up(const Books& books, const Effect& effect) {
   return std::any_of(books.current.standing.begin(), books.current.standing.end(),
                      [&](const Standing& s) { return look_alike(*s.effect, effect); });
@@ -103,7 +101,6 @@ Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
   return nullptr;
 }
 
-/// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once.
 std::vector<std::string> untouched_outputs(const Books& books) {
   std::vector<bool> moved(books.base_model->outputs().size(), false);
   for (const auto& s : books.current.standing) {
@@ -117,8 +114,10 @@ std::vector<std::string> untouched_outputs(const Books& books) {
   return list;
 }
 
-std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs) {
-  books.hidden.clear();
+namespace {
+
+/// Every effect at every place where it may enter, with what the recordings show there.
+std::vector<Tried> everywhere(Books& books, int step, const std::vector<std::string>& outputs) {
   std::vector<Tried> list;
   std::vector<Place> places;
   for (const auto& e : books.effects.list()) {
@@ -137,12 +136,28 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
     }
   }
   if (list.empty()) return list;
-  const auto seen =
-      circumstances_at(books.current.diagram, books.registry, *books.data, places, books.options.free_paths);
+  auto seen = circumstances_at(books.current.diagram, books.registry, *books.data, places, books.options.free_paths);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].circumstances = std::move(seen[i]);
+  return list;
+}
+
+/// Beside the candidate that stands for it already: a further place, or a twin.
+void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
+  if (same.effect != t.effect) same.same_effects.push_back(t.effect->id);
+  same.same_places.push_back(t.place.at);
+  // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows; it is
+  // fitted at both ends all the same, for what lies between may be rougher than the drive.
+  if (same.effect != t.effect || t.effect->commutes != Commutes::time_invariant) return;
+  t.twin = static_cast<int>(&same - kept.data());
+  kept.push_back(std::move(t));
+}
+
+}  // namespace
+
+std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs) {
+  books.hidden.clear();
   std::vector<Tried> kept;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    Tried& t = list[i];
-    t.circumstances = seen[i];
+  for (auto& t : everywhere(books, step, outputs)) {
     if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
       if (step == 1) books.d.refused.push_back({t.effect->id, t.place.at, why});
       if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) books.hidden.push_back(std::move(t));
@@ -150,18 +165,10 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
     }
     t.laws = t.effect->laws(t.circumstances);
     if (t.laws.empty() || t.laws.front().free.empty()) continue;
-    if (Tried* same = same_finding(kept, t)) {
-      if (same->effect != t.effect) same->same_effects.push_back(t.effect->id);
-      same->same_places.push_back(t.place.at);
-      // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows;
-      // it is fitted at both ends all the same, for what lies between may be rougher than the drive.
-      if (same->effect == t.effect && t.effect->commutes == Commutes::time_invariant) {
-        t.twin = static_cast<int>(same - kept.data());
-        kept.push_back(std::move(t));
-      }
-      continue;
-    }
-    kept.push_back(std::move(t));
+    if (Tried* same = same_finding(kept, t))
+      add_to(*same, std::move(t), kept);
+    else
+      kept.push_back(std::move(t));
   }
   for (auto* list_of : {&kept, &books.hidden})
     for (auto& t : *list_of) {
@@ -172,15 +179,11 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   return kept;
 }
 
-/// What rows that are off by a part of the noise can add to chi2 or take from it: their square, and their product
-/// with the noise.
 double blur(const Contender& c) {
   const double n = c.error_of.n();
   return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));
 }
 
-/// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both
-/// places.
 void join_twins(std::vector<Tried>& tried) {
   for (std::size_t i = 0; i < tried.size(); ++i) {
     if (tried[i].twin < 0) continue;

@@ -69,7 +69,6 @@ Law started_from(const Tried& t, std::size_t law) {
 
 }  // namespace
 
-/// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < tried.size(); ++i)
@@ -96,7 +95,6 @@ void compare_all(Books& books, std::vector<Tried>& tried, double first_fall) {
   leave_to_calibration(tried);
 }
 
-/// Further effects were screened with the earlier ones held: the best few are fitted together with them.
 void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, double bar) {
   auto order = ranking(tried);
   std::vector<std::size_t> screened_out;
@@ -115,8 +113,6 @@ void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, doub
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }
 
-/// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
-/// effect that was found they are screened with that one held, and fitted together only where that brings something.
 void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall, double bar) {
   const auto order = ranking(tried);
   if (order.empty()) return;
@@ -147,8 +143,6 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall
   if (any) compare_all(books, tried, first_fall);
 }
 
-/// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
-/// rival: that it was refused says nothing against it.
 void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, double first_fall) {
   for (auto& t : books.hidden) {
     if (!look_alike(*t.effect, winner) || books.stopped()) continue;

@@ -59,7 +59,6 @@ void tell_noise(Books& books) {
 
 }  // namespace
 
-/// As the recordings have it.
 Unit output_unit(const Books& books) {
   const auto& name = books.base_model->outputs().front();
   for (const auto& r : books.data->recordings)

@@ -76,34 +76,40 @@ std::optional<Contender> rest_of(Books& books, std::size_t i) {
   return rest;
 }
 
-/// A set without one that the others have made needless: it gives back less than a claim has to take away.
-std::optional<Contender> without_a_needless_one(Books& books, double bar) {
+/// What is left without each member but the last, which was taken beside all the others.
+using Rests = std::vector<std::optional<Contender>>;
+Rests rests_of(Books& books, double bar) {
+  Rests rests;
   for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i) {
     books.progress("without " + books.current.standing[i].effect->id, bar);
-    auto rest = rest_of(books, i);
-    if (!rest) continue;
-    const double given_back = rest->error_of.evidence_validate - books.current.error_of.evidence_validate;
-    if (given_back < rules::claim_fall && rest->score() < books.current.score()) return rest;
+    rests.push_back(rest_of(books, i));
   }
-  return std::nullopt;
+  return rests;
 }
 
-/// The set with a look-alike in place of member `i`, if the recordings speak for it.
-std::optional<Contender> with_a_look_alike(Books& books, std::size_t i, double bar) {
-  const Effect& member = *books.current.standing[i].effect;
-  const auto rest = rest_of(books, i);
-  if (!rest) return std::nullopt;
+/// The set without one that the others have made needless: it gives back less than a claim has to take away.
+const Contender* without_a_needless_one(const Books& books, const Rests& rests) {
+  for (const auto& rest : rests) {
+    if (!rest) continue;
+    const double given_back = rest->error_of.evidence_validate - books.current.error_of.evidence_validate;
+    if (given_back < rules::claim_fall && rest->score() < books.current.score()) return &*rest;
+  }
+  return nullptr;
+}
+
+/// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
+std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, const Effect& member, double bar) {
   for (const auto& e : books.effects.list()) {
     if (!books.wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(books, e))) continue;
-    const auto places = places_of(e, rest->diagram, books.registry, books.data.get());
+    const auto places = places_of(e, rest.diagram, books.registry, books.data.get());
     if (places.empty()) continue;
-    const auto at = circumstances_at(rest->diagram, books.registry, *books.data, places, books.options.free_paths);
+    const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, books.options.free_paths);
     for (std::size_t p = 0; p < places.size(); ++p) {
       if (!e.unseen(at[p]).empty()) continue;
       for (const auto& law : laws_to_try(e, at[p])) {
         if (books.stopped()) return std::nullopt;
         books.progress(fmt::format("{} in place of {}", e.id, member.id), bar);
-        Contender other = with_effect(books.shop, *rest, e, law, places[p], at[p], Effort::full);
+        Contender other = with_effect(books.shop, rest, e, law, places[p], at[p], Effort::full);
         books.d.model_runs += other.runs;
         if (other.ok && other.score() < books.current.score() - rules::exchange) return other;
       }
@@ -181,9 +187,15 @@ bool tell_again(Books& books, const Contender& set) {
 }
 
 void reconsider(Books& books, double bar) {
-  if (auto rest = without_a_needless_one(books, bar)) tell_again(books, *rest);
-  for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i)
-    if (auto other = with_a_look_alike(books, i, bar); other && tell_again(books, *other)) break;
+  Rests rests = rests_of(books, bar);
+  if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
+    rests = rests_of(books, bar);
+  const auto members = members_of(books.current);
+  for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
+    if (!rests[i]) continue;
+    const auto other = with_a_look_alike(books, *rests[i], *members[i].effect, bar);
+    if (other && tell_again(books, *other)) return;  // the members stand in another order now
+  }
 }
 
 }  // namespace hysteron

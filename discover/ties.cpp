@@ -73,7 +73,6 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
   return ties;
 }
 
-/// Look-alikes that the accuracy of the search cannot tell apart are fitted again with finer rows.
 void sharpen_rivals(Books& books, std::vector<Tried>& tried, std::size_t winner) {
   Tried& w = tried[winner];
   const double reach = rules::tie + blur(w.contender);
@@ -116,8 +115,6 @@ std::optional<Experiment> experiment_between(Books& books, const Tried& a, const
   return e;
 }
 
-/// Rivals that all recordings could have told apart are tied by noise, and another recording must be far better than
-/// they were. One that no recording could show needs only to be seen.
 bool would_tell(const Experiment& e, bool hidden) {
   return e.separation > rules::experiment_tells ||
          (hidden && e.separation * e.separation * e.rows > 2 * rules::claim_fall);

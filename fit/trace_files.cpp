@@ -91,6 +91,10 @@ std::optional<WrittenTolerance> tolerance_for(const TracePair& pair, const Trace
       fail("wrong_unit", "--tolerance",
            fmt::format("\"{}\": {} is in {}", written.written, pair.first, unit_text_of(pair.unit)),
            fmt::format("write the tolerance in {} or in %", unit_text_of(pair.unit)));
+    if (named && chosen && !chosen->signal.empty())
+      fail("bad_command_line", "--tolerance",
+           fmt::format("{} has two tolerances: \"{}\" and \"{}\"", pair.first, chosen->written, written.written),
+           "give one, with both parts: \"y: 2 nm + 0.1 %\"");
     const bool yields = chosen && !chosen->signal.empty() && !named;  // one for all yields to one for this signal
     if (named || (written.signal.empty() && written.fits(pair.unit) && !yields)) chosen = written;
   }

@@ -403,22 +403,18 @@ class RunsReader {
 
   // ---- names --------------------------------------------------------------------------------------------------------
 
-  void check_run(const WrittenText& name) {
+  /// `what`: "run" or "value".
+  template <class Named>
+  void check_one_of(const std::vector<Named>& list, const char* what, const WrittenText& name) {
     if (name.text.empty()) return;
     std::vector<std::string> known;
-    for (const auto& r : job_.runs) known.push_back(r.name);
+    for (const auto& one : list) known.push_back(one.name);
     if (std::find(known.begin(), known.end(), name.text) == known.end())
-      file_.add("unknown_run", name.pointer, fmt::format("there is no run \"{}\"", name.text),
+      file_.add(fmt::format("unknown_{}", what), name.pointer, fmt::format("there is no {} \"{}\"", what, name.text),
                 did_you_mean(name.text, known));
   }
-  void check_value(const WrittenText& name) {
-    if (name.text.empty()) return;
-    std::vector<std::string> known;
-    for (const auto& v : job_.values) known.push_back(v.name);
-    if (std::find(known.begin(), known.end(), name.text) == known.end())
-      file_.add("unknown_value", name.pointer, fmt::format("there is no value \"{}\"", name.text),
-                did_you_mean(name.text, known));
-  }
+  void check_run(const WrittenText& name) { check_one_of(job_.runs, "run", name); }
+  void check_value(const WrittenText& name) { check_one_of(job_.values, "value", name); }
   void check_value_wish(const ValueWish& v) {
     check_run(v.run);
     if (v.of.minus_run) check_run(*v.of.minus_run);

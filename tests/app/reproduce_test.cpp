@@ -213,6 +213,17 @@ TEST_F(Reproduce, ABaselineThatBeganWithOneFigureTakesTheOthersInAndKnowsWhatIsG
   EXPECT_NE(gone.out.find("C2-99"), std::string::npos) << gone.out;
 }
 
+TEST_F(Reproduce, ASpectrumOfUnevenRowsIsRefusedWhereItIsDrawn) {
+  folder_.write("diagrams/chapter3/points.csv", "t [s],y [V]\n0,0\n1,1\n3,0\n");
+  folder_.write("diagrams/chapter3/fig3_9.json",
+                R"({"format": 1, "do": "runs", "runs": {"points": {"table": "points.csv"}},
+  "plots": [{"title": "Spectrum", "kind": "spectrum", "y": {"signal": "y"}}]})");
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig3_9", "-o", "out"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_NE(outcome.err.find("evenly"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("fig3_9.json:2"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Reproduce, AFolderWithoutJobsIsWrongInput) {
   folder_.write("empty/notes.json", "{}");
   const Outcome outcome = hysteron(folder_.path(), {"reproduce", "--from", "empty"});

@@ -56,6 +56,17 @@ TEST(TraceDistance, IsTakenOnTheStraightLineBetweenPointsAndInTheCommonRangeOnly
   EXPECT_NEAR(d.largest, 0.75, rounding);
 }
 
+TEST(TraceDistance, APointBetweenTwoRowsIsReadOnTheLineThatHasNoneInItsRange) {
+  const TraceLine point{{0.5}, {2}}, rows{{0, 1, 2}, {0, 3, 6}};
+  for (const bool point_first : {true, false}) {
+    const TraceDistance d =
+        distance_of(point_first ? point : rows, point_first ? rows : point, TraceCourse::rising, {});
+    ASSERT_EQ(d.x.size(), 1U);
+    EXPECT_EQ(d.points_of_first, point_first);
+    EXPECT_NEAR(d.largest, 0.5, rounding);
+  }
+}
+
 TEST(TraceDistance, AbsoluteAndRelativePartAddUpOnTheFirstCurve) {
   const TraceLine first{{0, 1, 2}, {10, -10, 0}}, second{{0, 1, 2}, {11, -11, 1}};
   // Allowed: 0.5 + 0.05 * |10| = 1 at the first two, 0.5 where the first curve is zero.
@@ -169,6 +180,13 @@ TEST(TraceFiles, WhatCannotBeComparedIsSaidWithACure) {
   EXPECT_EQ(code_of([&] { compared(a, a, {"z: 1 um"}); }), "unknown_signal");
   EXPECT_EQ(code_of([&] { compared(a, a, {"1 V"}); }), "wrong_unit");
   EXPECT_EQ(code_of([&] { compared(a, a, {"y: 1 um, 2 V"}); }), "wrong_unit");
+}
+
+TEST(TraceTolerance, ThatAllowsEverythingOrSaysTwoThingsIsRefused) {
+  EXPECT_EQ(code_of([] { read_trace_tolerance("inf nm"); }), "bad_command_line");
+  EXPECT_EQ(code_of([] { read_trace_tolerance("1 nm, inf s"); }), "bad_command_line");
+  const auto a = table("a.csv", {{"t [s]", {0, 1}}, {"y [um]", {0, 1}}});
+  EXPECT_EQ(code_of([&] { compared(a, a, {"y: 1 nm", "y: 2 nm"}); }), "bad_command_line");
 }
 
 TEST(TraceTolerance, IsReadInAllItsForms) {
