@@ -84,18 +84,22 @@ struct RowOf {
     }
     if (!piece.area) return;
     const double* const x = signal(piece.of.over);
-    double *const x0 = at(x_start), *const xb = at(x_before);
-    each([&](int l) { x0[l] = xb[l] = x[l]; });
+    double *const x0 = at(x_start), *const xb = at(x_before), *const yb = at(y_before);
+    each([&](int l) {
+      x0[l] = x[l];
+      xb[l] = yb[l] = 0;
+    });
   }
 
   /// Straight from the row before to this one, seen from the first row, so that an offset costs no digits.
   [[gnu::always_inline]] void add_area() const {
     const double *const x = signal(piece.of.over), *const now = at(y), *const x0 = at(x_start), *const y0 = at(start);
     double *const xb = at(x_before), *const yb = at(y_before), *const v = at(twice);
-    if (!begins()) each([&](int l) { v[l] += (xb[l] - x0[l]) * (now[l] - y0[l]) - (x[l] - x0[l]) * (yb[l] - y0[l]); });
     each([&](int l) {
-      xb[l] = x[l];
-      yb[l] = now[l];
+      const double dx = x[l] - x0[l], dy = now[l] - y0[l];
+      v[l] += xb[l] * dy - dx * yb[l];
+      xb[l] = dx;
+      yb[l] = dy;
     });
   }
 
@@ -175,7 +179,7 @@ Reducers::Reducers(const std::vector<TraceFeature>& features, std::vector<double
     : lanes_(lanes), instants_(std::move(instants)), features_(features) {
   for (auto& f : features_) {
     if (f.take != Take::area) f.over = -1;
-    if (f.take == Take::at) f.first = 0, f.last = static_cast<long>(instants_.size());
+    if (f.take == Take::at) f.first = 0, f.last = static_cast<long>(instants_.size());  // which it is held beyond
     place_.push_back(piece_of(f));
   }
   for (auto& p : pieces_) p.numbers.assign(static_cast<std::size_t>(numbers) * static_cast<std::size_t>(lanes), 0.0);
@@ -183,7 +187,7 @@ Reducers::Reducers(const std::vector<TraceFeature>& features, std::vector<double
 
 int Reducers::piece_of(const TraceFeature& f) {
   std::size_t i = 0;
-  const auto fits = [&](const TracePiece& p) { return same_piece(p.of, f) && (f.take != Take::at || p.before < 0); };
+  const auto fits = [&](const TracePiece& p) { return f.take != Take::at && p.before < 0 && same_piece(p.of, f); };
   while (i < pieces_.size() && !fits(pieces_[i])) ++i;
   if (i == pieces_.size()) {
     pieces_.emplace_back();
@@ -233,6 +237,7 @@ int Reducers::piece_of(const TraceFeature& f) {
 void Reducers::row(long k, const double* signals) {
   for (auto& p : pieces_) {
     if (k < p.of.first || k >= p.of.last) continue;
+    if (p.before >= 0 && k != p.of.first && k != p.before && k != p.after) continue;  // of at: needs no others
     if (lanes_ == 8)
       add_row_of_8(p, k, signals);
     else if (lanes_ == 16)

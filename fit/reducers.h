@@ -57,7 +57,7 @@ class Reducers {
 
   /// Row `k` of every sample: signals[s * lanes + lane]. Called for each row in order; the first row begins anew.
   void row(long k, const double* signals);
-  /// After the last row: values[feature * lanes + lane]. NaN where the trace was not finite inside its rows.
+  /// After the last row: values[feature * lanes + lane]. NaN where the trace was not finite in the rows that are used.
   void values(double* values) const;
 
  private:

