@@ -16,17 +16,6 @@ namespace {
 
 constexpr double settled = 0.02;  // of the step: the usual 2 %
 
-bool compound(const Unit& unit) { return unit.text.find_first_of("/ *.") != std::string::npos; }
-
-/// Text that parse_unit reads, and the numbers that belong to it.
-Unit named(const std::string& text, const Dimension& dimension, double scale) {
-  Unit unit;
-  unit.text = text;
-  unit.dimension = dimension;
-  unit.scale = scale;
-  return unit;
-}
-
 double base_distance(std::span<const double> base) {
   return base.size() < 2 ? 0 : (base.back() - base.front()) / static_cast<double>(base.size() - 1);
 }
@@ -85,29 +74,6 @@ features::Spectrum spectrum_of(const JobRunner::Rows& rows, const std::string& p
   return features::spectrum(rows.y, dt);
 }
 
-Unit without_offset(Unit unit) {
-  unit.offset = 0;
-  return unit;
-}
-
-Unit product(const Unit& a, const Unit& b) {
-  const std::string text = a.text.empty() ? b.text : b.text.empty() ? a.text : a.text + " " + b.text;
-  return named(text, a.dimension * b.dimension, a.scale * b.scale);
-}
-
-Unit quotient(const Unit& a, const Unit& b) {
-  const std::string below = compound(b) ? "(" + b.text + ")" : b.text;
-  const std::string text = a.text == b.text ? ""
-                           : b.text.empty() ? a.text
-                                            : (a.text.empty() ? "1" : a.text) + "/" + below;
-  return named(text, a.dimension / b.dimension, a.scale / b.scale);
-}
-
-Unit squared(const Unit& a) {
-  const std::string text = a.text.empty() ? "" : compound(a) ? "(" + a.text + ")2" : a.text + "2";
-  return named(text, a.dimension * a.dimension, a.scale * a.scale);
-}
-
 std::pair<std::size_t, std::size_t> window_rows(std::span<const double> base, const Window& window) {
   if (!window.given()) return {0, base.size()};
   const double slack = 1e-6 * base_distance(base);
@@ -127,16 +93,6 @@ const RunColumn& column_of(const RunResult& result, const WrittenText& signal) {
   fail("unknown_signal", signal.pointer, fmt::format("the run has no signal \"{}\"", signal.text),
        did_you_mean(signal.text, known) +
            " A run of another job has what its diagram records and what that job asks for.");
-}
-
-int find_named(const Program& program, const std::string& name) {
-  for (std::size_t i = 0; i < program.output_names.size(); ++i)
-    if (program.output_names[i] == name) return program.output_signals[i];
-  return program.find_signal(name);
-}
-int named_signal(const Program& program, const std::string& name) {
-  const int signal = find_named(program, name);
-  return signal >= 0 ? signal : program.signal(name);  // throws, with the nearest name
 }
 
 std::string quantity_text(const Quantity& q, int digits) {

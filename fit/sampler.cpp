@@ -1,5 +1,7 @@
 #include "fit/sampler.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
@@ -95,6 +97,15 @@ Sampler::Sampler(const Sampler& other)
       ranges_(other.ranges_),
       sobol_(other.sobol_ ? std::make_unique<Sobol>(*other.sobol_) : nullptr) {}
 Sampler::~Sampler() = default;
+
+std::string Sampler::description() const {
+  std::string text = fmt::format("{} {} {}", sampling_methods()[static_cast<std::size_t>(method_)], seed_, size_);
+  for (const auto& r : ranges_) {
+    text += fmt::format("; {:a} {:a} {} {}", r.lower, r.upper, r.log, r.points);
+    for (const double v : r.values) text += fmt::format(" {:a}", v);
+  }
+  return text;
+}
 
 double Sampler::share(std::uint64_t i, std::size_t parameter) const {
   const double random = draws::uniform(seed_, parameter, i);

@@ -46,6 +46,8 @@ class Sampler {
   std::size_t parameters() const { return ranges_.size(); }
   /// How many draws there are; 0 = as many as are asked for.
   std::uint64_t size() const { return size_; }
+  /// All that decides its draws, as text.
+  std::string description() const;
   /// Values of draw `i`, one per parameter.
   void draw(std::uint64_t i, std::span<double> values);
 

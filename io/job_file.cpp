@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "io/job_parts.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
 #include "io/schema_parts.h"
@@ -11,6 +10,8 @@
 
 namespace hysteron {
 namespace {
+
+using namespace job_parts;
 
 const std::vector<std::string> what_can_be_done{"fit", "runs", "study"};
 
@@ -35,8 +36,8 @@ class JobReader {
     job_.diagram = path(root, "diagram", "write \"diagram\": \"stage.json\"", true);
     job_.data = path(root, "data", "write \"data\": \"dataset.json\", or a CSV", true);
     job_.write = path(root, "write", "", false);
-    settings(root, "choose", job_.choose);
-    settings(root, "set", job_.set);
+    job_.choose = settings_of(root, "choose");
+    job_.set = settings_of(root, "set");
     if (const auto list = root.find("free"); list && list->expect_array("[{\"parameter\": \"stage.k\"}]"))
       for (const auto& place : list->elements()) free(place);
     if (const auto place = root.find("thresholds");
@@ -44,7 +45,7 @@ class JobReader {
       job_.thresholds = thresholds(*place);
     methods(root);
     if (const auto seed = root.find("seed"))
-      if (const auto value = whole(*seed, 0, 9007199254740992.0)) job_.seed = static_cast<std::uint64_t>(*value);
+      if (const auto value = whole_at(*seed, 0, 9007199254740992.0)) job_.seed = static_cast<std::uint64_t>(*value);
     if (const auto list = root.find("profile"); list && list->expect_array("[\"stage.k\"]"))
       for (const auto& place : list->elements())
         if (const auto name = place.text()) job_.profile.push_back({*name, place.pointer()});
@@ -58,11 +59,8 @@ class JobReader {
     const auto text = place ? place->text() : std::nullopt;
     if (!text || *text == "fit") return;
     if (*text == "runs" || *text == "study")
-      place->add("not_yet",
-                 *text == "runs" ? std::string("this is a job of runs, no fit")
-                                 : fmt::format("this hysteron does not do \"{}\" yet", *text),
-                 *text == "runs" ? "run it with \"hysteron reproduce\""
-                                 : "install a newer hysteron, or call \"hysteron run\" with --set in a loop");
+      place->add("other_job", *text == "runs" ? "this is a job of runs, no fit" : "this is a study, no fit",
+                 *text == "runs" ? "run it with \"hysteron reproduce\"" : "run it with \"hysteron study\"");
     else
       place->add("bad_value", fmt::format("{} is nothing that can be done", json_quoted(*text)),
                  did_you_mean(*text, what_can_be_done));
@@ -78,18 +76,6 @@ class JobReader {
     return "";
   }
 
-  /// {"controller.kp": "0.5 V/um"}, {"compensator": "none"}.
-  static void settings(const JsonPlace& root, const char* key, std::vector<Override>& list) {
-    const auto place = root.find(key);
-    if (!place || !place->expect_object("{\"controller.kp\": \"0.5 V/um\"}")) return;
-    for (const auto& [name, value] : place->members()) {
-      if (value.is_number())
-        list.push_back({name, number_text(*value.number())});
-      else if (const auto text = value.text())
-        list.push_back({name, *text});
-    }
-  }
-
   static std::optional<WrittenNumber> number(const JsonPlace& object, const char* key) {
     const auto place = object.find(key);
     return place ? number_at(*place) : std::nullopt;
@@ -97,26 +83,6 @@ class JobReader {
   static std::optional<WrittenNumber> number_at(const JsonPlace& place) {
     const auto read = read_number(place);
     return read ? std::optional(WrittenNumber{*read, place.pointer()}) : std::nullopt;
-  }
-
-  static std::optional<double> whole(const JsonPlace& place, double least, double most) {
-    const auto value = place.number();
-    if (!value) return {};
-    if (*value == std::floor(*value) && *value >= least && *value <= most) return value;
-    place.add("bad_value", fmt::format("{} is no whole number from {} on", *value, least),
-              fmt::format("write a whole number, {} or more", least));
-    return {};
-  }
-
-  static std::optional<std::string> one_of(const JsonPlace& object, const char* key,
-                                           const std::vector<std::string>& known) {
-    const auto place = object.find(key);
-    const auto text = place ? place->text() : std::nullopt;
-    if (!text) return {};
-    for (const auto& k : known)
-      if (k == *text) return text;
-    place->add("bad_value", fmt::format("{} is not known here", json_quoted(*text)), did_you_mean(*text, known));
-    return {};
   }
 
   void free(const JsonPlace& place) {
@@ -155,7 +121,7 @@ class JobReader {
     if (const auto block = place.need("block", "write \"block\": \"core\", a block of type prandtl_ishlinskii"))
       wish.block = {block->text().value_or(""), block->pointer()};
     if (const auto count = place.need("count", "write \"count\": 10"))
-      if (const auto n = whole(*count, 2, 200)) wish.count = static_cast<int>(*n);
+      if (const auto n = whole_at(*count, 2, 200)) wish.count = static_cast<int>(*n);
     if (const auto where = one_of(place, "place", {"even", "swing"})) wish.by_swing = *where == "swing";
     return wish;
   }
@@ -186,11 +152,11 @@ class JobReader {
     const auto name = place.need("name", "write \"name\": \"search\", or a global method such as \"pso\"");
     if (name) wish.name = {name->text().value_or(""), name->pointer()};
     if (const auto at = place.find("starts"))
-      if (const auto n = whole(*at, 0, 1e6)) wish.starts = static_cast<int>(*n);
+      if (const auto n = whole_at(*at, 0, 1e6)) wish.starts = static_cast<int>(*n);
     if (const auto at = place.find("runs"))
-      if (const auto n = whole(*at, 1, 1e9)) wish.runs = static_cast<long>(*n);
+      if (const auto n = whole_at(*at, 1, 1e9)) wish.runs = static_cast<long>(*n);
     if (const auto at = place.find("iterations"))
-      if (const auto n = whole(*at, 1, 1e6)) wish.iterations = static_cast<int>(*n);
+      if (const auto n = whole_at(*at, 1, 1e6)) wish.iterations = static_cast<int>(*n);
     if (const auto then = one_of(place, "then", {"search", "nothing"})) wish.then_search = *then == "search";
     if (const auto at = place.find("attractor")) {
       if (at->is_array()) {
@@ -350,7 +316,7 @@ Json method_entry() {
 }  // namespace
 
 std::string job_schema() {
-  const char* about = "What to do with diagrams and data: runs with figures and claims, or a fit.";
+  const char* about = "What to do with diagrams and data: runs with figures and claims, a fit, or a study.";
   Json json = head("hysteron job", about);
   Json properties;
   add_head_members(properties);
@@ -385,7 +351,11 @@ std::string job_schema() {
   json["type"] = "object";
   json["if"] = {{"properties", {{"do", {{"const", "runs"}}}}}};
   json["then"] = runs_job();
-  json["else"] = object("a fit", std::move(properties), {"format", "do", "diagram", "data"});
+  Json otherwise;
+  otherwise["if"] = {{"properties", {{"do", {{"const", "study"}}}}}};
+  otherwise["then"] = study_job();
+  otherwise["else"] = object("a fit", std::move(properties), {"format", "do", "diagram", "data"});
+  json["else"] = std::move(otherwise);
   return to_text(json);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/job_parts.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
 #include "io/value_text.h"
@@ -13,40 +14,13 @@
 namespace hysteron {
 namespace {
 
-WrittenText text_at(const JsonPlace& place) { return {place.text().value_or(""), place.pointer()}; }
-
-std::optional<WrittenText> text_of(const JsonPlace& object, const char* key) {
-  const auto place = object.find(key);
-  return place ? std::optional(text_at(*place)) : std::nullopt;
-}
-
-std::optional<WrittenNumber> number_of(const JsonPlace& object, const char* key) {
-  const auto place = object.find(key);
-  const auto read = place ? read_number(*place) : std::nullopt;
-  return read ? std::optional(WrittenNumber{*read, place->pointer()}) : std::nullopt;
-}
+using namespace job_parts;
 
 /// A number with its unit as text, or a plain number.
 std::optional<WrittenText> quantity_of(const JsonPlace& object, const char* key) {
   const auto place = object.find(key);
   if (place && place->is_number()) return WrittenText{number_text(*place->number()), place->pointer()};
   return text_of(object, key);
-}
-
-bool truth_of(const JsonPlace& object, const char* key) {
-  const auto place = object.find(key);
-  return place && place->truth().value_or(false);
-}
-
-/// A text, or a list of texts.
-std::vector<WrittenText> texts_of(const JsonPlace& object, const char* key) {
-  std::vector<WrittenText> list;
-  const auto place = object.find(key);
-  if (!place) return list;
-  if (place->is_text()) return {text_at(*place)};
-  if (place->expect_array("[\"one\", \"two\"]"))
-    for (const auto& element : place->elements()) list.push_back(text_at(element));
-  return list;
 }
 
 class RunsReader {
@@ -128,23 +102,6 @@ class RunsReader {
         run.set.push_back({name, *text});
       }
     }
-  }
-
-  static Window window(const JsonPlace& object, const char* key = "between") {
-    Window w;
-    const auto place = object.find(key);
-    if (!place || !place->expect_array("[\"0.8 s\", \"1 s\"]")) return w;
-    const auto ends = place->elements();
-    if (ends.size() != 2) {
-      place->add("bad_value", "a window has two ends", "write \"between\": [\"0.8 s\", \"1 s\"]");
-      return w;
-    }
-    const auto from = read_number(ends[0]), to = read_number(ends[1]);
-    if (from && to) {
-      w.from = WrittenNumber{*from, ends[0].pointer()};
-      w.to = WrittenNumber{*to, ends[1].pointer()};
-    }
-    return w;
   }
 
   /// "minus": "reference", or {"run": "golden", "signal": "y"}.
@@ -259,7 +216,7 @@ class RunsReader {
     if (const auto columns = data->need("columns", "say which signal is which input or output");
         columns && columns->expect_object("{\"u\": \"drive\", \"y\": \"stage\"}"))
       for (const auto& [name, signal] : columns->members()) wish.columns.emplace_back(name, text_at(signal));
-    wish.between = window(*data);
+    wish.between = window_of(*data);
     for (const auto& name : texts_of(*data, "rezero")) wish.rezero.push_back(name.text);
     r.data = std::move(wish);
   }
@@ -311,7 +268,7 @@ class RunsReader {
     if (v.take.text == "area" && !v.over)
       place.add("missing_key", "an area is of one signal over another", "write \"over\": \"drive\"");
     if (v.take.text == "at") place.need("at", "say when: \"at\": \"0.2 s\"");
-    v.between = window(place);
+    v.between = window_of(place);
     v.rezero = truth_of(place, "rezero");
     v.at = number_of(place, "at");
     v.above = number_of(place, "above");
@@ -363,7 +320,7 @@ class RunsReader {
     if (p.kind != "bode" && p.y.signals.empty() && place.find("y"))
       place.find("y")->add("missing_key", "nothing says which signal is drawn", "write \"signal\": \"stage\"");
     p.runs = texts_of(place, "runs");
-    p.between = window(place);
+    p.between = window_of(place);
     p.rezero = truth_of(place, "rezero");
     if (const auto bins = number_member(place, "bins")) p.bins = std::clamp(static_cast<int>(*bins), 2, 1000);
     job_.plots.push_back(std::move(p));

@@ -30,6 +30,8 @@ void add_head_members(Json& properties);
 
 /// A job with "do": "runs" (runs_schema.cpp).
 Json runs_job();
+/// A job with "do": "study" (study_schema.cpp).
+Json study_job();
 
 /// Indented text; objects and lists that fit stay on one line.
 std::string to_text(const Json& schema);

@@ -94,8 +94,8 @@ TEST(JobFile, IsKnownByItsDo) {
 }
 
 TEST(JobFile, OtherKindsOfJobsAreNoFits) {
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"runs\", \"plots\": []}"), "not_yet /do");
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"study\"}"), "not_yet /do");
+  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"runs\", \"plots\": []}"), "other_job /do");
+  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"study\"}"), "other_job /do");
   EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fitt\"}"), "bad_value /do");
   EXPECT_EQ(problem_of_job("{\"format\": 1}"), "missing_key ");
 }

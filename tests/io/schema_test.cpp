@@ -256,6 +256,27 @@ TEST(JobSchema, JobsOfRunsAreAcceptedAndRefusedAsTheirReaderDoes) {
     EXPECT_NE(jobs.refuses(head + wrong), "") << wrong;
 }
 
+TEST(JobSchema, StudiesAreAcceptedAndRefusedAsTheirReaderDoes) {
+  const SchemaOf jobs(job_schema());
+  const std::string head = R"({"format": 1, "do": "study", "diagram": "d.json")";
+  const std::string sample =
+      R"(, "sample": {"draws": 9, "parameters": {"law.k": {"from": "1 V", "to": 2, "scale": "log"}}})";
+  const std::string features = R"(, "features": {"s": {"take": "stroke", "of": "y"}})";
+  EXPECT_EQ(jobs.refuses(head + sample + features + "}"), "");
+  EXPECT_EQ(
+      jobs.refuses(head +
+                   R"(, "sample": {"method": "grid", "seed": 2, "shards": 3, "parameters": {"a": {"from": 1, "to": 2,
+    "points": 3}, "b": {"values": ["1 V"]}}}, "features": {"s": {"take": "area", "of": "y", "over": "u", "minus": {"file": "l.csv",
+    "column": "y"}, "between": [1, "2 s"], "rezero": true, "unit": "um V"}, "r": {"ratio": ["s", 2]}}, "solver": {"method": "rk4"},
+    "filters": [{"feature": "r", "above": 0, "at_most": "2 V"}], "keep": "all", "plots": [{"x": "r", "bins": 9, "samples": "all"},
+    {"kind": "scatter", "x": {"feature": "s", "log": true}, "y": "r", "where": [{"feature": "s", "below": 3}]}]})"),
+      "");
+  EXPECT_NE(jobs.refuses(head + sample + "}"), "");
+  for (const char* wrong : {R"(, "filter": []})", R"(, "keep": "some"})", R"(, "plots": [{"y": "s"}]})",
+                            R"(, "runs": {}})", R"(, "filters": [{"above": 1}]})"})
+    EXPECT_NE(jobs.refuses(head + sample + features + wrong), "") << wrong;
+}
+
 TEST(ResultSchema, AcceptsEverythingThatAResultMayHold) {
   EXPECT_TRUE(fits(Json::parse(result_text(full_document())))) << result_text(full_document());
   EXPECT_TRUE(fits(Json::parse(result_text(Document{}))));
