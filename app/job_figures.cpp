@@ -90,6 +90,7 @@ class Plotter {
   void add_run(const PlotWish& plot, const WrittenText& run, Figure& figure) {
     const RunResult& result = runner_.result(run);
     const bool several = plot.y.signals.size() > 1;
+    if (plot.kind == "quartiles") return add_quartiles(plot, run, result, figure);
     for (const auto& signal : plot.y.signals) {
       auto [x, y] = points(plot, signal, result);
       figure.x_label = label(plot.x, x.name, x.unit);
@@ -101,17 +102,31 @@ class Plotter {
     }
   }
 
+  /// Median and quartiles of y among the rows with the same x.
+  void add_quartiles(const PlotWish& plot, const WrittenText& run, const RunResult& result, Figure& figure) {
+    auto [x, y] = points(plot, plot.y.signals.front(), result);
+    figure.x_label = label(plot.x, x.name, x.unit);
+    figure.y_label = label(plot.y, y.name, y.unit);
+    const auto q = features::quartiles(x.values, y.values);
+    const std::string title = title_of(run.text);
+    add_curve(figure, title, "line", run.text, {x.name, x.unit, q.x}, {y.name, y.unit, q.middle});
+    add_curve(figure, title + ", lower quartile", "points", run.text + "-lower", {x.name, x.unit, q.x},
+              {y.name, y.unit, q.lower});
+    add_curve(figure, title + ", upper quartile", "points", run.text + "-upper", {x.name, x.unit, q.x},
+              {y.name, y.unit, q.upper});
+  }
+
   static const char* style_of(const std::string& kind) {
     return kind == "scatter" ? "points" : kind == "histogram" ? "steps" : "line";
   }
 
   /// One signal of one run as it is drawn: what stands along x and along y, in the units of the axes.
   std::pair<CsvColumn, CsvColumn> points(const PlotWish& plot, const SignalWish& signal, const RunResult& result) {
-    JobRunner::Rows rows = runner_.rows(signal, result, plot.between, plot.rezero);
+    JobRunner::Rows rows = runner_.rows(signal, result, plot.between, plot.rezero, plot.where);
     CsvColumn x{result.columns.front().name, result.columns.front().unit, rows.t};
     CsvColumn y{signal.signal.text, axis_unit(plot.y, rows.unit, rows.difference), rows.y};
     if (!plot.x.signals.empty()) {
-      JobRunner::Rows along = runner_.rows(plot.x.signals.front(), result, plot.between, false);
+      JobRunner::Rows along = runner_.rows(plot.x.signals.front(), result, plot.between, false, plot.where);
       x = {plot.x.signals.front().signal.text, along.unit, std::move(along.y)};
     }
     if (plot.kind == "spectrum") {

@@ -32,6 +32,16 @@ void add_errors(RunResult& r, const FitResult& found, const DataModel& model) {
   r.numbers.emplace_back("cost", Quantity{sum, squared(unit), true});
 }
 
+/// The method of the job that has this name, else one without settings.
+void choose_method(FitJob& job, const WrittenText& name) {
+  const auto found =
+      std::find_if(job.methods.begin(), job.methods.end(), [&](const auto& m) { return m.name.text == name.text; });
+  MethodWish method;
+  if (found != job.methods.end()) method = *found;
+  method.name = name;
+  job.methods = {method};
+}
+
 }  // namespace
 
 /// The rows of another run as one recording, from rest.
@@ -67,6 +77,7 @@ RunResult JobRunner::fitted(const RunWish& run) {
     job.diagram = run.file;
     job.methods.emplace_back();
   }
+  if (run.method) choose_method(job, *run.method);
   if (job.thresholds)
     fail("not_yet", run.pointer, "a run does not place thresholds",
          "write them into the diagram, as \"hysteron fit\" found them");

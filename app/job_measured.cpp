@@ -18,6 +18,7 @@ std::string what_of(const ValueWish& wish) {
   std::string text = wish.take.text;
   if (text == "parameter" || !wish.figure.text.empty())
     text = text == "parameter" ? wish.figure.text : fmt::format("{} {}", text, wish.figure.text);
+  if (wish.constant) return "a number";
   if (wish.above) text += fmt::format(" {} {}", wish.above->number.value, wish.above->number.unit.value_or(""));
   if (wish.of.signal.text.empty()) return text;
   text += " of " + wish.of.signal.text;

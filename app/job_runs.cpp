@@ -38,24 +38,6 @@ void check_dimension(const Unit& found, const Unit& expected, const std::string&
        fmt::format("give it in {}", name(expected)));
 }
 
-SimulateOptions options_of(const RunWish& run, const Program& program, const std::string& pointer) {
-  SimulateOptions options = simulate_options(program);
-  if (!run.until && !program.simulate.until)
-    fail("no_end_time", pointer, "nothing says until when to simulate",
-         "write \"until\": \"1 s\" here or in the diagram");
-  if (run.until) options.until = JobRunner::seconds(*run.until);
-  if (run.every) options.every = JobRunner::seconds(*run.every);
-  if (options.every < 0 || options.until <= 0 || (options.every > 0 && options.until / options.every > most_rows))
-    fail("bad_value", run.every ? run.every->pointer : pointer,
-         fmt::format("{} s, every {} s, cannot be simulated", options.until, options.every),
-         "give times above 0 s, and not more than twenty million rows");
-  if (!program.input_names.empty())
-    fail("unbound_input", pointer,
-         fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
-         "put a source block (sine, step ...) in its place, or name a diagram that has one");
-  return options;
-}
-
 }  // namespace
 
 const RunColumn* RunResult::find(const std::string& signal) const {
@@ -74,7 +56,7 @@ const Quantity* RunResult::number(const std::string& name) const {
 
 // ---- the pool -------------------------------------------------------------------------------------------------------
 
-JobPool::JobPool(std::vector<std::string> allowed) : allowed_(std::move(allowed)) {}
+JobPool::JobPool(std::vector<std::string> allowed, bool full) : allowed_(std::move(allowed)), full_(full) {}
 JobPool::~JobPool() = default;
 
 JobRunner& JobPool::job(const std::string& file) {
@@ -83,7 +65,7 @@ JobRunner& JobPool::job(const std::string& file) {
   if (const auto found = jobs_.find(identity); found != jobs_.end()) return *found->second;
   if (std::find(opening_.begin(), opening_.end(), identity) != opening_.end())
     fail("circular", file, "jobs take runs of each other", "let one of them do the run itself");
-  RunsJob job = read_runs_job(file, allowed_);
+  RunsJob job = read_runs_job(file, allowed_, full_);
   opening_.push_back(identity);
   for (const auto& run : job.runs)
     if (run.kind == RunKind::elsewhere) open(run, file);
@@ -156,6 +138,9 @@ std::shared_ptr<const RunResult> JobRunner::done(const RunWish& run) {
     if (run.kind == RunKind::fit) return fitted(run);
     if (run.kind == RunKind::table) return table(run);
     if (run.kind == RunKind::find) return sought(run);
+    if (run.kind == RunKind::minimize) return minimized(run);
+    if (run.kind == RunKind::rows) return made_of_values(run);
+    if (run.kind == RunKind::computed) return of_formula(run);
     return simulated(run);
   };
   return std::make_shared<const RunResult>(made());
@@ -173,9 +158,10 @@ std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {
   const auto add_value = [&](const ValueWish& v, bool of_this_run) {
     add_wish(v.of, of_this_run);
     if (v.over && of_this_run) add(*v.over);
+    for (const auto& c : v.where) add_wish(c.signal, of_this_run);
   };
   for (const auto& v : job_.values) add_value(v, v.run.text == run.name);
-  if (run.kind == RunKind::find) add_value(run.aim, true);
+  if (run.kind == RunKind::find || run.kind == RunKind::minimize) add_value(run.aim, true);
   for (const auto& other : job_.runs)
     if (other.data && other.data->run.text == run.name)
       for (const auto& [column, signal] : other.data->columns) add(signal);
@@ -183,7 +169,11 @@ std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {
     const bool named = std::any_of(p.runs.begin(), p.runs.end(), [&](const auto& r) { return r.text == run.name; });
     for (const auto* axis : {&p.x, &p.y})
       for (const auto& s : axis->signals) add_wish(s, named);
+    for (const auto& c : p.where) add_wish(c.signal, named);
   }
+  for (const auto& other : job_.runs)
+    if (other.of_run && other.of_run->text == run.name)
+      for (const auto& [argument, signal] : other.of) add(signal);
   return list;
 }
 
@@ -208,8 +198,26 @@ std::vector<std::pair<std::string, int>> JobRunner::signals_of(const RunWish& ru
   return list;
 }
 
-/// A run at its start, with what other runs and values of the job give.
-Run JobRunner::started(const RunWish& run, const Program& program) {
+SimulateOptions JobRunner::options_of(const RunWish& run, const Program& program) const {
+  const std::string& pointer = run.pointer;
+  SimulateOptions options = simulate_options(program);
+  if (!run.until && !program.simulate.until)
+    fail("no_end_time", pointer, "nothing says until when to simulate",
+         "write \"until\": \"1 s\" here or in the diagram");
+  if (run.until) options.until = seconds(*run.until);
+  if (run.every) options.every = seconds(*run.every);
+  if (options.every < 0 || options.until <= 0 || (options.every > 0 && options.until / options.every > most_rows))
+    fail("bad_value", run.every ? run.every->pointer : pointer,
+         fmt::format("{} s, every {} s, cannot be simulated", options.until, options.every),
+         "give times above 0 s, and not more than twenty million rows");
+  if (!program.input_names.empty())
+    fail("unbound_input", pointer,
+         fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
+         "put a source block (sine, step ...) in its place, or name a diagram that has one");
+  return options;
+}
+
+Run JobRunner::with_settings(const RunWish& run, const Program& program) {
   Run start_of = start(program);
   for (const auto& use : run.use) {
     const RunResult& from = at(use.run.pointer, [&]() -> const RunResult& { return result(use.run); });
@@ -221,6 +229,12 @@ Run JobRunner::started(const RunWish& run, const Program& program) {
   }
   for (const auto& set : run.set_of)
     at(set.path.pointer, [&] { put(program, start_of, set.path.text, set.times * value(set.value).si); });
+  return start_of;
+}
+
+/// A run at its start.
+Run JobRunner::started(const RunWish& run, const Program& program) {
+  Run start_of = with_settings(run, program);
   prepare(program, start_of);
   reset(program, start_of);
   return start_of;
@@ -235,21 +249,26 @@ ProgramPointer JobRunner::program_of(const RunWish& run) const {
 
 RunResult JobRunner::simulated(const RunWish& run) {
   const ProgramPointer program = program_of(run);
-  SimulateOptions options = options_of(run, *program, run.pointer);
+  const SimulateOptions options = options_of(run, *program);
   Run start_of = started(run, *program);
   const auto asked = signals_of(run, *program);
-  for (const auto& [name, signal] : asked)
-    if (std::find(options.signals.begin(), options.signals.end(), signal) == options.signals.end())
-      options.signals.push_back(signal);
   if (asked.empty())
     fail("nothing_recorded", run.pointer, "no plot and no value asks for a signal of this run",
          "name one, or take the run out");
-  const Traces traces = simulate(*program, std::move(start_of), options);
+  return traced(*program, std::move(start_of), options, asked);
+}
+
+RunResult JobRunner::traced(const Program& program, Run start_of, SimulateOptions options,
+                            const std::vector<std::pair<std::string, int>>& asked) const {
+  for (const auto& [name, signal] : asked)
+    if (std::find(options.signals.begin(), options.signals.end(), signal) == options.signals.end())
+      options.signals.push_back(signal);
+  const Traces traces = simulate(program, std::move(start_of), options);
   RunResult r;
   r.columns.push_back({"t", "t", parse_unit("s"), traces.t});
   for (const auto& [name, signal] : asked) {
     const auto place = std::find(options.signals.begin(), options.signals.end(), signal) - options.signals.begin();
-    const auto& info = program->signals[static_cast<std::size_t>(signal)];
+    const auto& info = program.signals[static_cast<std::size_t>(signal)];
     r.columns.push_back({name, info.path, info.unit, traces.values[static_cast<std::size_t>(place)]});
   }
   return r;

@@ -12,6 +12,7 @@
 
 #include "engine/error.h"
 #include "engine/program.h"
+#include "engine/simulate.h"
 #include "engine/units.h"
 #include "io/dataset.h"
 #include "io/runs_job.h"
@@ -45,7 +46,8 @@ class JobRunner;
 /// The jobs that were asked for so far; several threads may ask. A job is read once.
 class JobPool {
  public:
-  explicit JobPool(std::vector<std::string> allowed = {});
+  /// `full`: jobs take the sizes under "full".
+  explicit JobPool(std::vector<std::string> allowed = {}, bool full = false);
   ~JobPool();
   /// Throws Error as reading does, and "circular" where jobs take runs of each other.
   JobRunner& job(const std::string& file);
@@ -55,6 +57,7 @@ class JobPool {
   void open(const RunWish& run, const std::string& from);
 
   std::vector<std::string> allowed_;
+  bool full_;
   std::recursive_mutex mutex_;
   std::map<std::string, std::unique_ptr<JobRunner>> jobs_;
   std::vector<std::string> opening_;
@@ -80,7 +83,8 @@ class JobRunner {
     Unit unit{};
     bool difference = false;
   };
-  Rows rows(const SignalWish& wish, const RunResult& result, const Window& window, bool rezero);
+  Rows rows(const SignalWish& wish, const RunResult& result, const Window& window, bool rezero,
+            const std::vector<RowCondition>& where = {});
   /// A number of the job in SI; a plain one is in the unit expected. Throws Error "wrong_unit" at its place.
   static double si(const WrittenNumber& number, const Unit& expected);
   static double seconds(const WrittenNumber& number);
@@ -100,7 +104,18 @@ class JobRunner {
   RunResult linearized(const RunWish& run);
   RunResult fitted(const RunWish& run);
   RunResult sought(const RunWish& run);
+  RunResult minimized(const RunWish& run);
+  /// A simulation of a run that stands at its start.
+  RunResult traced(const Program& program, Run start_of, SimulateOptions options,
+                   const std::vector<std::pair<std::string, int>>& asked) const;
+  /// The run before it is prepared, with what other runs and values of the job give.
+  Run with_settings(const RunWish& run, const Program& program);
+  SimulateOptions options_of(const RunWish& run, const Program& program) const;
   RunResult table(const RunWish& run) const;
+  RunResult made_of_values(const RunWish& run);
+  RunResult of_formula(const RunWish& run);
+  /// Which rows of a run fulfil all conditions.
+  std::vector<char> kept(const std::vector<RowCondition>& where, const RunResult& result);
   /// Signals that the job asks of a run, with where it does so.
   std::vector<WrittenText> wanted(const RunWish& run) const;
   [[noreturn]] void blame(Error& error, const std::string& pointer) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/computed.h"
 #include "app/numbers.h"
@@ -99,7 +100,20 @@ std::string quantity_text(const Quantity& q, int digits) {
   return q.difference ? difference_text(q.si, q.unit, digits) : quantity_text(q.si, q.unit, digits);
 }
 
-JobRunner::Rows JobRunner::rows(const SignalWish& wish, const RunResult& result, const Window& window, bool rezero) {
+std::vector<char> JobRunner::kept(const std::vector<RowCondition>& where, const RunResult& result) {
+  std::vector<char> keep(result.columns.empty() ? 0 : result.columns.front().values.size(), 1);
+  for (const auto& condition : where) {
+    const Rows r = rows(condition.signal, result, {}, false);
+    const double from = condition.from ? si(*condition.from, r.unit) : -std::numeric_limits<double>::infinity();
+    const double to = condition.to ? si(*condition.to, r.unit) : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (!(r.y[i] >= from && r.y[i] <= to)) keep[i] = 0;
+  }
+  return keep;
+}
+
+JobRunner::Rows JobRunner::rows(const SignalWish& wish, const RunResult& result, const Window& window, bool rezero,
+                                const std::vector<RowCondition>& where) {
   if (result.columns.empty())
     fail("no_rows", wish.signal.pointer, "this run has numbers, and no rows", "name a run that simulates");
   const auto& base = result.columns.front().values;
@@ -118,9 +132,12 @@ JobRunner::Rows JobRunner::rows(const SignalWish& wish, const RunResult& result,
            fmt::format("\"{}\" is in {}, \"{}\" in {}", wish.signal.text, unit_text(column.unit), wish.minus->text,
                        unit_text(less.unit)),
            "subtract a signal of the same unit");
+    std::vector<double> other_y(r.y.size());
     for (std::size_t i = 0; i < r.y.size(); ++i)
-      r.y[i] -= wish.minus_run ? features::value_at(other.columns.front().values, less.values, r.t[i])
-                               : less.values[first + i];
+      other_y[i] = wish.minus_run ? features::value_at(other.columns.front().values, less.values, r.t[i])
+                                  : less.values[first + i];
+    const double scale = wish.same_stroke ? features::stroke(other_y) / features::stroke(r.y) : 1;
+    for (std::size_t i = 0; i < r.y.size(); ++i) r.y[i] = scale * r.y[i] - other_y[i];
     r.difference = true;
   }
   if (rezero) {
@@ -129,8 +146,37 @@ JobRunner::Rows JobRunner::rows(const SignalWish& wish, const RunResult& result,
     r.difference = true;
   }
   if (r.difference) r.unit.offset = 0;
+  if (!where.empty()) {
+    const std::vector<char> keep = kept(where, result);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < r.y.size(); ++i) {
+      if (keep[first + i] == 0) continue;
+      r.t[n] = r.t[i];
+      r.y[n++] = r.y[i];
+    }
+    r.t.resize(n);
+    r.y.resize(n);
+  }
   return r;
 }
+
+namespace {
+
+/// Takes of rows as a set, whatever their order.
+Quantity of_set(const ValueWish& wish, const JobRunner::Rows& r, const JobRunner::Rows& all) {
+  const std::string& what = wish.take.text;
+  const Unit number = parse_unit("");
+  if (what == "rows") return {static_cast<double>(r.y.size()), number, true};
+  if (r.y.empty()) fail("no_rows", wish.pointer, "no row fulfils what \"where\" asks for", "give wider conditions");
+  if (what == "median") return {features::quantile(r.y, 0.5), r.unit, r.difference};
+  if (what == "ks_distance") return {features::ks_distance(r.y, all.y), number, true};
+  const double above = wish.above ? JobRunner::si(*wish.above, r.unit) : -std::numeric_limits<double>::infinity();
+  const double below = wish.below ? JobRunner::si(*wish.below, r.unit) : std::numeric_limits<double>::infinity();
+  const auto n = std::count_if(r.y.begin(), r.y.end(), [&](double y) { return y > above && y < below; });
+  return {static_cast<double>(n) / static_cast<double>(r.y.size()), number, true};
+}
+
+}  // namespace
 
 Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
   static const std::vector<std::string> numbers{"parameter",    "cost",        "dc_gain",   "bandwidth", "crossover",
@@ -141,7 +187,10 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
     const Rows all = rows(wish.of, result, {}, wish.rezero);
     return {features::value_at(all.t, all.y, seconds(*wish.at)), all.unit, all.difference};
   }
-  const Rows r = rows(wish.of, result, wish.between, wish.rezero);
+  const Rows r = rows(wish.of, result, wish.between, wish.rezero, wish.where);
+  if (what == "share" || what == "median" || what == "rows" || what == "ks_distance")
+    return of_set(wish, r, what == "ks_distance" ? rows(wish.of, result, wish.between, wish.rezero) : r);
+  if (r.y.empty()) fail("no_rows", wish.pointer, "no row fulfils what \"where\" asks for", "give wider conditions");
   const Unit size = without_offset(r.unit);
   if (what == "first") return {r.y.front(), r.unit, r.difference};
   if (what == "last") return {r.y.back(), r.unit, r.difference};
@@ -157,7 +206,7 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
   if (what == "settling") return {features::settling(r.t, r.y, settled), parse_unit("s"), true};
   if (what == "remanence") return {features::remanence(r.y), parse_unit(""), true};
   if (what == "area") {
-    const Rows x = rows({*wish.over, {}, {}}, result, wish.between, false);
+    const Rows x = rows({*wish.over, {}, {}}, result, wish.between, false, wish.where);
     return {features::loop_area(x.y, r.y), product(size, without_offset(x.unit)), true};
   }
   const double above = wish.above ? si(*wish.above, parse_unit("Hz")) : 0;
@@ -179,6 +228,10 @@ const Quantity& JobRunner::value(const WrittenText& name) {
       return combined(wish->take.text, parts, wish->take.pointer);
     }
     if (wish->take.text == "computed") return computed(wish->figure);
+    if (wish->constant) {
+      const Unit unit = parse_unit(wish->constant->number.unit.value_or(""), wish->constant->pointer);
+      return Quantity{unit.to_si(wish->constant->number.value), unit, unit.offset == 0};
+    }
     return take(*wish, result(wish->run));
   });
   const std::lock_guard lock(values_mutex_);

@@ -41,6 +41,7 @@ constexpr char help[] =
     "  hysteron reproduce chapter2            the figures of one chapter\n"
     "  hysteron reproduce fig2_15 -o out      one figure\n"
     "  hysteron reproduce C2-07               the figures that settle one claim\n"
+    "  hysteron reproduce chapter4 --full     its searches and studies in full size\n"
     "  hysteron reproduce all --baseline kept     kept at the first time, compared with at the next ones\n\n"
     "Writes into the folder: result.json, traces/*.csv (what each figure draws), report.html with the claims, and\n"
     "a page per chapter (chapter2.html) with every figure, each as SVG beside it. docs/reproduce.md tells how a job is "
@@ -420,7 +421,7 @@ int reproduce(const Arguments& arguments) {
   const std::string folder = folder_of(arguments);
   const std::string claims_file = (fs::path(folder) / "claims.json").string();
   const auto published = fs::exists(claims_file) ? read_claims(claims_file) : std::vector<PublishedClaim>{};
-  JobPool pool(arguments.list("--allow"));
+  JobPool pool(arguments.list("--allow"), arguments.has("--full"));
   auto words = arguments.list("what");
   if (words.empty()) words.emplace_back("all");
   const Wanted wanted = wanted_jobs(words, jobs_in(folder), published, pool);
@@ -480,6 +481,7 @@ Verb reproduce_verb() {
       help,
       {{"what", "WHAT", "all (default), a chapter, a figure (fig2_15) or a claim (C2-07)", false, true},
        {"--from", "FOLDER", "where the jobs and claims.json lie; default: diagrams/ of the project", false, false},
+       {"--full", "", "searches and studies as large as the jobs name under \"full\"; takes hours", false, false},
        {"--baseline", "FOLDER", "keep outcomes and curves there, or compare with those that are there", false, false},
        {"-o", "FOLDER", "where the results go; default: reproduce", false, false},
        options::allow()},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace hysteron::features {
@@ -112,6 +113,48 @@ double line_above(const Spectrum& s, double frequency) {
   for (std::size_t k = 0; k < s.frequency.size(); ++k)
     if (s.frequency[k] > frequency) most = std::max(most, s.amplitude[k]);
   return most;
+}
+
+double quantile(std::span<const double> y, double share) {
+  if (y.empty()) return 0;
+  std::vector<double> sorted(y.begin(), y.end());
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(sorted.begin(), at, sorted.end());
+  if (at + 1 == sorted.end()) return *at;
+  const double next = *std::min_element(at + 1, sorted.end());
+  return *at + (place - static_cast<double>(below)) * (next - *at);
+}
+
+double ks_distance(std::span<const double> a, std::span<const double> b) {
+  if (a.empty() || b.empty()) return 0;
+  std::vector<double> x(a.begin(), a.end()), y(b.begin(), b.end());
+  std::sort(x.begin(), x.end());
+  std::sort(y.begin(), y.end());
+  double most = 0;
+  for (std::size_t i = 0, k = 0; i < x.size() && k < y.size();) {
+    const double at = std::min(x[i], y[k]);  // equal values of both sets are passed together
+    while (i < x.size() && x[i] == at) ++i;
+    while (k < y.size() && y[k] == at) ++k;
+    const double difference =
+        static_cast<double>(i) / static_cast<double>(x.size()) - static_cast<double>(k) / static_cast<double>(y.size());
+    most = std::max(most, std::abs(difference));
+  }
+  return most;
+}
+
+Quartiles quartiles(std::span<const double> x, std::span<const double> y) {
+  std::map<double, std::vector<double>> groups;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) groups[x[i]].push_back(y[i]);
+  Quartiles q;
+  for (const auto& [at, group] : groups) {
+    q.x.push_back(at);
+    q.lower.push_back(quantile(group, 0.25));
+    q.middle.push_back(quantile(group, 0.5));
+    q.upper.push_back(quantile(group, 0.75));
+  }
+  return q;
 }
 
 Histogram histogram(std::span<const double> y, int bins) {

@@ -43,6 +43,19 @@ double size_above(const Spectrum& s, double frequency);
 /// The largest amplitude above a frequency; 0 if there is no line.
 double line_above(const Spectrum& s, double frequency);
 
+/// The value below which `share` of the rows lie, by a straight line between the two nearest in order; 0 of none.
+double quantile(std::span<const double> y, double share);
+
+/// Largest difference between the cumulative shares of two sets (Kolmogorov, Smirnov): 0 alike, 1 apart. 0 if one is
+/// empty.
+double ks_distance(std::span<const double> a, std::span<const double> b);
+
+/// Quartiles of y among the rows that have the same x, x increasing.
+struct Quartiles {
+  std::vector<double> x, lower, middle, upper;
+};
+Quartiles quartiles(std::span<const double> x, std::span<const double> y);
+
 /// Counts per bin of equal width from the smallest to the largest value.
 struct Histogram {
   std::vector<double> middle, count;

@@ -1,5 +1,7 @@
 // Particle swarms of the thesis, chapter 4, as corrected: all random numbers per particle and component, velocities
 // turned round where a particle bounces off a bound.
+#include "fit/swarm.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -99,27 +101,8 @@ class Swarm {
     }
   }
 
-  /// A particle that leaves the box comes back as from a mirror, with its velocity turned round: thesis Eq. 4.3.
-  static void reflect(double lower, double upper, double& x, double& v) {
-    if (!std::isfinite(x)) {
-      x = (lower + upper) / 2;
-      v = 0;
-      return;
-    }
-    for (int bounces = 0; x < lower || x > upper; ++bounces) {
-      x = x < lower ? lower + (lower - x) : upper - (x - upper);
-      v = -v;
-      if (bounces == 100) x = std::clamp(x, lower, upper);  // a flight of a hundred boxes ends at the wall
-    }
-  }
-
   /// p_D: the particle's own place but for the components that the data speak of.
   Point attractor(std::size_t i, int iteration) const {
-    const auto curve = [](const std::vector<Attractor::Exponential>& terms, double x) {
-      double sum = 0;
-      for (const auto& t : terms) sum += t.factor * std::exp(t.rate * x);
-      return sum;
-    };
     Point p = particles_[i].x;
     for (const auto& c : problem_.attractor->components) {
       const auto j = static_cast<std::size_t>(c.component);
@@ -127,7 +110,8 @@ class Swarm {
         p[j] = c.low + draw(Purpose::attractor, iteration, i, j) * (c.high - c.low);
       } else {
         const double x = p[static_cast<std::size_t>(c.of)];
-        p[j] = std::clamp(c.scale * (curve(c.upper, x) + curve(c.lower, x)) / 2, problem_.lower[j], problem_.upper[j]);
+        p[j] =
+            std::clamp(c.scale * (sum_of(c.upper, x) + sum_of(c.lower, x)) / 2, problem_.lower[j], problem_.upper[j]);
       }
     }
     return p;
@@ -141,6 +125,25 @@ class Swarm {
 };
 
 }  // namespace
+
+void reflect(double lower, double upper, double& x, double& v) {
+  if (!std::isfinite(x)) {
+    x = (lower + upper) / 2;
+    v = 0;
+    return;
+  }
+  for (int bounces = 0; x < lower || x > upper; ++bounces) {
+    x = x < lower ? lower + (lower - x) : upper - (x - upper);
+    v = -v;
+    if (bounces == 100) x = std::clamp(x, lower, upper);  // a flight of a hundred boxes ends at the wall
+  }
+}
+
+double sum_of(const std::vector<Attractor::Exponential>& terms, double x) {
+  double sum = 0;
+  for (const auto& t : terms) sum += t.factor * std::exp(t.rate * x);
+  return sum;
+}
 
 void search_by_swarm(const GlobalProblem& problem, bool attracted, const GlobalSettings& settings, CostCounter& cost) {
   Swarm swarm(problem, settings);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "io/job_parts.h"
@@ -25,7 +26,8 @@ std::optional<WrittenText> quantity_of(const JsonPlace& object, const char* key)
 
 class RunsReader {
  public:
-  RunsReader(const std::string& file, const std::vector<std::string>& allowed) : file_(file), paths_(file, allowed) {}
+  RunsReader(const std::string& file, const std::vector<std::string>& allowed, bool full)
+      : file_(file), paths_(file, allowed), full_(full) {}
 
   RunsJob read() {
     const JsonPlace root = file_.root();
@@ -140,15 +142,23 @@ class RunsReader {
     if (kind == RunKind::linearize) linearize(place, r);
     if (kind == RunKind::fit) fit(place, r);
     if (kind == RunKind::find) find(place, r);
+    if (kind == RunKind::minimize) minimize(place, r);
     if (kind == RunKind::table) r.file = path(place, "table");
+    if (kind == RunKind::rows) rows(place, r);
+    if (kind == RunKind::computed) computed(place, r);
     if (kind == RunKind::elsewhere) {
       r.file = path(place, "from");
       r.other_run = text_of(place, "run").value_or(WrittenText{name, place.pointer()});
     }
-    if (r.file.empty() && kind != RunKind::table && kind != RunKind::elsewhere)
+    if (r.file.empty() && simulates(kind))
       place.add("missing_key", "nothing says which diagram this run simulates",
                 "write \"diagram\": \"stage.json\" here or at the top of the job");
     job_.runs.push_back(std::move(r));
+  }
+
+  static bool simulates(RunKind kind) {
+    return kind == RunKind::simulate || kind == RunKind::linearize || kind == RunKind::fit || kind == RunKind::find ||
+           kind == RunKind::minimize;
   }
 
   RunKind kind_of(const JsonPlace& place) {
@@ -162,13 +172,22 @@ class RunsReader {
       also({"linearize", "diagram", "choose", "set", "use"});
     } else if (place.find("fit")) {
       kind = RunKind::fit;
-      also({"fit", "data", "free", "choose", "set"});
+      also({"fit", "method", "data", "free", "choose", "set"});
     } else if (place.find("table")) {
       kind = RunKind::table;
       also({"table"});
     } else if (place.find("from")) {
       kind = RunKind::elsewhere;
       also({"from", "run"});
+    } else if (place.find("minimize")) {
+      kind = RunKind::minimize;
+      also({"minimize", "diagram", "choose", "set", "use", "until", "every"});
+    } else if (place.find("rows")) {
+      kind = RunKind::rows;
+      also({"rows"});
+    } else if (place.find("computed")) {
+      kind = RunKind::computed;
+      also({"computed", "of", "top"});
     } else if (place.find("find")) {
       kind = RunKind::find;
       also({"find", "diagram", "choose", "set", "use", "until", "every"});
@@ -207,6 +226,7 @@ class RunsReader {
     r.set.clear();
     r.set_of.clear();
     settings(place, r);
+    r.method = text_of(place, "method");
     for (const auto& name : texts_of(place, "free")) r.free.push_back(name.text);
     const auto data = place.find("data");
     if (!data || !data->expect_object("{\"run\": \"loop\", \"columns\": {\"u\": \"drive\", \"y\": \"stage\"}}")) return;
@@ -238,7 +258,115 @@ class RunsReader {
       if (const auto number = number_of(at, "equals")) r.equals = *number;
   }
 
+  /// A number of which there are more with --full: {"seeds": 30, "full": {"seeds": 300}}.
+  std::optional<double> size_of(const JsonPlace& object, const char* key) const {
+    const auto full = object.find("full");
+    if (full && full_ && full->find(key)) return number_member(*full, key);
+    return number_member(object, key);
+  }
+
+  void minimize(const JsonPlace& place, RunWish& r) {
+    const JsonPlace at = *place.find("minimize");
+    if (!at.expect_object("{\"value\": {...}, \"parameters\": {\"model.k\": [\"0.1 V\", \"10 V\"]}}")) return;
+    at.only({"value", "parameters", "method", "runs", "seeds", "attractor", "full"});
+    if (const auto full = at.find("full"); full && full->expect_object("{\"seeds\": 300}"))
+      full->only({"seeds", "runs"});
+    SearchWish search;
+    if (const auto aim = at.need("value", "say what shall be small: {\"take\": \"sum_squares\", \"of\": \"y\", ...}"))
+      r.aim = value("", *aim, false);
+    if (const auto list = at.need("parameters", "name them with their ranges: {\"model.k\": [\"0.1 V\", \"10 V\"]}");
+        list && list->expect_object("{\"model.k\": [\"0.1 V\", \"10 V\"]}"))
+      for (const auto& [name, range] : list->members()) parameter_range(name, range, search);
+    if (const auto method = text_of(at, "method")) search.method = *method;
+    search.runs = std::lround(std::clamp(size_of(at, "runs").value_or(505), 1.0, 1e9));
+    search.seeds = static_cast<int>(std::clamp(size_of(at, "seeds").value_or(1), 1.0, 1e5));
+    if (const auto attractor = at.find("attractor");
+        attractor && attractor->expect_object("{\"c\": \"model.c\", ...}")) {
+      attractor->only({"c", "k", "top"});
+      AttractorWish wish;
+      wish.c = text_of(*attractor, "c").value_or(WrittenText{"", attractor->pointer()});
+      wish.k = text_of(*attractor, "k").value_or(WrittenText{"", attractor->pointer()});
+      if (attractor->need("top", "say how large the input gets: \"6 V\""))
+        if (const auto top = number_of(*attractor, "top")) wish.top = *top;
+      search.attractor = std::move(wish);
+    }
+    r.search = std::move(search);
+  }
+  static void parameter_range(const std::string& name, const JsonPlace& range, SearchWish& search) {
+    if (!range.expect_array("[\"0.1 V\", \"10 V\"]")) return;
+    const auto ends = range.elements();
+    if (ends.size() != 2) {
+      range.add("bad_value", "a range has two ends", "write [\"0.1 V\", \"10 V\"]");
+      return;
+    }
+    const auto low = read_number(ends[0]), high = read_number(ends[1]);
+    if (low && high)
+      search.parameters.push_back({{name, range.pointer()}, {*low, ends[0].pointer()}, {*high, ends[1].pointer()}});
+  }
+
+  /// {"frequency": ["10 Hz", "20 Hz"], "added": ["added_10", "added_20"]}
+  static void rows(const JsonPlace& place, RunWish& r) {
+    const JsonPlace at = *place.find("rows");
+    if (!at.expect_object("{\"frequency\": [\"10 Hz\", \"20 Hz\"], \"area\": [\"area_10\", \"area_20\"]}")) return;
+    for (const auto& [name, list] : at.members()) {
+      if (!check_name(list, name, "column") || !list.expect_array("[\"area_10\", \"area_20\"]")) continue;
+      RowsColumn column{name, {}};
+      for (const auto& cell : list.elements()) column.cells.push_back(cell_of(cell));
+      if (!r.rows.empty() && r.rows.front().cells.size() != column.cells.size())
+        list.add("bad_value",
+                 fmt::format("{} rows here, {} in \"{}\"", column.cells.size(), r.rows.front().cells.size(),
+                             r.rows.front().name),
+                 "give every column as many");
+      r.rows.push_back(std::move(column));
+    }
+    if (r.rows.empty() || r.rows.front().cells.empty())
+      at.add("bad_value", "there are no rows", "name values of this job: {\"area\": [\"area_10\", \"area_20\"]}");
+  }
+  /// "10 Hz" and 10 are numbers; "area_10" is a value, whose name begins with a letter.
+  static RowsColumn::Cell cell_of(const JsonPlace& place) {
+    const auto text = place.is_text() ? place.text() : std::nullopt;
+    if (text && !text->empty() && text->front() >= 'a' && text->front() <= 'z') return {text_at(place), {}};
+    const auto number = read_number(place);
+    return {{}, number ? std::optional(WrittenNumber{*number, place.pointer()}) : std::nullopt};
+  }
+
+  static void computed(const JsonPlace& place, RunWish& r) {
+    r.formula = text_of(place, "computed").value_or(WrittenText{"", place.pointer()});
+    if (std::find(computed_rows().begin(), computed_rows().end(), r.formula.text) == computed_rows().end())
+      place.add("bad_value", fmt::format("there is no formula {}", json_quoted(r.formula.text)),
+                did_you_mean(r.formula.text, computed_rows()));
+    r.top = number_of(place, "top");
+    const auto of = place.find("of");
+    if (!of || !of->expect_object("{\"run\": \"near\", \"c\": \"model.c\", \"k\": \"model.k\"}")) return;
+    of->need("run", "name the run whose rows are taken");
+    for (const auto& [name, signal] : of->members())
+      if (name == "run")
+        r.of_run = text_at(signal);
+      else
+        r.of.emplace_back(name, text_at(signal));
+  }
+
   // ---- values, plots, claims ----------------------------------------------------------------------------------------
+
+  /// "where": [{"signal": "gamma", "from": 0.15, "to": 0.25}]
+  static std::vector<RowCondition> conditions(const JsonPlace& object) {
+    std::vector<RowCondition> list;
+    const auto place = object.find("where");
+    if (!place || !place->expect_array("[{\"signal\": \"gamma\", \"from\": 0.15, \"to\": 0.25}]")) return list;
+    for (const auto& one : place->elements()) {
+      if (!one.expect_object("{\"signal\": \"gamma\", \"from\": 0.15, \"to\": 0.25}")) continue;
+      one.only({"signal", "minus", "from", "to"});
+      RowCondition c;
+      if (const auto signal = one.need("signal", "name the signal that decides")) c.signal.signal = text_at(*signal);
+      minus(one, c.signal);
+      c.from = number_of(one, "from");
+      c.to = number_of(one, "to");
+      if (!c.from && !c.to)
+        one.add("missing_key", "nothing says which rows are meant", "write \"from\", \"to\" or both");
+      list.push_back(std::move(c));
+    }
+    return list;
+  }
 
   static ValueWish value(const std::string& name, const JsonPlace& place, bool needs_run) {
     ValueWish v;
@@ -254,8 +382,14 @@ class RunsReader {
           at->add("bad_value", fmt::format("a {} is of two values", combination), "write [\"first\", \"second\"]");
         return v;
       }
-    place.only(
-        {"take", "of", "minus", "over", "run", "between", "rezero", "at", "above", "figure", "parameter", "remark"});
+    if (place.find("constant")) {
+      place.only({"constant", "remark"});
+      v.constant = number_of(place, "constant");
+      v.take = {"constant", place.pointer()};
+      return v;
+    }
+    place.only({"take", "of", "minus", "same_stroke", "over", "run", "between", "rezero", "where", "at", "above",
+                "below", "figure", "parameter", "remark"});
     text_member(place, "remark");
     const auto take = place.need("take", "say what is taken: \"stroke\", \"rms\", \"area\" ...");
     if (take) v.take = text_at(*take);
@@ -264,14 +398,22 @@ class RunsReader {
                 did_you_mean(v.take.text, takes()));
     v.of.signal = text_of(place, "of").value_or(WrittenText{"", place.pointer()});
     minus(place, v.of);
+    v.of.same_stroke = truth_of(place, "same_stroke");
+    if (v.of.same_stroke && !v.of.minus)
+      place.add("missing_key", "nothing says whose stroke it is scaled to",
+                "write \"minus\": {\"run\": \"actuator\", \"signal\": \"y\"}");
     v.over = text_of(place, "over");
     if (v.take.text == "area" && !v.over)
       place.add("missing_key", "an area is of one signal over another", "write \"over\": \"drive\"");
     if (v.take.text == "at") place.need("at", "say when: \"at\": \"0.2 s\"");
     v.between = window_of(place);
     v.rezero = truth_of(place, "rezero");
+    v.where = conditions(place);
     v.at = number_of(place, "at");
     v.above = number_of(place, "above");
+    v.below = number_of(place, "below");
+    if (v.take.text == "share" && !v.above && !v.below)
+      place.add("missing_key", "nothing says which rows are counted", "write \"above\" or \"below\"");
     v.figure =
         text_of(place, "figure").value_or(text_of(place, "parameter").value_or(WrittenText{"", place.pointer()}));
     if (needs_run && v.take.text != "computed") place.need("run", "name the run on which it is taken");
@@ -301,12 +443,12 @@ class RunsReader {
 
   void plot(const JsonPlace& place) {
     if (!place.expect_object("{\"title\": \"...\", \"y\": {\"signal\": \"stage\"}}")) return;
-    place.only({"title", "kind", "x", "y", "runs", "between", "rezero", "bins", "caption", "remark"});
+    place.only({"title", "kind", "x", "y", "runs", "between", "rezero", "where", "bins", "caption", "remark"});
     PlotWish p;
     p.pointer = place.pointer();
     p.title = text_member(place, "title");
     p.caption = text_member(place, "caption");
-    static const std::vector<std::string> kinds{"curve", "spectrum", "histogram", "scatter", "bode"};
+    static const std::vector<std::string> kinds{"curve", "spectrum", "histogram", "scatter", "quartiles", "bode"};
     if (const auto kind = text_of(place, "kind")) {
       p.kind = kind->text;
       if (std::find(kinds.begin(), kinds.end(), p.kind) == kinds.end())
@@ -322,6 +464,9 @@ class RunsReader {
     p.runs = texts_of(place, "runs");
     p.between = window_of(place);
     p.rezero = truth_of(place, "rezero");
+    p.where = conditions(place);
+    if (p.kind == "quartiles" && p.x.signals.empty())
+      place.add("missing_key", "quartiles are of y over x", "write \"x\": {\"signal\": \"iteration\"}");
     if (const auto bins = number_member(place, "bins")) p.bins = std::clamp(static_cast<int>(*bins), 2, 1000);
     job_.plots.push_back(std::move(p));
   }
@@ -375,7 +520,13 @@ class RunsReader {
   void check_value_wish(const ValueWish& v) {
     check_run(v.run);
     if (v.of.minus_run) check_run(*v.of.minus_run);
+    check_conditions(v.where);
     for (const auto& name : v.over_values) check_value(name);
+  }
+
+  void check_conditions(const std::vector<RowCondition>& where) {
+    for (const auto& c : where)
+      if (c.signal.minus_run) check_run(*c.signal.minus_run);
   }
 
   void check_names() {
@@ -383,13 +534,17 @@ class RunsReader {
       for (const auto& u : r.use) check_run(u.run);
       for (const auto& s : r.set_of) check_value(s.value);
       if (r.data) check_run(r.data->run);
-      if (r.kind == RunKind::find) check_value_wish(r.aim);
+      if (r.of_run) check_run(*r.of_run);
+      for (const auto& column : r.rows)
+        for (const auto& cell : column.cells) check_value(cell.value);
+      if (r.kind == RunKind::find || r.kind == RunKind::minimize) check_value_wish(r.aim);
     }
     for (const auto& v : job_.values) check_value_wish(v);
     for (const auto& p : job_.plots) {
       for (const auto& name : p.runs) check_run(name);
       for (const auto& s : p.y.signals)
         if (s.minus_run) check_run(*s.minus_run);
+      check_conditions(p.where);
     }
     for (const auto& c : job_.claims) {
       check_value(c.value);
@@ -403,6 +558,8 @@ class RunsReader {
     for (const auto& name : v.over_values) needs.push_back("value " + name.text);
     if (with_run && !v.run.text.empty()) needs.push_back("run " + v.run.text);
     if (v.of.minus_run) needs.push_back("run " + v.of.minus_run->text);
+    for (const auto& c : v.where)
+      if (c.signal.minus_run) needs.push_back("run " + c.signal.minus_run->text);
   }
 
   /// What a run or a value ("run none", "value stroke") must have before it can be worked out.
@@ -413,7 +570,11 @@ class RunsReader {
       for (const auto& u : r.use) needs.push_back("run " + u.run.text);
       for (const auto& s : r.set_of) needs.push_back("value " + s.value.text);
       if (r.data) needs.push_back("run " + r.data->run.text);
-      if (r.kind == RunKind::find) add_needs_of(r.aim, false, needs);
+      if (r.of_run) needs.push_back("run " + r.of_run->text);
+      for (const auto& column : r.rows)
+        for (const auto& cell : column.cells)
+          if (!cell.value.text.empty()) needs.push_back("value " + cell.value.text);
+      if (r.kind == RunKind::find || r.kind == RunKind::minimize) add_needs_of(r.aim, false, needs);
     }
     for (const auto& v : job_.values)
       if ("value " + v.name == what) add_needs_of(v, true, needs);
@@ -457,21 +618,27 @@ class RunsReader {
   ProjectPaths paths_;
   RunsJob job_;
   RunWish default_;
+  bool full_;
 };
 
 }  // namespace
 
 const std::vector<std::string>& takes() {
   static const std::vector<std::string> names{
-      "at",           "first",       "last",      "min",       "max",       "stroke",    "mean",
-      "rms",          "max_abs",     "area",      "remanence", "overshoot", "settling",  "sum_squares",
-      "rss_above",    "line_above",  "parameter", "cost",      "dc_gain",   "bandwidth", "crossover",
-      "phase_margin", "gain_margin", "frequency", "damping",   "peak",      "deviation", "computed"};
+      "at",        "first", "last",      "min",       "max",       "stroke",       "mean",        "rms",
+      "max_abs",   "area",  "remanence", "overshoot", "settling",  "sum_squares",  "rss_above",   "line_above",
+      "parameter", "cost",  "dc_gain",   "bandwidth", "crossover", "phase_margin", "gain_margin", "frequency",
+      "damping",   "peak",  "deviation", "computed",  "share",     "median",       "rows",        "ks_distance"};
   return names;
 }
 
 const std::vector<std::string>& combinations() {
   static const std::vector<std::string> names{"ratio", "difference", "sum", "product", "largest", "smallest", "spread"};
+  return names;
+}
+
+const std::vector<std::string>& computed_rows() {
+  static const std::vector<std::string> names{"reflection", "piezo_band"};
   return names;
 }
 
@@ -483,8 +650,8 @@ std::string what_a_job_does(const std::string& file) {
   return what && what->is_text() ? *what->text() : "";
 }
 
-RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed) {
-  return RunsReader(file, allowed).read();
+RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed, bool full) {
+  return RunsReader(file, allowed, full).read();
 }
 
 }  // namespace hysteron

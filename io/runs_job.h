@@ -35,6 +35,13 @@ struct SignalWish {
   WrittenText signal;
   std::optional<WrittenText> minus{};      ///< a signal of the same run, or of ...
   std::optional<WrittenText> minus_run{};  ///< ... this one, at the same instants
+  bool same_stroke = false;                ///< scaled to the stroke of what is subtracted before it is
+};
+
+/// Rows alone whose signal lies between two values, both ends included; either may be left open.
+struct RowCondition {
+  SignalWish signal;
+  std::optional<WrittenNumber> from{}, to{};
 };
 
 /// What is measured on traces, or on other values.
@@ -47,11 +54,13 @@ struct ValueWish {
   std::optional<WrittenText> over{};  ///< the other signal of an area
   Window between;
   bool rezero = false;  ///< less the value at the first row
-  std::optional<WrittenNumber> at{}, above{};
-  WrittenText figure;  ///< of a computed value: its name; of a parameter: its path
+  std::vector<RowCondition> where{};
+  std::optional<WrittenNumber> at{}, above{}, below{};
+  std::optional<WrittenNumber> constant{};  ///< instead of all this: a number as it stands
+  WrittenText figure;                       ///< of a computed value: its name; of a parameter: its path
 };
 
-enum class RunKind { simulate, linearize, fit, table, elsewhere, find };
+enum class RunKind { simulate, linearize, fit, table, elsewhere, find, minimize, rows, computed };
 
 /// The rows of another run as the data of a fit.
 struct FitDataWish {
@@ -59,6 +68,29 @@ struct FitDataWish {
   std::vector<std::pair<std::string, WrittenText>> columns;  ///< input or output of the diagram -> signal
   Window between;
   std::vector<std::string> rezero;  ///< columns less their value at the first judged row
+};
+
+/// A column made of values of the job and of numbers.
+struct RowsColumn {
+  std::string name;
+  struct Cell {
+    WrittenText value{};                    ///< a value of the job ...
+    std::optional<WrittenNumber> number{};  ///< ... or a number as it stands
+  };
+  std::vector<Cell> cells;
+};
+
+/// Parameters at which a value of the run is smallest, sought by a global method from several seeds.
+struct SearchWish {
+  struct Range {
+    WrittenText parameter;
+    WrittenNumber low, high;
+  };
+  std::vector<Range> parameters{};
+  WrittenText method{"pso", ""};
+  long runs = 505;  ///< budget of each search
+  int seeds = 1;    ///< searches, with seeds 1, 2 ...
+  std::optional<AttractorWish> attractor{};
 };
 
 struct RunWish {
@@ -74,11 +106,18 @@ struct RunWish {
   std::optional<WrittenNumber> at{};
   std::optional<FitDataWish> data{};
   std::vector<std::string> free{};
-  WrittenText other_run;  ///< of elsewhere: its name there
-  WrittenText parameter;  ///< of find: what is varied ...
+  std::optional<WrittenText> method{};  ///< of fit: instead of the first one of its job
+  WrittenText other_run;                ///< of elsewhere: its name there
+  std::vector<RowsColumn> rows{};
+  WrittenText formula;                                    ///< of computed: which
+  std::vector<std::pair<std::string, WrittenText>> of{};  ///< of computed: its argument -> a signal of `of_run`
+  std::optional<WrittenText> of_run{};
+  std::optional<WrittenNumber> top{};  ///< of computed: largest input
+  WrittenText parameter;               ///< of find: what is varied ...
   std::vector<WrittenNumber> range{};
-  ValueWish aim{};         ///< ... until this (of the run itself) ...
-  WrittenNumber equals{};  ///< ... is that
+  ValueWish aim{};                     ///< ... until this (of the run itself; of minimize: what shall be small) ...
+  WrittenNumber equals{};              ///< ... is that
+  std::optional<SearchWish> search{};  ///< of minimize
 };
 
 struct AxisWish {
@@ -95,6 +134,7 @@ struct PlotWish {
   std::vector<WrittenText> runs{};  ///< empty: all that have the signals
   Window between;
   bool rezero = false;
+  std::vector<RowCondition> where{};
   int bins = 30;  ///< of a histogram
 };
 
@@ -122,12 +162,14 @@ struct RunsJob {
 /// What can be taken from a trace, and how values combine.
 const std::vector<std::string>& takes();
 const std::vector<std::string>& combinations();
+/// What a run may take from a formula ("computed").
+const std::vector<std::string>& computed_rows();
 
 /// "do" of a job; "" if the file is no job. Throws Error where it cannot be read as JSON.
 std::string what_a_job_does(const std::string& file);
 
 /// Throws Error with file, line and JSON path for syntax, unknown keys and names, wrong types, a newer format, paths
-/// outside the project, runs and values that need themselves.
-RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed = {});
+/// outside the project, runs and values that need themselves. `full`: the sizes under "full" instead of the others.
+RunsJob read_runs_job(const std::string& file, const std::vector<std::string>& allowed = {}, bool full = false);
 
 }  // namespace hysteron

@@ -42,15 +42,27 @@ void add_times(Json& properties) {
   properties["every"] = quantity("how often a row is recorded; default: as the diagram says", false);
 }
 
+Json where() {
+  return list_of("rows alone for which all of this holds", object("both ends included; either may be left out",
+                                                                  {{"signal", text("")},
+                                                                   {"minus", minus()},
+                                                                   {"from", {{"$ref", "#/definitions/quantity"}}},
+                                                                   {"to", {{"$ref", "#/definitions/quantity"}}}},
+                                                                  {"signal"}));
+}
+
 Json value(bool with_run) {
   Json properties{{"take", choice_of("what is taken", takes())},
                   {"of", text("the signal")},
                   {"minus", minus()},
+                  {"same_stroke", flag("scaled to the stroke of what is subtracted before it is")},
                   {"over", text("of an area: the signal along x")},
                   {"between", window()},
                   {"rezero", flag("less the value at the first row")},
                   {"at", quantity("of at: when", false)},
-                  {"above", quantity("of rss_above and line_above: frequency", false)},
+                  {"where", where()},
+                  {"above", quantity("of rss_above and line_above: frequency; of share: counted above it", false)},
+                  {"below", quantity("of share: counted below it", false)},
                   {"parameter", text("of parameter: its path in the fit")},
                   {"figure", text("of frequency and damping: 1, 2 ... by rising frequency; of computed: the formula")},
                   {"remark", text("what a reader should know")}};
@@ -58,10 +70,31 @@ Json value(bool with_run) {
   Json measured = object("measured on a run", std::move(properties), {"take"});
   if (!with_run) return measured;
   Json combined = Json::array();
+  combined.push_back(object("a number as it stands",
+                            {{"constant", {{"$ref", "#/definitions/quantity"}}}, {"remark", text("")}}, {"constant"}));
   for (const auto& how : combinations())
     combined.push_back(object(how + " of values", {{how, names("values of this job")}, {"remark", text("")}}, {how}));
   combined.insert(combined.begin(), std::move(measured));
   return {{"anyOf", std::move(combined)}};
+}
+
+/// A search in place of a simulation.
+Json minimize() {
+  Json range = list_of("two values between which it lies", {{"$ref", "#/definitions/quantity"}});
+  range["minItems"] = range["maxItems"] = 2;
+  return object(
+      "parameters at which a value of this run is smallest, sought by a global method; gives a row per seed and "
+      "iteration",
+      {{"value", value(false)},
+       {"parameters",
+        {{"type", "object"}, {"description", "path -> range"}, {"additionalProperties", std::move(range)}}},
+       {"method", text("a global method of docs/fit.md; default pso")},
+       {"runs", number("budget of simulations of each search; default 505")},
+       {"seeds", number("searches, with the seeds 1, 2 ...; default 1")},
+       {"attractor", object("of nmpso: which parameters are c and k of Jiles-Atherton, and the largest input",
+                            {{"c", text("")}, {"k", text("")}, {"top", quantity("", false)}}, {"c", "k", "top"})},
+       {"full", object("other sizes with --full", {{"seeds", number("")}, {"runs", number("")}})}},
+      {"value", "parameters"});
 }
 
 Json run() {
@@ -85,6 +118,7 @@ Json run() {
               {"at", quantity("operating point: where a simulation is then; default: the equilibrium", false)}},
              {"from", "to"});
   properties["fit"] = text("a fit in place of a simulation: its job, or the diagram whose free parameters are sought");
+  properties["method"] = text("of fit: search (default), slopes, tapi, or a global method of docs/fit.md");
   properties["free"] = names("parameters that are free too: core.weights");
   properties["data"] = object("of a fit: the rows of another run, from rest",
                               {{"run", text("")},
@@ -96,6 +130,16 @@ Json run() {
                                {"rezero", names("columns less their value at the first row of the window")}},
                               {"run", "columns"});
   properties["table"] = text("a CSV in place of a simulation");
+  properties["minimize"] = minimize();
+  properties["rows"] = {
+      {"type", "object"},
+      {"description", "rows made of values of this job and of numbers: {\"f\": [\"10 Hz\"], \"area\": [\"area_10\"]}"},
+      {"additionalProperties", list_of("values by name, or numbers", {{"type", {"string", "number"}}})}};
+  properties["computed"] = choice_of("rows of a formula", computed_rows());
+  properties["of"] = {{"type", "object"},
+                      {"description", "of computed: the run, and which of its signals is which argument"},
+                      {"additionalProperties", {{"type", "string"}}}};
+  properties["top"] = quantity("of computed: largest input", false);
   properties["from"] = text("another job, whose run this is");
   properties["run"] = text("of from: its name there; default: the same");
   Json range = list_of("two values between which it lies", {{"$ref", "#/definitions/quantity"}});
@@ -119,17 +163,19 @@ Json axis() {
 }
 
 Json plot() {
-  return object("a figure",
-                {{"title", text("")},
-                 {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "bode"})},
-                 {"x", axis()},
-                 {"y", axis()},
-                 {"runs", names("default: all that have the signals")},
-                 {"between", window()},
-                 {"rezero", flag("less the value at the first row")},
-                 {"bins", number("of a histogram; default 30")},
-                 {"caption", text("")},
-                 {"remark", text("")}});
+  return object(
+      "a figure",
+      {{"title", text("")},
+       {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "quartiles", "bode"})},
+       {"x", axis()},
+       {"y", axis()},
+       {"runs", names("default: all that have the signals")},
+       {"between", window()},
+       {"rezero", flag("less the value at the first row")},
+       {"where", where()},
+       {"bins", number("of a histogram; default 30")},
+       {"caption", text("")},
+       {"remark", text("")}});
 }
 
 Json claim() {

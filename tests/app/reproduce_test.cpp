@@ -1,6 +1,7 @@
 // The verb reproduce on a small published work of its own: runs, values, claims, pages, baseline, and wrong input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hysteron_process.h"
@@ -104,6 +105,53 @@ constexpr char lag[] = R"({
   "blocks": {"drive": {"type": "constant", "value": "1 V"}, "double": {"type": "gain", "gain": 2, "in": "drive"},
              "lag": {"type": "lag", "times": ["1 ms"], "in": "double"}},
   "outputs": {"y": "lag"}, "simulate": {"until": "5 ms", "every": "0.5 ms"}
+})";
+
+// Searches from two seeds (three with --full) for the weight with which half the stage was made, rows made of values, a
+// formula, and rows with conditions. Half the drive leaves the linear part alone: y is a triangle, whatever its size.
+constexpr char figure4[] = R"({
+  "format": 1, "do": "runs", "title": "Searches", "diagram": "stage.json", "set": {"drive.frequency": "10 Hz"},
+  "runs": {"wanted": {},
+           "half":   {"choose": {"comp": "half"}},
+           "small":  {"choose": {"comp": "half"}, "set": {"drive.amplitude": "1 V", "drive.offset": "1 V"}},
+           "sought": {"minimize": {"method": "pso", "seeds": 2, "runs": 60, "full": {"seeds": 3},
+                       "value": {"take": "sum_squares", "of": "y", "minus": {"run": "wanted", "signal": "y"}},
+                       "parameters": {"model.weights[1]": ["0 um/V", "2 um/V"]}}},
+           "again":  {"use": "sought"},
+           "made":   {"rows": {"f": ["10 Hz", "20 Hz"], "y": ["top", "top"]}},
+           "band":   {"computed": "piezo_band", "top": "1 V"},
+           "inside": {"computed": "piezo_band", "top": "1 V", "of": {"run": "pairs", "c": "c", "k": "k"}},
+           "pairs":  {"table": "pairs.csv"}},
+  "plots": [{"title": "Convergence", "kind": "quartiles", "x": {"signal": "iteration"}, "y": {"signal": "cost", "unit": "um2"}, "runs": ["sought"]},
+            {"title": "Made", "x": {"signal": "f"}, "y": {"signal": "y"}, "runs": ["made"]},
+            {"title": "Rows above 3 V", "kind": "scatter", "x": {"signal": "drive"}, "y": {"signal": "y"}, "runs": ["wanted"],
+             "where": [{"signal": "drive", "from": "2.9999 V"}]}],
+  "values": {"weight":   {"take": "parameter", "parameter": "model.weights[1]", "run": "sought"},
+             "seeds":    {"take": "max", "of": "seed", "run": "sought"},
+             "rows":     {"take": "rows", "of": "cost", "run": "sought", "where": [{"signal": "seed", "from": 1, "to": 1}]},
+             "last":     {"take": "min", "of": "cost", "run": "sought", "where": [{"signal": "iteration", "from": 11, "to": 11}]},
+             "first":    {"take": "median", "of": "cost", "run": "sought", "where": [{"signal": "iteration", "from": 0, "to": 0}]},
+             "better":   {"take": "share", "of": "cost", "run": "sought", "below": "1e-9 um2"},
+             "top":      {"take": "max", "of": "y", "run": "wanted"},
+             "shape":    {"take": "max_abs", "of": "y", "minus": {"run": "small", "signal": "y"}, "same_stroke": true, "run": "half"},
+             "high":     {"take": "share", "of": "drive", "run": "wanted", "above": "3.0001 V", "between": ["0 s", "0.099 s"]},
+             "apart":    {"take": "ks_distance", "of": "drive", "run": "wanted", "between": ["0 s", "0.099 s"], "where": [{"signal": "drive", "from": "2.9999 V"}]},
+             "least":    {"take": "min", "of": "inside", "run": "inside"},
+             "most":     {"take": "max", "of": "inside", "run": "inside"},
+             "k_0":      {"take": "first", "of": "k_lower", "run": "band"},
+             "number":   {"constant": "2 um"},
+             "twice":    {"sum": ["number", "number"]}},
+  "claims": [{"id": "C4-01", "value": "weight", "expected": "0.5 um/V", "tolerance": "0.01 um/V"},
+             {"id": "C4-01", "order": ["last", "first"]},
+             {"id": "C4-02", "value": "rows", "expected": 12, "tolerance": 1e-9},
+             {"id": "C4-03", "value": "shape", "below": "1e-9 um"},
+             {"id": "C4-04", "value": "high", "expected": 0.49, "tolerance": 1e-9},
+             {"id": "C4-04", "value": "apart", "expected": 0.49, "tolerance": 1e-9},
+             {"id": "C4-05", "value": "least", "expected": "-0.579 V", "tolerance": "0.001 V"},
+             {"id": "C4-05", "value": "most", "expected": "0.061 V", "tolerance": "0.001 V"},
+             {"id": "C4-05", "value": "k_0", "expected": "0.04526 V", "tolerance": "1e-5 V"},
+             {"id": "C4-06", "value": "twice", "expected": "4 um", "tolerance": "1e-12 um"},
+             {"id": "C4-07", "value": "seeds", "expected": 2, "tolerance": 1e-9}]
 })";
 
 class Reproduce : public testing::Test {
@@ -243,6 +291,39 @@ TEST_F(Reproduce, LinearizationsTablesAndEveryKindOfPlot) {
   // Eleven rows from 0 to 1.987 V in four bins of 0.497 V: 0 | 0.787 | 1.264 | the others.
   const std::string counts = folder_.read("out/traces/fig3_1-2-step.csv");
   EXPECT_TRUE(counts.starts_with("y [V],count\n") && counts.ends_with(",8\n")) << counts;
+}
+
+TEST_F(Reproduce, SearchesFromSeveralSeedsRowsOfValuesFormulasAndConditions) {
+  // Thesis Table 2.2 on 0 to 1 V: c = 0.693, k = 0.648, between 0.179 and 0.709 V; and a point outside.
+  folder_.write("diagrams/chapter2/pairs.csv", "row,c,k [V]\n0,0.693,0.648\n1,0.693,1.288\n");
+  folder_.write("diagrams/chapter2/fig2_4.json", figure4);
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig2_4", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json found = result("out")["facts"]["claims"];
+  for (const char* id : {"C4-01", "C4-02", "C4-03", "C4-04", "C4-05", "C4-06", "C4-07"})
+    EXPECT_EQ(found[id]["outcome"], "agrees") << id << found[id].dump(1);
+  const std::string made = folder_.read("out/traces/fig2_4-2-made.csv");
+  EXPECT_TRUE(made.starts_with("f [Hz],y [um]\n10,7.") && std::count(made.begin(), made.end(), '\n') == 3) << made;
+  // Twelve iterations, the start included.
+  const std::string medians = folder_.read("out/traces/fig2_4-1-sought.csv");
+  EXPECT_EQ(std::count(medians.begin(), medians.end(), '\n'), 13) << medians;
+  EXPECT_TRUE(folder_.has("out/traces/fig2_4-1-sought-upper.csv"));
+  const Outcome full = hysteron(folder_.path(), {"reproduce", "fig2_4", "--full", "-o", "full"});
+  ASSERT_EQ(full.code, 0) << full.err;
+  EXPECT_NE(full.out.find("differs: fig2_4: seeds 3; expected 2"), std::string::npos) << full.out;
+}
+
+TEST_F(Reproduce, AWrongSearchIsToldAtItsPlace) {
+  const std::string start = figure4;
+  folder_.write("diagrams/chapter2/pairs.csv", "row,c,k [V]\n0,0.693,0.648\n");
+  refused(start, "\"model.weights[1]\": [", "\"model.weigths[1]\": [", "Did you mean \"model.weights");
+  refused(start, "[\"0 um/V\", \"2 um/V\"]", "[\"0 um/V\", \"2 V\"]", "this is in");
+  refused(start, "\"method\": \"pso\"", "\"method\": \"psoo\"", "\"pso\"");
+  refused(start, "\"sum_squares\", \"of\": \"y\"", "\"sum_squares\", \"of\": \"z\"", "\"z\"");
+  refused(start, "\"y\": [\"top\", \"top\"]", "\"y\": [\"top\"]", "give every column as many");
+  refused(start, "[\"top\", \"top\"]", "[\"top\", \"tap\"]", "Did you mean \"top\"?");
+  refused(start, "\"from\": 11, \"to\": 11", "\"from\": 1100", "no row fulfils");
+  refused(start, "\"computed\": \"piezo_band\", \"top\": \"1 V\"}", "\"computed\": \"piezo_bund\"}", "piezo_band");
 }
 
 TEST_F(Reproduce, ADamagedBaselineIsRefused) {

@@ -105,6 +105,13 @@ TEST(Thesis, PolarisationOfChapterThreeIsSensedAsTheOracleSays) {
   EXPECT_EQ(claims.size(), 7U);
 }
 
+TEST(Thesis, NormalisedModelAndRescaledModelOfChapterFourAreThoseOfTheOracle) {
+  const json claims = claims_of({"normalised", "fig4_1", "fig4_11", "fig4_12", "fig4_13", "fig4_14", "fig4_15"});
+  expect(claims, "agrees", {"C4-01", "C4-02", "C4-11", "C4-12"});
+  expect(claims, "calibrated", {"C4-13", "C4-14"});
+  EXPECT_EQ(claims.size(), 6U);
+}
+
 TEST(Thesis, TemperatureAndCoupledAxesOfChapterFiveAreCompensated) {
   const json claims = claims_of({"chapter5"});
   expect(claims, "agrees", {"C5-01", "C5-02", "C5-03", "C5-04", "C5-06", "C5-07", "C5-08", "C5-09"});
@@ -143,7 +150,7 @@ TEST(Thesis, WhatStandsOnASurrogateSaysSo) {
 
 TEST(Thesis, TheTextTellsOfEveryFigure) {
   const std::string text = content("docs/thesis.md");
-  for (const char* chapter : {"chapter1", "chapter2", "chapter3", "chapter5"})
+  for (const char* chapter : {"chapter1", "chapter2", "chapter3", "chapter4", "chapter5"})
     for (const auto& entry : fs::directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/" + chapter)) {
       const std::string name = entry.path().stem().string();
       if (name.starts_with("fig")) {

@@ -22,6 +22,33 @@ TEST(Features, SizesOfAFewRows) {
   EXPECT_DOUBLE_EQ(rms(y), std::sqrt(14.0 / 3));
 }
 
+TEST(Features, QuantilesLieOnStraightLinesBetweenTheValuesInOrder) {
+  const std::vector<double> y{4, 1, 3, 2};
+  EXPECT_EQ(quantile(y, 0), 1);
+  EXPECT_DOUBLE_EQ(quantile(y, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(quantile(y, 0.25), 1.75);
+  EXPECT_EQ(quantile(y, 1), 4);
+  EXPECT_EQ(quantile(std::vector<double>{}, 0.5), 0);
+}
+
+TEST(Features, QuartilesAreThoseOfTheRowsWithTheSameX) {
+  const Quartiles q = quartiles(std::vector<double>{2, 1, 2, 1, 2}, std::vector<double>{10, 5, 30, 7, 20});
+  EXPECT_EQ(q.x, (std::vector<double>{1, 2}));
+  EXPECT_EQ(q.middle, (std::vector<double>{6, 20}));
+  EXPECT_EQ(q.lower, (std::vector<double>{5.5, 15}));
+  EXPECT_EQ(q.upper, (std::vector<double>{6.5, 25}));
+}
+
+TEST(Features, TheKsDistanceIsTheLargestGapBetweenTheCumulativeShares) {
+  const std::vector<double> a{1, 2, 3, 4}, b{1, 2, 3, 3.5}, c{5, 6};
+  EXPECT_EQ(ks_distance(a, a), 0);
+  EXPECT_EQ(ks_distance(a, c), 1);
+  EXPECT_EQ(ks_distance(a, b), 0.25);  // between 3.5 and 4: 3/4 against 4/4
+  EXPECT_EQ(ks_distance(std::vector<double>{1, 1, 1, 2}, std::vector<double>{1, 2, 2, 2}),
+            0.5);  // equal values together
+  EXPECT_EQ(ks_distance({}, c), 0);
+}
+
 TEST(Features, TheAreaOfALoopIsPositiveWhereTheOutputLags) {
   // y = sin(p - phi) over x = sin p encloses pi sin(phi): an ellipse. 4000 chords lose 2 pi^2 / (3 N^2) = 4e-7 of it.
   std::vector<double> x, lags, leads;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/error.h"
+#include "fit/swarm.h"
 
 namespace hysteron {
 namespace {
@@ -298,6 +299,35 @@ TEST(Global, RefusesAWrongQuestionWithACure) {
   EXPECT_EQ(code_of(p, "crs2"), "bad_bounds");
   p.upper[1] = 1;
   EXPECT_EQ(code_of(p, "pso", {.max_runs = 0}), "bad_settings");
+}
+
+TEST(Swarm, AParticleBehindABoundComesBackAsFarBeforeItAndFliesTheOtherWay) {
+  // Thesis Eq. 4.3, x' = x_b +- |x - x_b|; its velocity is turned round with it (E-26), else it flies out again.
+  double x = 10.25, v = 0.5;
+  reflect(0, 10, x, v);
+  EXPECT_DOUBLE_EQ(x, 9.75);
+  EXPECT_EQ(v, -0.5);
+  x = -3, v = -4;
+  reflect(0, 10, x, v);
+  EXPECT_EQ(x, 3);
+  EXPECT_EQ(v, 4);
+  x = 23, v = 17;  // across both bounds: 23 -> -3 -> 3
+  reflect(0, 10, x, v);
+  EXPECT_EQ(x, 3);
+  EXPECT_EQ(v, 17);
+  x = 5, v = 1;
+  reflect(0, 10, x, v);
+  EXPECT_EQ(x, 5);
+  EXPECT_EQ(v, 1);
+}
+
+TEST(Swarm, ThePiezoCurvesEncloseTable22) {
+  // Thesis Eqs. 4.11 and 4.12 at c = 0.693, for 0 to 1 V: 0.179 and 0.709 V around k = 3.889/6 V.
+  const Attractor a = piezo_attractor(0, 1, 6);
+  const auto& k = a.components[1];
+  EXPECT_NEAR(sum_of(k.lower, 0.693), 0.179, 5e-4);
+  EXPECT_NEAR(sum_of(k.upper, 0.693), 0.709, 5e-4);
+  EXPECT_EQ(k.scale, 6);
 }
 
 }  // namespace

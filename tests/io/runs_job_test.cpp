@@ -106,6 +106,38 @@ TEST(RunsJob, WrongInputIsToldWithItsPlace) {
             "missing_key /claims/0");
 }
 
+TEST(RunsJob, SizesUnderFullCountWhereTheyAreAskedFor) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("job.json", R"({"format": 1, "do": "runs", "diagram": "d.json",
+    "runs": {"a": {"minimize": {"value": {"take": "rms", "of": "y"}, "parameters": {"g.gain": [1, 2]}, "method": "npso",
+                                "seeds": 3, "runs": 50, "full": {"seeds": 30}}}}})");
+  const auto job = read_runs_job(file), full = read_runs_job(file, {}, true);
+  EXPECT_EQ(job.runs.at(0).search->seeds, 3);
+  EXPECT_EQ(full.runs.at(0).search->seeds, 30);
+  EXPECT_EQ(full.runs.at(0).search->runs, 50);
+  EXPECT_EQ(job.runs.at(0).search->method.text, "npso");
+  EXPECT_EQ(job.runs.at(0).search->parameters.at(0).high.number.value, 2);
+}
+
+TEST(RunsJob, ConditionsAndSearchesThatSayTooLittleAreToldSo) {
+  const std::string run = "\"runs\": {\"a\": {}},\n";
+  const auto value = [&](const std::string& more) {
+    return problem_of_job(run + R"("values": {"v": {"of": "y", "run": "a", )" + more + "}}");
+  };
+  EXPECT_EQ(value(R"("take": "rms", "where": [{"signal": "y"}])"), "missing_key /values/v/where/0");
+  EXPECT_EQ(value(R"("take": "rms", "where": [{"from": 1}])"), "missing_key /values/v/where/0");
+  EXPECT_EQ(value(R"("take": "share")"), "missing_key /values/v");
+  EXPECT_EQ(value(R"("take": "rms", "same_stroke": true)"), "missing_key /values/v");
+  EXPECT_EQ(value(R"("take": "rms", "where": [{"signal": "y", "minus": {"run": "b", "signal": "y"}, "to": 1}])"),
+            "unknown_run /values/v/where/0/minus/run");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"minimize": {"parameters": {}}}})"), "missing_key /runs/a/minimize");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"minimize": {"value": {"take": "rms"}, "parameters": {"g.k": [1]}}}})"),
+            "bad_value /runs/a/minimize/parameters/g.k");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"rows": {}}})"), "bad_value /runs/a/rows");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"computed": "nothing"}})"), "bad_value /runs/a");
+  EXPECT_EQ(problem_of_job(R"("plots": [{"kind": "quartiles", "y": {"signal": "y"}}])"), "missing_key /plots/0");
+}
+
 TEST(RunsJob, RunsAndValuesThatNeedThemselvesAreRefused) {
   EXPECT_EQ(problem_of_job(R"("runs": {"a": {"use": "b"}, "b": {"set": {"g.gain": {"of": "v"}}}},
     "values": {"v": {"take": "max", "of": "y", "run": "a"}})"),
