@@ -90,7 +90,7 @@ class Plotter {
   void add_run(const PlotWish& plot, const WrittenText& run, Figure& figure) {
     const RunResult& result = runner_.result(run);
     const bool several = plot.y.signals.size() > 1;
-    if (plot.kind == "quartiles") return add_quartiles(plot, run, result, figure);
+    if (plot.kind == "medians") return add_medians(plot, run, result, figure);
     for (const auto& signal : plot.y.signals) {
       auto [x, y] = points(plot, signal, result);
       figure.x_label = label(plot.x, x.name, x.unit);
@@ -102,18 +102,14 @@ class Plotter {
     }
   }
 
-  /// Median and quartiles of y among the rows with the same x.
-  void add_quartiles(const PlotWish& plot, const WrittenText& run, const RunResult& result, Figure& figure) {
+  /// Median of y among the rows with the same x.
+  void add_medians(const PlotWish& plot, const WrittenText& run, const RunResult& result, Figure& figure) {
     auto [x, y] = points(plot, plot.y.signals.front(), result);
     figure.x_label = label(plot.x, x.name, x.unit);
     figure.y_label = label(plot.y, y.name, y.unit);
-    const auto q = features::quartiles(x.values, y.values);
-    const std::string title = title_of(run.text);
-    add_curve(figure, title, "line", run.text, {x.name, x.unit, q.x}, {y.name, y.unit, q.middle});
-    add_curve(figure, title + ", lower quartile", "points", run.text + "-lower", {x.name, x.unit, q.x},
-              {y.name, y.unit, q.lower});
-    add_curve(figure, title + ", upper quartile", "points", run.text + "-upper", {x.name, x.unit, q.x},
-              {y.name, y.unit, q.upper});
+    auto medians = features::medians(x.values, y.values);
+    add_curve(figure, title_of(run.text), "line", run.text, {x.name, x.unit, std::move(medians.x)},
+              {y.name, y.unit, std::move(medians.y)});
   }
 
   static const char* style_of(const std::string& kind) {

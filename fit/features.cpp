@@ -144,17 +144,15 @@ double ks_distance(std::span<const double> a, std::span<const double> b) {
   return most;
 }
 
-Quartiles quartiles(std::span<const double> x, std::span<const double> y) {
+Medians medians(std::span<const double> x, std::span<const double> y) {
   std::map<double, std::vector<double>> groups;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) groups[x[i]].push_back(y[i]);
-  Quartiles q;
+  Medians m;
   for (const auto& [at, group] : groups) {
-    q.x.push_back(at);
-    q.lower.push_back(quantile(group, 0.25));
-    q.middle.push_back(quantile(group, 0.5));
-    q.upper.push_back(quantile(group, 0.75));
+    m.x.push_back(at);
+    m.y.push_back(quantile(group, 0.5));
   }
-  return q;
+  return m;
 }
 
 Histogram histogram(std::span<const double> y, int bins) {

@@ -50,11 +50,11 @@ double quantile(std::span<const double> y, double share);
 /// empty.
 double ks_distance(std::span<const double> a, std::span<const double> b);
 
-/// Quartiles of y among the rows that have the same x, x increasing.
-struct Quartiles {
-  std::vector<double> x, lower, middle, upper;
+/// Median of y among the rows that have the same x, x increasing.
+struct Medians {
+  std::vector<double> x, y;
 };
-Quartiles quartiles(std::span<const double> x, std::span<const double> y);
+Medians medians(std::span<const double> x, std::span<const double> y);
 
 /// Counts per bin of equal width from the smallest to the largest value.
 struct Histogram {

@@ -448,7 +448,7 @@ class RunsReader {
     p.pointer = place.pointer();
     p.title = text_member(place, "title");
     p.caption = text_member(place, "caption");
-    static const std::vector<std::string> kinds{"curve", "spectrum", "histogram", "scatter", "quartiles", "bode"};
+    static const std::vector<std::string> kinds{"curve", "spectrum", "histogram", "scatter", "medians", "bode"};
     if (const auto kind = text_of(place, "kind")) {
       p.kind = kind->text;
       if (std::find(kinds.begin(), kinds.end(), p.kind) == kinds.end())
@@ -465,8 +465,8 @@ class RunsReader {
     p.between = window_of(place);
     p.rezero = truth_of(place, "rezero");
     p.where = conditions(place);
-    if (p.kind == "quartiles" && p.x.signals.empty())
-      place.add("missing_key", "quartiles are of y over x", "write \"x\": {\"signal\": \"iteration\"}");
+    if (p.kind == "medians" && p.x.signals.empty())
+      place.add("missing_key", "medians are of y over x", "write \"x\": {\"signal\": \"iteration\"}");
     if (const auto bins = number_member(place, "bins")) p.bins = std::clamp(static_cast<int>(*bins), 2, 1000);
     job_.plots.push_back(std::move(p));
   }

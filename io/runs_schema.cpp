@@ -166,7 +166,7 @@ Json plot() {
   return object(
       "a figure",
       {{"title", text("")},
-       {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "quartiles", "bode"})},
+       {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "medians", "bode"})},
        {"x", axis()},
        {"y", axis()},
        {"runs", names("default: all that have the signals")},

@@ -31,12 +31,10 @@ TEST(Features, QuantilesLieOnStraightLinesBetweenTheValuesInOrder) {
   EXPECT_EQ(quantile(std::vector<double>{}, 0.5), 0);
 }
 
-TEST(Features, QuartilesAreThoseOfTheRowsWithTheSameX) {
-  const Quartiles q = quartiles(std::vector<double>{2, 1, 2, 1, 2}, std::vector<double>{10, 5, 30, 7, 20});
-  EXPECT_EQ(q.x, (std::vector<double>{1, 2}));
-  EXPECT_EQ(q.middle, (std::vector<double>{6, 20}));
-  EXPECT_EQ(q.lower, (std::vector<double>{5.5, 15}));
-  EXPECT_EQ(q.upper, (std::vector<double>{6.5, 25}));
+TEST(Features, MediansAreThoseOfTheRowsWithTheSameX) {
+  const Medians m = medians(std::vector<double>{2, 1, 2, 1, 2}, std::vector<double>{10, 5, 30, 7, 20});
+  EXPECT_EQ(m.x, (std::vector<double>{1, 2}));
+  EXPECT_EQ(m.y, (std::vector<double>{6, 20}));
 }
 
 TEST(Features, TheKsDistanceIsTheLargestGapBetweenTheCumulativeShares) {

@@ -135,7 +135,7 @@ TEST(RunsJob, ConditionsAndSearchesThatSayTooLittleAreToldSo) {
             "bad_value /runs/a/minimize/parameters/g.k");
   EXPECT_EQ(problem_of_job(R"("runs": {"a": {"rows": {}}})"), "bad_value /runs/a/rows");
   EXPECT_EQ(problem_of_job(R"("runs": {"a": {"computed": "nothing"}})"), "bad_value /runs/a");
-  EXPECT_EQ(problem_of_job(R"("plots": [{"kind": "quartiles", "y": {"signal": "y"}}])"), "missing_key /plots/0");
+  EXPECT_EQ(problem_of_job(R"("plots": [{"kind": "medians", "y": {"signal": "y"}}])"), "missing_key /plots/0");
 }
 
 TEST(RunsJob, RunsAndValuesThatNeedThemselvesAreRefused) {
