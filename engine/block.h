@@ -29,6 +29,7 @@
 #include <type_traits>
 
 #include "engine/block_forms.h"
+#include "engine/block_lanes.h"
 #include "engine/kernel.h"
 #include "engine/rows.h"
 
@@ -328,6 +329,7 @@ Kernel kernel() {
     fixed_functions<B, Jet>(k.jet);
     k.uses_time = F::output_time;
     if constexpr (has_fixed_rows<B>()) k.rows = &fixed_rows<B>;
+    if constexpr (!F::sampled && !F::modes) k.lanes = fixed_lanes<B>();
     k.derivative_wants_rate = F::derivative_rate || F::derivative_rate_mode;
     k.guard_wants_rate = F::guard_rate;
     if constexpr (F::modes) k.next_mode = &fixed_next_mode<B>;

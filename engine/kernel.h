@@ -133,10 +133,34 @@ struct RowsView {
   }
 };
 
+/// One evaluation of one block in many runs side by side. Number i of lane l stands at [i * lanes + l], but for the
+/// inputs, whose numbers stand at u[i][l]. In SI.
+struct LanesView {
+  int lanes = 0;                      ///< a multiple of eight
+  const double* p = nullptr;          ///< parameters
+  const double* x = nullptr;          ///< states
+  const double* dx = nullptr;         ///< their rates (output_rate only)
+  const double* m = nullptr;          ///< committed memory
+  const double* const* u = nullptr;   ///< inputs
+  const double* const* du = nullptr;  ///< their rates
+  double t = 0, branch = 0;           ///< [s]
+  double* out = nullptr;              ///< outputs, their rates, or dx/dt
+  double* values = nullptr;           ///< output_rate of a source: its outputs; else null
+  double* advanced = nullptr;         ///< output of a block with memory: what the memory becomes
+};
+
+/// A block in lanes: made by block.h from the functions of every block of fixed size that neither runs at instants nor
+/// has modes. Null elsewhere: then a lane is evaluated behind the other.
+struct LaneFunctions {
+  using Call = void (*)(const LanesView&);
+  Call output = nullptr, output_rate = nullptr, derivative = nullptr;
+};
+
 /// A block type: its declaration and its functions.
 struct Kernel : Functions<double> {
   Declaration declaration;
   Functions<Jet> jet;  ///< the same with slopes
+  LaneFunctions lanes;
   Sizes (*sizes)(const Shape&) = nullptr;
   bool derivative_wants_rate = false;
   bool guard_wants_rate = false;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "models/path.h"
 
@@ -42,17 +43,18 @@ struct Slope {
   T over, under;
 };
 template <class T>
-Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisation, int direction) {
+Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisation,
+                        const std::type_identity_t<T>& direction) {
   using std::tanh;
   const T h = tanh((field + p.alpha * polarisation) / p.a);
   const T q = p.p_s * h - polarisation;
   const T s = p.c * p.p_s * (T{1} - h * h);
   const T held = T{1} - p.c;
-  const T g = T(direction) * held * p.k - p.alpha * q;
+  const T g = direction * held * p.k - p.alpha * q;
   return {held * p.a * q + s * g, g * (p.a - p.alpha * s)};
 }
 template <class T>
-T slope(const Params<T>& p, const T& field, const T& polarisation, int direction) {
+T slope(const Params<T>& p, const T& field, const T& polarisation, const std::type_identity_t<T>& direction) {
   const Slope<T> f = slope_fraction(p, field, polarisation, direction);
   return f.over / f.under;
 }
@@ -60,7 +62,7 @@ T slope(const Params<T>& p, const T& field, const T& polarisation, int direction
 /// dP/dt for the rate of the field: F(E, P, sign v) v. Rate independent: scaling v > 0 scales the answer alike.
 template <class T>
 T polarisation_rate(const Params<T>& p, const T& polarisation, const T& field, const T& field_rate) {
-  return slope(p, field, polarisation, field_rate < T{0} ? -1 : 1) * field_rate;
+  return slope(p, field, polarisation, field_rate < T{0} ? T{-1} : T{1}) * field_rate;
 }
 
 /// The inverse law: dE/dt that makes the polarisation change at the wanted rate, E the field to apply.
@@ -70,7 +72,7 @@ T polarisation_rate(const Params<T>& p, const T& polarisation, const T& field, c
 /// Needs F > 0, where the field rises with the polarisation. Source: thesis Eq. 2.35.
 template <class T>
 T field_rate(const Params<T>& p, const T& field, const T& polarisation, const T& polarisation_rate) {
-  const Slope<T> f = slope_fraction(p, field, polarisation, polarisation_rate < T{0} ? -1 : 1);
+  const Slope<T> f = slope_fraction(p, field, polarisation, polarisation_rate < T{0} ? T{-1} : T{1});
   return polarisation_rate * (f.under / f.over);
 }
 

@@ -1,0 +1,40 @@
+#include "engine/lane_grid.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/corners.h"
+
+namespace hysteron {
+
+std::vector<LanePoint> lane_points(const Program& program, const Run& run, const SimulateOptions& options,
+                                   const std::vector<double>& instants, double& off_step) {
+  off_step = std::numeric_limits<double>::quiet_NaN();
+  const bool fixed = options.method == Method::euler || options.method == Method::rk4;
+  Corners corners(program, run, options.begin);
+  std::vector<LanePoint> points;
+  std::size_t next = 0;
+  const auto arrive = [&](LanePoint point) {
+    while (corners.next() <= point.t + same_instant(point.t)) corners.pass(point.t);
+    point.branch = corners.branch();
+    for (; next < instants.size() && instants[next] <= point.t + same_instant(point.t); ++next) {
+      if (instants[next] < point.t - same_instant(point.t) && !(off_step == off_step)) off_step = instants[next];
+      ++point.rows;
+    }
+    points.push_back(point);
+  };
+  arrive({options.begin});
+  for (long grid = 1; next < instants.size();) {
+    const double t = points.back().t;
+    const double stop = fixed ? options.begin + static_cast<double>(grid) * options.step : instants[next];
+    if (fixed && stop <= t + same_instant(t)) {
+      ++grid;
+      continue;
+    }
+    const double end = std::min(stop, corners.next());
+    arrive({.t = end, .h = end - t, .branch_before = points.back().branch});
+  }
+  return points;
+}
+
+}  // namespace hysteron
