@@ -11,6 +11,7 @@
 #include "engine/block_forms.h"
 #include "engine/kernel.h"
 #include "engine/lane.h"
+#include "engine/widest.h"
 
 namespace hysteron::block_detail {
 
@@ -119,47 +120,25 @@ struct DerivativeOfLanes {
 
 /// The loop over lanes. No lane's results are another's arguments.
 template <class Body>
-inline void over_lanes(const LanesView& view) {
-  const LanesView v = view;
+struct OverLanes {
+  using Arguments = LanesView;
+  static void run(const LanesView& view) {
+    const LanesView v = view;
 #pragma GCC ivdep
-  for (int l = 0; l < v.lanes; ++l) Body::of(v, l);
-}
-
+    for (int l = 0; l < v.lanes; ++l) Body::of(v, l);
+  }
+};
 template <class Body>
-[[gnu::flatten]] void plain_lanes(const LanesView& v) {
-  over_lanes<Body>(v);
+LaneFunctions::Call over_lanes() {
+  return Widest<OverLanes<Body>>::on_this_processor();
 }
-#if defined(__x86_64__) && defined(__OPTIMIZE__)
-template <class Body>
-[[gnu::flatten, gnu::target("arch=x86-64-v3")]] void lanes_of_four(const LanesView& v) {
-  over_lanes<Body>(v);
-}
-template <class Body>
-[[gnu::flatten, gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] void lanes_of_eight(const LanesView& v) {
-  over_lanes<Body>(v);
-}
-template <class Body>
-LaneFunctions::Call on_this_processor() {
-  static const int width = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                                   __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")
-                               ? 8
-                           : __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? 4
-                                                                                             : 2;
-  return width == 8 ? &lanes_of_eight<Body> : width == 4 ? &lanes_of_four<Body> : &plain_lanes<Body>;
-}
-#else
-template <class Body>
-LaneFunctions::Call on_this_processor() {
-  return &plain_lanes<Body>;
-}
-#endif
 
 template <class B>
 LaneFunctions fixed_lanes() {
   LaneFunctions f;
-  f.output = on_this_processor<OutputOfLanes<B>>();
-  f.output_rate = on_this_processor<RatesOfLanes<B>>();
-  if constexpr (Forms<B, double>::states) f.derivative = on_this_processor<DerivativeOfLanes<B>>();
+  f.output = over_lanes<OutputOfLanes<B>>();
+  f.output_rate = over_lanes<RatesOfLanes<B>>();
+  if constexpr (Forms<B, double>::states) f.derivative = over_lanes<DerivativeOfLanes<B>>();
   return f;
 }
 

@@ -40,10 +40,15 @@ inline double value_of(Lane a) { return a.v; }
 
 namespace lane_detail {
 
-/// e^y - 1 = (2^k - 1) + 2^k (e^r - 1) with y = k ln 2 + r, |r| <= ln(2)/2, e^r - 1 by its power series up to r^13
-/// (the next term is 1e-17 of it). Good to some 4e-16 of the result for -700 < y < 700; y outside gives nonsense.
-/// Source: Cody, Waite, Software Manual for the Elementary Functions, 1980, chapter 6.
-inline double exp_less_one(double y) {
+/// e^y = power (1 + rest): power = 2^k, y = k ln 2 + r, |r| <= ln(2)/2, rest = e^r - 1 by its power series up to r^13
+/// (the next term is 1e-17 of it). For -708 < y < 709.4; y outside gives nonsense. Source: Cody, Waite, Software Manual
+/// for the Elementary Functions, 1980, chapter 6.
+struct Exponential {
+  double power, rest;
+  double whole() const { return __builtin_fma(power, rest, power); }
+  double less_one() const { return __builtin_fma(power, rest, power - 1); }  // near zero as exact as elsewhere
+};
+inline Exponential exponential(double y) {
   constexpr double round_to_integer = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
   constexpr double ln2_high = 0x1.62e42fefa0000p-1, ln2_low = 0x1.cf79abc9e3b3ap-40;
   const auto fma = [](double a, double b, double c) { return __builtin_fma(a, b, c); };
@@ -55,8 +60,7 @@ inline double exp_less_one(double y) {
   const double a = fma(r2, fma(r, 1.0 / 24, 1.0 / 6), fma(r, 0.5, 1.0));
   const double b = fma(r2, fma(r, 1.0 / 40320, 1.0 / 5040), fma(r, 1.0 / 720, 1.0 / 120));
   const double c = fma(r2, fma(r, 1.0 / 479001600, 1.0 / 39916800), fma(r, 1.0 / 3628800, 1.0 / 362880));
-  const double series = fma(r8, fma(r4, 1.0 / 6227020800.0, c), fma(r4, b, a));
-  return fma(power, r * series, power - 1);
+  return {power, r * fma(r8, fma(r4, 1.0 / 6227020800.0, c), fma(r4, b, a))};
 }
 
 /// A comparison with something that is not a number is false: it stays as it is.
@@ -67,14 +71,14 @@ inline double at_least(double y, double limit) { return y < limit ? limit : y; }
 
 /// tanh to some 7e-16 of itself: (e^2a - 1)/(e^2a + 1), which is one beyond 2a = 44 but for rounding.
 inline Lane tanh(Lane a) {
-  const double e = lane_detail::exp_less_one(lane_detail::at_least(lane_detail::at_most(2 * a.v, 44), -44));
+  const double e = lane_detail::exponential(lane_detail::at_least(lane_detail::at_most(2 * a.v, 44), -44)).less_one();
   return {e / (e + 2)};
 }
 /// Good to some 5e-16 of itself. Infinite from 709.4 on (the largest number is e^709.78), zero below -708, where the
 /// last numbers are no normal ones.
 inline Lane exp(Lane a) {
   const double inside = lane_detail::at_least(lane_detail::at_most(a.v, 709.4), -708);
-  const double e = lane_detail::exp_less_one(inside) + 1;
+  const double e = lane_detail::exponential(inside).whole();
   return {a.v > 709.4 ? HUGE_VAL : a.v < -708 ? 0 : e};
 }
 /// ln(2^k m) = k ln 2 + ln m, sqrt(1/2) <= m < sqrt(2), ln m = 2 artanh((m - 1)/(m + 1)) by its power series up to

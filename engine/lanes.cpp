@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/lane_arithmetic.h"
 #include "engine/lane_grid.h"
 #include "engine/lane_shared.h"
 #include "engine/needed.h"
@@ -338,14 +339,14 @@ void Lanes::Advance::fill_constants(List& list) {
   const auto& slots = list.shared.slots();
   const double* numbers = list.shared.numbers(0);
   for (std::size_t s = 0; s < slots.size(); ++s)
-    if (list.shared.is_constant(s)) std::fill_n(number(slots[s]), width, numbers[s]);
+    if (list.shared.is_constant(s)) lane_fill({number(slots[s]), numbers[s], width});
 }
 
 void Lanes::Advance::evaluate(List& list, std::size_t instant, double t, double branch, const double* x) {
   const auto& slots = list.shared.slots();
   const double* numbers = list.shared.numbers(instant);
   for (std::size_t s = 0; s < slots.size(); ++s)
-    if (!list.shared.is_constant(s)) std::fill_n(number(slots[s]), width, numbers[s]);
+    if (!list.shared.is_constant(s)) lane_fill({number(slots[s]), numbers[s], width});
   for (Call& call : list.calls) {
     const BlockInstance& b = *call.block;
     LanesView& v = call.view;
@@ -443,17 +444,6 @@ void Lanes::Advance::rate_of_lane(const Call& call, const View<double>& v, int l
     for (int i = 0; i < v.n_y; ++i) call.view.values[i * width + lane] = dual_out_[at(i)].value;
 }
 
-namespace {
-
-/// to = from + h k.
-void move(Numbers& to, Numbers& from, double h, Numbers& k) {
-  double *a = to.data(), *b = from.data(), *c = k.data();
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < to.size(); ++i) a[i] = b[i] + h * c[i];
-}
-
-}  // namespace
-
 void Lanes::Advance::take_step(const LanePoint& point, double from) {
   const double h = point.h, middle = from + h / 2;
   const std::size_t stages = options_.method == Method::rk4 ? 3 : 1;
@@ -464,18 +454,16 @@ void Lanes::Advance::take_step(const LanePoint& point, double from) {
   };
   if (options_.method == Method::euler) {
     derivative(0, from, x_, dx_);
-    return move(x_, x_, h, dx_);
+    return lane_move({x_.data(), x_.data(), dx_.data(), h, x_.size()});
   }
   derivative(0, from, x_, k1_);
-  move(trial_, x_, h / 2, k1_);
+  lane_move({trial_.data(), x_.data(), k1_.data(), h / 2, x_.size()});
   derivative(1, middle, trial_, k2_);
-  move(trial_, x_, h / 2, k2_);
+  lane_move({trial_.data(), x_.data(), k2_.data(), h / 2, x_.size()});
   derivative(1, middle, trial_, k3_);
-  move(trial_, x_, h, k3_);
+  lane_move({trial_.data(), x_.data(), k3_.data(), h, x_.size()});
   derivative(2, point.t, trial_, dx_);
-  double *x = x_.data(), *a = k1_.data(), *b = k2_.data(), *c = k3_.data(), *d = dx_.data();
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < x_.size(); ++i) x[i] = x[i] + h / 6 * (a[i] + 2 * (b[i] + c[i]) + d[i]);
+  lane_combine({x_.data(), k1_.data(), k2_.data(), k3_.data(), dx_.data(), h, x_.size()});
 }
 
 /// Memory is accepted, and rows are handed on.

@@ -113,7 +113,8 @@ TEST_P(LanesByMethod, AClosedLoopWithAPlantAndCreep) {
                {"plant", thesis_plant("law")},
                {"y", block("creep", {{"amounts", list({0.02, 0.01})}, {"times", list({0.01, 0.1}, "s")}}, {"plant"})}},
               {"y", "e", "r"}),
-      fixed(GetParam(), 1e-5), {{"law.alpha", 0.5, 0.7}, {"law.gamma", 2e4, 3e4}, {"controller.kp", 0.5e6, 1.5e6}});
+      fixed(GetParam(), 1e-5),
+      {{"law.alpha", 0.5e-6, 0.7e-6}, {"law.gamma", 0.02, 0.03}, {"controller.kp", 0.5e6, 1.5e6}});
 }
 
 TEST_P(LanesByMethod, MemoryBehindASourceThatIsVariedItself) {
@@ -131,20 +132,25 @@ TEST(Lanes, AStaticDiagramGoesFromRowToRow) {
   std::vector<double> v;
   const auto t = grid(0, 1, 200);
   for (std::size_t i = 0; i < t.size(); ++i) v.push_back(6 * random::uniform(3, 0, i));
-  const auto d = diagram({{"operators", thesis_operators("u")},
-                          {"y", block("polynomial", {{"coefficients", list({1, 0.02})}}, {"operators"})}},
-                         {"y"}, {{"u", "V"}});
+  const auto d = diagram(
+      {{"operators", thesis_operators("u")},
+       {"y",
+        block(
+            "polynomial",
+            {{"coefficients", list({0, 1, -0.02}, "um")}, {"reference", "6 um"}, {"lower", "0 um"}, {"upper", "6 um"}},
+            {"operators"})}},
+      {"y"}, {{"u", "V"}});
   expect_the_same(d, {.until = 1, .every = 0.005}, {{"operators.weights[0]", 1e-7, 1e-6}}, series(t, v));
   // rows between the samples: the samples are passed, too
   expect_the_same(d, {.until = 1, .every = 0.03}, {{"operators.weights[0]", 1e-7, 1e-6}}, series(t, v));
 }
 
 TEST(Lanes, AStepIntoALinearPlant) {
-  expect_the_same(diagram({{"u", block("step", {{"height", "2 V"}, {"at", "10.05 ms"}})},
+  expect_the_same(diagram({{"u", block("step", {{"after", "2 V"}, {"time", "10.05 ms"}})},
                            {"y", block("mass_spring_damper",
                                        {{"mass", "0.1 kg"}, {"stiffness", "1e4 N/m"}, {"damping", "5 N s/m"}}, {"f"})},
                            {"f", block("gain", {{"gain", "3 N/V"}}, {"u"})}},
-                          {"y"}),
+                          {"y.position"}),
                   fixed(Method::rk4), {{"y.stiffness", 0.5e4, 2e4}, {"f.gain", 1, 4}});
 }
 
@@ -192,7 +198,7 @@ TEST(Lanes, TheBlockThatStandsInTheWayIsNamed) {
                      {"e", block("sum", {{"signs", "+-"}}, {"u", "back"})},
                      {"back", block("saturation", {{"lower", "-1 V"}, {"upper", "1 V"}}, {"e"})}}),
          "algebraic loop");
-  expect(in_the_way({{"u", block("step", {{"height", "2 V"}, {"at", "10 ms"}})},
+  expect(in_the_way({{"u", block("step", {{"after", "2 V"}, {"time", "10 ms"}})},
                      {"law", block("play", {{"radius", "1 V"}}, {"u"})}}),
          "step \"u\" jumps, and \"law\"");
   const auto p = compiled(diagram({{"u", block("triangle", {{"amplitude", "3 V"}, {"frequency", "20 Hz"}})},
