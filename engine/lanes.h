@@ -26,7 +26,8 @@ enum class RefusedValues { end_the_lane, are_simulated };
 
 class Lanes {
  public:
-  static constexpr int width = 64;
+  /// Enough that a loop's beginning is a small share of it; few enough that a law's numbers stay in the nearest cache.
+  static constexpr int width = 128;
 
   /// `run`: parameters that are not varied, inputs bound. Signals and instants as in `options`, whose instants must lie
   /// on steps. Throws Error "not_in_lanes" where why_not_in_lanes() says so.
