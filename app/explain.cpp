@@ -17,6 +17,7 @@
 #include "engine/corners.h"
 #include "engine/error.h"
 #include "engine/jacobian.h"
+#include "engine/lanes.h"
 #include "engine/nominal.h"
 #include "engine/simulate.h"
 #include "engine/simulate_parts.h"
@@ -320,6 +321,9 @@ class Explanation {
                     program_.simulate.until ? from_diagram(true) : "--until, or the recordings of --data"});
     rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
                     from_diagram(program_.simulate.every.has_value())});
+    const std::string apart = why_not_in_lanes(program_);
+    rows.push_back({"in lanes", apart.empty() ? "applies" : "does not apply",
+                    apart.empty() ? "many parameter sets side by side, with the methods euler and rk4" : apart});
     options.method = choice.method;
     if (!exact) add_integrator_rows(rows, options);
     show({}, rows);

@@ -11,7 +11,9 @@ using steps::at;
 
 constexpr std::size_t largest_table = 4'000'000;  // numbers: 32 MB, a tenth of what a study may take
 
-bool varies(const Program& program, const BlockInstance& b, std::span<const int> parameters) {
+}  // namespace
+
+bool block_varies(const Program& program, const BlockInstance& b, std::span<const int> parameters) {
   return std::any_of(parameters.begin(), parameters.end(), [&](int parameter) {
     const auto& slots = program.parameters[at(parameter)].slots;
     return std::any_of(slots.begin(), slots.end(),
@@ -19,14 +21,12 @@ bool varies(const Program& program, const BlockInstance& b, std::span<const int>
   });
 }
 
-}  // namespace
-
 std::vector<bool> shared_blocks(const Program& program, std::span<const int> parameters) {
   std::vector<bool> shared(program.blocks.size(), false);
   for (std::size_t i = 0; i < shared.size(); ++i) {
     const BlockInstance& b = program.blocks[i];
     shared[i] = b.sizes.states == 0 && b.memory_count() == 0 && b.history_index < 0 && b.mode_index < 0 &&
-                !varies(program, b, parameters);
+                !block_varies(program, b, parameters);
   }
   for (bool changed = true; changed;) {
     changed = false;

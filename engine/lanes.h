@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,11 +19,18 @@ namespace hysteron {
 /// Can runs of this program that differ in anything but the times of their sources' corners be advanced together? "" or
 /// the block that stands in the way, and why. Says nothing of the method.
 std::string why_not_in_lanes(const Program& program);
-/// The same for these options and these varied parameters (places in program.parameters), with the cure.
-std::string why_not_in_lanes(const Program& program, const SimulateOptions& options, std::span<const int> parameters);
+/// The same for this run (its inputs bound), these options and these varied parameters (places in program.parameters),
+/// with the cure.
+std::string why_not_in_lanes(const Program& program, const Run& run, const SimulateOptions& options,
+                             std::span<const int> parameters);
 
-/// What block functions refuse (Kernel::check) and rests that cannot be found end a lane before it begins.
-enum class RefusedValues { end_the_lane, are_simulated };
+/// What becomes of parameter values outside the range of a block's law (Kernel::check).
+enum class RefusedValues { end_the_run, are_simulated };
+
+/// Sets many parameters [SI] (places in program.parameters) and what depends on them, each block once. Throws Error
+/// "bad_value" where a block refuses them and that ends the run.
+void set_parameters(const Program& program, Run& run, std::span<const int> parameters, std::span<const double> values,
+                    RefusedValues refused);
 
 class Lanes {
  public:
@@ -32,7 +40,7 @@ class Lanes {
   /// `run`: parameters that are not varied, inputs bound. Signals and instants as in `options`, whose instants must lie
   /// on steps. Throws Error "not_in_lanes" where why_not_in_lanes() says so.
   Lanes(ProgramPointer program, const Run& run, const SimulateOptions& options, std::vector<int> parameters,
-        RefusedValues refused = RefusedValues::end_the_lane);
+        RefusedValues refused = RefusedValues::end_the_run);
   ~Lanes();
   Lanes(Lanes&&) noexcept;
   Lanes& operator=(Lanes&&) noexcept;
@@ -41,8 +49,9 @@ class Lanes {
   using Sink = std::function<void(long row, double t, const double* signals)>;
 
   /// Runs values.size() / parameters of them, at most `width`: values[sample * parameters + parameter] [SI]. Returns
-  /// per sample "" or why there is no result: values that a block refuses, states that are not finite at the end.
-  std::vector<std::string> operator()(std::span<const double> values, const Sink& sink);
+  /// per sample why there is no result, if there is none: values that a block refuses ("bad_value"), no equilibrium to
+  /// start from, states that are not finite at the end ("diverged").
+  std::vector<std::optional<Problem>> operator()(std::span<const double> values, const Sink& sink);
 
   long rows() const;
 

@@ -4,12 +4,7 @@
 #include <cmath>
 #include <limits>
 
-// Chosen once, when the program is loaded. Sanitizers instrument that choice before they can run.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define HYSTERON_WIDE [[gnu::target_clones("avx2", "default")]]
-#else
-#define HYSTERON_WIDE
-#endif
+#include "engine/widest.h"
 
 namespace hysteron {
 namespace {
@@ -35,26 +30,24 @@ enum Number {
   numbers
 };
 
-/// One row for lanes side by side; `fixed`: their number where it is known when this is compiled, else 0.
-template <int fixed>
+/// One row for lanes side by side.
 struct RowOf {
   TracePiece& piece;
   long k;
   const double* signals;
   int lanes;
 
-  int n() const { return fixed > 0 ? fixed : lanes; }
-  const double* signal(int s) const { return signals + static_cast<std::ptrdiff_t>(s) * n(); }
-  double* at(Number number) const { return piece.numbers.data() + static_cast<std::ptrdiff_t>(number) * n(); }
+  const double* signal(int s) const { return signals + static_cast<std::ptrdiff_t>(s) * lanes; }
+  double* at(Number number) const { return piece.numbers.data() + static_cast<std::ptrdiff_t>(number) * lanes; }
   bool begins() const { return k == piece.of.first; }
   template <class Action>
-  [[gnu::always_inline]] void each(const Action& action) const {
+  void each(const Action& action) const {
 #pragma GCC ivdep
-    for (int l = 0; l < (fixed > 0 ? fixed : lanes); ++l) action(l);
+    for (int l = 0; l < lanes; ++l) action(l);
   }
 
   /// The value of the trace in this row.
-  [[gnu::always_inline]] void take() const {
+  void take() const {
     const TraceFeature& of = piece.of;
     double *const now = at(y), *const z = at(zero);
     const double* const value = signal(of.signal);
@@ -72,7 +65,7 @@ struct RowOf {
     each([&](int l) { now[l] -= z[l]; });
   }
 
-  [[gnu::always_inline]] void begin() const {
+  void begin() const {
     const double* const now = at(y);
     for (const Number number : {start, low, high}) {
       double* const v = at(number);
@@ -92,7 +85,7 @@ struct RowOf {
   }
 
   /// Straight from the row before to this one, seen from the first row, so that an offset costs no digits.
-  [[gnu::always_inline]] void add_area() const {
+  void add_area() const {
     const double *const x = signal(piece.of.over), *const now = at(y), *const x0 = at(x_start), *const y0 = at(start);
     double *const xb = at(x_before), *const yb = at(y_before), *const v = at(twice);
     each([&](int l) {
@@ -103,7 +96,7 @@ struct RowOf {
     });
   }
 
-  [[gnu::always_inline]] void add_extremes() const {
+  void add_extremes() const {
     const double* const now = at(y);
     double *const a = at(low), *const b = at(high);
     each([&](int l) {
@@ -113,7 +106,7 @@ struct RowOf {
   }
 
   /// Welford, Technometrics 4 (1962) 419-420.
-  [[gnu::always_inline]] void add_deviation() const {
+  void add_deviation() const {
     const double* const now = at(y);
     double *const m = at(middle), *const v = at(scatter);
     const auto rows = static_cast<double>(k - piece.of.first + 1);
@@ -124,7 +117,7 @@ struct RowOf {
     });
   }
 
-  [[gnu::always_inline]] void add_sums() const {
+  void add_sums() const {
     const double* const now = at(y);
     double *const whole = at(finite), *const s = at(sum), *const q = at(square);
     // 0 as long as every row was finite: 0 times anything else is NaN, and stays.
@@ -133,13 +126,13 @@ struct RowOf {
     if (piece.squares) each([&](int l) { q[l] += now[l] * now[l]; });
   }
 
-  [[gnu::always_inline]] void keep(Number number) const {
+  void keep(Number number) const {
     const double* const now = at(y);
     double* const v = at(number);
     each([&](int l) { v[l] = now[l]; });
   }
 
-  [[gnu::always_inline]] void operator()() const {
+  void operator()() const {
     take();
     if (begins()) begin();
     add_sums();
@@ -151,14 +144,10 @@ struct RowOf {
   }
 };
 
-// Widths of which the compiler makes code without a rest.
-HYSTERON_WIDE void add_row_of_8(TracePiece& piece, long k, const double* signals) { RowOf<8>{piece, k, signals, 8}(); }
-HYSTERON_WIDE void add_row_of_16(TracePiece& piece, long k, const double* signals) {
-  RowOf<16>{piece, k, signals, 16}();
-}
-HYSTERON_WIDE void add_row_of_any(TracePiece& piece, long k, const double* signals, int lanes) {
-  RowOf<0>{piece, k, signals, lanes}();
-}
+struct AddRow {
+  using Arguments = RowOf;
+  static void run(const RowOf& row) { row(); }
+};
 
 /// Same rows of the same trace: what is taken of it may differ.
 bool same_piece(const TraceFeature& a, const TraceFeature& b) {
@@ -235,15 +224,11 @@ int Reducers::piece_of(const TraceFeature& f) {
 }
 
 void Reducers::row(long k, const double* signals) {
+  static const auto add = Widest<AddRow>::on_this_processor();
   for (auto& p : pieces_) {
     if (k < p.of.first || k >= p.of.last) continue;
     if (p.before >= 0 && k != p.of.first && k != p.before && k != p.after) continue;  // of at: needs no others
-    if (lanes_ == 8)
-      add_row_of_8(p, k, signals);
-    else if (lanes_ == 16)
-      add_row_of_16(p, k, signals);
-    else
-      add_row_of_any(p, k, signals, lanes_);
+    add({p, k, signals, lanes_});
   }
 }
 

@@ -206,7 +206,8 @@ std::optional<StudyCounts> compute_shard(const Study& study, int shard, int shar
   StudyCounts counts = StudyCounts::of(study);
   const ShardDraws d = shard_draws(study, shard, shards);
   Sampler sampler = *study.sampler;
-  SampleRuns runs(*study.program, study.base, study.options, study.parameters);
+  SampleRuns runs(study.program, study.base, study.options, study.parameters,
+                  study.simulate_refused ? RefusedValues::are_simulated : RefusedValues::end_the_run);
   ShardSink sink(study, counts, keep);
   const std::size_t n = study.parameters.size();
   std::vector<double> values;

@@ -82,6 +82,7 @@ struct Study {
   std::uint64_t draws = 0;          ///< so many in all; 0: until `accepted` are found
   std::uint64_t accepted = 0;       ///< wanted, where draws = 0
   std::uint64_t give_up_after = 0;  ///< draws in all, where draws = 0
+  bool simulate_refused = false;    ///< values that a block refuses: simulated all the same, else failed draws
   bool keep_all = false;            ///< rejected draws are kept, too
   int shards = 1;
   std::string description{};  ///< all of it as text, but for the number of shards: what decides the numbers

@@ -90,6 +90,7 @@ std::string description_of(const Study& study) {
   text += "options " + options_text(study.options) + "\n";
   text += fmt::format("varied {}\n", fmt::join(study.parameters, ","));
   text += "sample " + study.sampler->description() + "\n";
+  text += fmt::format("simulate_refused {}\n", study.simulate_refused);
   text += fmt::format("draws {} accepted {} give_up_after {} keep_all {}\n", study.draws, study.accepted,
                       study.give_up_after, study.keep_all);
   text += "traces ";

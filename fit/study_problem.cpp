@@ -59,6 +59,7 @@ class Builder {
     study_.seed = job_.seed;
     study_.shards = job_.shards;
     study_.keep_all = job_.keep_all;
+    study_.simulate_refused = job_.simulate_refused;
     study_.description = description_of(study_);
     return {std::move(study_), std::move(plots_)};
   }

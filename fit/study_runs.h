@@ -2,9 +2,12 @@
 // where that is possible. Does not know where the values come from nor what is taken from the rows.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "engine/lanes.h"
 #include "engine/program.h"
 #include "engine/simulate.h"
 
@@ -28,20 +31,28 @@ class SampleRuns {
  public:
   /// `base`: a run at its start whose numbers all samples share but for `parameters` (places in program.parameters).
   /// `options.signals` names what is recorded.
-  SampleRuns(const Program& program, const Run& base, const SimulateOptions& options, std::vector<int> parameters);
+  SampleRuns(ProgramPointer program, const Run& base, const SimulateOptions& options, std::vector<int> parameters,
+             RefusedValues refused = RefusedValues::end_the_run);
 
-  /// Samples that are simulated at once.
-  int width() const { return 1; }
+  /// Samples that are simulated at once: in lanes where the diagram and the method allow it, else one.
+  int width() const { return lanes_ ? Lanes::width : 1; }
+  /// "" or why the samples are simulated one after the other.
+  const std::string& why_one_by_one() const { return why_one_by_one_; }
   /// values[sample * parameters + parameter] [SI].
   void operator()(std::span<const double> values, RowSink& sink);
 
  private:
   Run run_of(std::span<const double> values) const;
+  void one_by_one(std::span<const double> values, RowSink& sink) const;
+  void in_lanes(std::span<const double> values, RowSink& sink);
 
-  const Program& program_;
+  ProgramPointer program_;
   Run base_;
   SimulateOptions options_;
   std::vector<int> parameters_;
+  RefusedValues refused_;
+  std::string why_one_by_one_;
+  std::optional<Lanes> lanes_;
 };
 
 }  // namespace hysteron

@@ -38,7 +38,7 @@ class StudyReader {
     what(root);
     file_.throw_if_any();  // of another kind of job every key would be wrong
     root.only({"$schema", "format", "do", "title", "source", "remark", "diagram", "choose", "set", "until", "every",
-               "solver", "sample", "features", "filters", "keep", "plots"});
+               "solver", "sample", "features", "filters", "refused", "keep", "plots"});
     head(root);
     if (const auto at = root.need(
             "sample",
@@ -49,6 +49,8 @@ class StudyReader {
                                   "\"stroke\", \"of\": \"y\"}}"))
       features(*at);
     if (root.find("filters")) job_.filters = conditions(root, "filters");
+    if (const auto refused = one_of(root, "refused", {"rejected", "simulated"}))
+      job_.simulate_refused = *refused == "simulated";
     if (const auto keep = one_of(root, "keep", {"accepted", "all"})) job_.keep_all = *keep == "all";
     if (const auto plots = root.find("plots"); plots && plots->expect_array("[{\"x\": \"stroke\", \"bins\": 40}]"))
       for (const auto& place : plots->elements()) plot(place);

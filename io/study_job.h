@@ -77,6 +77,7 @@ struct StudyJob {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> draws{}, accepted{}, give_up_after{};
   int shards = 16;
+  bool simulate_refused = false;  ///< parameter values that a block refuses
   bool keep_all = false;
   std::vector<DrawnParameterWish> parameters{};
   std::vector<FeatureWish> features{};

@@ -123,6 +123,10 @@ Json study_job() {
   properties["sample"] = sample();
   properties["features"] = named("what is taken from each simulation", feature());
   properties["filters"] = conditions("what a sample must meet to be accepted");
+  properties["refused"] = choice_of(
+      "parameter values that a block refuses (outside the range of its law): rejected (default), or simulated all the "
+      "same",
+      {"rejected", "simulated"});
   properties["keep"] = choice_of("all: rejected samples, too; default accepted", {"accepted", "all"});
   properties["plots"] = list_of("the figures", plot());
   return object("a study", std::move(properties), {"format", "do", "diagram", "sample", "features"});

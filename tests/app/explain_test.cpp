@@ -127,6 +127,14 @@ TEST_F(Explain, TellsTheSolverAndWhichBlockForbidsTheExactAdvance) {
                 "relative tolerance 1e-07 as the diagram says", "longest step not limited", "Jacobian 3 x 3"});
 }
 
+TEST_F(Explain, TellsWhetherManyParameterSetsGoSideBySideOrWhichBlockForbidsIt) {
+  expect_parts(explain(loop), {"in lanes applies"});
+  expect_parts(explain(R"({"format": 1, "blocks": {
+    "drive": {"type": "sine", "amplitude": "1 V", "frequency": "1 Hz"},
+    "late": {"type": "dead_time", "delay": "1 ms", "in": "drive"}}, "record": ["late"]})"),
+               {"in lanes does not apply", "dead_time \"late\" looks back into the past of its input"});
+}
+
 TEST_F(Explain, WritesWhatItPrintsForProgramsWhereAsked) {
   const std::string text = explain(loop, {"-o", "out"});
   EXPECT_NE(text.find("report: out/report.html"), std::string::npos) << text;

@@ -38,8 +38,8 @@ std::vector<double> drawn(const std::vector<Varied>& varied, int samples) {
 using Columns = std::vector<std::vector<std::vector<double>>>;  // [sample][signal][row]
 
 Columns in_lanes(ProgramPointer p, const Run& run, const SimulateOptions& options, const std::vector<int>& parameters,
-                 const std::vector<double>& values, std::vector<std::string>* told = nullptr,
-                 RefusedValues refused = RefusedValues::end_the_lane) {
+                 const std::vector<double>& values, std::vector<std::optional<Problem>>* told = nullptr,
+                 RefusedValues refused = RefusedValues::end_the_run) {
   Lanes lanes(p, run, options, parameters, refused);
   const std::size_t samples = values.size() / parameters.size(), signals = p->record_signals.size();
   Columns columns(samples, std::vector<std::vector<double>>(signals));
@@ -51,7 +51,7 @@ Columns in_lanes(ProgramPointer p, const Run& run, const SimulateOptions& option
   if (told != nullptr)
     *told = results;
   else
-    for (const auto& r : results) EXPECT_EQ(r, "");
+    for (const auto& r : results) EXPECT_FALSE(r) << r->what;
   return columns;
 }
 
@@ -62,7 +62,7 @@ void expect_the_same(const Diagram& d, const SimulateOptions& options, const std
   Run run = start(*p);
   if (input) bind_input(*p, run, "u", input);
   const auto parameters = places(*p, varied);
-  ASSERT_EQ(why_not_in_lanes(*p, options, parameters), "");
+  ASSERT_EQ(why_not_in_lanes(*p, run, options, parameters), "");
   constexpr int samples = 5;
   const auto values = drawn(varied, samples);
   const auto columns = in_lanes(p, run, options, parameters, values);
@@ -169,17 +169,19 @@ TEST(Lanes, ValuesThatABlockRefusesEndTheirLaneAlone) {
   const auto p = compiled(loops());
   const std::vector<Varied> varied{{"law.alpha", 0, 0}, {"law.c", 0, 0}};
   const std::vector<double> values{1e5, 0.4, 1e5, 1.0, 2e5, 0.4};  // c = 1: nothing to pin
-  std::vector<std::string> told;
+  std::vector<std::optional<Problem>> told;
   const auto options = fixed(Method::rk4);
   const auto columns = in_lanes(p, start(*p), options, places(*p, varied), values, &told);
-  EXPECT_EQ(told[0], "");
-  EXPECT_NE(told[1].find("\"law\" refuses its values: c = 1"), std::string::npos) << told[1];
-  EXPECT_EQ(told[2], "");
+  EXPECT_FALSE(told[0]);
+  ASSERT_TRUE(told[1]);
+  EXPECT_NE(told[1]->what.find("\"law\": c = 1 leaves nothing to pin"), std::string::npos) << told[1]->what;
+  EXPECT_FALSE(told[2]);
   EXPECT_NE(columns[0], columns[2]);
   // asked for all the same: not a number, which the end of the run tells
   in_lanes(p, start(*p), options, places(*p, varied), values, &told, RefusedValues::are_simulated);
-  EXPECT_EQ(told[0], "");
-  EXPECT_NE(told[1].find("not finite"), std::string::npos) << told[1];
+  EXPECT_FALSE(told[0]);
+  ASSERT_TRUE(told[1]);
+  EXPECT_EQ(told[1]->code, "diverged");
 }
 
 std::string in_the_way(const std::vector<std::pair<std::string, Node>>& blocks) {
@@ -204,9 +206,10 @@ TEST(Lanes, TheBlockThatStandsInTheWayIsNamed) {
   const auto p = compiled(diagram({{"u", block("triangle", {{"amplitude", "3 V"}, {"frequency", "20 Hz"}})},
                                    {"y", block("lag", {{"times", list({0.003}, "s")}}, {"u"})}},
                                   {"y"}));
-  expect(why_not_in_lanes(*p, fixed(Method::rk4), places(*p, {{"u.frequency", 0, 0}})), "triangle \"u\" has corners");
-  EXPECT_EQ(why_not_in_lanes(*p, fixed(Method::rk4), places(*p, {{"y.times[0]", 0, 0}})), "");
-  expect(why_not_in_lanes(*p, {}, {}), "not one of fixed steps");
+  expect(why_not_in_lanes(*p, start(*p), fixed(Method::rk4), places(*p, {{"u.frequency", 0, 0}})),
+         "triangle \"u\" has corners");
+  EXPECT_EQ(why_not_in_lanes(*p, start(*p), fixed(Method::rk4), places(*p, {{"y.times[0]", 0, 0}})), "");
+  expect(why_not_in_lanes(*p, start(*p), {}, {}), "not one of fixed steps");
   try {
     Lanes lanes(p, start(*p), {}, {});
     FAIL() << "nothing refused";
@@ -215,14 +218,18 @@ TEST(Lanes, TheBlockThatStandsInTheWayIsNamed) {
   }
 }
 
-TEST(Lanes, ARowInsideAStepIsRefused) {
+TEST(Lanes, RowsInsideStepsAndHeldInputsIntoMemoryStandInTheWay) {
   const auto p = compiled(loops());
-  try {
-    Lanes lanes(p, start(*p), {.until = 0.1, .every = 1e-4, .method = Method::rk4, .step = 3e-4}, places(*p, five));
-    FAIL() << "nothing refused";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("inside a step"), std::string::npos) << e.what();
-  }
+  const SimulateOptions between{.until = 0.1, .every = 1e-4, .method = Method::rk4, .step = 3e-4};
+  EXPECT_NE(why_not_in_lanes(*p, start(*p), between, {}).find("rows lie inside steps"), std::string::npos);
+  EXPECT_THROW(Lanes(p, start(*p), between, places(*p, five)), Error);
+
+  const auto held = compiled(diagram({{"y", block("play", {{"radius", "1 V"}}, {"u"})}}, {"y"}, {{"u", "V"}}));
+  auto run = start(*held);
+  bind_input(*held, run, "u", series({0, 0.1}, {0, 3}, Between::hold));
+  EXPECT_NE(why_not_in_lanes(*held, run, fixed(Method::rk4), {}).find("jumps, and \"y\""), std::string::npos);
+  bind_input(*held, run, "u", series({0, 0.1}, {0, 3}, Between::linear));
+  EXPECT_EQ(why_not_in_lanes(*held, run, fixed(Method::rk4), {}), "");
 }
 
 }  // namespace
