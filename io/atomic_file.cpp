@@ -114,7 +114,35 @@ void write_file(const std::string& file, std::string_view content) {
   write_and_rename(target, content, exists ? (status.st_mode & 07777) : mode_of_new_files());
 }
 
-std::string read_file(const std::string& file) {
+std::string unfinished_prefix(const std::string& file) { return file + ".partial-"; }
+
+UnfinishedFile::UnfinishedFile(std::string file) : file_(std::move(file)) {
+  temporary_ = unfinished_prefix(file_) + "XXXXXX";
+  Handle handle(::mkostemp(temporary_.data(), O_CLOEXEC));
+  if (handle.fd < 0) fail_write(file_, errno);
+  ::fchmod(handle.fd, mode_of_new_files());
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void UnfinishedFile::fail_now() const { fail_write(file_, errno != 0 ? errno : EIO); }
+
+void UnfinishedFile::finish() {
+  Handle handle(::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC));
+  int error = handle.fd < 0 || ::fsync(handle.fd) != 0 ? errno : 0;
+  const int at_close = handle.fd < 0 ? 0 : handle.close();
+  if (error == 0) error = at_close;
+  if (error == 0 && ::rename(temporary_.c_str(), file_.c_str()) != 0) error = errno;
+  if (error != 0) fail_write(file_, error);
+  temporary_.clear();
+}
+
+namespace {
+
+/// Its size, where it is a file that can be read.
+off_t size_of_readable(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR)
@@ -126,13 +154,21 @@ std::string read_file(const std::string& file) {
     fail_file("is_directory", file, fmt::format("{} is a folder, a file was expected", file), "name a file inside it");
   if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
     fail_file("not_a_file", file, fmt::format("{} is a device, a file was expected", file), "name an ordinary file");
+  return status.st_size;
+}
 
+}  // namespace
+
+void check_readable(const std::string& file) { size_of_readable(file); }
+
+std::string read_file(const std::string& file) {
+  const off_t size = size_of_readable(file);
   Handle handle(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (handle.fd < 0)
     fail_file("cannot_read", file, fmt::format("cannot read {}: {}", file, std::strerror(errno)), "make it readable");
   std::string content;
   std::size_t used = 0;
-  content.resize(static_cast<std::size_t>(status.st_size) + 1);  // one more, so that the end is seen without growing
+  content.resize(static_cast<std::size_t>(size) + 1);  // one more, so that the end is seen without growing
   while (true) {
     if (used == content.size()) content.resize(2 * content.size());
     const auto count = ::read(handle.fd, content.data() + used, content.size() - used);
