@@ -14,13 +14,16 @@
 namespace hysteron {
 namespace {
 
-void print_answer(const Arguments& arguments, const Document& document,
+void print_answer(const Arguments& arguments, const std::string& folder, const Document& document,
                   const std::vector<std::string>& said_here_only) {
   if (!document.headline.empty()) fmt::print("{}", wrapped(document.headline));
-  if (arguments.quiet()) return;
-  for (const auto& sentence : document.sentences) fmt::print("{}", wrapped(sentence, 2));
-  for (const auto& warning : document.warnings) fmt::print("{}", wrapped("note: " + warning, 2));
-  for (const auto& line : said_here_only) fmt::print("{}", wrapped(line, 2));
+  if (!arguments.quiet()) {
+    for (const auto& sentence : document.sentences) fmt::print("{}", wrapped(sentence, 2));
+    for (const auto& warning : document.warnings) fmt::print("{}", wrapped("note: " + warning, 2));
+    for (const auto& line : said_here_only) fmt::print("{}", wrapped(line, 2));
+  }
+  fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
+             folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);
 }
 
 }  // namespace
@@ -34,9 +37,13 @@ void write_results(const std::string& folder, const Document& document) {
 void publish(const Arguments& arguments, const std::string& folder, const Document& document,
              const std::vector<std::string>& said_here_only) {
   write_results(folder, document);
-  print_answer(arguments, document, said_here_only);
-  fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
-             folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);
+  print_answer(arguments, folder, document, said_here_only);
+}
+
+void publish_into(const Arguments& arguments, const std::string& folder, const Document& document,
+                  const std::vector<std::string>& said_here_only) {
+  add_result(folder, document, report_html(document));
+  print_answer(arguments, folder, document, said_here_only);
 }
 
 std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken) {

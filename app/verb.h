@@ -79,6 +79,7 @@ Verb add_verb();
 Verb remove_verb();
 Verb fit_verb();
 Verb discover_verb();
+Verb study_verb();
 Verb reproduce_verb();
 Verb schema_verb();
 

@@ -10,9 +10,9 @@
 namespace hysteron {
 
 std::vector<Verb> all_verbs() {
-  return {new_verb(),      run_verb(),       check_verb(),    explain_verb(), draw_verb(),   linearize_verb(),
-          inspect_verb(),  compare_verb(),   diagnose_verb(), add_verb(),     remove_verb(), fit_verb(),
-          discover_verb(), reproduce_verb(), blocks_verb(),   effects_verb(), schema_verb()};
+  return {new_verb(),      run_verb(),     check_verb(),     explain_verb(), draw_verb(),    linearize_verb(),
+          inspect_verb(),  compare_verb(), diagnose_verb(),  add_verb(),     remove_verb(),  fit_verb(),
+          discover_verb(), study_verb(),   reproduce_verb(), blocks_verb(),  effects_verb(), schema_verb()};
 }
 
 std::string Arguments::text(const std::string& name, const std::string& otherwise) const {

@@ -96,6 +96,8 @@ Sampler::Sampler(const Sampler& other)
       size_(other.size_),
       ranges_(other.ranges_),
       sobol_(other.sobol_ ? std::make_unique<Sobol>(*other.sobol_) : nullptr) {}
+Sampler::Sampler(Sampler&&) noexcept = default;
+Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
 std::string Sampler::description() const {

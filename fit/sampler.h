@@ -41,6 +41,8 @@ class Sampler {
   Sampler(SamplingMethod method, std::uint64_t seed, std::uint64_t draws, std::vector<SampledRange> ranges);
   Sampler(const Sampler& other);
   Sampler& operator=(const Sampler&) = delete;
+  Sampler(Sampler&&) noexcept;
+  Sampler& operator=(Sampler&&) noexcept;
   ~Sampler();
 
   std::size_t parameters() const { return ranges_.size(); }

@@ -225,6 +225,7 @@ std::optional<StudyCounts> compute_shard(const Study& study, int shard, int shar
     sink.next(std::move(draws), values, d.wanted);
     runs(values, sink);
   }
+  if (go_on) go_on(counts);
   counts.gave_up = counts.accepted < d.wanted;
   return counts;
 }

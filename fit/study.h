@@ -118,7 +118,7 @@ struct ShardDraws {
 ShardDraws shard_draws(const Study& study, int shard, int shards);
 
 /// Computes one shard; `keep` gets its samples in order. `go_on` is asked between samples, with what is counted so far;
-/// false ends it: nothing is returned then.
+/// false ends it: nothing is returned then. After the last one it is told, too.
 std::optional<StudyCounts> compute_shard(const Study& study, int shard, int shards,
                                          const std::function<void(const StudySample&)>& keep,
                                          const std::function<bool(const StudyCounts&)>& go_on = {});

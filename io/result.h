@@ -84,4 +84,8 @@ std::string trace_file_name(const std::string& name);
 /// it holds a result.json of ours or is empty. Throws Error "cannot_write", "folder_in_use".
 void write_result(const std::string& folder, const Document& document, const std::string& report_html);
 
+/// Writes the same files into a folder that is there and keeps what else it holds; each file whole or not at all,
+/// result.json last. Throws Error "cannot_write".
+void add_result(const std::string& folder, const Document& document, const std::string& report_html);
+
 }  // namespace hysteron

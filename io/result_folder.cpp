@@ -125,6 +125,16 @@ std::string trace_file_name(const std::string& name) {
   return safe;
 }
 
+void add_result(const std::string& folder, const Document& document, const std::string& report_html) {
+  check_names(document, folder);
+  check_curves(document, folder);
+  try {
+    write_files(folder, document, report_html);
+  } catch (const fs::filesystem_error& e) {
+    cannot_write(folder, e.code().message());
+  }
+}
+
 void write_result(const std::string& folder, const Document& document, const std::string& report_html) {
   check_names(document, folder);
   check_curves(document, folder);

@@ -48,7 +48,7 @@ void redirect(int stream, const char* file, int flags) {
 }
 
 Outcome run(const std::string& folder, const std::vector<std::string>& words, const std::string& out_device,
-            int interrupt_after_ms) {
+            int interrupt_after_ms, int signal = SIGINT) {
   const Folder streams;
   const std::string out = out_device.empty() ? streams.path() + "/out" : out_device;
   const std::string err = streams.path() + "/err";
@@ -57,7 +57,7 @@ Outcome run(const std::string& folder, const std::vector<std::string>& words, co
   if (child == 0) become(folder, words, out, err);
   if (interrupt_after_ms > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
-    kill(child, SIGINT);
+    kill(child, signal);
   }
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
@@ -75,6 +75,12 @@ Outcome hysteron(const std::string& folder, const std::vector<std::string>& word
   std::vector<std::string> all{HYSTERON_PROGRAM};
   all.insert(all.end(), words.begin(), words.end());
   return run(folder, all, out_device, interrupt_after_ms);
+}
+
+Outcome hysteron_killed(const std::string& folder, const std::vector<std::string>& words, int after_ms) {
+  std::vector<std::string> all{HYSTERON_PROGRAM};
+  all.insert(all.end(), words.begin(), words.end());
+  return run(folder, all, "", after_ms, SIGKILL);
 }
 
 Outcome shell(const std::string& folder, const std::string& command) {

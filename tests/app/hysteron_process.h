@@ -17,6 +17,9 @@ struct Outcome {
 Outcome hysteron(const std::string& folder, const std::vector<std::string>& words, const std::string& out_device = "",
                  int interrupt_after_ms = 0);
 
+/// The same with SIGKILL: code 137 where it came in time.
+Outcome hysteron_killed(const std::string& folder, const std::vector<std::string>& words, int after_ms);
+
 /// Runs a command line of a shell in `folder`, with the built program first in PATH.
 Outcome shell(const std::string& folder, const std::string& command);
 
