@@ -34,6 +34,26 @@ std::vector<std::uint64_t> counts_of(const std::vector<std::int64_t>& list) { re
        "choose another folder with -o");
 }
 
+/// Empty, or what a study leaves that is killed before it has said whose the folder is.
+bool hardly_begun(const fs::path& folder) {
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code))
+    if (entry.path().filename() != "shards" || !entry.is_directory(code)) return false;
+  for (const auto& entry : fs::directory_iterator(folder / "shards", code))
+    if (!entry.path().filename().string().starts_with("study.txt.")) return false;
+  return true;
+}
+
+/// True for what io/atomic_file.h leaves of one of our files where the process was killed: its name and six letters.
+bool left_over(const std::string& name) {
+  if (name.find(unfinished_prefix(".h5")) != std::string::npos ||
+      name.find(unfinished_prefix(".csv")) != std::string::npos)
+    return true;
+  for (const std::string file : {"study.txt", "result.json", "result.schema.json", "report.html"})
+    if (name.starts_with(file + ".") && name.size() == file.size() + 7) return true;
+  return false;
+}
+
 /// Shards that threads take one after the other, and what they have done so far.
 class ShardWork {
  public:
@@ -157,7 +177,7 @@ bool StudyFolder::open() const {
   const fs::path folder(folder_);
   std::error_code code;
   const bool known = fs::exists(folder / marker, code);
-  if (!known && fs::exists(folder, code) && (!fs::is_directory(folder, code) || !fs::is_empty(folder, code)))
+  if (!known && fs::exists(folder, code) && (!fs::is_directory(folder, code) || !hardly_begun(folder)))
     fail("folder_in_use", folder_, "there are other files, and no study of hysteron",
          "choose another folder with -o, or empty this one");
   fs::create_directories(folder / "shards", code);
@@ -230,14 +250,9 @@ void StudyFolder::compute(const std::vector<int>& list, int threads,
 
 void StudyFolder::clean() const {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_ + "/shards", ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.find(unfinished_prefix(".h5")) != std::string::npos) fs::remove(entry.path(), ignored);
-  }
-  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.find(unfinished_prefix("")) != std::string::npos) fs::remove(entry.path(), ignored);
-  }
+  for (const auto& folder : {folder_, folder_ + "/shards"})
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (left_over(entry.path().filename().string())) fs::remove(entry.path(), ignored);
 }
 
 }  // namespace hysteron

@@ -16,7 +16,7 @@ using process::Outcome;
 
 const std::vector<std::string> verbs{"new",      "run",     "check",    "explain", "draw",   "linearize",
                                      "inspect",  "compare", "diagnose", "add",     "remove", "fit",
-                                     "discover", "blocks",  "effects",  "schema"};
+                                     "discover", "study",   "blocks",   "effects", "schema"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
@@ -159,8 +159,8 @@ TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {
 TEST(Schema, WritesTheSchemasThatTheProjectShips) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"schema", "-o", "made"}).code, 0);
-  for (const char* name :
-       {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "claims.schema.json", "result.schema.json", "effect.schema.json"})
+  for (const char* name : {"diagram.schema.json", "dataset.schema.json", "job.schema.json", "claims.schema.json",
+                           "result.schema.json", "effect.schema.json"})
     EXPECT_NE(folder.read(std::string("made/") + name).find("draft-07"), std::string::npos) << name;
 }
 

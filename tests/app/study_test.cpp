@@ -161,6 +161,13 @@ TEST_F(StudyVerb, StartedAgainItKeepsWhatIsThereAndComputesWhatIsNotOfThisJob) {
   EXPECT_TRUE(bytes("limits.study") == right);
 }
 
+TEST_F(StudyVerb, AFolderOfAStudyThatWasKilledAtItsVeryBeginningIsItsOwn) {
+  std::filesystem::create_directories(folder_.path() + "/limits.study/shards");
+  folder_.write("limits.study/shards/study.txt.aB3x9Z", "");
+  done({"study", "limits.json"});
+  EXPECT_FALSE(folder_.has("limits.study/shards/study.txt.aB3x9Z"));
+}
+
 TEST_F(StudyVerb, AFolderThatIsNotItsOwnIsLeftAlone) {
   folder_.write("mine/notes.txt", "keep");
   const Outcome outcome = hysteron(folder_.path(), {"study", "limits.json", "-o", "mine"});
@@ -244,8 +251,11 @@ void kill_often(const Folder& folder, const std::string& right, int times) {
     EXPECT_TRUE(
         folder.read(out + "/study.h5") + folder.read(out + "/result.json") + folder.read(out + "/report.html") == right)
         << out;
+    int files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() + "/" + out))
-      EXPECT_EQ(entry.path().string().find("partial"), std::string::npos) << entry.path();
+      files += entry.is_regular_file() ? 1 : 0;
+    EXPECT_EQ(files,
+              12 + 1 + 4);  // shards, whose they are, study.h5, report, result and its schema: nothing is left over
   }
 }
 
