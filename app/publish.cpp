@@ -42,7 +42,9 @@ void publish(const Arguments& arguments, const std::string& folder, const Docume
 
 void publish_into(const Arguments& arguments, const std::string& folder, const Document& document,
                   const std::vector<std::string>& said_here_only) {
-  add_result(folder, document, report_html(document));
+  const std::string page = report_html(document);
+  const DeferInterrupts until_in_place(true);
+  add_result(folder, document, page);
   print_answer(arguments, folder, document, said_here_only);
 }
 

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 
+#include "app/interrupt.h"
 #include "app/numbers.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
@@ -35,6 +36,9 @@ void for_each_row(const StudyFolder& folder, const Study& study, const std::func
   for (int k = 0; k < folder.shards(); ++k) {
     const ColumnReader file(folder.shard_file(k));
     for (std::uint64_t first = 0; first < file.rows(); first += rows_at_once) {
+      if (interrupted())
+        throw Interrupted(fmt::format("interrupted; all {} shards are kept in {}, and the same command joins them",
+                                      folder.shards(), folder.file("shards")));
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows_at_once, file.rows() - first));
       for (std::size_t c = 0; c < width; ++c) file.read(c, first, std::span(block[c]).first(count));
       for (std::size_t i = 0; i < count; ++i) {
@@ -214,6 +218,7 @@ FileFacts facts_of(const StudyFolder& folder, const Study& study, const StudyCou
 MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem, const std::string& title, bool csv,
                          const std::string& again) {
   const Study& study = problem.study;
+  const DeferInterrupts until_safe;
   need_all_shards(folder, again);
   MergedStudy merged;
   merged.counts = StudyCounts::of(study);
@@ -241,7 +246,10 @@ MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem,
     });
   for (auto& plot : plots) merged.figures.push_back(plot.figure(merged.counts));
   writer.finish(facts_of(folder, study, merged.counts, title));
-  if (text) text->finish();
+  if (text)
+    text->finish();
+  else
+    std::remove(folder.file("study.csv").c_str());  // of other samples
   return merged;
 }
 
