@@ -1,7 +1,10 @@
 // The verb study: shards, their merge, what is kept when it is killed, and wrong input.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -222,35 +225,67 @@ TEST_F(StudyVerb, WrongInputIsToldWithFileAndLine) {
   EXPECT_NE(fit.err.find("hysteron study"), std::string::npos) << fit.err;
 }
 
+std::string text_of(const std::string& file) {
+  std::ifstream in(std::string(HYSTERON_SOURCE_DIR) + "/" + file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST_F(StudyVerb, TheExampleOfTheDocumentationRuns) {
+  folder_.write("stage.json", text_of("diagrams/study/stage.json"));
+  folder_.write("tolerance.json", text_of("diagrams/study/tolerance.json"));
+  const std::string page = text_of("docs/study.md");
+  const auto begin = page.find("```json\n") + 8;
+  folder_.write("shown.json", page.substr(begin, page.find("```", begin) - begin));
+  for (const char* name : {"tolerance", "shown"}) {
+    const Outcome outcome = done({"study", std::string(name) + ".json"});
+    EXPECT_NE(outcome.out.find("2000 draws"), std::string::npos) << outcome.out;
+    const json facts = result(std::string(name) + ".study")["facts"];
+    EXPECT_GT(facts["accepted"], 100) << name;
+    EXPECT_LT(facts["accepted"], 1900) << name;
+  }
+}
+
 /// A study whose shards take some tens of milliseconds each.
-std::string slow_job() { return job(R"("draws": 1600, "shards": 12)", plots); }
+std::string slow_job() {
+  std::string text = job(R"("draws": 20000, "shards": 12)", plots);
+  return text.replace(text.find("\"do\""), 4, "\"until\": \"2 s\", \"do\"");
+}
 
 TEST_F(StudyVerb, CtrlCSaysWhatIsKeptAndTheSameCommandGoesOn) {
-  folder_.write("slow.json", job(R"("draws": 100000, "shards": 400)"));
+  folder_.write("slow.json", job(R"("draws": 10000000, "shards": 4000)"));
   const Outcome outcome = hysteron(folder_.path(), {"study", "slow.json"}, "", 400);
   EXPECT_EQ(outcome.code, 130) << outcome.err;
-  EXPECT_NE(outcome.err.find("of 400 shards are finished and kept in slow.study/shards"), std::string::npos)
+  EXPECT_NE(outcome.err.find("of 4000 shards are finished and kept in slow.study/shards"), std::string::npos)
       << outcome.err;
   EXPECT_FALSE(folder_.has("slow.study/study.h5"));
 }
 
-/// Kills it at random moments, so many times in all; every study that comes to its end must be the one of `right`.
-void kill_often(const Folder& folder, const std::string& right, int times) {
+/// Computes slow.json, then kills it at random moments between its start and its end, so many times in all; every study
+/// that comes to its end must be the same.
+void kill_often(const Folder& folder, int times) {
+  const auto all_of = [&](const std::string& out) {
+    return folder.read(out + "/study.h5") + folder.read(out + "/result.json") + folder.read(out + "/report.html");
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(hysteron(folder.path(), {"study", "slow.json", "-o", "right"}).code, 0);
+  const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
+  const std::string right = all_of("right");
   std::mt19937 random(20);
-  int kills = 0, study = 0, finished = 0;
-  while (kills < times || finished == 0) {
+  int kills = 0, study = 0;
+  bool finished = false;
+  while (kills < times || !finished) {
     const std::string out = "killed" + std::to_string(study);
     const std::vector<std::string> words{"study", "slow.json", "-o", out};
-    const Outcome outcome = kills < times ? hysteron_killed(folder.path(), words, 10 + static_cast<int>(random() % 250))
-                                          : hysteron(folder.path(), words);
+    const Outcome outcome = kills < times
+                                ? hysteron_killed(folder.path(), words,
+                                                  1 + static_cast<int>(random() % static_cast<unsigned>(took.count())))
+                                : hysteron(folder.path(), words);
     kills += outcome.code == 137 ? 1 : 0;
-    if (outcome.code == 137) continue;
+    finished = outcome.code != 137;
+    if (!finished) continue;
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    ++finished;
     ++study;
-    EXPECT_TRUE(
-        folder.read(out + "/study.h5") + folder.read(out + "/result.json") + folder.read(out + "/report.html") == right)
-        << out;
+    EXPECT_TRUE(all_of(out) == right) << out;
     int files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() + "/" + out))
       files += entry.is_regular_file() ? 1 : 0;
@@ -261,16 +296,14 @@ void kill_often(const Folder& folder, const std::string& right, int times) {
 
 TEST_F(StudyVerb, KilledAndStartedAgainItGivesTheSameBytes) {
   folder_.write("slow.json", slow_job());
-  done({"study", "slow.json", "-o", "right"});
-  kill_often(folder_, bytes("right"), 4);
+  kill_often(folder_, 4);
 }
 
 class LongStudyVerb : public StudyVerb {};
 
 TEST_F(LongStudyVerb, KilledFiftyTimesAtRandomMomentsItGivesTheSameBytes) {
   folder_.write("slow.json", slow_job());
-  done({"study", "slow.json", "-o", "right"});
-  kill_often(folder_, bytes("right"), 50);
+  kill_often(folder_, 50);
 }
 
 }  // namespace
