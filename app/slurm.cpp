@@ -96,7 +96,8 @@ void write_slurm_scripts(const SlurmStudy& study) {
   if (error)
     fail("cannot_write", study.folder, "the folder for the scripts cannot be made: " + error.message(),
          "choose another folder with -o, one that every node of the cluster sees");
-  write_file(study.folder + "/shards.sh", shards_script(study));
+  fs::remove(study.folder + "/shards.sh", error);
+  if (!study.missing.empty()) write_file(study.folder + "/shards.sh", shards_script(study));
   write_file(study.folder + "/merge.sh", merge_script(study));
 }
 

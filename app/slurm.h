@@ -23,7 +23,7 @@ int most_slurm_tasks();
 /// Throws Error "study_is_running" while jobs that an earlier submission from this folder made wait or run.
 void refuse_second_submission(const std::string& folder);
 
-/// shards.sh and merge.sh, into study.folder, which is made.
+/// shards.sh (where a shard is missing) and merge.sh, into study.folder, which is made.
 void write_slurm_scripts(const SlurmStudy& study);
 
 /// Submits both, the merge behind the shards. Throws Error "no_slurm", "slurm_refused"; then nothing is left submitted.

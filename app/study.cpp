@@ -14,6 +14,7 @@
 #include "app/study_merge.h"
 #include "app/study_page.h"
 #include "app/study_shards.h"
+#include "app/study_slurm.h"
 #include "app/verb.h"
 #include "engine/error.h"
 #include "io/diagram_file.h"
@@ -27,9 +28,11 @@ constexpr char help[] =
     "Examples:\n"
     "  hysteron study tolerance.json                    every shard, then study.h5, result.json and report.html\n"
     "  hysteron study tolerance.json --shard 3/16       one shard alone, on this machine or another\n"
-    "  hysteron study tolerance.json --merge            joins the shards that are there\n\n"
+    "  hysteron study tolerance.json --merge            joins the shards that are there\n"
+    "  hysteron study tolerance.json --slurm            shards and merge as jobs of a cluster, docs/clusters.md\n\n"
     "Started again, it goes on: finished shards of this very job are kept. Killed at any moment and started\n"
     "again, it gives the same bytes as without. docs/study.md says how jobs are written.\n"
+    "Writes into the folder: shards/*.h5, study.h5 (and study.csv), result.json, report.html; with --slurm: slurm/.\n"
     "Exit codes: 0 done, 2 the job or the diagram is wrong, shards are missing, 130 interrupted.";
 
 int whole_number(const Arguments& arguments, const std::string& option, int otherwise) {
@@ -170,13 +173,31 @@ int one_shard(const Arguments& arguments, Asked& asked) {
   return exit_code::done;
 }
 
+/// What the shards and the merge on a cluster must be told as this command was.
+int submit(const Arguments& arguments, const Asked& asked, const StudyFolder& folder) {
+  std::vector<std::string> words;
+  if (arguments.has("--shards")) words = {"--shards", fmt::format("{}", asked.shards)};
+  for (const auto& allowed : arguments.list("--allow")) words.insert(words.end(), {"--allow", allowed});
+  std::vector<std::string> merge_words;
+  if (arguments.has("--csv")) merge_words = {"--csv"};
+  folder.open();
+  return submit_study(arguments, arguments.text("job"), asked.job.title.empty() ? asked.job.name : asked.job.title,
+                      folder, words, merge_words);
+}
+
 int study(const Arguments& arguments) {
   if (arguments.has("--shard") && arguments.has("--merge"))
     fail("bad_command_line", "--merge", "one shard alone cannot be merged",
          "give --shard or --merge, or none of them for everything");
+  for (const char* other : {"--shard", "--merge", "--threads"})
+    if (wants_slurm(arguments) && arguments.has(other))
+      fail("bad_command_line", other,
+           fmt::format("{} and --slurm exclude each other: shards and merge become jobs of one core each", other),
+           "leave one of them out; a shard computed by --shard before is kept and not submitted");
   Asked asked = read(arguments);
   if (arguments.has("--shard")) return one_shard(arguments, asked);
   const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), asked.shards);
+  if (wants_slurm(arguments)) return submit(arguments, asked, folder);
   std::vector<std::string> said;
   if (!arguments.has("--merge")) {
     std::vector<int> all;
@@ -193,18 +214,21 @@ int study(const Arguments& arguments) {
 }  // namespace
 
 Verb study_verb() {
-  return {"study",
-          "simulate many parameter sets of a diagram: tolerances, sweeps, Monte Carlo",
-          help,
-          {{"job", "JOB.json", "the study (\"do\": \"study\", docs/study.md)", true, false},
-           {"-o", "FOLDER", "where everything goes; default: named after the job, e.g. tolerance.study", false, false},
-           {"--shard", "K/N", "compute shard K of N alone, and merge nothing", false, false},
-           {"--merge", "", "compute nothing, join the shards that are there", false, false},
-           {"--shards", "N", "cut it into so many; default: as the job says, else 16", false, false},
-           {"--threads", "N", "shards at once; default: one per core", false, false},
-           {"--csv", "", "write the samples as study.csv, too", false, false},
-           options::allow()},
-          study};
+  Verb verb{
+      "study",
+      "simulate many parameter sets of a diagram: tolerances, sweeps, Monte Carlo",
+      help,
+      {{"job", "JOB.json", "the study (\"do\": \"study\", docs/study.md)", true, false},
+       {"-o", "FOLDER", "where everything goes; default: named after the job, e.g. tolerance.study", false, false},
+       {"--shard", "K/N", "compute shard K of N alone, and merge nothing", false, false},
+       {"--merge", "", "compute nothing, join the shards that are there", false, false},
+       {"--shards", "N", "cut it into so many; default: as the job says, else 16", false, false},
+       {"--threads", "N", "shards at once; default: one per core", false, false},
+       {"--csv", "", "write the samples as study.csv, too", false, false},
+       options::allow()},
+      study};
+  for (auto& option : slurm_options()) verb.options.push_back(std::move(option));
+  return verb;
 }
 
 }  // namespace hysteron
