@@ -7,6 +7,7 @@
 
 #include "app/facts.h"
 #include "app/numbers.h"
+#include "engine/lanes.h"
 
 namespace hysteron {
 namespace {
@@ -101,6 +102,9 @@ class Page {
           study_.accepted, folder_.shards(), folder_.shards());
     s.text.push_back(
         how + fmt::format(" Samples: study.h5, {}.", study_.keep_all ? "rejected ones, too" : "the accepted ones"));
+    const std::string apart = why_not_in_lanes(*study_.program, study_.base, study_.options, study_.parameters);
+    s.text.push_back(apart.empty() ? "Simulated side by side, many samples in one loop."
+                                   : "Simulated one after the other: " + apart + ".");
     Table t;
     t.columns = {"what", "draws", "share of all"};
     const auto row = [&](const std::string& what, std::uint64_t n) {

@@ -127,17 +127,21 @@ TEST(Demo, NamesCreepReachesTheNoiseOnOtherRecordingsAndTellsIt) {
 }
 
 TEST(DemoInterrupted, EndsWith130AndSaysWhatWasKept) {
-  const Folder folder;
-  const Outcome outcome = hysteron(folder.path(), words("discover", "out"), "", 1500);
-  if (outcome.code == 0) GTEST_SKIP() << "the discovery was done before it could be interrupted";
-  EXPECT_EQ(outcome.code, 130) << outcome.err;
-  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
-  // Whole or absent: either nothing but the working folder, or a folder with everything in it.
-  for (const auto& entry : folder.entries()) EXPECT_EQ(entry, "out/");
-  if (folder.has("out")) {
-    EXPECT_TRUE(folder.has("out/report.html"));
-    EXPECT_NE(folder.read("out/result.json").find("Interrupted"), std::string::npos);
+  for (const int after : {1500, 700, 300}) {  // [ms]; a fast machine is done before the first
+    const Folder folder;
+    const Outcome outcome = hysteron(folder.path(), words("discover", "out"), "", after);
+    if (outcome.code == 0) continue;
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+    // Whole or absent: either nothing but the working folder, or a folder with everything in it.
+    for (const auto& entry : folder.entries()) EXPECT_EQ(entry, "out/");
+    if (folder.has("out")) {
+      EXPECT_TRUE(folder.has("out/report.html"));
+      EXPECT_NE(folder.read("out/result.json").find("Interrupted"), std::string::npos);
+    }
+    return;
   }
+  FAIL() << "the discovery is done within 0.3 s: interrupt it earlier";
 }
 
 }  // namespace

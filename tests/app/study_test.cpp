@@ -191,6 +191,28 @@ TEST_F(StudyVerb, AllDrawsAreKeptWhereThatIsAskedFor) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 51);
 }
 
+TEST_F(StudyVerb, ValuesThatABlockRefusesAreSimulatedWhereAskedFor) {
+  folder_.write("all.json", job(R"("draws": 400, "shards": 5)", R"(, "refused": "simulated")"));
+  done({"study", "all.json"});
+  // an upper limit below the lower one holds the output there: top = gain * upper below 0, which a filter rejects
+  EXPECT_TRUE(result("all.study")["facts"]["failed"].empty());
+}
+
+TEST_F(StudyVerb, SaysWhetherSamplesGoSideBySideOrWhatKeepsThemApart) {
+  const auto how = [&](const std::string& folder) { return result(folder)["sections"][0]["text"].dump(); };
+  done({"study", "limits.json"});
+  EXPECT_NE(how("limits.study").find("side by side"), std::string::npos) << how("limits.study");
+  std::string late = stage, text = job(R"("draws": 20)");
+  late.replace(late.find("\"in\": \"drive\""), 13, "\"in\": \"wait\"");
+  late.replace(late.find("\"limit\":"), 8,
+               "\"wait\": {\"type\": \"dead_time\", \"delay\": \"3 ms\", \"in\": \"drive\"}, \"limit\":");
+  folder_.write("late.json", late);
+  text.replace(text.find("stage.json"), 10, "late.json");
+  folder_.write("apart.json", text);
+  done({"study", "apart.json"});
+  EXPECT_NE(how("apart.study").find("one after the other: dead_time"), std::string::npos) << how("apart.study");
+}
+
 TEST_F(StudyVerb, WrongInputIsToldWithFileAndLine) {
   const auto problem = [&](const std::string& text) {
     folder_.write("wrong.json", text);
