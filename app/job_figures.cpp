@@ -134,10 +134,25 @@ class Plotter {
       x = {y.name, y.unit, std::move(bars.middle)};
       y = {"count", parse_unit(""), std::move(bars.count)};
     }
+    if (plot.kind == "scatter") thin_out(x.values, y.values);
     x.unit = axis_unit(plot.x, x.unit, false);
     to_unit(x.values, x.unit);
     to_unit(y.values, y.unit);
     return {std::move(x), std::move(y)};
+  }
+
+  /// Of very many points every n-th: more of them would cover each other, and fill the page.
+  static void thin_out(std::vector<double>& x, std::vector<double>& y) {
+    constexpr std::size_t most = 5000;
+    const std::size_t n = (x.size() + most - 1) / most;
+    if (n < 2) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < x.size(); i += n, ++kept) {
+      x[kept] = x[i];
+      y[kept] = y[i];
+    }
+    x.resize(kept);
+    y.resize(kept);
   }
 
   void bode(const PlotWish& plot, const std::string& what) {

@@ -52,23 +52,41 @@ struct Band {
   double upper(double c) const { return k.scale * sum_of(k.upper, c); }
 };
 
-/// The band at each c; how far inside it each k lies (negative outside).
-RunResult band_at(const Band& band, const RunColumn& base, const std::vector<double>& c, const std::vector<double>& k) {
+/// One of its curves, c as far as thesis Table 4.1 goes.
+RunResult curve_of(const Band& band, bool upper) {
   RunResult r;
-  r.columns = {base, column("c", "", c), column("k_lower", "V"), column("k_upper", "V")};
-  for (const double x : c) {
-    r.columns[2].values.push_back(band.lower(x));
-    r.columns[3].values.push_back(band.upper(x));
+  r.columns = {column("c", ""), column("k", "V")};
+  for (int i = 0; i <= 200; ++i) {
+    const double c = 0.001 + 0.998 * i / 200;
+    r.columns[0].values.push_back(c);
+    r.columns[1].values.push_back(upper ? band.upper(c) : band.lower(c));
   }
-  if (k.empty()) return r;
-  RunColumn inside = column("inside", "V");
-  for (std::size_t i = 0; i < k.size(); ++i)
-    inside.values.push_back(std::min(k[i] - r.columns[2].values[i], r.columns[3].values[i] - k[i]));
-  r.columns.push_back(std::move(inside));
+  return r;
+}
+
+/// How far inside the band each pair of c and k lies (negative outside).
+RunResult inside_of(const Band& band, const RunColumn& base, const std::vector<double>& c,
+                    const std::vector<double>& k) {
+  RunResult r;
+  r.columns = {base, column("inside", "V")};
+  for (std::size_t i = 0; i < c.size(); ++i)
+    r.columns[1].values.push_back(std::min(k[i] - band.lower(c[i]), band.upper(c[i]) - k[i]));
   return r;
 }
 
 }  // namespace
+
+RunResult JobRunner::selected(const RunWish& run) {
+  const RunResult& from = result(run.other_run);
+  const std::vector<char> keep = kept(run.where, from);
+  RunResult r;
+  for (const auto& column : from.columns) {
+    r.columns.push_back({column.name, column.path, column.unit, {}});
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (keep[i] != 0) r.columns.back().values.push_back(column.values[i]);
+  }
+  return r;
+}
 
 RunResult JobRunner::made_of_values(const RunWish& run) {
   RunResult r;
@@ -96,11 +114,10 @@ RunResult JobRunner::of_formula(const RunWish& run) {
   if (!run.top)
     fail("missing_key", run.formula.pointer, "the band depends on the largest input", "write \"top\": \"6 V\"");
   const Band band(si(*run.top, parse_unit("V")));
-  if (!run.of_run) {
-    RunColumn c = column("c", "");
-    for (int i = 0; i <= 200; ++i) c.values.push_back(0.001 + 0.998 * i / 200);  // as far as thesis Table 4.1 goes
-    return band_at(band, c, c.values, {});
-  }
+  if (run.formula.text != "piezo_band") return curve_of(band, run.formula.text == "piezo_upper");
+  if (!run.of_run)
+    fail("missing_key", run.formula.pointer, "nothing says which rows lie inside the band or not",
+         "write \"of\": {\"run\": \"near\", \"c\": \"c\", \"k\": \"k\"}");
   const RunResult& from = result(*run.of_run);
   const auto argument = [&](const char* name) -> const RunColumn& {
     for (const auto& [a, signal] : run.of)
@@ -108,7 +125,7 @@ RunResult JobRunner::of_formula(const RunWish& run) {
     fail("missing_key", run.of_run->pointer, fmt::format("nothing says which signal is {}", name),
          "write \"of\": {\"run\": \"near\", \"c\": \"model.c\", \"k\": \"model.k\"}");
   };
-  return band_at(band, from.columns.front(), argument("c").values, argument("k").values);
+  return inside_of(band, from.columns.front(), argument("c").values, argument("k").values);
 }
 
 }  // namespace hysteron

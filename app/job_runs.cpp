@@ -139,6 +139,8 @@ std::shared_ptr<const RunResult> JobRunner::done(const RunWish& run) {
     if (run.kind == RunKind::table) return table(run);
     if (run.kind == RunKind::find) return sought(run);
     if (run.kind == RunKind::minimize) return minimized(run);
+    if (run.kind == RunKind::study) return studied(run);
+    if (run.kind == RunKind::select) return selected(run);
     if (run.kind == RunKind::rows) return made_of_values(run);
     if (run.kind == RunKind::computed) return of_formula(run);
     return simulated(run);
@@ -171,9 +173,12 @@ std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {
       for (const auto& s : axis->signals) add_wish(s, named);
     for (const auto& c : p.where) add_wish(c.signal, named);
   }
-  for (const auto& other : job_.runs)
+  for (const auto& other : job_.runs) {
     if (other.of_run && other.of_run->text == run.name)
       for (const auto& [argument, signal] : other.of) add(signal);
+    if (other.kind == RunKind::select && other.other_run.text == run.name)
+      for (const auto& c : other.where) add_wish(c.signal, true);
+  }
   return list;
 }
 

@@ -105,6 +105,7 @@ class JobRunner {
   RunResult fitted(const RunWish& run);
   RunResult sought(const RunWish& run);
   RunResult minimized(const RunWish& run);
+  RunResult studied(const RunWish& run);
   /// A simulation of a run that stands at its start.
   RunResult traced(const Program& program, Run start_of, SimulateOptions options,
                    const std::vector<std::pair<std::string, int>>& asked) const;
@@ -112,6 +113,7 @@ class JobRunner {
   Run with_settings(const RunWish& run, const Program& program);
   SimulateOptions options_of(const RunWish& run, const Program& program) const;
   RunResult table(const RunWish& run) const;
+  RunResult selected(const RunWish& run);
   RunResult made_of_values(const RunWish& run);
   RunResult of_formula(const RunWish& run);
   /// Which rows of a run fulfil all conditions.

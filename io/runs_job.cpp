@@ -143,6 +143,11 @@ class RunsReader {
     if (kind == RunKind::fit) fit(place, r);
     if (kind == RunKind::find) find(place, r);
     if (kind == RunKind::minimize) minimize(place, r);
+    if (kind == RunKind::study) study(place, r);
+    if (kind == RunKind::select) {
+      r.other_run = text_at(*place.find("select"));
+      r.where = conditions(place);
+    }
     if (kind == RunKind::table) r.file = path(place, "table");
     if (kind == RunKind::rows) rows(place, r);
     if (kind == RunKind::computed) computed(place, r);
@@ -179,6 +184,12 @@ class RunsReader {
     } else if (place.find("from")) {
       kind = RunKind::elsewhere;
       also({"from", "run"});
+    } else if (place.find("study")) {
+      kind = RunKind::study;
+      also({"study", "draws", "accepted", "every", "step", "record", "full"});
+    } else if (place.find("select")) {
+      kind = RunKind::select;
+      also({"select", "where"});
     } else if (place.find("minimize")) {
       kind = RunKind::minimize;
       also({"minimize", "diagram", "choose", "set", "use", "until", "every"});
@@ -263,6 +274,24 @@ class RunsReader {
     const auto full = object.find("full");
     if (full && full_ && full->find(key)) return number_member(*full, key);
     return number_member(object, key);
+  }
+
+  void study(const JsonPlace& place, RunWish& r) {
+    r.file = path(place, "study");
+    r.record = texts_of(place, "record");
+    const auto full = place.find("full");
+    if (full && full->expect_object("{\"accepted\": 2000000}")) full->only({"draws", "accepted", "every", "step"});
+    const JsonPlace& object = full && full_ ? *full : place;
+    const auto whole = [&](const char* key) -> std::optional<std::uint64_t> {
+      const auto at = object.find(key);
+      const auto value = at ? whole_at(*at, 1, 1e13) : std::nullopt;
+      return value ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt;
+    };
+    r.size = StudySize{whole("draws"), whole("accepted")};
+    r.every = number_of(object, "every");
+    r.step = number_of(object, "step");
+    if (r.size->draws && r.size->accepted)
+      object.add("bad_value", "two things say how many samples there are", "write \"draws\" or \"accepted\"");
   }
 
   void minimize(const JsonPlace& place, RunWish& r) {
@@ -535,6 +564,8 @@ class RunsReader {
       for (const auto& s : r.set_of) check_value(s.value);
       if (r.data) check_run(r.data->run);
       if (r.of_run) check_run(*r.of_run);
+      if (r.kind == RunKind::select) check_run(r.other_run);
+      check_conditions(r.where);
       for (const auto& column : r.rows)
         for (const auto& cell : column.cells) check_value(cell.value);
       if (r.kind == RunKind::find || r.kind == RunKind::minimize) check_value_wish(r.aim);
@@ -571,6 +602,9 @@ class RunsReader {
       for (const auto& s : r.set_of) needs.push_back("value " + s.value.text);
       if (r.data) needs.push_back("run " + r.data->run.text);
       if (r.of_run) needs.push_back("run " + r.of_run->text);
+      if (r.kind == RunKind::select) needs.push_back("run " + r.other_run.text);
+      for (const auto& c : r.where)
+        if (c.signal.minus_run) needs.push_back("run " + c.signal.minus_run->text);
       for (const auto& column : r.rows)
         for (const auto& cell : column.cells)
           if (!cell.value.text.empty()) needs.push_back("value " + cell.value.text);
@@ -638,7 +672,7 @@ const std::vector<std::string>& combinations() {
 }
 
 const std::vector<std::string>& computed_rows() {
-  static const std::vector<std::string> names{"reflection", "piezo_band"};
+  static const std::vector<std::string> names{"reflection", "piezo_lower", "piezo_upper", "piezo_band"};
   return names;
 }
 

@@ -60,7 +60,7 @@ struct ValueWish {
   WrittenText figure;                       ///< of a computed value: its name; of a parameter: its path
 };
 
-enum class RunKind { simulate, linearize, fit, table, elsewhere, find, minimize, rows, computed };
+enum class RunKind { simulate, linearize, fit, table, elsewhere, find, minimize, study, select, rows, computed };
 
 /// The rows of another run as the data of a fit.
 struct FitDataWish {
@@ -93,10 +93,16 @@ struct SearchWish {
   std::optional<AttractorWish> attractor{};
 };
 
+/// How large a study is here, instead of what its job says.
+struct StudySize {
+  std::optional<std::uint64_t> draws{}, accepted{};
+};
+
 struct RunWish {
   std::string name, pointer, title;
   RunKind kind = RunKind::simulate;
-  std::string file;  ///< the diagram; of a fit its diagram or job; of a table the CSV; of elsewhere the job
+  std::string
+      file;  ///< the diagram; of a fit its diagram or job; of a table the CSV; of elsewhere and of study the job
   std::vector<Override> choose, set;
   std::vector<ValueSetting> set_of{};
   std::vector<UseWish> use{};
@@ -107,7 +113,7 @@ struct RunWish {
   std::optional<FitDataWish> data{};
   std::vector<std::string> free{};
   std::optional<WrittenText> method{};  ///< of fit: instead of the first one of its job
-  WrittenText other_run;                ///< of elsewhere: its name there
+  WrittenText other_run;                ///< of elsewhere: its name there; of select: the run whose rows it takes
   std::vector<RowsColumn> rows{};
   WrittenText formula;                                    ///< of computed: which
   std::vector<std::pair<std::string, WrittenText>> of{};  ///< of computed: its argument -> a signal of `of_run`
@@ -115,9 +121,13 @@ struct RunWish {
   std::optional<WrittenNumber> top{};  ///< of computed: largest input
   WrittenText parameter;               ///< of find: what is varied ...
   std::vector<WrittenNumber> range{};
-  ValueWish aim{};                     ///< ... until this (of the run itself; of minimize: what shall be small) ...
-  WrittenNumber equals{};              ///< ... is that
-  std::optional<SearchWish> search{};  ///< of minimize
+  ValueWish aim{};                      ///< ... until this (of the run itself; of minimize: what shall be small) ...
+  WrittenNumber equals{};               ///< ... is that
+  std::optional<SearchWish> search{};   ///< of minimize
+  std::optional<StudySize> size{};      ///< of study
+  std::optional<WrittenNumber> step{};  ///< of study: of fixed steps
+  std::vector<RowCondition> where{};    ///< of select
+  std::vector<WrittenText> record{};    ///< of study: columns; empty: all
 };
 
 struct AxisWish {

@@ -131,6 +131,16 @@ Json run() {
                               {"run", "columns"});
   properties["table"] = text("a CSV in place of a simulation");
   properties["minimize"] = minimize();
+  properties["study"] = text("a study in place of a simulation: its job; gives its accepted samples as rows");
+  properties["record"] = names("of study: parameters and features that become signals; default all");
+  properties["draws"] = number("of study: so many draws, instead of what its job says");
+  properties["accepted"] = number("of study: as many draws as so many accepted ones take");
+  properties["step"] = quantity("of study: of a fixed-step solver", false);
+  properties["full"] = object(
+      "of study: its size with --full",
+      {{"draws", number("")}, {"accepted", number("")}, {"every", quantity("", false)}, {"step", quantity("", false)}});
+  properties["select"] = text("rows of another run, those for which where holds");
+  properties["where"] = where();
   properties["rows"] = {
       {"type", "object"},
       {"description", "rows made of values of this job and of numbers: {\"f\": [\"10 Hz\"], \"area\": [\"area_10\"]}"},
@@ -163,19 +173,18 @@ Json axis() {
 }
 
 Json plot() {
-  return object(
-      "a figure",
-      {{"title", text("")},
-       {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "medians", "bode"})},
-       {"x", axis()},
-       {"y", axis()},
-       {"runs", names("default: all that have the signals")},
-       {"between", window()},
-       {"rezero", flag("less the value at the first row")},
-       {"where", where()},
-       {"bins", number("of a histogram; default 30")},
-       {"caption", text("")},
-       {"remark", text("")}});
+  return object("a figure",
+                {{"title", text("")},
+                 {"kind", choice_of("default curve", {"curve", "spectrum", "histogram", "scatter", "medians", "bode"})},
+                 {"x", axis()},
+                 {"y", axis()},
+                 {"runs", names("default: all that have the signals")},
+                 {"between", window()},
+                 {"rezero", flag("less the value at the first row")},
+                 {"where", where()},
+                 {"bins", number("of a histogram; default 30")},
+                 {"caption", text("")},
+                 {"remark", text("")}});
 }
 
 Json claim() {

@@ -119,7 +119,8 @@ constexpr char figure4[] = R"({
                        "parameters": {"model.weights[1]": ["0 um/V", "2 um/V"]}}},
            "again":  {"use": "sought"},
            "made":   {"rows": {"f": ["10 Hz", "20 Hz"], "y": ["top", "top"]}},
-           "band":   {"computed": "piezo_band", "top": "1 V"},
+           "band":   {"computed": "piezo_lower", "top": "1 V"},
+           "part":   {"select": "wanted", "where": [{"signal": "drive", "from": "2.9999 V"}]},
            "inside": {"computed": "piezo_band", "top": "1 V", "of": {"run": "pairs", "c": "c", "k": "k"}},
            "pairs":  {"table": "pairs.csv"}},
   "plots": [{"title": "Convergence", "kind": "medians", "x": {"signal": "iteration"}, "y": {"signal": "cost", "unit": "um2"}, "runs": ["sought"]},
@@ -136,9 +137,10 @@ constexpr char figure4[] = R"({
              "shape":    {"take": "max_abs", "of": "y", "minus": {"run": "small", "signal": "y"}, "same_stroke": true, "run": "half"},
              "high":     {"take": "share", "of": "drive", "run": "wanted", "above": "3.0001 V", "between": ["0 s", "0.099 s"]},
              "apart":    {"take": "ks_distance", "of": "drive", "run": "wanted", "between": ["0 s", "0.099 s"], "where": [{"signal": "drive", "from": "2.9999 V"}]},
+             "selected": {"take": "min", "of": "drive", "run": "part"},
              "least":    {"take": "min", "of": "inside", "run": "inside"},
              "most":     {"take": "max", "of": "inside", "run": "inside"},
-             "k_0":      {"take": "first", "of": "k_lower", "run": "band"},
+             "k_0":      {"take": "first", "of": "k", "run": "band"},
              "number":   {"constant": "2 um"},
              "twice":    {"sum": ["number", "number"]}},
   "claims": [{"id": "C4-01", "value": "weight", "expected": "0.5 um/V", "tolerance": "0.01 um/V"},
@@ -147,6 +149,7 @@ constexpr char figure4[] = R"({
              {"id": "C4-03", "value": "shape", "below": "1e-9 um"},
              {"id": "C4-04", "value": "high", "expected": 0.49, "tolerance": 1e-9},
              {"id": "C4-04", "value": "apart", "expected": 0.49, "tolerance": 1e-9},
+             {"id": "C4-04", "value": "selected", "expected": "3 V", "tolerance": "1e-9 V"},
              {"id": "C4-05", "value": "least", "expected": "-0.579 V", "tolerance": "0.001 V"},
              {"id": "C4-05", "value": "most", "expected": "0.061 V", "tolerance": "0.001 V"},
              {"id": "C4-05", "value": "k_0", "expected": "0.04526 V", "tolerance": "1e-5 V"},
@@ -312,6 +315,51 @@ TEST_F(Reproduce, SearchesFromSeveralSeedsRowsOfValuesFormulasAndConditions) {
   EXPECT_NE(full.out.find("differs: fig2_4: seeds 3; expected 2"), std::string::npos) << full.out;
 }
 
+// Draws of the second weight between 0 and 2 um/V: the height is 6 + 3 w, and every draw above 9 um is kept. A share of
+// 400 draws is known to 0.025.
+constexpr char figure5[] = R"({
+  "format": 1, "do": "runs", "title": "Draws",
+  "runs": {"samples": {"study": "draws.json", "draws": 400, "record": ["model.weights[1]", "height"], "full": {"accepted": 50}},
+           "low": {"select": "samples", "where": [{"signal": "height", "to": "10 um"}]}},
+  "plots": [{"kind": "histogram", "bins": 4, "runs": ["low"], "y": {"signal": "height"}}],
+  "values": {"draws":    {"take": "parameter", "parameter": "draws", "run": "samples"},
+             "accepted": {"take": "parameter", "parameter": "accepted", "run": "samples"},
+             "passed":   {"take": "parameter", "parameter": "passed.height", "run": "samples"},
+             "least":    {"take": "min", "of": "model.weights[1]", "run": "samples"},
+             "rows":     {"take": "rows", "of": "height", "run": "samples"},
+             "most":     {"take": "max", "of": "height", "run": "low"}},
+  "claims": [{"id": "C4-01", "value": "draws", "expected": 400, "tolerance": 1e-9},
+             {"id": "C4-02", "value": "accepted", "expected": 0.5, "tolerance": 0.075},
+             {"id": "C4-02", "value": "passed", "expected": 0.5, "tolerance": 0.075},
+             {"id": "C4-03", "value": "least", "expected": "1 um/V", "tolerance": "0.05 um/V"},
+             {"id": "C4-04", "value": "most", "expected": "10 um", "tolerance": "0.1 um"},
+             {"id": "C4-05", "value": "rows", "above": 50.5}]
+})";
+constexpr char draws[] = R"({
+  "format": 1, "do": "study", "diagram": "stage.json",
+  "sample": {"method": "uniform", "draws": 7, "shards": 3, "parameters": {"model.weights[1]": {"from": "0 um/V", "to": "2 um/V"}}},
+  "features": {"height": {"take": "max", "of": "y"}},
+  "filters": [{"feature": "height", "above": "9 um"}]
+})";
+
+TEST_F(Reproduce, SamplesOfAStudyAreRowsOfARun) {
+  folder_.write("diagrams/chapter2/draws.json", draws);
+  folder_.write("diagrams/chapter2/fig2_5.json", figure5);
+  const Outcome outcome = hysteron(folder_.path(), {"reproduce", "fig2_5", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json found = result("out")["facts"]["claims"];
+  for (const char* id : {"C4-01", "C4-02", "C4-03", "C4-04", "C4-05"})
+    EXPECT_EQ(found[id]["outcome"], "agrees") << id << found[id].dump(1);
+  const Outcome full = hysteron(folder_.path(), {"reproduce", "fig2_5", "--full", "-o", "full"});
+  EXPECT_NE(full.out.find("differs: fig2_5: rows 50; expected above 50.5"), std::string::npos) << full.out << full.err;
+  std::string wrong = figure5;
+  wrong.replace(wrong.find("\"height\"], \"full\""), 17, "\"heigth\"], \"full\"");
+  folder_.write("diagrams/chapter2/fig2_5.json", wrong);
+  const Outcome refusal = hysteron(folder_.path(), {"reproduce", "fig2_5"});
+  EXPECT_EQ(refusal.code, 2);
+  EXPECT_NE(refusal.err.find("Did you mean \"height\"?"), std::string::npos) << refusal.err;
+}
+
 TEST_F(Reproduce, AWrongSearchIsToldAtItsPlace) {
   const std::string start = figure4;
   folder_.write("diagrams/chapter2/pairs.csv", "row,c,k [V]\n0,0.693,0.648\n");
@@ -322,7 +370,7 @@ TEST_F(Reproduce, AWrongSearchIsToldAtItsPlace) {
   refused(start, "\"y\": [\"top\", \"top\"]", "\"y\": [\"top\"]", "give every column as many");
   refused(start, "[\"top\", \"top\"]", "[\"top\", \"tap\"]", "Did you mean \"top\"?");
   refused(start, "\"from\": 11, \"to\": 11", "\"from\": 1100", "no row fulfils");
-  refused(start, "\"computed\": \"piezo_band\", \"top\": \"1 V\"}", "\"computed\": \"piezo_bund\"}", "piezo_band");
+  refused(start, "\"computed\": \"piezo_lower\", \"top\": \"1 V\"}", "\"computed\": \"piezo_lowr\"}", "piezo_lower");
 }
 
 TEST_F(Reproduce, ADamagedBaselineIsRefused) {

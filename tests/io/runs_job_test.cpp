@@ -119,6 +119,28 @@ TEST(RunsJob, SizesUnderFullCountWhereTheyAreAskedFor) {
   EXPECT_EQ(job.runs.at(0).search->parameters.at(0).high.number.value, 2);
 }
 
+TEST(RunsJob, AStudyMayBeSmallerOrLargerThanItsJobSays) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("job.json", R"({"format": 1, "do": "runs",
+    "runs": {"a": {"study": "mc.json", "draws": 100, "every": "1 ms", "step": "0.5 ms", "record": ["c", "k"],
+                   "full": {"accepted": 5000}},
+             "b": {"select": "a", "where": [{"signal": "c", "to": 0.5}]}}})");
+  const auto small = read_runs_job(file).runs.at(0), full = read_runs_job(file, {}, true).runs.at(0);
+  EXPECT_EQ(small.kind, RunKind::study);
+  EXPECT_EQ(small.size->draws, 100U);
+  EXPECT_FALSE(small.size->accepted);
+  EXPECT_EQ(small.step->number.value, 0.5);
+  EXPECT_EQ(small.record.at(1).text, "k");
+  EXPECT_EQ(full.size->accepted, 5000U);
+  EXPECT_FALSE(full.size->draws);
+  EXPECT_FALSE(full.every);
+  EXPECT_EQ(read_runs_job(file).runs.at(1).other_run.text, "a");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"study": "mc.json", "draws": 1, "accepted": 1}})"), "bad_value /runs/a");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"study": "mc.json", "draws": 1.5}})"), "bad_value /runs/a/draws");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"select": "b"}})"), "unknown_run /runs/a/select");
+  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"select": "b"}, "b": {"select": "a"}})"), "circular /runs/a");
+}
+
 TEST(RunsJob, ConditionsAndSearchesThatSayTooLittleAreToldSo) {
   const std::string run = "\"runs\": {\"a\": {}},\n";
   const auto value = [&](const std::string& more) {
