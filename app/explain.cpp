@@ -322,8 +322,12 @@ class Explanation {
     rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
                     from_diagram(program_.simulate.every.has_value())});
     const std::string apart = why_not_in_lanes(program_);
-    rows.push_back({"in lanes", apart.empty() ? "applies" : "does not apply",
-                    apart.empty() ? "many parameter sets side by side, with the methods euler and rk4" : apart});
+    rows.push_back(
+        {"in lanes", apart.empty() ? "applies" : "does not apply",
+         apart.empty()
+             ? "many parameter sets side by side, with the methods euler and rk4; not where the corners of a source "
+               "are varied"
+             : apart});
     options.method = choice.method;
     if (!exact) add_integrator_rows(rows, options);
     show({}, rows);

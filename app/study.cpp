@@ -17,6 +17,7 @@
 #include "app/study_slurm.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/lanes.h"
 #include "io/diagram_file.h"
 
 namespace hysteron {
@@ -146,6 +147,8 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
                   progress_text(now, study));
   });
   progress.clear();
+  if (const auto apart = why_not_in_lanes(*study.program, study.base, study.options, study.parameters); !apart.empty())
+    said.push_back("simulated one after the other: " + apart);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const int used = std::min(threads, static_cast<int>(missing.size()));
   said.push_back(
@@ -158,6 +161,8 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
 
 int one_shard(const Arguments& arguments, Asked& asked) {
   const ShardChoice choice = shard_of(arguments.text("--shard"));
+  if (arguments.has("--csv"))
+    fail("bad_command_line", "--csv", "one shard alone writes no CSV", "give --csv with --merge");
   if (asked.problem.study.draws == 0 && choice.shards != asked.shards)
     fail("bad_command_line", "--shard",
          fmt::format(

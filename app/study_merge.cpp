@@ -122,7 +122,7 @@ class PlotCounter {
     Figure f;
     f.title = plot_.title;
     f.caption = plot_.caption;
-    f.log_x = plot_.x.log;
+    f.log_x = plot_.y ? plot_.x.log : bins_.log;
     axis(plot_.x, f.x_label, f.x_range);
     Curve curve;
     curve.name = plot_.all ? "all draws" : "accepted";
@@ -149,7 +149,8 @@ class PlotCounter {
         all += counts_[static_cast<std::size_t>(i)];
       }
       corner(plot_.bins, 0);
-      note(f, count_text(static_cast<long>(all), "sample"));
+      note(f, all == 0 ? "no sample meets this" : count_text(static_cast<long>(all), "sample"));
+      if (plot_.x.log && !bins_.log) note(f, "values that are not above zero: bins of equal width");
     }
     f.curves.push_back(std::move(curve));
     return f;

@@ -130,7 +130,7 @@ class Page {
       const auto& column = study_.columns[c];
       const auto& found = merged_.columns[c];
       const auto text = [&](double v) { return found.count == 0 ? std::string("-") : with_unit(v, column.unit); };
-      t.rows.push_back({column.name, column.meaning, text(found.smallest), text(found.mean), text(found.deviation),
+      t.rows.push_back({column.name, column.told(), text(found.smallest), text(found.mean), text(found.deviation),
                         text(found.largest)});
     }
     s.tables.push_back(std::move(t));
@@ -151,7 +151,7 @@ class Page {
       const auto& found = merged_.columns[c];
       const auto number = [&](double v) { return found.count == 0 ? std::optional<double>() : std::optional(v); };
       columns.set(column.name, Facts::object({{"unit", unit_text(column.unit)},
-                                              {"meaning", column.meaning},
+                                              {"meaning", column.told()},
                                               {"smallest", number(found.smallest)},
                                               {"mean", number(found.mean)},
                                               {"deviation", number(found.deviation)},

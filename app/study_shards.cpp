@@ -117,7 +117,7 @@ class ShardWork {
 std::vector<ColumnHead> study_heads(const Study& study) {
   std::vector<ColumnHead> heads{{"draw", "", "number of the draw, from 0", true}};
   if (study.keep_all) heads.push_back({"accepted", "", "1: it passed every filter", true});
-  for (const auto& c : study.columns) heads.push_back({c.name, c.unit.text, c.meaning});
+  for (const auto& c : study.columns) heads.push_back({c.name, c.unit.text, c.told()});
   return heads;
 }
 
@@ -252,7 +252,8 @@ void StudyFolder::clean() const {
   std::error_code ignored;
   for (const auto& folder : {folder_, folder_ + "/shards"})
     for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (left_over(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+      if (left_over(entry.path().filename().string()) && !is_being_written(entry.path().string()))
+        fs::remove(entry.path(), ignored);  // HDF5 locks what it writes
 }
 
 }  // namespace hysteron

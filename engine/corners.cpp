@@ -1,6 +1,9 @@
 #include "engine/corners.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace hysteron {
 namespace {
@@ -33,7 +36,13 @@ double Corners::corner_behind(int block, double t) const {
   for (double from = t, nudge = same_instant(t);; from = t + nudge, nudge *= 2) {
     view.t = view.branch = from;
     const double corner = kernel->next_corner(view);
-    if (corner > t + same_instant(t) || nudge == 0 || nudge > 1e-9 * std::max(1.0, std::abs(t))) return corner;
+    if (corner > t + same_instant(t)) return corner;
+    if (nudge != 0 && nudge <= 1e-9 * std::max(1.0, std::abs(t))) continue;
+    const auto& b = program_.blocks[static_cast<std::size_t>(block)];
+    fail("bad_value", b.path,
+         fmt::format("{} \"{}\" names {} s as its next corner behind {} s", b.kernel->declaration.type, b.path, corner,
+                     t),
+         "check its times: they do not go on");
   }
 }
 

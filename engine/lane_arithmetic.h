@@ -31,4 +31,12 @@ struct LaneCombination {
 /// x[i] += h/6 (k1[i] + 2 (k2[i] + k3[i]) + k4[i]): the classical formula of order four.
 void lane_combine(const LaneCombination& a);
 
+struct LaneSum {
+  double* sum;
+  const double* y;
+  std::size_t count;
+};
+/// sum[i] += 0 y[i]: zero as long as every y was finite, not a number for ever behind one that was not.
+void lane_watch(const LaneSum& a);
+
 }  // namespace hysteron

@@ -77,6 +77,7 @@ SharedNumbers::SharedNumbers(ProgramPointer program, const Run& run, const std::
 }
 
 const double* SharedNumbers::numbers(std::size_t instant) {
+  if (slots_.empty()) return now_.data();
   if (!table_.empty()) return table_.data() + instant * slots_.size();
   evaluate(instants_[instant], now_.data());
   return now_.data();

@@ -41,7 +41,7 @@ class Lanes::Advance {
   std::vector<double> instants_;
   std::vector<LanePoint> points_;
   LaneEvaluation evaluation_;
-  LaneNumbers x_, trial_, k1_, k2_, k3_, recorded_;
+  LaneNumbers x_, trial_, k1_, k2_, k3_, recorded_, watched_;
   std::optional<LaneEvaluation::List> derivatives_, values_;
   long row_ = 0;
 };
@@ -61,7 +61,8 @@ Lanes::Advance::Advance(ProgramPointer program, const Run& run, const SimulateOp
       k1_(program_->n_x),
       k2_(program_->n_x),
       k3_(program_->n_x),
-      recorded_(static_cast<int>(signals_.size())) {
+      recorded_(static_cast<int>(signals_.size())),
+      watched_(static_cast<int>(signals_.size())) {
   if (const auto why = why_not_in_lanes(*program_, run, options, parameters_); !why.empty())
     fail("not_in_lanes", "/simulate", "runs cannot go side by side: " + why, "run them one after the other");
   check_inputs(*program_, run);
@@ -85,7 +86,8 @@ Lanes::Advance::Advance(ProgramPointer program, const Run& run, const SimulateOp
     stages.push_back({from + point.h / 2, point.branch_before});
     stages.push_back({point.t, point.branch_before});
   }
-  if (program_->n_x > 0) derivatives_ = evaluation_.make_list(run_, program_->derivative_steps, {}, std::move(stages));
+  if (program_->n_x > 0 && points_.size() > 1)
+    derivatives_ = evaluation_.make_list(run_, program_->derivative_steps, {}, std::move(stages));
   values_ = evaluation_.make_list(run_, program_->n_m > 0 ? program_->all_values : steps_for(*program_, signals_),
                                   signals_, std::move(ends));
   // Parameters and constants that are not varied are the same in all lanes.
@@ -138,6 +140,7 @@ void Lanes::Advance::arrive(std::size_t point, const Sink& sink) {
   if (here.rows == 0) return;
   for (std::size_t s = 0; s < signals_.size(); ++s)
     std::copy_n(evaluation_.y(signals_[s]), width, recorded_.row(static_cast<int>(s)));
+  lane_watch({watched_.data(), recorded_.data(), recorded_.size()});
   for (int i = 0; i < here.rows; ++i, ++row_) sink(row_, instants_[at(static_cast<int>(row_))], recorded_.data());
 }
 
@@ -155,6 +158,7 @@ std::vector<std::optional<Problem>> Lanes::Advance::operator()(std::span<const d
   if (derivatives_) evaluation_.begin(*derivatives_);
   evaluation_.begin(*values_);
   row_ = 0;
+  std::fill_n(watched_.data(), watched_.size(), 0.0);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (i > 0 && program_->n_x > 0) take_step(points_[i], points_[i - 1].t);
     arrive(i, sink);
@@ -164,17 +168,20 @@ std::vector<std::optional<Problem>> Lanes::Advance::operator()(std::span<const d
 }
 
 void Lanes::Advance::tell_runaways(std::vector<std::optional<Problem>>& results) {
+  const auto tell = [](const std::string& path, const std::string& what) {
+    return Problem{"diverged", path, what, "check the parameters, and gain and sign of the loop around it", "", 0};
+  };
+  for (std::size_t k = 0; k < signals_.size(); ++k)
+    for (std::size_t s = 0; s < results.size(); ++s)
+      if (const auto& path = program_->signals[at(signals_[k])].path;
+          !results[s] && !(watched_.row(static_cast<int>(k))[s] == 0))
+        results[s] = tell(path, fmt::format("\"{}\" is not finite in a row", path));
   for (const BlockInstance& b : program_->blocks)
     for (std::size_t s = 0; s < results.size(); ++s)
       for (int i = 0; i < b.sizes.states && !results[s]; ++i)
         if (!std::isfinite(LaneEvaluation::state(b, x_, i, static_cast<int>(s))))
-          results[s] = Problem{"diverged",
-                               b.path,
-                               fmt::format("{} \"{}\" runs away: a state of it is not finite at the end",
-                                           b.kernel->declaration.type, b.path),
-                               "check the parameters, and gain and sign of the loop around it",
-                               "",
-                               0};
+          results[s] = tell(b.path, fmt::format("{} \"{}\" runs away: a state of it is not finite at the end",
+                                                b.kernel->declaration.type, b.path));
 }
 
 Lanes::Lanes(ProgramPointer program, const Run& run, const SimulateOptions& options, std::vector<int> parameters,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/parameter_values.h"
 #include "engine/program.h"
 #include "engine/simulate.h"
 
@@ -23,14 +24,6 @@ std::string why_not_in_lanes(const Program& program);
 /// with the cure.
 std::string why_not_in_lanes(const Program& program, const Run& run, const SimulateOptions& options,
                              std::span<const int> parameters);
-
-/// What becomes of parameter values outside the range of a block's law (Kernel::check).
-enum class RefusedValues { end_the_run, are_simulated };
-
-/// Sets many parameters [SI] (places in program.parameters) and what depends on them, each block once. Throws Error
-/// "bad_value" where a block refuses them and that ends the run.
-void set_parameters(const Program& program, Run& run, std::span<const int> parameters, std::span<const double> values,
-                    RefusedValues refused);
 
 class Lanes {
  public:

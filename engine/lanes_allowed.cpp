@@ -83,22 +83,4 @@ std::string why_not_in_lanes(const Program& program, const Run& run, const Simul
   return "";
 }
 
-void set_parameters(const Program& program, Run& run, std::span<const int> parameters, std::span<const double> values,
-                    RefusedValues refused) {
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    for (const int slot : program.parameters[at(parameters[i])].slots) run.p[at(slot)] = values[i];
-  for (std::size_t i = 0; i < program.blocks.size(); ++i) {
-    const BlockInstance& b = program.blocks[i];
-    if (b.kernel->check == nullptr && b.kernel->prepare == nullptr) continue;
-    if (!block_varies(program, b, parameters)) continue;
-    if (refused == RefusedValues::end_the_run) {
-      prepare(program, run, static_cast<int>(i));
-    } else if (b.kernel->prepare != nullptr) {
-      View<double> v = view_of(program, run, static_cast<int>(i));
-      v.out = run.c.data() + b.c_begin;
-      b.kernel->prepare(v);
-    }
-  }
-}
-
 }  // namespace hysteron

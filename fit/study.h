@@ -20,6 +20,8 @@ namespace hysteron {
 /// A parameter or a feature. Everything a study keeps and compares is in the unit of its column.
 struct StudyColumn {
   std::string name, meaning;
+  std::string remark{};  ///< for people; decides nothing
+  std::string told() const { return remark.empty() ? meaning : meaning + ": " + remark; }
   Unit unit{};
   bool difference = false;  ///< converted without the unit's offset
   double shown(double si) const { return difference ? unit.difference_from_si(si) : unit.from_si(si); }

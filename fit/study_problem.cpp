@@ -137,7 +137,7 @@ class Builder {
     if (!wish.file.empty()) range.values = column_of(wish, unit, info);
     check(wish, range, info.path);
     study_.parameters.push_back(place);
-    study_.columns.push_back({wish.parameter.text, fmt::format("parameter {}", info.path), unit, info.difference});
+    study_.columns.push_back({wish.parameter.text, fmt::format("parameter {}", info.path), "", unit, info.difference});
     ranges_.push_back(std::move(range));
   }
 
@@ -219,7 +219,7 @@ class Builder {
       combination(wish, feature.combination, column);
     }
     column.name = wish.name;
-    if (!wish.remark.empty()) column.meaning += ": " + wish.remark;
+    column.remark = wish.remark;
     if (wish.unit) {
       Unit unit = parse_unit(wish.unit->text, wish.unit->pointer);
       need_dimension(unit, column.unit, wish.unit->pointer, wish.name);
@@ -237,6 +237,7 @@ class Builder {
     Unit unit = unit_of(f.signal);
     f.rezero = wish.rezero;
     if (wish.at) f.at = seconds(*wish.at);
+    if (wish.at) need_inside(f.at, wish.at->pointer);
     window(wish, f);
     std::string of = wish.of.text;
     if (wish.minus) {
@@ -284,18 +285,31 @@ class Builder {
     }
   }
 
+  /// A millionth of a row's distance.
+  double slack() const {
+    const auto& t = study_.instants;
+    return t.size() < 2 ? 0 : 1e-6 * (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  }
+  void need_inside(double seconds, const std::string& pointer) const {
+    const auto& t = study_.instants;
+    if (seconds >= t.front() - slack() && seconds <= t.back() + slack()) return;
+    fail("bad_value", pointer, fmt::format("{} s lies outside the simulation", seconds),
+         fmt::format("the simulation goes from {} s to {} s", t.front(), t.back()));
+  }
+
   /// Both ends included, up to a millionth of a row's distance.
   void window(const FeatureWish& wish, TraceFeature& f) const {
     const auto& t = study_.instants;
     f.last = static_cast<long>(t.size());
     if (!wish.between.given()) return;
-    const double slack = t.size() < 2 ? 0 : 1e-6 * (t.back() - t.front()) / static_cast<double>(t.size() - 1);
     const double from = seconds(*wish.between.from), to = seconds(*wish.between.to);
-    f.first = std::lower_bound(t.begin(), t.end(), from - slack) - t.begin();
-    f.last = std::upper_bound(t.begin(), t.end(), to + slack) - t.begin();
+    f.first = std::lower_bound(t.begin(), t.end(), from - slack()) - t.begin();
+    f.last = std::upper_bound(t.begin(), t.end(), to + slack()) - t.begin();
     if (f.first >= f.last)
       fail("empty_window", wish.between.from->pointer, fmt::format("there are no rows from {} s to {} s", from, to),
            fmt::format("the simulation goes from {} s to {} s", t.front(), t.back()));
+    need_inside(from, wish.between.from->pointer);
+    need_inside(to, wish.between.to->pointer);
   }
 
   /// The column of a recording at the rows of the study.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -114,6 +115,11 @@ void write_file(const std::string& file, std::string_view content) {
   write_and_rename(target, content, exists ? (status.st_mode & 07777) : mode_of_new_files());
 }
 
+bool is_being_written(const std::string& unfinished) {
+  Handle handle(::open(unfinished.c_str(), O_RDONLY | O_CLOEXEC));
+  return handle.fd >= 0 && ::flock(handle.fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 std::string unfinished_prefix(const std::string& file) { return file + ".partial-"; }
 
 UnfinishedFile::UnfinishedFile(std::string file) : file_(std::move(file)) {
@@ -131,6 +137,7 @@ void UnfinishedFile::fail_now() const { fail_write(file_, errno != 0 ? errno : E
 
 void UnfinishedFile::finish() {
   Handle handle(::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC));
+  if (handle.fd >= 0) ::flock(handle.fd, LOCK_EX | LOCK_NB);  // nobody takes it for a leftover
   int error = handle.fd < 0 || ::fsync(handle.fd) != 0 ? errno : 0;
   const int at_close = handle.fd < 0 ? 0 : handle.close();
   if (error == 0) error = at_close;

@@ -33,6 +33,9 @@ class UnfinishedFile {
   std::string file_, temporary_;
 };
 
+/// Does a process write this unfinished file at present? Told by locks: false where the file system has none.
+bool is_being_written(const std::string& unfinished);
+
 /// How the names begin under which an UnfinishedFile of `file` lies.
 std::string unfinished_prefix(const std::string& file);
 

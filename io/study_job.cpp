@@ -213,6 +213,9 @@ class StudyReader {
     for (const auto& [name, place] : list.members())
       if (check_name(place, name, "feature")) {
         const auto names = known_names();
+        if (name == "draw" || name == "accepted")
+          place.add("bad_name", fmt::format("the samples have a column \"{}\" of their own", name),
+                    "give the feature another name");
         if (std::find(names.begin(), names.end(), name) != names.end())
           place.add("bad_name", fmt::format("a varied parameter is called \"{}\", too", name),
                     "give the feature another name");

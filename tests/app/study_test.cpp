@@ -1,5 +1,8 @@
 // The verb study: shards, their merge, what is kept when it is killed, and wrong input.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -171,6 +174,29 @@ TEST_F(StudyVerb, AFolderOfAStudyThatWasKilledAtItsVeryBeginningIsItsOwn) {
   EXPECT_FALSE(folder_.has("limits.study/shards/study.txt.aB3x9Z"));
 }
 
+TEST_F(StudyVerb, ARemarkChangesNothing) {
+  done({"study", "limits.json", "-o", "out"});
+  std::string text = folder_.read("limits.json");
+  text.replace(text.find("\"take\": \"max\""), 13, "\"take\": \"max\", \"remark\": \"the highest\"");
+  folder_.write("limits.json", text);
+  const Outcome again = done({"study", "limits.json", "-o", "out"});
+  EXPECT_NE(again.out.find("5 of 5 shards were there already"), std::string::npos) << again.out;
+  EXPECT_NE(folder_.read("out/report.html").find("the highest"), std::string::npos);
+}
+
+TEST_F(StudyVerb, WhatAnotherProcessIsWritingIsNoLeftover) {
+  done({"study", "limits.json", "-o", "out"});
+  const std::string partial = "out/shards/1-of-5.h5.partial-abcdef";
+  folder_.write(partial, "half");
+  const int other = ::open((folder_.path() + "/" + partial).c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+  done({"study", "limits.json", "-o", "out"});
+  EXPECT_TRUE(folder_.has(partial));
+  ::close(other);  // as when that process ends or is killed
+  done({"study", "limits.json", "-o", "out"});
+  EXPECT_FALSE(folder_.has(partial));
+}
+
 TEST_F(StudyVerb, AFolderThatIsNotItsOwnIsLeftAlone) {
   folder_.write("mine/notes.txt", "keep");
   const Outcome outcome = hysteron(folder_.path(), {"study", "limits.json", "-o", "mine"});
@@ -232,6 +258,11 @@ TEST_F(StudyVerb, WrongInputIsToldWithFileAndLine) {
   EXPECT_EQ(problem(with("\"4 V\"", "\"4 um\"")), "wrong_unit /sample/parameters/limit.upper/to 4");
   EXPECT_EQ(problem(with("\"of\": \"y\"", "\"of\": \"z\"")), "unknown_signal /features/top/of 5");
   EXPECT_EQ(problem(with("\"2 um\"", "\"2 V\"")), "wrong_unit /filters/0/above 6");
+  EXPECT_EQ(problem(with("\"twice\"", "\"draw\"")), "bad_name /features/draw 5");
+  EXPECT_EQ(problem(with("\"max\", \"of\": \"y\"", "\"at\", \"of\": \"y\", \"at\": \"7 s\"")),
+            "bad_value /features/top/at 5");
+  EXPECT_EQ(problem(with("\"max\", \"of\": \"y\"", "\"max\", \"of\": \"y\", \"between\": [\"0.1 s\", \"9 s\"]")),
+            "bad_value /features/top/between/1 5");
   EXPECT_EQ(problem(with("\"title\"", "\"set\": {\"gain.gian\": 3}, \"titel\"")), "unknown_key /titel 2");
   EXPECT_EQ(problem(with("\"do\": \"study\"", "\"do\": \"fit\"")), "other_job /do 2");
   EXPECT_EQ(problem(with("\"title\"", "\"set\": {\"limiter.upper\": 3}, \"title\"")),

@@ -184,6 +184,66 @@ TEST(Lanes, ValuesThatABlockRefusesEndTheirLaneAlone) {
   EXPECT_EQ(told[1]->code, "diverged");
 }
 
+/// What is told of one sample with this value.
+std::optional<Problem> told_of(const Diagram& d, const SimulateOptions& options, const std::string& path, double value,
+                               RefusedValues refused = RefusedValues::end_the_run) {
+  const auto p = compiled(d);
+  std::vector<std::optional<Problem>> told;
+  in_lanes(p, start(*p), options, places(*p, {{path, 0, 0}}), {value}, &told, refused);
+  return told[0];
+}
+
+TEST(Lanes, ValuesOutsideTheirRangeOrTheDiagramsBoundsAreRefusedInAnyCase) {
+  const auto sine = block("sine", {{"amplitude", "3 V"}, {"frequency", "20 Hz"}});
+  auto d = diagram({{"u", sine}, {"y", block("lag", {{"times", list({0.003}, "s")}}, {"u"})}}, {"y"});
+  for (const auto refused : {RefusedValues::end_the_run, RefusedValues::are_simulated}) {
+    const auto wrong = told_of(d, fixed(Method::rk4), "y.times[0]", -0.003, refused);
+    ASSERT_TRUE(wrong);
+    EXPECT_EQ(wrong->code, "bad_value");
+    EXPECT_TRUE(told_of(d, fixed(Method::rk4), "y.times[0]", 0, refused));  // must be greater
+    EXPECT_FALSE(told_of(d, fixed(Method::rk4), "y.times[0]", 0.002, refused));
+  }
+  d = diagram({{"u", sine},
+               {"y", block("prandtl_ishlinskii",
+                           {{"thresholds", list({0, 1, 2}, "V")}, {"weights", list({1, 1, 1}, "um/V")}}, {"u"})}},
+              {"y"});
+  EXPECT_TRUE(told_of(d, fixed(Method::rk4), "y.thresholds[1]", 2.5));
+  EXPECT_TRUE(told_of(d, fixed(Method::rk4), "y.thresholds[1]", 0));
+  EXPECT_FALSE(told_of(d, fixed(Method::rk4), "y.thresholds[1]", 1.5));
+}
+
+TEST(Lanes, ARecordedSignalThatIsNotFiniteEndsTheRunAsItDoesAlone) {
+  // x stays finite; the product of gain and drive does not.
+  const auto d = diagram({{"u", block("sine", {{"amplitude", "1e200 V"}, {"frequency", "20 Hz"}})},
+                          {"g", block("gain", {{"gain", 1}}, {"u"})},
+                          {"x", block("lag", {{"times", list({0.003}, "s")}}, {"u"})}},
+                         {"g", "x"});
+  EXPECT_FALSE(told_of(d, fixed(Method::rk4), "g.gain", 2));
+  const auto wrong = told_of(d, fixed(Method::rk4), "g.gain", 1e200);
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->code, "diverged");
+  EXPECT_NE(wrong->what.find("\"g\""), std::string::npos) << wrong->what;
+}
+
+TEST(Lanes, OneRowAloneIsTheStart) {
+  const auto p = compiled(loops());
+  const auto columns = in_lanes(p, start(*p), {.until = 0.1, .every = 1, .method = Method::rk4, .step = 1e-4},
+                                places(*p, five), drawn(five, 2));
+  ASSERT_EQ(columns[1][0].size(), 1U);
+  EXPECT_EQ(columns[1][0][0], 0);
+}
+
+TEST(Lanes, StartingAtRestOrFromAPastIsThatOfSingleRuns) {
+  auto d = diagram({{"u", block("sine", {{"amplitude", "3 V"}, {"offset", "3 V"}, {"frequency", "20 Hz"}})},
+                    {"operators", thesis_operators("u")},
+                    {"y", block("lag", {{"times", list({0.02}, "s")}}, {"operators"})}},
+                   {"y", "operators"});
+  d.simulate.past["operators"] = {{0.0, "V"}, {6.0, "V"}, {2.0, "V"}};
+  auto options = fixed(Method::rk4);
+  options.at_rest = true;
+  expect_the_same(d, options, {{"operators.weights[2]", 0, 1e-6}, {"y.times[0]", 0.01, 0.1}});
+}
+
 std::string in_the_way(const std::vector<std::pair<std::string, Node>>& blocks) {
   return why_not_in_lanes(*compiled(diagram(blocks, {blocks.back().first})));
 }
