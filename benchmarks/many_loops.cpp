@@ -83,24 +83,28 @@ void compare(const char* title, Method method, const Way& by_hand) {
   const auto numbers = draws();
   std::vector<LoopPoints> right(sets), got(sets);
   Lanes first = lanes_with(method), second = lanes_with(method);
-  std::vector<double> hand, ours, ratios, speedups;
-  for (int i = 0; i < repetitions; ++i) {
-    double begin = cpu_now();
-    by_hand(numbers, right);
-    hand.push_back(cpu_now() - begin);
-    begin = cpu_now();
-    double wall = wall_now();
-    in_lanes(first, numbers, got);
-    ours.push_back(cpu_now() - begin);
-    const double one = wall_now() - wall;
-    ratios.push_back(ours.back() / hand.back());
-    wall = wall_now();
-    const std::span<const LoopNumbers> all(numbers);
-    const std::span<LoopPoints> results(got);
-    std::thread other([&] { in_lanes(second, all.subspan(sets / 2), results.subspan(sets / 2)); });
-    in_lanes(first, all.first(sets / 2), results.first(sets / 2));
+  std::vector<double> hand, ours, ratios, speedups, speedups_by_hand;
+  const std::span<const LoopNumbers> all(numbers);
+  const auto on_one = [&](std::vector<double>& cpu, const Way& way, std::span<LoopPoints> results) {
+    const double begin = cpu_now(), wall = wall_now();
+    way(all, results);
+    cpu.push_back(cpu_now() - begin);
+    return wall_now() - wall;
+  };
+  const auto on_two = [&](const Way& here, const Way& there, std::span<LoopPoints> results) {
+    const double wall = wall_now();
+    std::thread other([&] { there(all.subspan(sets / 2), results.subspan(sets / 2)); });
+    here(all.first(sets / 2), results.first(sets / 2));
     other.join();
-    speedups.push_back(one / (wall_now() - wall));
+    return wall_now() - wall;
+  };
+  const Way mine = [&](auto in, auto out) { in_lanes(first, in, out); };
+  const Way others = [&](auto in, auto out) { in_lanes(second, in, out); };
+  for (int i = 0; i < repetitions; ++i) {
+    const double by_hand_alone = on_one(hand, by_hand, right), alone = on_one(ours, mine, got);
+    ratios.push_back(ours.back() / hand.back());
+    speedups_by_hand.push_back(by_hand_alone / on_two(by_hand, by_hand, right));
+    speedups.push_back(alone / on_two(mine, others, got));
   }
   double worst = 0;
   for (std::size_t s = 0; s < sets; ++s)
@@ -108,11 +112,11 @@ void compare(const char* title, Method method, const Way& by_hand) {
       if (std::isfinite(right[s].p[k])) worst = std::max(worst, std::fabs(right[s].p[k] - got[s].p[k]));
   const double steps = 4000.0 * sets;
   std::printf(
-      "%-8s by hand %6.3f ns a step, lanes %6.3f ns a step: %.2f times (%.2f to %.2f); two threads %.2f x; "
-      "largest difference %.1e um\n",
+      "%-8s by hand %6.3f ns a step, lanes %6.3f ns a step: %.2f times (%.2f to %.2f); two threads %.2f x "
+      "(by hand %.2f x); largest difference %.1e um\n",
       title, median(hand) / steps * 1e9, median(ours) / steps * 1e9, median(ratios),
       *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
-      median(speedups), worst);
+      median(speedups), median(speedups_by_hand), worst);
 }
 
 }  // namespace
