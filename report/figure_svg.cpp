@@ -39,12 +39,32 @@ std::string path_of(const PreparedCurve& curve, const Canvas& canvas) {
   return d;
 }
 
+/// Does a part of the curve lie outside the axes? Only where a figure wishes for its ranges.
+bool leaves(const PreparedCurve& curve, const Canvas& canvas) {
+  const double foot = canvas.height - canvas.bottom, right = canvas.width - canvas.right;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double x = canvas.x(curve.x[i]), y = canvas.y(curve.y[i]);
+    if (x < canvas.left - 1 || x > right + 1 || y < canvas.top - 1 || y > foot + 1) return true;
+  }
+  return false;
+}
+
+/// A picture within the picture: nothing is drawn beyond its edge.
+std::string within_axes(const std::string& path, const Canvas& canvas) {
+  const std::string x = px(canvas.left), y = px(canvas.top), width = px(canvas.width - canvas.left - canvas.right),
+                    height = px(canvas.height - canvas.top - canvas.bottom);
+  return fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">{4}</svg>", x,
+                     y, width, height, path);
+}
+
 std::string curves_svg(const PreparedFigure& f) {
   const Canvas canvas = canvas_of(f);
   std::string out = canvas.open(f.title) + canvas.y_axis(f.y_label) + canvas.x_axis(f.x_label);
-  for (const auto& curve : f.curves)
-    out += fmt::format("<path class=\"curve {}{} c-{}\" d=\"{}\"/>", escape(curve.style), curve.few ? " few" : "",
-                       curve.colour, path_of(curve, canvas));
+  for (const auto& curve : f.curves) {
+    const auto path = fmt::format("<path class=\"curve {}{} c-{}\" d=\"{}\"/>", escape(curve.style),
+                                  curve.few ? " few" : "", curve.colour, path_of(curve, canvas));
+    out += leaves(curve, canvas) ? within_axes(path, canvas) : path;
+  }
   if (f.x.empty() || f.y.empty())
     out += svg_text((canvas.left + canvas.width - canvas.right) / 2, canvas.height / 2, "middle", "no values to show");
   return out + "</svg>";

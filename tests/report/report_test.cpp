@@ -236,6 +236,20 @@ TEST(FigureFile, OfCurvesNamesThemAboveThePicture) {
   EXPECT_FALSE(has(figure_file(Document{}, figure), ">without</text>")) << "one curve needs no name";
 }
 
+TEST(FigureFile, WhatLiesOutsideTheWishedRangeIsCutOffAtTheAxes) {
+  Figure figure;
+  auto& curve = figure.curves.emplace_back();
+  curve.name = "k";
+  curve.style = "points";
+  curve.x = {0, 1, 2};
+  curve.y = {1, 9, 2};
+  EXPECT_FALSE(has(figure_file(Document{}, figure), "<svg x="));
+  figure.y_range = {0, 3};
+  const std::string svg = figure_file(Document{}, figure);
+  EXPECT_TRUE(has(svg, "<svg x=")) << svg;
+  EXPECT_LT(svg.find("<svg x="), svg.find("curve points"));
+}
+
 TEST(FigureFile, TakesAsManyLinesForItsNamesAsItsWidthAsksFor) {
   Figure figure;
   for (int i = 0; i < 8; ++i) {  // 8 names of 40 letters, of 6 px and more each, on less than 1000 px
