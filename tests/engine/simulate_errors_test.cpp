@@ -157,18 +157,5 @@ TEST(SimulateOptionsOfADiagram, AWrongUnitAndAnUnknownMethodAreNamed) {
   }
 }
 
-TEST(SimulateErrors, ASourceWhoseNextCornerIsNotAheadIsNamedInsteadOfAskedForEver) {
-  const auto p = compiled(diagram({{"u", block("triangle", {{"amplitude", "1 V"}, {"frequency", "5 Hz"}})}}, {"u"}));
-  auto run = start(*p);
-  run.p[static_cast<std::size_t>(p->find_parameter("u.frequency")->slots.front())] = -5;  // no file can say so
-  try {
-    simulate(*p, run, {.until = 1, .every = 0.1, .method = Method::rk4, .step = 0.01});
-    FAIL() << "it came to an end";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.problems.front().path, "u");
-    EXPECT_NE(e.problems.front().what.find("next corner"), std::string::npos) << e.what();
-  }
-}
-
 }  // namespace
 }  // namespace hysteron
