@@ -16,6 +16,7 @@
 #include "engine/choose_method.h"
 #include "engine/corners.h"
 #include "engine/error.h"
+#include "engine/fixed_step.h"
 #include "engine/jacobian.h"
 #include "engine/lanes.h"
 #include "engine/nominal.h"
@@ -337,7 +338,7 @@ class Explanation {
 
   void add_integrator_rows(Rows& rows, const SimulateOptions& options) const {
     const auto& given = program_.simulate;
-    if (options.method == Method::euler || options.method == Method::rk4) {
+    if (has_fixed_steps(options.method)) {
       rows.push_back({"step", time_text(options.step), from_diagram(given.step.has_value())});
       return;
     }

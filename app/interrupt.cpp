@@ -20,7 +20,7 @@ void on_signal(int) {
   const int seen = ++count;
   const int now = mode.load();
   if (now == all_deferred || (now == first_deferred && seen == 1)) return;
-  constexpr char text[] = "\ninterrupted; nothing was written (results are written whole, at the end)\n";
+  constexpr char text[] = "\ninterrupted; what was not finished is not written (files are written whole)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
   _exit(130);
 }

@@ -2,9 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <thread>
 
 #include "app/job_runs.h"
@@ -16,50 +13,6 @@
 
 namespace hysteron {
 namespace {
-
-/// What is kept of one shard: draw and acceptance of each sample, and the columns that are wanted.
-struct Kept {
-  std::vector<double> draw, accepted;
-  std::vector<std::vector<double>> columns;
-  StudyCounts counts;
-};
-
-Kept kept_of_shard(const Study& study, int shard, const std::vector<std::size_t>& wanted) {
-  Kept kept;
-  kept.columns.resize(wanted.size());
-  kept.counts = *compute_shard(study, shard, study.shards, [&](const StudySample& sample) {
-    kept.draw.push_back(static_cast<double>(sample.draw));
-    kept.accepted.push_back(sample.accepted ? 1 : 0);
-    for (std::size_t c = 0; c < wanted.size(); ++c) {
-      const StudyColumn& column = study.columns[wanted[c]];
-      const double shown = sample.row[wanted[c]];
-      kept.columns[c].push_back(column.difference ? column.unit.difference_to_si(shown) : column.unit.to_si(shown));
-    }
-  });
-  return kept;
-}
-
-/// All shards, on all processors; what comes out does not depend on how many there are.
-std::vector<Kept> all_shards(const Study& study, const std::vector<std::size_t>& wanted) {
-  std::vector<Kept> parts(static_cast<std::size_t>(study.shards));
-  std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (int k = next++; k < study.shards; k = next++) try {
-        parts[static_cast<std::size_t>(k)] = kept_of_shard(study, k, wanted);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-  };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
-  work();
-  for (auto& thread : others) thread.join();
-  if (failure) std::rethrow_exception(failure);
-  return parts;
-}
 
 /// "passed.settled": by the column of the filter; the second one on the same column is "passed.settled_2".
 void add_counts(RunResult& r, const Study& study, const StudyCounts& counts) {
@@ -121,27 +74,22 @@ RunResult JobRunner::studied(const RunWish& run) {
   if (run.step) job.step = run.step;
   const Study study = study_in(job, pool_->allowed());
   const std::vector<std::size_t> columns = recorded(study, run.record);
-  std::vector<Kept> parts = all_shards(study, columns);
-  RunResult r;
-  r.columns.push_back({"draw", "draw", parse_unit(""), {}});
-  r.columns.push_back({"accepted", "accepted", parse_unit(""), {}});
-  for (const std::size_t c : columns)
-    r.columns.push_back({study.columns[c].name, study.columns[c].name, study.columns[c].unit, {}});
-  StudyCounts counts = StudyCounts::of(study);
-  for (Kept& part : parts) {
-    const auto append = [](std::vector<double>& to, std::vector<double>& from) {
-      to.insert(to.end(), from.begin(), from.end());
-      std::vector<double>().swap(from);
-    };
-    append(r.columns[0].values, part.draw);
-    append(r.columns[1].values, part.accepted);
-    for (std::size_t c = 0; c < columns.size(); ++c) append(r.columns[c + 2].values, part.columns[c]);
-    counts.add(part.counts);
-  }
-  if (counts.draws == 0 || r.columns[0].values.empty())
-    fail_numerics("nothing_accepted", run.pointer, fmt::format("none of {} draws passed all filters", counts.draws),
+  StudyTable table = compute_study(study, std::max(1, static_cast<int>(std::thread::hardware_concurrency())), columns);
+  if (table.draw.empty())
+    fail_numerics("nothing_accepted", run.pointer,
+                  fmt::format("none of {} draws passed all filters", table.counts.draws),
                   "draw more, or widen the filters");
-  add_counts(r, study, counts);
+  RunResult r;
+  const Unit number = parse_unit("");
+  r.columns.push_back({"draw", "draw", number, {table.draw.begin(), table.draw.end()}});
+  r.columns.push_back({"accepted", "accepted", number, {table.accepted.begin(), table.accepted.end()}});
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const StudyColumn& column = study.columns[columns[c]];
+    std::vector<double>& values = table.columns[c];
+    for (double& v : values) v = column.difference ? column.unit.difference_to_si(v) : column.unit.to_si(v);
+    r.columns.push_back({column.name, column.name, column.unit, std::move(values)});
+  }
+  add_counts(r, study, table.counts);
   return r;
 }
 

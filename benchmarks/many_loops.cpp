@@ -13,6 +13,7 @@
 #include "benchmarks/diagrams.h"
 #include "benchmarks/many_loops_by_hand.h"
 #include "engine/lanes.h"
+#include "models/random.h"
 
 namespace hysteron::benchmarks {
 namespace {
@@ -20,20 +21,12 @@ namespace {
 constexpr std::size_t sets = 64 * 64;
 constexpr int repetitions = 9;
 
-std::uint64_t scrambled(std::uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
 std::vector<LoopNumbers> draws() {
   constexpr std::array<std::array<double, 2>, 5> range{{{5, 15}, {2, 6}, {0.01, 0.2}, {0.5, 3}, {0.05, 0.6}}};
   std::vector<LoopNumbers> list(sets);
-  std::uint64_t i = 0;
-  for (auto& numbers : list)
+  for (std::size_t i = 0; i < sets; ++i)
     for (std::size_t k = 0; k < 5; ++k)
-      numbers[k] = range[k][0] + (range[k][1] - range[k][0]) * static_cast<double>(scrambled(++i) >> 11) * 0x1p-53;
+      list[i][k] = range[k][0] + (range[k][1] - range[k][0]) * random::uniform(1, k, i);
   return list;
 }
 

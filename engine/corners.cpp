@@ -23,22 +23,22 @@ double reach_back(const Program& program, const Run& run, int block) {
 Corners::Corners(const Program& program, const Run& run, double begin) : program_(program), run_(run), t_(begin) {
   for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
     const auto& block = program.blocks[static_cast<std::size_t>(b)];
-    if (block.kernel->next_corner != nullptr) sources_.push_back({b, corner_behind(b, begin)});
+    if (block.kernel->next_corner != nullptr) sources_.push_back({b, corner_behind(program, run, b, begin)});
     if (block.history_index >= 0) delays_.push_back(reach_back(program, run, b));
   }
   add_echoes(begin, 0);
 }
 
-double Corners::corner_behind(int block, double t) const {
-  auto view = view_of(program_, run_, block);
-  const auto* kernel = program_.blocks[static_cast<std::size_t>(block)].kernel;
+double corner_behind(const Program& program, const Run& run, int block, double t) {
+  auto view = view_of(program, run, block);
+  const auto* kernel = program.blocks[static_cast<std::size_t>(block)].kernel;
   // A source that rounds its corner to just above t would stop us there for ever: ask again from a little further on.
   for (double from = t, nudge = same_instant(t);; from = t + nudge, nudge *= 2) {
     view.t = view.branch = from;
     const double corner = kernel->next_corner(view);
     if (corner > t + same_instant(t)) return corner;
     if (nudge != 0 && nudge <= 1e-9 * std::max(1.0, std::abs(t))) continue;
-    const auto& b = program_.blocks[static_cast<std::size_t>(block)];
+    const auto& b = program.blocks[static_cast<std::size_t>(block)];
     fail("bad_value", b.path,
          fmt::format("{} \"{}\" names {} s as its next corner behind {} s", b.kernel->declaration.type, b.path, corner,
                      t),
@@ -69,7 +69,7 @@ void Corners::pass(double t) {
   bool corner = false;
   for (auto& source : sources_) {
     if (source.next > reached) continue;
-    source.next = corner_behind(source.block, t);
+    source.next = corner_behind(program_, run_, source.block, t);
     corner = true;
   }
   int generation = corner ? 0 : std::numeric_limits<int>::max();

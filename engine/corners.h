@@ -15,6 +15,10 @@ namespace hysteron {
 /// Two times nearer than this are one instant: what sums and products of sample times lose by rounding.
 inline double same_instant(double t) { return 4 * std::numeric_limits<double>::epsilon() * (t < 0 ? -t : t); }
 
+/// The next corner of a source behind `t` [s], or infinity. Throws Error "bad_value", naming the block, if its corners
+/// do not go on.
+double corner_behind(const Program& program, const Run& run, int block, double t);
+
 /// Walks along the corners. A corner at c comes again at c + delay behind each dead time, as often as there are dead
 /// times.
 class Corners {
@@ -32,7 +36,6 @@ class Corners {
     int block;
     double next;
   };
-  double corner_behind(int block, double t) const;
   void add_echoes(double t, int generation);
 
   const Program& program_;

@@ -9,6 +9,8 @@
 
 namespace hysteron {
 
+inline bool has_fixed_steps(Method method) { return method == Method::euler || method == Method::rk4; }
+
 /// Steps end at begin + k options.step, and besides at corners of the sources and at sampling instants, so that no step
 /// runs across one; guards are looked at where steps end. Between steps outputs are interpolated (cubic, Hermite).
 /// Throws Error "bad_value" without a step, "diverged" where a value is not finite.

@@ -99,24 +99,6 @@ void LaneEvaluation::place(const Run& run, int lane, LaneNumbers& x) {
   }
 }
 
-void LaneEvaluation::copy_lane(int from, int to, LaneNumbers& x) {
-  const auto copy = [&](const BlockInstance& b, int begin, int count, LaneNumbers& numbers) {
-    double* n = numbers.row(begin);
-    if (is_lane_major(b))
-      std::copy_n(n + from * count, count, n + to * count);
-    else
-      for (int i = 0; i < count; ++i) n[i * Lanes::width + to] = n[i * Lanes::width + from];
-  };
-  for (std::size_t i = 0; i < program_->blocks.size(); ++i) {
-    if (shared_[i]) continue;
-    const BlockInstance& b = program_->blocks[i];
-    copy(b, b.p_begin, b.p_at.back(), p_);
-    copy(b, b.c_begin, b.sizes.constants, c_);
-    copy(b, b.x_begin, b.sizes.states, x);
-    copy(b, b.m_begin, b.sizes.memory, m_);
-  }
-}
-
 double LaneEvaluation::state(const BlockInstance& b, LaneNumbers& x, int i, int lane) {
   const double* own = x.row(b.x_begin);
   return is_lane_major(b) ? own[lane * b.sizes.states + i] : own[i * Lanes::width + lane];

@@ -34,7 +34,6 @@ class LaneEvaluation {
                  std::vector<SharedNumbers::Instant> instants);
   /// Numbers of a run into its lane, states into `x`.
   void place(const Run& run, int lane, LaneNumbers& x);
-  void copy_lane(int from, int to, LaneNumbers& x);
   /// State i of a block in a lane of `x`.
   static double state(const BlockInstance& b, LaneNumbers& x, int i, int lane);
 

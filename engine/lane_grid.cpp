@@ -1,26 +1,22 @@
 #include "engine/lane_grid.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/corners.h"
+#include "engine/fixed_step.h"
 
 namespace hysteron {
 
 std::vector<LanePoint> lane_points(const Program& program, const Run& run, const SimulateOptions& options,
-                                   const std::vector<double>& instants, double& off_step) {
-  off_step = std::numeric_limits<double>::quiet_NaN();
-  const bool fixed = options.method == Method::euler || options.method == Method::rk4;
+                                   const std::vector<double>& instants) {
+  const bool fixed = has_fixed_steps(options.method);
   Corners corners(program, run, options.begin);
   std::vector<LanePoint> points;
   std::size_t next = 0;
   const auto arrive = [&](LanePoint point) {
     while (corners.next() <= point.t + same_instant(point.t)) corners.pass(point.t);
     point.branch = corners.branch();
-    for (; next < instants.size() && instants[next] <= point.t + same_instant(point.t); ++next) {
-      if (instants[next] < point.t - same_instant(point.t) && !(off_step == off_step)) off_step = instants[next];
-      ++point.rows;
-    }
+    for (; next < instants.size() && instants[next] <= point.t + same_instant(point.t); ++next) ++point.rows;
     points.push_back(point);
   };
   arrive({options.begin});

@@ -17,9 +17,9 @@ struct LanePoint {
   int rows = 0;              ///< output instants at this point
 };
 
-/// As fixed_step.h goes for euler and rk4; for static diagrams from instant to instant and corner to corner. `off_step`
-/// becomes the first instant that lies inside a step, NaN if there is none.
+/// As fixed_step.h goes for euler and rk4, where instants lie on steps (why_not_in_lanes); for static diagrams from
+/// instant to instant and corner to corner.
 std::vector<LanePoint> lane_points(const Program& program, const Run& run, const SimulateOptions& options,
-                                   const std::vector<double>& instants, double& off_step);
+                                   const std::vector<double>& instants);
 
 }  // namespace hysteron

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/fixed_step.h"
 #include "engine/lane_arithmetic.h"
 #include "engine/lane_evaluation.h"
 #include "engine/lane_grid.h"
@@ -15,8 +16,6 @@ namespace hysteron {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-bool steps_are_fixed(Method method) { return method == Method::euler || method == Method::rk4; }
 
 }  // namespace
 
@@ -66,14 +65,10 @@ Lanes::Advance::Advance(ProgramPointer program, const Run& run, const SimulateOp
   if (const auto why = why_not_in_lanes(*program_, run, options, parameters_); !why.empty())
     fail("not_in_lanes", "/simulate", "runs cannot go side by side: " + why, "run them one after the other");
   check_inputs(*program_, run);
-  if (steps_are_fixed(options.method) && !(options.step > 0 && std::isfinite(options.step)))
+  if (has_fixed_steps(options.method) && !(options.step > 0 && std::isfinite(options.step)))
     fail("bad_value", "/simulate/solver/step", "a method with fixed steps needs the step",
          "give one, such as \"step\": \"10 us\"");
-  double off_step = 0;
-  points_ = lane_points(*program_, run_, options_, instants_, off_step);
-  if (std::isfinite(off_step))
-    fail("not_in_lanes", "/simulate/every", fmt::format("the row at {:.9g} s lies inside a step", off_step),
-         "give rows a distance that is a multiple of the step");
+  points_ = lane_points(*program_, run_, options_, instants_);
   rows = static_cast<long>(instants_.size());
   std::vector<SharedNumbers::Instant> stages, ends;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -90,7 +85,8 @@ Lanes::Advance::Advance(ProgramPointer program, const Run& run, const SimulateOp
     derivatives_ = evaluation_.make_list(run_, program_->derivative_steps, {}, std::move(stages));
   values_ = evaluation_.make_list(run_, program_->n_m > 0 ? program_->all_values : steps_for(*program_, signals_),
                                   signals_, std::move(ends));
-  // Parameters and constants that are not varied are the same in all lanes.
+  // What is not varied is the same in all lanes; a lane that is not used, or whose values are refused, goes on as it
+  // is.
   for (int lane = 0; lane < width; ++lane) evaluation_.place(run_, lane, x_);
 }
 
@@ -147,14 +143,7 @@ void Lanes::Advance::arrive(std::size_t point, const Sink& sink) {
 std::vector<std::optional<Problem>> Lanes::Advance::operator()(std::span<const double> values, const Sink& sink) {
   const std::size_t n = parameters_.size(), samples = n == 0 ? 1 : values.size() / n;
   std::vector<std::optional<Problem>> results(samples);
-  int good = -1;
-  for (std::size_t s = 0; s < samples; ++s) {
-    results[s] = load(values.subspan(s * n, n), static_cast<int>(s));
-    if (!results[s] && good < 0) good = static_cast<int>(s);
-  }
-  if (good < 0) return results;
-  for (int lane = 0; lane < width; ++lane)
-    if (at(lane) >= samples || results[at(lane)]) evaluation_.copy_lane(good, lane, x_);
+  for (std::size_t s = 0; s < samples; ++s) results[s] = load(values.subspan(s * n, n), static_cast<int>(s));
   if (derivatives_) evaluation_.begin(*derivatives_);
   evaluation_.begin(*values_);
   row_ = 0;

@@ -38,7 +38,8 @@ class Lanes {
   Lanes(Lanes&&) noexcept;
   Lanes& operator=(Lanes&&) noexcept;
 
-  /// Row number, its time [s], and signals[s * width + lane] [SI]; lanes that are not used or have ended repeat others.
+  /// Row number, its time [s], and signals[s * width + lane] [SI]; lanes that are not used or were refused hold nothing
+  /// that matters.
   using Sink = std::function<void(long row, double t, const double* signals)>;
 
   /// Runs values.size() / parameters of them, at most `width`: values[sample * parameters + parameter] [SI]. Returns

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/fixed_step.h"
 #include "engine/lane_shared.h"
 #include "engine/lanes.h"
 #include "engine/simulate_parts.h"
@@ -66,7 +67,7 @@ std::string why_not_in_lanes(const Program& program) { return why_not_structure(
 std::string why_not_in_lanes(const Program& program, const Run& run, const SimulateOptions& options,
                              std::span<const int> parameters) {
   if (auto why = why_not_structure(program, run.series); !why.empty()) return why;
-  const bool fixed = options.method == Method::euler || options.method == Method::rk4;
+  const bool fixed = has_fixed_steps(options.method);
   if (fixed && options.step > 0 && rows_lie_inside_steps(options))
     return "rows lie inside steps: a distance of rows that is a multiple of the step goes in lanes";
   if (!fixed) {

@@ -119,7 +119,7 @@ void Sizer::source(int b) {
   for (int piece = 0; piece < pieces_sampled; ++piece) {
     view.t = view.branch = t;
     const double corner =
-        kernel->next_corner != nullptr ? kernel->next_corner(view) : std::numeric_limits<double>::infinity();
+        kernel->next_corner != nullptr ? corner_behind(program_, run_, b, t) : std::numeric_limits<double>::infinity();
     const bool last = !std::isfinite(corner);
     const double end = last ? t + (pace > 0 && std::isfinite(pace) ? paces_without_corners * pace : 1.0) : corner;
     const double branch = t + (end - t) / 2;

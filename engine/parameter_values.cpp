@@ -11,7 +11,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// As the compiler checks what a file says (resolve.cpp).
 void check_value(const Program& program, const Run& run, int parameter, double si) {
   const ParameterInfo& info = program.parameters[at(parameter)];
   if (!(si >= info.lower && si <= info.upper))
@@ -23,20 +22,29 @@ void check_value(const Program& program, const Run& run, int parameter, double s
       if (slot < b.p_begin || slot >= b.p_begin + b.p_at.back()) continue;
       const auto which = std::upper_bound(b.p_at.begin(), b.p_at.end(), slot - b.p_begin) - b.p_at.begin() - 1;
       const ParameterDeclaration& p = b.kernel->declaration.parameters[static_cast<std::size_t>(which)];
-      if (p.exclusive_minimum && !(si > p.minimum))
+      const auto begin = at(b.p_at[static_cast<std::size_t>(which)]),
+                 end = at(b.p_at[static_cast<std::size_t>(which) + 1]);
+      if (!lies_in_range(p, si))
         fail("bad_value", info.path,
              fmt::format("\"{}\" is {} (SI), and must be greater than {}", info.path, si, p.minimum),
              "draw it inside its range");
-      const double* list = run.p.data() + b.p_begin;
-      for (int k = b.p_at[static_cast<std::size_t>(which)] + 1;
-           p.is_increasing && k < b.p_at[static_cast<std::size_t>(which) + 1]; ++k)
-        if (!(list[k] > list[k - 1]))
-          fail("bad_value", info.path, fmt::format("\"{}\" of \"{}\" does not increase", p.name, b.path),
-               "draw its elements from ranges that lie one behind the other");
+      if (p.is_increasing && first_that_does_not_increase({run.p.data() + at(b.p_begin) + begin, end - begin}) > 0)
+        fail("bad_value", info.path, fmt::format("\"{}\" of \"{}\" does not increase", p.name, b.path),
+             "draw its elements from ranges that lie one behind the other");
     }
 }
 
 }  // namespace
+
+bool lies_in_range(const ParameterDeclaration& p, double si) {
+  return (p.exclusive_minimum ? si > p.minimum : si >= p.minimum) && si <= p.maximum;
+}
+
+std::size_t first_that_does_not_increase(std::span<const double> list) {
+  for (std::size_t k = 1; k < list.size(); ++k)
+    if (!(list[k] > list[k - 1])) return k;
+  return 0;
+}
 
 void set_parameters(const Program& program, Run& run, std::span<const int> parameters, std::span<const double> values,
                     RefusedValues refused) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/graph.h"
+#include "engine/parameter_values.h"
 
 namespace hysteron {
 namespace {
@@ -241,27 +242,23 @@ class Resolver {
   }
 
   void check_range(const ParameterDeclaration& p, double si) {
-    const bool below = p.exclusive_minimum ? !(si > p.minimum) : !(si >= p.minimum);
-    if (std::isnan(si) || below || si > p.maximum)
-      problems_.add(
-          "bad_value", place(p.name),
-          fmt::format("\"{}\" of {} is {} (SI), which is outside its range", p.name, declaration_.type, si),
-          below ? fmt::format("it must be {} {} (SI)", p.exclusive_minimum ? "greater than" : "at least", p.minimum)
-                : fmt::format("it must be at most {} (SI)", p.maximum));
+    if (!lies_in_range(p, si))
+      problems_.add("bad_value", place(p.name),
+                    fmt::format("\"{}\" of {} is {} (SI), which is outside its range", p.name, declaration_.type, si),
+                    !(si > p.maximum) ? fmt::format("it must be {} {} (SI)",
+                                                    p.exclusive_minimum ? "greater than" : "at least", p.minimum)
+                                      : fmt::format("it must be at most {} (SI)", p.maximum));
   }
 
   void check_lengths(const std::vector<ResolvedParameter>& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto& p = declaration_.parameters[i];
-      if (p.is_increasing)
-        for (std::size_t k = 1; k < list[i].numbers.size(); ++k)
-          if (!(list[i].numbers[k].si > list[i].numbers[k - 1].si)) {
-            problems_.add(
-                "bad_value", place(p.name),
-                fmt::format("\"{}\" of {} does not increase at its element {}", p.name, declaration_.type, k + 1),
-                "sort the list, each value once");
-            break;
-          }
+      std::vector<double> numbers;
+      for (const auto& n : list[i].numbers) numbers.push_back(n.si);
+      if (const auto k = first_that_does_not_increase(numbers); p.is_increasing && k > 0)
+        problems_.add("bad_value", place(p.name),
+                      fmt::format("\"{}\" of {} does not increase at its element {}", p.name, declaration_.type, k + 1),
+                      "sort the list, each value once");
       const int other = p.same_length_as.empty() ? -1 : declaration_.parameter_index(p.same_length_as);
       if (other >= 0 && list[static_cast<std::size_t>(other)].numbers.size() != list[i].numbers.size())
         problems_.add("bad_value", place(p.name),

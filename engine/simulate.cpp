@@ -488,7 +488,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
   std::optional<Traces> exact;
-  if (!options.slopes_for.empty() && (options.method == Method::euler || options.method == Method::rk4))
+  if (!options.slopes_for.empty() && has_fixed_steps(options.method))
     fail("bad_value", "/simulate/solver/method", "slopes do not come with fixed steps",
          "choose auto, exact, bdf, adams or runge_kutta");
   if (advances_exactly(program, options)) {
@@ -504,7 +504,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
     traces = std::move(*exact);
   } else {
     if (options.at_rest) settle_at_rest(program, run, options.begin);
-    if (options.method == Method::euler || options.method == Method::rk4) {
+    if (has_fixed_steps(options.method)) {
       traces = simulate_in_fixed_steps(program, std::move(run), options, std::move(instants), signals);
     } else {
       auto how = held_tolerance(options);

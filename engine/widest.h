@@ -2,6 +2,8 @@
 // two, four or eight doubles. All give the same bits (CMakeLists.txt: no contraction but where the code says so).
 #pragma once
 
+#include <vector>
+
 namespace hysteron {
 
 /// Body: `Arguments` and `static void run(const Arguments&)`, all of it inline.
@@ -9,17 +11,21 @@ template <class Body>
 struct Widest {
   using Call = void (*)(const typename Body::Arguments&);
 
-  static Call on_this_processor() {
+  static Call on_this_processor() { return versions().back(); }
+
+  /// Those that this processor can run, the widest last.
+  static std::vector<Call> versions() {
+    std::vector<Call> list{&plain};
 #if defined(__x86_64__) && defined(__OPTIMIZE__)
     static const bool eight = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
                               __builtin_cpu_supports("avx512cd");
     static const bool four = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                              __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-    return eight ? &of_eight : four ? &of_four : &plain;
-#else
-    return &plain;
+    if (four) list.push_back(&of_four);
+    if (eight) list.push_back(&of_eight);
 #endif
+    return list;
   }
 
  private:

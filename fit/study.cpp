@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "fit/study_runs.h"
@@ -233,20 +234,31 @@ std::optional<StudyCounts> compute_shard(const Study& study, int shard, int shar
 namespace {
 
 /// The samples of one shard in memory.
-StudyTable table_of_shard(const Study& study, int shard, int shards) {
+StudyTable table_of_shard(const Study& study, int shard, int shards, const std::vector<std::size_t>& wanted) {
   StudyTable table;
-  table.columns.resize(study.columns.size());
+  table.columns.resize(wanted.size());
   table.counts = *compute_shard(study, shard, shards, [&](const StudySample& sample) {
     table.draw.push_back(sample.draw);
     table.accepted.push_back(sample.accepted ? 1 : 0);
-    for (std::size_t c = 0; c < sample.row.size(); ++c) table.columns[c].push_back(sample.row[c]);
+    for (std::size_t c = 0; c < wanted.size(); ++c) table.columns[c].push_back(sample.row[wanted[c]]);
   });
   return table;
 }
 
+/// Behind `to`; what has been appended needs no room of its own any more.
+template <class T>
+void append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+  std::vector<T>().swap(from);
+}
+
 }  // namespace
 
-StudyTable compute_study(const Study& study, int threads) {
+StudyTable compute_study(const Study& study, int threads, std::vector<std::size_t> wanted) {
+  if (wanted.empty()) {
+    wanted.resize(study.columns.size());
+    std::iota(wanted.begin(), wanted.end(), std::size_t{0});
+  }
   const int shards = std::max(1, study.shards);
   std::vector<StudyTable> parts(static_cast<std::size_t>(shards));
   std::atomic<int> next{0};
@@ -254,7 +266,7 @@ StudyTable compute_study(const Study& study, int threads) {
   std::exception_ptr failure;
   const auto work = [&] {
     for (int k = next++; k < shards; k = next++) try {
-        parts[static_cast<std::size_t>(k)] = table_of_shard(study, k, shards);
+        parts[static_cast<std::size_t>(k)] = table_of_shard(study, k, shards, wanted);
       } catch (...) {
         const std::lock_guard lock(mutex);
         failure = std::current_exception();
@@ -267,13 +279,12 @@ StudyTable compute_study(const Study& study, int threads) {
   if (failure) std::rethrow_exception(failure);
 
   StudyTable all;
-  all.columns.resize(study.columns.size());
+  all.columns.resize(wanted.size());
   all.counts = StudyCounts::of(study);
-  for (const auto& part : parts) {
-    all.draw.insert(all.draw.end(), part.draw.begin(), part.draw.end());
-    all.accepted.insert(all.accepted.end(), part.accepted.begin(), part.accepted.end());
-    for (std::size_t c = 0; c < all.columns.size(); ++c)
-      all.columns[c].insert(all.columns[c].end(), part.columns[c].begin(), part.columns[c].end());
+  for (auto& part : parts) {
+    append(all.draw, part.draw);
+    append(all.accepted, part.accepted);
+    for (std::size_t c = 0; c < all.columns.size(); ++c) append(all.columns[c], part.columns[c]);
     all.counts.add(part.counts);
   }
   return all;

@@ -125,13 +125,14 @@ std::optional<StudyCounts> compute_shard(const Study& study, int shard, int shar
                                          const std::function<void(const StudySample&)>& keep,
                                          const std::function<bool(const StudyCounts&)>& go_on = {});
 
-/// All shards in memory, on several threads; for studies whose samples fit there.
+/// All shards in memory, on several threads, for studies whose samples fit there; the numbers do not depend on how
+/// many. `wanted`: places of the columns that are kept, in their order; all, if empty.
 struct StudyTable {
   std::vector<std::uint64_t> draw;
   std::vector<char> accepted;
-  std::vector<std::vector<double>> columns;  ///< as Study::columns, in their units
+  std::vector<std::vector<double>> columns;  ///< those that are wanted, in their units
   StudyCounts counts;
 };
-StudyTable compute_study(const Study& study, int threads);
+StudyTable compute_study(const Study& study, int threads, std::vector<std::size_t> wanted = {});
 
 }  // namespace hysteron

@@ -10,9 +10,9 @@ SampleRuns::SampleRuns(ProgramPointer program, const Run& base, const SimulateOp
       base_(base),
       options_(options),
       parameters_(std::move(parameters)),
-      refused_(refused),
-      why_one_by_one_(why_not_in_lanes(*program_, base_, options_, parameters_)) {
-  if (why_one_by_one_.empty()) lanes_.emplace(program_, base_, options_, parameters_, refused_);
+      refused_(refused) {
+  if (why_not_in_lanes(*program_, base_, options_, parameters_).empty())
+    lanes_.emplace(program_, base_, options_, parameters_, refused_);
 }
 
 Run SampleRuns::run_of(std::span<const double> values) const {

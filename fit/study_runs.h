@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/lanes.h"
@@ -36,8 +35,6 @@ class SampleRuns {
 
   /// Samples that are simulated at once: in lanes where the diagram and the method allow it, else one.
   int width() const { return lanes_ ? Lanes::width : 1; }
-  /// "" or why the samples are simulated one after the other.
-  const std::string& why_one_by_one() const { return why_one_by_one_; }
   /// values[sample * parameters + parameter] [SI].
   void operator()(std::span<const double> values, RowSink& sink);
 
@@ -51,7 +48,6 @@ class SampleRuns {
   SimulateOptions options_;
   std::vector<int> parameters_;
   RefusedValues refused_;
-  std::string why_one_by_one_;
   std::optional<Lanes> lanes_;
 };
 

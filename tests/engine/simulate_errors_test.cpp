@@ -157,5 +157,35 @@ TEST(SimulateOptionsOfADiagram, AWrongUnitAndAnUnknownMethodAreNamed) {
   }
 }
 
+/// A source whose next corner stays behind.
+struct Stuck {
+  template <class T>
+  struct Out {
+    T y;
+  };
+  static void describe(BlockSpec<Stuck>& spec) {
+    spec.name("test_stuck", "names one corner for ever");
+    spec.output(&Out<double>::y, "y", "", "");
+  }
+  template <class T>
+  static Out<T> output(const Nothing&, const Time<T>& time) {
+    return {time.t};
+  }
+  static double next_corner(const Nothing&, double) { return 0.25; }
+};
+
+TEST(SimulateErrors, ASourceWhoseNextCornerIsNotAheadIsNamedInsteadOfAskedForEver) {
+  auto blocks = all_blocks();
+  blocks.add(kernel<Stuck>());
+  const auto p = compile(diagram({{"u", block("test_stuck", {})}}, {"u"}), blocks);
+  try {
+    simulate(*p, start(*p), {.until = 1, .every = 0.1, .method = Method::rk4, .step = 0.01});
+    FAIL() << "it came to an end";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().path, "u");
+    EXPECT_NE(e.problems.front().what.find("next corner"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
