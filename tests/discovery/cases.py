@@ -22,6 +22,12 @@ MENU = dict(actuator=("sine_multiamp", "triangle", "freq_low", "freq_high", "ste
                       "temp_staircase", "temp_ramp"),
             mass=("triangle", "sine_multiamp", "steps", "step_hold", "multisine", "chirp"),
             heater=("step", "staircase", "prbs", "steps", "sine"))
+# What a laboratory records that means to know its device: the same words in every case.
+CAMPAIGN = dict(actuator=dict(train=("sine_multiamp", "triangle", "freq_low", "freq_high", "step_hold", "multisine",
+                                     "temp_staircase"),
+                              validate=("sine_multiamp", "step_hold", "multisine", "temp_ramp")),
+                mass=dict(train=MENU["mass"], validate=MENU["mass"]),
+                heater=dict(train=("step", "staircase", "prbs"), validate=("steps", "sine", "prbs")))
 ATTEMPTS = 60
 
 
@@ -39,17 +45,25 @@ class Case:
     group: str
 
 
-def menu_of(base):
-    return MENU[{"B4": "mass", "B5": "heater"}.get(base, "actuator")]
+def of_plant(table, base):
+    return table[{"B4": "mass", "B5": "heater"}.get(base, "actuator")]
 
 
-def draw_recordings(rng, plant, shows, words=None):
-    """2 to 8 recordings; of each set in `shows` one word among those of either role, the same in both."""
+def draw_recordings(rng, plant, shows, campaign=False, words=None):
+    """2 to 8 recordings; of each set in `shows` one word among those of either role, the same in both. `campaign`: those
+    of a whole campaign instead."""
     roles, habits = {}, {}
+    if campaign:
+        roles = of_plant(CAMPAIGN, plant.base)
+        return play(rng, plant, roles, habits)
     needed = [str(rng.choice(s)) for s in shows]
     for role, count in (("train", rng.integers(1, 6 - len(shows))), ("validate", rng.integers(1, 4 - min(len(shows), 2)))):
-        others = [str(w) for w in rng.choice(menu_of(plant.base), count)]
+        others = [str(w) for w in rng.choice(of_plant(MENU, plant.base), count)]
         roles[role] = words or list(dict.fromkeys(needed + others))
+    return play(rng, plant, roles, habits)
+
+
+def play(rng, plant, roles, habits):
     recordings = [record(rng, plant, word, role, habits) for role in roles for word in roles[role]]
     excitations.date(rng, recordings)
     fit_to_stroke(rng, plant, recordings)
@@ -112,13 +126,13 @@ def sensor_for(rng, plant, recordings, quieter=1.0):
     return case_files.draw_sensor(rng, ys.min(), ys.max(), white)
 
 
-def named(rng, names, strengths, group, attempt):
+def named(rng, names, strengths, group, attempt, campaign):
     """Singles, pairs, triples."""
     plants = [b for b in hidden.EFFECTS[names[0]].plants if all(b in hidden.EFFECTS[n].plants for n in names)]
     if not plants:
         raise Unsuited("no plant holds all of " + ", ".join(names))
     plant = draw_plant(rng, str(rng.choice(plants)))
-    recordings = draw_recordings(rng, plant, shows_of(names, plant.base))
+    recordings = draw_recordings(rng, plant, shows_of(names, plant.base), campaign)
     sensor = sensor_for(rng, plant, recordings, 1.0 if attempt < ATTEMPTS // 4 else 0.2)
     effects = hide(rng, plant, recordings, names, strengths, sensor)
     allowed = []
@@ -138,27 +152,27 @@ def draw_names(rng, count, offered):
             return names
 
 
-def several(rng, count, offered, strengths, attempt):
+def several(rng, count, offered, strengths, attempt, campaign):
     """Pairs and triples of medium and strong effects, unless other strengths are asked for."""
     choice = [s for s in strengths if s != "weak"] or list(strengths)
     names = draw_names(rng, count, offered)
-    return named(rng, names, [str(rng.choice(choice)) for _ in names], {2: "pair", 3: "triple"}[count], attempt)
+    return named(rng, names, [str(rng.choice(choice)) for _ in names], {2: "pair", 3: "triple"}[count], attempt, campaign)
 
 
-def nothing(rng):
+def nothing(rng, campaign):
     plant = draw_plant(rng, "B%d" % rng.integers(1, 6))
     candidates = [n for n in hidden.EFFECTS if plant.base in hidden.EFFECTS[n].plants]
-    recordings = draw_recordings(rng, plant, shows_of([str(rng.choice(candidates))], plant.base))
+    recordings = draw_recordings(rng, plant, shows_of([str(rng.choice(candidates))], plant.base), campaign)
     return Case(plant, recordings, [], sensor_for(rng, plant, recordings),
                 dict(verdict="adequate", effects=[], acceptable_alternatives=[]), "none")
 
 
-def outside(rng):
+def outside(rng, campaign):
     """Something that is not in the list, medium or strong."""
     kind = str(rng.choice(list(unlisted.KINDS)))
     plant = draw_plant(rng, str(rng.choice(["B1", "B2", "B3", "B4"])))
     shows = [("sine_multiamp", "triangle")] if plant.base == "B4" else [("sine_multiamp", "triangle", "freq_low")]
-    recordings = draw_recordings(rng, plant, shows)
+    recordings = draw_recordings(rng, plant, shows, campaign)
     sensor = sensor_for(rng, plant, recordings)
     outputs = [hidden.base_outputs(plant, r)[0] for r in recordings]
     e, location = unlisted.draw(rng, kind, recordings, outputs)
@@ -241,17 +255,19 @@ def wanted(kind, offered, strengths, count):
     return [None] * (PER_SEED[kind] if count is None else count)
 
 
-def build(seed, kind, number, what, offered, strengths):
+def build(seed, kind, number, what, offered, strengths, campaign=False):
     """The case; draws again with the same stream until one can hold what was asked for."""
     rng = np.random.default_rng([seed, KINDS.index(kind), number])
     reasons = []
     for attempt in range(ATTEMPTS):
         try:
             if kind == "singles":
-                return named(rng, [what[0]], [what[1]], "single", attempt), rng
+                return named(rng, [what[0]], [what[1]], "single", attempt, campaign), rng
             if kind in ("pairs", "triples"):
-                return several(rng, 2 if kind == "pairs" else 3, offered, strengths, attempt), rng
-            return dict(nothing=nothing, unlisted=outside, starved=starved)[kind](rng), rng
+                return several(rng, 2 if kind == "pairs" else 3, offered, strengths, attempt, campaign), rng
+            if kind == "starved":
+                return starved(rng), rng
+            return dict(nothing=nothing, unlisted=outside)[kind](rng, campaign), rng
         except Unsuited as reason:
             reasons.append(str(reason))
     raise RuntimeError("seed %d, %s %d: %d draws do not suit; the last: %s" % (seed, kind, number, ATTEMPTS, reasons[-1]))

@@ -12,6 +12,8 @@ digits of seed, one of kind, three of count; a case depends on these three and o
 Strength, as rms of the effect over rms of the noise in the recording that shows it most: weak 0.3 to 0.4, medium 1 to 5,
 strong 12 to 120. What else would explain the same recordings (chi2 gap below 9) stands in acceptable_alternatives.
 
+--campaign: 11 recordings of an actuator, 12 of a mass, 6 of a heater, each of a kind of its own, as a laboratory makes them
+that means to know its device; otherwise 2 to 8.
 --wrong-parameters: the base model's gains and weights are off by 0.5 to 3 % as well.
 """
 import argparse
@@ -88,8 +90,8 @@ def write(folder, case, rng, name, wrong_parameters):
 
 
 def make(job):
-    folder, seed, kind, index, what, offered, strengths, wrong_parameters = job
-    case, rng = cases.build(seed, kind, index, what, offered, strengths)
+    folder, seed, kind, index, what, offered, strengths, wrong_parameters, campaign = job
+    case, rng = cases.build(seed, kind, index, what, offered, strengths, campaign)
     name = number_of(seed, kind, index)
     write(folder / name, case, rng, name, wrong_parameters)
     effects = ", ".join("%s %s" % (e.strength, e.name) for e in case.effects) or "nothing"
@@ -122,11 +124,12 @@ def main():
     ap.add_argument("--strength", default="all", help="weak,medium,strong (pairs and triples: medium and strong)")
     ap.add_argument("--count", type=int, help="cases per kind and seed")
     ap.add_argument("--wrong-parameters", action="store_true")
+    ap.add_argument("--campaign", action="store_true")
     ap.add_argument("--jobs", type=int, default=1)
     a = ap.parse_args()
     offered = choice_of(a.effects, hidden.EFFECTS, "the effect")
     strengths = choice_of(a.strength, hidden.STRENGTHS, "the strength")
-    jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters)
+    jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters, a.campaign)
             for seed in seeds_of(a.seeds) for kind in choice_of(a.kind, cases.KINDS, "the kind")
             for index, what in enumerate(cases.wanted(kind, offered, strengths, a.count))]
     if a.jobs > 1:

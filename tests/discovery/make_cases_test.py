@@ -36,10 +36,19 @@ def draws(base, seed=5):
     """A plant and short recordings of its whole menu."""
     rng = np.random.default_rng(seed)
     plant = draw_plant(rng, base)
-    recordings = cases.draw_recordings(rng, plant, [], words=list(cases.menu_of(base)))
+    recordings = cases.draw_recordings(rng, plant, [], words=list(cases.of_plant(cases.MENU, base)))
     for r in recordings:
         r.u, r.temperature = [u[:400] for u in r.u], r.temperature[:400]
-    return rng, plant, recordings[:len(cases.menu_of(base))]
+    return rng, plant, recordings[:len(cases.of_plant(cases.MENU, base))]
+
+
+class Campaign(unittest.TestCase):
+    def test_every_plant_has_the_same_recordings_in_every_case(self):
+        for seed, base, (train, validate) in ((1, "B1", (7, 4)), (2, "B3", (7, 4)), (3, "B4", (6, 6)), (4, "B5", (3, 3))):
+            rng = np.random.default_rng(seed)
+            recordings = cases.draw_recordings(rng, draw_plant(rng, base), [], campaign=True)
+            self.assertEqual([r.role for r in recordings], ["train"] * train + ["validate"] * validate)
+            self.assertEqual([r.word for r in recordings[:train]], list(cases.of_plant(cases.CAMPAIGN, base)["train"]))
 
 
 class Laws(unittest.TestCase):
