@@ -179,8 +179,9 @@ class Cases(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def make(self, kind, index, what=None, seed=7, wrong=False, into="a"):
-        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.EFFECTS), hidden.STRENGTHS, wrong))
+    def make(self, kind, index, what=None, seed=7, wrong=False, into="a", campaign=False):
+        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.EFFECTS), hidden.STRENGTHS, wrong,
+                         campaign))
         return self.root / into / make_cases.number_of(seed, kind, index)
 
     def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
