@@ -1,9 +1,10 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
-// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, reconsider.cpp,
-// another_beginning.cpp), the verdict (conclude.cpp).
+// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp,
+// zero_held.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,10 +51,15 @@ bool standing(const Books& books, const Effect& effect);
 bool taken_up(const Books& books, const Effect& effect);
 /// Every effect at every place where it may enter and could be seen; places that its law cannot tell apart once, or as
 /// twins. What the recordings cannot show and may have acted all the same goes to `books.hidden`. `outputs`: only what
-/// moves none but these, all if empty.
-std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs = {});
+/// moves none but these, all if empty. `only`: these effects, all if empty.
+std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs = {},
+                                   const std::vector<const Effect*>& only = {});
 /// Outputs that no standing effect moves.
 std::vector<std::string> untouched_outputs(const Books& books);
+/// Outputs that nothing of this family that stands moves.
+std::vector<std::string> outputs_without(const Books& books, const std::string& family);
+/// Names of effects that stand, each once.
+int found_effects(const Books& books);
 /// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.
 Tried* same_finding(std::vector<Tried>& kept, const Tried& t);
 /// Of twins the one behind stays, unless the other is better by more than the rows are accurate; it names both places.
@@ -99,6 +105,23 @@ bool would_tell(const Experiment& experiment, bool hidden);
 /// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
            double bar);
+
+/// Into the record of what was tried. `winner`, `ties`: indices of tried; -1 = nobody.
+void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner, const std::vector<int>& ties);
+
+/// What a gain and a zero alone take away nearly all of is theirs first, whatever the winner's law holds besides:
+/// index of the calibration, or `winner`.
+int calibration_first(const std::vector<Tried>& tried, int winner);
+
+/// The effect `id`, which stands, on the way to the outputs that it does not move yet: axes are built alike and stand
+/// in one room. Each is claimed as a first effect would be there, unless another of those that were `tried` in its step
+/// explains that output better, and told as a step of its own.
+void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& tried, double bar);
+
+/// A law that found the user's zero anew (Effect::moves_zero) may have taken up another effect: every recording that
+/// begins at rest has its zero from the sensor. Holds the zero where the user has it and asks for `one_more` effect; if
+/// there is none, or only a calibration that the laws could be themselves, all is as before and the answer false.
+bool with_the_zero_held(Books& books, const std::function<bool()>& one_more);
 
 /// The fitted candidate becomes the present model, told as a step.
 void take(Books& books, int step, Tried& w, FoundStep found);

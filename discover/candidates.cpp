@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
@@ -101,9 +102,14 @@ Tried* same_finding(std::vector<Tried>& kept, const Tried& t) {
   return nullptr;
 }
 
-std::vector<std::string> untouched_outputs(const Books& books) {
+namespace {
+
+/// Outputs that none of the chosen effects moves.
+template <class Chosen>
+std::vector<std::string> outputs_not_moved(const Books& books, const Chosen& chosen) {
   std::vector<bool> moved(books.base_model->outputs().size(), false);
   for (const auto& s : books.current.standing) {
+    if (!chosen(s)) continue;
     const auto by_it = moved_by(books, s.place.wire);
     if (by_it.empty()) return {};  // nobody knows which
     for (const int o : by_it) moved[static_cast<std::size_t>(o)] = true;
@@ -114,14 +120,31 @@ std::vector<std::string> untouched_outputs(const Books& books) {
   return list;
 }
 
+}  // namespace
+
+std::vector<std::string> untouched_outputs(const Books& books) {
+  return outputs_not_moved(books, [](const Standing&) { return true; });
+}
+
+std::vector<std::string> outputs_without(const Books& books, const std::string& family) {
+  return outputs_not_moved(books, [&](const Standing& s) { return s.effect->family == family; });
+}
+
+int found_effects(const Books& books) {
+  std::set<std::string> names;
+  for (const auto& s : books.current.standing) names.insert(s.effect->id);
+  return static_cast<int>(names.size());
+}
+
 namespace {
 
 /// Every effect at every place where it may enter, with what the recordings show there.
-std::vector<Tried> everywhere(Books& books, int step, const std::vector<std::string>& outputs) {
+std::vector<Tried> everywhere(Books& books, int step, const std::vector<std::string>& outputs,
+                              const std::vector<const Effect*>& only) {
   std::vector<Tried> list;
   std::vector<Place> places;
   for (const auto& e : books.effects.list()) {
-    if (!books.wanted(e)) continue;
+    if (!books.wanted(e) || (!only.empty() && std::find(only.begin(), only.end(), &e) == only.end())) continue;
     auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
     std::erase_if(where,
                   [&](const Place& p) { return standing_before(books, e, p) || !only_moves(books, p, outputs); });
@@ -136,7 +159,8 @@ std::vector<Tried> everywhere(Books& books, int step, const std::vector<std::str
     }
   }
   if (list.empty()) return list;
-  auto seen = circumstances_at(books.current.diagram, books.registry, *books.data, places, books.options.free_paths);
+  auto seen = circumstances_at(books.current.diagram, books.registry, *books.data, places,
+                               free_anyway(books.shop, books.current));
   for (std::size_t i = 0; i < list.size(); ++i) list[i].circumstances = std::move(seen[i]);
   return list;
 }
@@ -154,10 +178,11 @@ void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
 
 }  // namespace
 
-std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs) {
+std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs,
+                                   const std::vector<const Effect*>& only) {
   books.hidden.clear();
   std::vector<Tried> kept;
-  for (auto& t : everywhere(books, step, outputs)) {
+  for (auto& t : everywhere(books, step, outputs, only)) {
     if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
       if (step == 1) books.d.refused.push_back({t.effect->id, t.place.at, why});
       if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) books.hidden.push_back(std::move(t));

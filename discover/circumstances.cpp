@@ -252,16 +252,18 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
       if (side_signal[i] >= 0)
         c.side_unit =
             program->signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(side_signal[i])])].unit;
-      std::vector<double> side, wire;
+      std::vector<double> side, wire, first;
       for (std::size_t r = 0; r < rows.size(); ++r)
         if (const auto* column = side_rows(r, i)) {
           side.insert(side.end(), column->begin(), column->begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
           wire.insert(wire.end(), rows[r][i].begin(), rows[r][i].end());
+          first.push_back(column->front());
         }
       if (!side.empty()) {
         const auto [low, high] = std::minmax_element(side.begin(), side.end());
         c.side_lowest = *low;
         c.side_highest = *high;
+        c.side_at_start = median(first);
         c.side_correlation = correlation(side, wire);
       }
     }

@@ -40,7 +40,6 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
       found.experiment = e;
   }
   take(books, step, w, std::move(found));
-  if (books.current.standing.size() > 1) reconsider(books, bar);
 }
 
 void take(Books& books, int step, Tried& w, FoundStep found) {

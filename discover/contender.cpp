@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discover/parts.h"
 #include "engine/error.h"
 
 namespace hysteron {
@@ -44,12 +45,13 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
       });
       free.push_back(std::move(f));
     }
-    for (const auto& zero : c.standing[i].zeros) {
-      FreeParameter f = free_parameter(*c.program, zero);
-      const bool have =
-          std::any_of(free.begin(), free.end(), [&](const FreeParameter& h) { return h.parameter == f.parameter; });
-      if (!have) free.push_back(std::move(f));
-    }
+    for (const auto* anew : {&c.standing[i].zeros, &c.standing[i].weights})
+      for (const auto& path : *anew) {
+        FreeParameter f = free_parameter(*c.program, path);
+        const bool have =
+            std::any_of(free.begin(), free.end(), [&](const FreeParameter& h) { return h.parameter == f.parameter; });
+        if (!have) free.push_back(std::move(f));
+      }
   }
   return free;
 }
@@ -80,6 +82,8 @@ std::vector<int> train_and_validate(const DataSet& data) {
     if (data.recordings[r].role != Role::test) list.push_back(static_cast<int>(r));
   return list;
 }
+
+bool calibrates(const Standing& s) { return s.effect->family == "calibration"; }
 
 /// Values of single recordings that are not free this time.
 Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
@@ -166,19 +170,45 @@ void keep_within_time(const Contender& c, DataModel& model, const Trial& fixed, 
       std::min(options.max_iterations, static_cast<int>(std::max(4.0, half / (1 + linear + searched))));
 }
 
-/// Compiles and fits the diagram of `c` in the parameters of the chosen effects; `fresh` = index of the effect that
-/// starts from its law instead of its values, -1 = none.
-void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen) {
-  c.program = compile(c.diagram, *shop.registry);
-  DataModel model(c.program, shop.data, accuracy(shop, effort));
+// Candidates are told apart by some units of chi2, and a screened one counts from some units on; steps for less are for
+// the one that is claimed.
+constexpr double full_matters = 0.2, screen_matters = 0.5;
+
+/// Noise of the outputs of `model`, which may be some of those that are judged.
+NoiseModel noise_of(const Workshop& shop, const DataModel& model) {
+  if (shop.evidence == nullptr) return noise_before_fit(model);
+  const auto& all = shop.evidence->model().outputs();
+  NoiseModel some;
+  for (const auto& name : model.outputs())
+    some.outputs.push_back(
+        shop.evidence->noise()
+            .outputs[static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin())]);
+  return some;
+}
+
+void predict(Contender& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
+  const long before = model.runs();
+  c.prediction = model.predict(values, model.recordings(judged));
+  c.runs += model.runs() - before;
+  c.ok = c.prediction.ok;
+  c.error = c.prediction.error;
+}
+
+/// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
+/// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
+void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+                const std::vector<std::string>& outputs) {
+  c.program = compile(c.diagram, *shop.registry);
+  const bool some = outputs.size() < c.program->output_names.size();
+  const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
+  DataModel model(seen, shop.data, accuracy(shop, effort));
   auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data));
+  if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
-    c.prediction = model.predict(fixed, model.recordings(judged));
-    c.ok = c.prediction.ok;
-    c.error = c.prediction.error;
-    c.runs += model.runs();
+    DataModel whole(c.program, shop.data, accuracy(shop, effort));
+    predict(c, whole, fixed);
     return;
   }
   FitOptions options;
@@ -186,11 +216,11 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   if (effort == Effort::screen) spend_less(c, free, options);
   if (effort == Effort::full) keep_within_time(c, model, fixed, free, options);
   options.intervals = effort == Effort::final;
+  options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
-  const NoiseModel noise = shop.evidence != nullptr ? shop.evidence->noise() : noise_before_fit(model);
   FitResult before = std::move(c.fit);
-  c.fit = fit(model, noise, free, options);
+  c.fit = fit(model, noise_of(shop, model), free, options);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
@@ -201,14 +231,18 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   keep_of_recordings(c, fixed);
   Trial all = c.fit.values;
   all.insert(all.end(), fixed.begin(), fixed.end());
-  c.prediction = model.predict(all, model.recordings(judged));
-  c.ok = c.prediction.ok;
-  c.error = c.prediction.error;
+  if (some) {
+    DataModel whole(c.program, shop.data, accuracy(shop, effort));
+    whole.choose_substeps(all, noise_of(shop, whole).white());
+    predict(c, whole, all);
+  } else {
+    predict(c, model, all);
+  }
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
   // What was held this time keeps what was said of it last time.
   for (auto& e : before.estimates)
     if (std::none_of(c.fit.estimates.begin(), c.fit.estimates.end(),
-                     [&](const ParameterEstimate& now) { return now.path == e.path; }))
+                     [&](const ParameterEstimate& now) { return now.path == e.path && now.recording == e.recording; }))
       c.fit.estimates.push_back(std::move(e));
 }
 
@@ -224,13 +258,11 @@ bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<
   return searched > 4 || (effort != Effort::final && searched * linear > 12);
 }
 
-void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
-  std::vector<bool> chosen(c.standing.size(), true);
-  if (effort == Effort::screen && fresh >= 0)
-    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = static_cast<int>(i) == fresh;
-  c.program = compile(c.diagram, *shop.registry);
+/// The chosen effects of one part, together or in turn.
+void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+              const std::vector<std::string>& outputs) {
   if (!better_in_turn(shop, c, chosen, effort)) {
-    fit_chosen(shop, c, effort, fresh, chosen);
+    fit_chosen(shop, c, effort, fresh, chosen, outputs);
     return;
   }
   double last = std::numeric_limits<double>::infinity();
@@ -238,14 +270,28 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
     for (std::size_t k = 0; k < c.standing.size(); ++k) {
       // The newest first: it has no values yet.
       const std::size_t i = c.standing.size() - 1 - k;
+      if (!chosen[i]) continue;
       std::vector<bool> one(c.standing.size(), false);
       one[i] = true;
-      fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one);
+      fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one, outputs);
       if (!c.ok) return;
     }
     const double now = c.fit.chi2;
     if (last - now < 1) return;
     last = now;
+  }
+}
+
+void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
+  c.program = compile(c.diagram, *shop.registry);
+  for (const auto& part : parts_of(c, shop.free_paths)) {
+    if (fresh >= 0 && !part.has(static_cast<std::size_t>(fresh))) continue;  // nothing there has changed
+    auto chosen = part.effects;
+    if (effort == Effort::screen && fresh >= 0)
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        chosen[i] = chosen[i] && (static_cast<int>(i) == fresh || calibrates(c.standing[i]));
+    fit_part(shop, c, effort, fresh, chosen, part.outputs);
+    if (!c.ok) return;
   }
 }
 
@@ -261,7 +307,8 @@ int spent(const Contender& c, int standing) {
     else if (p.estimate == nullptr || !(p.estimate->at_lower || p.estimate->at_upper))
       ++n;
   for (std::size_t i = 0; i < c.standing.size(); ++i)
-    if (standing < 0 || standing == static_cast<int>(i)) n += static_cast<int>(c.standing[i].zeros.size());
+    if (standing < 0 || standing == static_cast<int>(i))
+      n += static_cast<int>(c.standing[i].zeros.size() + c.standing[i].weights.size());
   return n;
 }
 
@@ -309,6 +356,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;
   c.steps = before.steps;
+  c.fit.estimates = before.fit.estimates;
   try {
     c.change = add_effect(before.diagram, *shop.registry, effect, law, place);
   } catch (const Error& e) {
@@ -316,8 +364,10 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
     return c;
   }
   c.diagram = c.change.diagram;
-  c.standing.push_back({&effect, law, place, c.change.name, effect.moves_zero ? at.zeros : std::vector<std::string>{}});
-  if (law.reweighs) c.standing.back().zeros.insert(c.standing.back().zeros.end(), at.weights.begin(), at.weights.end());
+  c.zero_is_calibrated = before.zero_is_calibrated;
+  const bool new_zero = effect.moves_zero && !c.zero_is_calibrated && !at.offset_is_free;
+  c.standing.push_back({&effect, law, place, c.change.name, new_zero ? at.zeros : std::vector<std::string>{}});
+  if (law.reweighs) c.standing.back().weights = at.weights;
   const int fresh = static_cast<int>(c.standing.size()) - 1;
   try {
     if (before.program) refuse_new_loop(*before.program, *compile(c.diagram, *shop.registry), place.at);
@@ -328,12 +378,21 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   return guarded(shop, std::move(c), effort, fresh, before.parameters);
 }
 
+std::vector<std::string> free_anyway(const Workshop& shop, const Contender& c) {
+  auto paths = shop.free_paths;
+  for (const auto& s : c.standing)
+    if (calibrates(s))
+      for (const auto& p : s.law.free) paths.push_back(parameter_path(s.name, s.law, p));
+  return paths;
+}
+
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort) {
   Contender c;
   c.diagram = contender.diagram;
   c.standing = contender.standing;
   c.of_recordings = contender.of_recordings;
   c.change = contender.change;
+  c.zero_is_calibrated = contender.zero_is_calibrated;
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 

@@ -18,8 +18,9 @@ struct Standing {
   const Effect* effect = nullptr;
   Law law;
   Place place;
-  std::string name;                ///< path of its choice
-  std::vector<std::string> zeros;  ///< the user's constants that are found anew with it (Effect::moves_zero)
+  std::string name;                    ///< path of its choice
+  std::vector<std::string> zeros;      ///< the user's constants that are found anew with it (Effect::moves_zero)
+  std::vector<std::string> weights{};  ///< weights of operators that are (Law::reweighs)
 };
 
 /// A value of one recording alone: the amplitude of a line whose phase is another one in each.
@@ -40,6 +41,8 @@ struct Contender {
   std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
   Prediction prediction;                      ///< train and validate recordings
   ModelError error_of;                        ///< filled in by whoever holds the evidence
+  /// The zero is a calibration's, which stands: laws that move it (Effect::moves_zero) leave it where the user has it.
+  bool zero_is_calibrated = false;
   int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
   /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
   int found_on_validation = 0;
@@ -67,7 +70,7 @@ double row_tolerance(const DataModel& model, const NoiseModel& noise, double par
 
 /// How much of a contender is fitted.
 enum class Effort {
-  screen,  ///< the last effect's law and the user's linear parameters; the effects before keep their values
+  screen,  ///< the last effect's law, the user's linear parameters and a calibration; other effects keep their values
   full,    ///< everything
   final    ///< everything, with intervals
 };
@@ -81,6 +84,10 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
 /// Without the effect `index`; the others keep their values.
 Contender without(const Workshop& shop, const Contender& contender, std::size_t index);
+
+/// What is free besides the laws' own parameters: the user's, and gain and zero of a calibration that stands. A gain or
+/// zero that is free anyway is no law's.
+std::vector<std::string> free_anyway(const Workshop& shop, const Contender& contender);
 
 /// What the contender says of other recordings, those of the test: values of single recordings are found on them.
 Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings);

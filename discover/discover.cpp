@@ -50,8 +50,6 @@ void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
   }
 }
 
-namespace {
-
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner,
                      const std::vector<int>& ties) {
   for (std::size_t i = 0; i < tried.size(); ++i) {
@@ -65,12 +63,14 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
   }
 }
 
+namespace {
+
 /// False if nothing was claimed. `first_fall` = fall of chi2 on validation by the first finding; `kept`: what was
 /// tried; `outputs`: only what moves none but these, all if empty.
 bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kept,
-              const std::vector<std::string>& outputs = {}) {
+              const std::vector<std::string>& outputs = {}, const std::vector<const Effect*>& only = {}) {
   const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
-  auto tried = list_candidates(books, step, outputs);
+  auto tried = list_candidates(books, step, outputs, only);
   fit_candidates(books, tried, step);
   join_twins(tried);
   compare_all(books, tried, first_fall);
@@ -81,21 +81,53 @@ bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kep
     sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
     winner = best_admitted(tried);
   }
+  if (winner >= 0) winner = calibration_first(tried, winner);
   std::vector<int> ties;
   if (winner >= 0) {
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, first_fall);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
+    const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
+    on_other_outputs(books, id, tried, bar(0.93));
+    if (found_effects(books) > 1) reconsider(books, bar(0.95));
   }
   keep_candidates(books, tried, step, winner, ties);
   if (kept != nullptr) *kept = std::move(tried);
   return winner >= 0;
 }
 
+/// A calibration, and what looks like one; none where a calibration is not asked for.
+std::vector<const Effect*> straight_effects(const Books& books) {
+  const Effect* calibration = books.effects.find("calibration");
+  if (calibration == nullptr) return {};
+  std::vector<const Effect*> list{calibration};
+  for (const auto& e : books.effects.list())
+    if (look_alike(e, *calibration)) list.push_back(&e);
+  return list;
+}
+
+bool more_than_noise(const Books& books) {
+  return structure_is_left(books) || books.evidence->plain_over_floor(books.current.error_of) > rules::floor_gate;
+}
+
+/// A wrong zero hides: a law that finds it anew swallows it, and without one it is a constant, a single coefficient in
+/// each recording, beside which all the others are noise. Only a straight effect is asked for.
+void a_wrong_zero(Books& books) {
+  const auto straight = straight_effects(books);
+  const auto room = [&] { return found_effects(books) < books.options.max_steps && !books.stopped(); };
+  if (straight.empty() || books.d.steps.empty()) return;
+  const auto one_more = [&] {
+    const int step = static_cast<int>(books.d.steps.size()) + 1;
+    return more_than_noise(books) && one_step(books, step, first_fall(books), nullptr, {}, straight);
+  };
+  if (room() && !structure_is_left(books)) one_more();
+  if (room()) with_the_zero_held(books, one_more);
+}
+
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
 void one_by_one(Books& books, std::vector<Tried>& first) {
-  for (int step = static_cast<int>(books.d.steps.size()) + 1; step <= books.options.max_steps && !books.stopped();
-       ++step) {
+  for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
+    const int step = static_cast<int>(books.d.steps.size()) + 1;
     const bool go_on = step == 1 || structure_is_left(books);
     if (go_on && one_step(books, step, first_fall(books), step == 1 ? &first : nullptr)) continue;
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
@@ -103,6 +135,7 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
     const auto alone = untouched_outputs(books);
     if (step == 1 || alone.empty() || !one_step(books, step, 0, nullptr, alone)) break;
   }
+  a_wrong_zero(books);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ struct Circumstances {
   double resolution = 0;  ///< step between the levels of the measured output that this wire is; 0 = none, or no output
   Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
+  double side_at_start = 0;  ///< median over the train recordings of the side signal's first value
   /// Correlation of the side signal with this wire over the train recordings, -1..1.
   double side_correlation = 0;
   double range() const { return highest - lowest; }
@@ -129,11 +130,15 @@ struct Effect {
   std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
+  bool else_a_block = false;        ///< a block of its own at the core only where no block offers the variation
   bool before_sensor = false;       ///< not on a wire that is measured itself: there its law is the sensor's own
   Commutes commutes = Commutes::nothing;
   /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is
   /// found anew.
   bool moves_zero = false;
+  /// How far its law may move the zero by itself [SI of the wire]: the model's zero belongs to another circumstance
+  /// than the recordings'. Empty: not at all, for the law is neutral at rest.
+  std::function<double(const Law&, const std::vector<double>&)> own_zero{};
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "fit/whiten.h"
 
@@ -92,6 +93,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       one.nrmse = dev > 0 ? one.rms / dev : 0;
       for (std::size_t k = begin; k < begin + size; ++k) one.chi2 += w[k] * w[k];
       one.evidence = one.chi2 * per_chi2_;
+      one.plain = one.rms * one.rms * static_cast<double>(one.rows) / noisy_variance(o);
       begin += size;
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
       (is_train ? e.evidence_train : e.evidence_validate) += one.evidence;
@@ -130,6 +132,25 @@ double Evidence::over_usual_floor(const Prediction& prediction) const {
   for (std::size_t o = 0; o < chi2.size(); ++o)
     if (n[o] > 0) most = std::max(most, chi2[o] / n[o]);
   return most;
+}
+
+double Evidence::plain_over_floor(const ModelError& error) const {
+  if (!known_) return 1;
+  std::map<std::string, std::pair<double, double>> of_output;  // squares, rows
+  for (const auto& r : error.recordings) {
+    if (r.role != Role::validate) continue;
+    of_output[r.output].first += r.plain;
+    of_output[r.output].second += static_cast<double>(r.rows);
+  }
+  double most = 0;
+  for (const auto& [output, sums] : of_output) most = std::max(most, sums.first / std::max(sums.second, 1.0));
+  return most;
+}
+
+double Evidence::noisy_variance(int output) const {
+  constexpr double much = 0.5;  // rms of 1/f over white noise: few sensors have more (DISCOVERY 1 takes 0.3)
+  const double white = noise().outputs[static_cast<std::size_t>(output)].white;
+  return white * white * (1 + much * much);
 }
 
 std::vector<double> Evidence::pieces(const Prediction& prediction) const {

@@ -22,7 +22,11 @@ struct RecordingError {
   double nrmse = 0;     ///< rms over the standard deviation of what was measured
   double chi2 = 0;      ///< sum of squared whitened residuals, in units of the noise
   double evidence = 0;  ///< what falls are counted in: chi2 where the noise is known (see Evidence)
+  /// Sum of squares, not whitened, over the variance of a sensor with much 1/f noise: one per row or less if only noise
+  /// is left.
+  double plain = 0;
   double excess() const { return chi2 - static_cast<double>(rows); }
+  double plain_excess() const { return plain - static_cast<double>(rows); }
 };
 
 /// One model against all recordings. `rms` over several outputs is only given where they share a unit (else 0).
@@ -70,6 +74,10 @@ class Evidence {
   /// chi2 per row on validation with as much 1/f noise as sensors usually have, whatever this residual speaks for: slow
   /// structure that passes for noise until somebody tries an effect on it. Of several outputs the largest.
   double over_usual_floor(const Prediction& prediction) const;
+  /// The plain mean square on validation over that of a sensor with much 1/f noise (RecordingError::plain), of several
+  /// outputs the largest; 1 where nobody states the noise. A wrong zero is one coefficient in each recording, which the
+  /// thousands of others hide in chi2.
+  double plain_over_floor(const ModelError& error) const;
 
   const Judge& judge() const { return *judge_; }
   const NoiseModel& noise() const { return judge_->noise(); }
@@ -81,6 +89,9 @@ class Evidence {
   std::optional<std::pair<double, double>> test_error(const Prediction& prediction) const;
 
  private:
+  /// Of white noise and much 1/f noise [SI squared].
+  double noisy_variance(int output) const;
+
   const DataModel& base_;
   NoiseModel before_;
   std::optional<Judge> judge_;

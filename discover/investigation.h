@@ -45,6 +45,9 @@ constexpr double screened_part =
     0.2;  ///< of the least fall of a claim: below, a candidate is not fitted with the others
 constexpr double share_of_first =
     0.5;  ///< the first effect removes this share of the excess: listed ones alone 79-100 %, in unlisted cases 0-47 %
+/// A straight line takes 97 % of the squares of a parabola over its range away, and less of other curves: who leaves
+/// less than a hundredth to a curve is no curve.
+constexpr double straight_share = 0.99;
 constexpr double share_of_rest = 0.6;    ///< a further effect removes this share of the excess ...
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told

@@ -25,15 +25,23 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
   return train && validate;
 }
 
-/// chi2 above one per row on validation, of the outputs that the place moves: one axis cannot take away what another
-/// one leaves.
-double excess_of(const ModelError& error, const std::vector<std::string>& outputs) {
+/// What stands above the noise on validation, of the outputs that the place moves: one axis cannot take away what
+/// another one leaves. Counted by chi2, or `plain`.
+double excess_of(const ModelError& error, const std::vector<std::string>& outputs, bool plain) {
   double excess = 0;
   for (const auto& r : error.recordings)
     if (r.role == Role::validate &&
         (outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end()))
-      excess += r.excess();
+      excess += plain ? r.plain_excess() : r.excess();
   return excess;
+}
+
+/// Share of what stands above the noise. By chi2; where that says noise, by plain squares: a wrong zero is one
+/// coefficient in each recording, and what it takes away is lost among the thousands of the others.
+double share_of_excess(const ModelError& was, const ModelError& is, const std::vector<std::string>& outputs) {
+  const bool plain = was.over_floor() <= rules::floor_gate;
+  const double excess = excess_of(was, outputs, plain);
+  return excess > 0 ? (excess - excess_of(is, outputs, plain)) / excess : 0;
 }
 
 }  // namespace
@@ -67,8 +75,7 @@ void judge(Tried& tried, const Contender& before, double first_fall) {
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
   const double plain = was.chi2_validate - is.chi2_validate;
-  const double excess = excess_of(was, tried.outputs);
-  tried.share = excess > 0 ? (excess - excess_of(is, tried.outputs)) / excess : 0;
+  tried.share = share_of_excess(was, is, tried.outputs);
   if (!(tried.fall_validate > rules::claim_fall)) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",

@@ -36,7 +36,7 @@ std::optional<Tried> tried_at(Books& books, const Contender& model, const Member
   Tried t;
   t.effect = m.effect;
   t.place = place;
-  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, books.options.free_paths);
+  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(books.shop, model));
   t.laws = m.effect->laws(t.circumstances);
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
   if (law == t.laws.end()) return std::nullopt;
@@ -67,6 +67,8 @@ std::optional<Tried> tried_again(Books& books, const Contender& model, const Mem
 std::optional<Contender> rest_of(Books& books, std::size_t i) {
   const auto members = members_of(books.current);
   Contender rest = books.base;
+  // Without the calibration, the zero is the user's again: who else would take it up is not asked here.
+  rest.zero_is_calibrated = books.current.zero_is_calibrated || members[i].effect->family == "calibration";
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
     auto t = tried_again(books, rest, members[j]);
@@ -103,7 +105,7 @@ std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, 
     if (!books.wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(books, e))) continue;
     const auto places = places_of(e, rest.diagram, books.registry, books.data.get());
     if (places.empty()) continue;
-    const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, books.options.free_paths);
+    const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, free_anyway(books.shop, rest));
     for (std::size_t p = 0; p < places.size(); ++p) {
       if (!e.unseen(at[p]).empty()) continue;
       for (const auto& law : laws_to_try(e, at[p])) {
@@ -154,6 +156,7 @@ bool tell_again(Books& books, const Contender& set) {
   const auto steps = books.d.steps;
   const Prediction before = books.before_prediction;
   books.current = books.base;
+  books.current.zero_is_calibrated = set.zero_is_calibrated;
   books.before_prediction = {};
   books.d.steps.clear();
   auto left = members_of(set);

@@ -17,8 +17,8 @@ double tie_score(Books& books, const Tried& t, bool few) {
   if (calibration == nullptr) return t.contender.tie_score();
   const auto places = places_of(*calibration, t.contender.diagram, books.registry);
   if (places.empty()) return t.contender.tie_score();
-  const auto at =
-      circumstances_at(t.contender.diagram, books.registry, *books.data, places.front(), books.options.free_paths);
+  const auto at = circumstances_at(t.contender.diagram, books.registry, *books.data, places.front(),
+                                   free_anyway(books.shop, t.contender));
   if (!calibration->unseen(at).empty()) return t.contender.tie_score();
   const Contender free = with_effect(books.shop, t.contender, *calibration, calibration->laws(at).front(),
                                      places.front(), at, Effort::full);

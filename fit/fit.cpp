@@ -322,7 +322,7 @@ void Fitting::search_from(const std::vector<double>& start) {
         ++candidates_;
         return go_on("search");
       },
-      iterations, converged, message);
+      iterations, converged, message, options_.matters);
   if (found) keep(found);
   result_.iterations += iterations;
   if ((found && found == best_) || result_.starts == 0) {

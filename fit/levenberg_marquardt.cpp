@@ -39,7 +39,8 @@ class Search {
     error_ = squared(residual_);
     while (result_.trials < max_iterations_) {
       if (!linearize()) return end(false, "stopped: no derivatives here");
-      if (to_gain_ <= tolerance_ * error_) return end(true, "converged: the error no longer falls");
+      if (to_gain_ <= std::max(tolerance_ * error_, problem_.matters))
+        return end(true, "converged: the error no longer falls");
       switch (improve()) {
         case Step::accepted:
           break;

@@ -4,7 +4,7 @@
 // active set method of linear.h on the triangular factor of [J r]; D = the longest each column has been: Moré, Lect.
 // Notes Math. 630 (1978) 105). mu follows the gain ratio, actual over predicted fall of the squared error (Nielsen, IMM
 // report 1999-05). A trial that cannot be evaluated is a rejected trial. It ends where not even the undamped step
-// inside the bounds would lower the squared error by more than `tolerance` of itself.
+// inside the bounds would lower the squared error by more than `tolerance` of itself, or than what `matters`.
 #pragma once
 
 #include <functional>
@@ -36,6 +36,7 @@ struct LeastSquares {
   /// wherever a residual is asked for: |r + C s + J p|^2 over [s, p], and how far each s may go. Which of them a bound
   /// holds back changes along a step, and the step knows.
   std::function<bool(std::span<const double> z, LinearModel& model)> linear_model{};
+  double matters = 0;             ///< a fall of the squared error that is worth no further step
   std::function<bool()> go_on{};  ///< asked after each trial; false = stop with what was reached
 };
 

@@ -111,8 +111,8 @@ class Side {
 }  // namespace
 
 PointPointer search_locally(Projection& projection, std::vector<double> z, int max_iterations, double tolerance,
-                            const std::function<bool()>& go_on, int& iterations, bool& converged,
-                            std::string& message) {
+                            const std::function<bool()>& go_on, int& iterations, bool& converged, std::string& message,
+                            double matters) {
   PointPointer best;
   const auto see = [&](std::span<const double> at) {
     auto point = projection.at(at);
@@ -138,6 +138,7 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
     return projection.linear_model(*projection.at(at), false, model);
   };
   problem.go_on = go_on;
+  problem.matters = matters;
   const auto found = minimize(problem, std::move(z), max_iterations, tolerance);
   iterations += found.iterations;
   converged = found.converged;

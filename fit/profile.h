@@ -31,6 +31,7 @@ Profile profile_of(const ProfileTask& task, int which, double sigma, std::vector
 
 /// One bounded local search from z; the best point, or null where nothing could be simulated.
 PointPointer search_locally(Projection& projection, std::vector<double> z, int max_iterations, double tolerance,
-                            const std::function<bool()>& go_on, int& iterations, bool& converged, std::string& message);
+                            const std::function<bool()>& go_on, int& iterations, bool& converged, std::string& message,
+                            double matters = 0);
 
 }  // namespace hysteron

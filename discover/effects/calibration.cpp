@@ -65,7 +65,13 @@ Effect calibration() {
       offset.path = "offset";
       law.free.push_back(offset);
     }
-    return std::vector<Law>{law};
+    std::vector<Law> laws{law};
+    if (law.free.size() == 2) {
+      law.name = "offset";
+      law.free.erase(law.free.begin());
+      laws.push_back(law);
+    }
+    return laws;
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.gain_is_free && at.offset_is_free) return "gain and offset are free in the diagram already";

@@ -76,6 +76,39 @@ Law on_a_speed(const Circumstances& at, bool flows) {
   return law;
 }
 
+/// In the guide of something that moves without a mass of its own: what the guide holds back is missing from the
+/// motion. Dahl's law with the way as its time: z' = (level/slip)*v - |v|*z/slip.
+Law on_a_motion(const Circumstances& at) {
+  Law law;
+  law.name = "holds the motion back (Dahl)";
+  law.block.type = "bouc_wen";
+  const double range = at.range() > 0 ? at.range() : 1;
+  give(law.block, "gamma", with_unit(0.0, parse_unit(fmt::format("1/({})", unit_text(at.unit)))));
+  give(law.block, "d_p", 1.0);
+  LawParameter slope;
+  slope.path = "alpha";
+  slope.start = 0.05;
+  slope.lower = 0;  // it takes energy
+  slope.upper = 1;  // it cannot push
+  slope.scan = {0.01, 0.1};
+  give(law.block, "alpha", slope.start);
+  LawParameter bend;
+  bend.path = "beta";
+  bend.start = 30 / range;
+  // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
+  bend.lower = 10 / range;
+  bend.upper = 1e4 / range;
+  bend.log_scale = true;
+  bend.scan = per_decade(10 / range, 1e3 / range, 2);
+  give(law.block, "beta", with_unit(bend.start, parse_unit(fmt::format("1/({})", unit_text(at.unit)))));
+  law.free = {slope, bend};
+  return law;
+}
+
+bool is_motion(const Unit& unit) {
+  return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
+}
+
 bool is_speed(const Unit& unit) {
   return unit.dimension == parse_unit("m/s").dimension || unit.dimension == parse_unit("rad/s").dimension;
 }
@@ -95,13 +128,17 @@ Effect friction() {
   e.needs = "Several reversals, slow and fast ones.";
   e.way = Way::insert;
   e.block_type = "sliding_friction";
-  e.places = {"command"};
+  e.places = {"command", "core"};
+  e.behind_core = true;
   e.variation = "presliding";
+  e.else_a_block = true;
   e.is_memory = true;
   e.parameters = {{"contact_stiffness", "N/m", "while it sticks", ""},
                   {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
                   {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
                   {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
+                  {"alpha", "", "on a wire that carries a motion: how much sticks, of a small motion", "0 .. 1"},
+                  {"beta", "1/m", "there: over the way after which it slides", "20 1/mm .. 10 1/um"},
                   {"level", "m/s", "on a wire that carries a speed: friction over the damping behind it", ""},
                   {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},
@@ -110,6 +147,9 @@ Effect friction() {
                    {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+    if (at.by.empty() && is_motion(at.unit))
+      return fmt::format("{:.3g} {} held back, after {:.3g} {}", at.unit.difference_from_si(values[0] / values[1]),
+                         at.unit.text, at.unit.difference_from_si(1 / values[1]), at.unit.text);
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
@@ -117,6 +157,7 @@ Effect friction() {
                        100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
   };
   e.laws = [](const Circumstances& at) {
+    if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{on_a_motion(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     Law law;
     law.name = "presliding (Dahl)";
@@ -143,7 +184,11 @@ Effect friction() {
     return std::vector<Law>{law, with_excess(law, at)};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
-    if (at.by.empty() && !is_speed(at.unit)) return "friction needs a mass, or a wire that carries a speed";
+    if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())
+      return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
+                         fmt::join(at.memory_blocks, ", "));
+    if (at.by.empty() && !is_speed(at.unit) && !is_motion(at.unit))
+      return "friction needs a mass, or a wire that carries a motion or a speed";
     return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";
   };
   return e;

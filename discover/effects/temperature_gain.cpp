@@ -9,7 +9,8 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double least_span = 3;  // [K] of a recorded temperature that shows a gain
+constexpr double least_span = 3;   // [K] of a recorded temperature that shows a gain
+constexpr double work_place = 15;  // [K] beyond what was recorded: another season, another laboratory
 
 }  // namespace
 
@@ -67,8 +68,14 @@ Effect temperature_gain() {
       LawParameter reference;
       reference.path = "reference";
       reference.start = middle;
-      reference.lower = middle - 100;
-      reference.upper = middle + 100;
+      // Sensitivity and reference multiply each other: from a wrong reference the first steps go astray. The user's
+      // gain was found at a temperature of these recordings, most often the coldest, that of the room.
+      const double span = at.side_highest - at.side_lowest;
+      if (at.from_data) reference.scan = {at.side_lowest, at.side_lowest + 0.15 * span, middle, at.side_highest};
+      // A model's gain was found where its user works. Far from there, sensitivity times distance is a wrong gain that
+      // hardly knows the temperature.
+      reference.lower = at.from_data ? at.side_lowest - work_place : middle - 100;
+      reference.upper = at.from_data ? at.side_highest + work_place : middle + 100;
       law.free.push_back(reference);
     }
     return std::vector<Law>{law};

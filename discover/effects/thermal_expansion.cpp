@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
 namespace {
+
+constexpr double another_day = 3;  // [K] between the laboratory's temperatures when the model was made and now
 
 /// [s] where the search for the time constant of part k begins.
 double first_time(const Circumstances& at, int k) { return at.longest_recording / (k == 0 ? 10 : 100); }
@@ -42,6 +45,8 @@ Law parts(const Circumstances& at, int n) {
     time.plausible_upper = 7200;
     law.free.push_back(time);
   }
+  // The user's zero is that of the temperature at which recordings begin, most likely.
+  if (at.from_data && !at.side_unit.text.empty()) give(law.block, "reference", level(at.side_at_start, at.side_unit));
   // Where no constant of the diagram takes up the middle, the temperature of no expansion is found too.
   if (!at.zeros.empty() || at.offset_is_free) return law;
   const double middle = 0.5 * (at.side_lowest + at.side_highest);
@@ -87,6 +92,11 @@ Effect thermal_expansion() {
       text += fmt::format("{}{:.3g} {}/K late by {}", k == 0 ? "" : " and ", at.unit.difference_from_si(values[k]),
                           at.unit.text, time_text(values[parts + k]));
     return text;
+  };
+  e.own_zero = [](const Law&, const std::vector<double>& values) {
+    double per_kelvin = 0;
+    for (std::size_t k = 0; k < values.size() / 2; ++k) per_kelvin += values[k];
+    return std::abs(per_kelvin) * another_day;
   };
   e.laws = [](const Circumstances& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
   e.unseen = [](const Circumstances& at) -> std::string {

@@ -1,0 +1,96 @@
+// Decides whether the zero that a law found anew hides another effect: a wrong calibration, or what shifts the middle
+// likewise. A law in front of the sensor that is neutral at rest cannot move what the sensor reads there.
+#include <cmath>
+#include <optional>
+
+#include "discover/books.h"
+#include "discover/circumstances.h"
+
+namespace hysteron {
+namespace {
+
+/// Where the sensor itself, or what is beside the wire, has a constant of its own, the zero is as much that law's as
+/// anybody's.
+bool has_own_constant(const Standing& s) {
+  return s.place.kind == "measured" || (s.effect->side != Side::none && !s.effect->own_zero);
+}
+
+/// How far the laws may move the zero by themselves [SI].
+double own_zero(const Contender& c) {
+  double sum = 0;
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    const Standing& s = c.standing[i];
+    if (!s.effect->own_zero) continue;
+    std::vector<double> values;
+    for (const auto& p : parameters_of(c, static_cast<int>(i)))
+      if (p.estimate != nullptr) values.push_back(p.estimate->used);
+    if (values.size() == s.law.free.size()) sum += s.effect->own_zero(s.law, values);
+  }
+  return sum;
+}
+
+/// The laws that stand, fitted with the zeros of the user's model; nullopt if none of them found one anew, or if it is
+/// not the sensor's alone.
+std::optional<Contender> with_the_users_zeros(Books& books) {
+  Contender c = books.current;
+  std::vector<ParameterValue> zeros;
+  for (auto& s : c.standing) {
+    if (s.effect->id == "calibration" || (!s.zeros.empty() && has_own_constant(s))) return std::nullopt;
+    for (const auto& path : s.zeros) {
+      const int parameter = parameter_index(*c.program, path);
+      zeros.push_back({parameter, free_parameter(*books.base.program, path).start, -1});
+    }
+    s.zeros.clear();
+  }
+  if (zeros.empty()) return std::nullopt;
+  c.diagram = with_parameters(c.diagram, *c.program, zeros);
+  c.zero_is_calibrated = true;
+  c = refit(books.shop, c, Effort::full);
+  books.d.model_runs += c.runs;
+  if (!c.ok) return std::nullopt;
+  c.error_of = books.evidence->error(c.prediction);
+  return c;
+}
+
+/// A calibration that stands moves no zero beyond what the other laws could move it by themselves.
+bool owes_its_zero(const Contender& c) {
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    if (c.standing[i].effect->family != "calibration") continue;
+    for (const auto& p : parameters_of(c, static_cast<int>(i)))
+      if (p.estimate != nullptr && p.law->path == "offset") return std::abs(p.estimate->used) <= own_zero(c);
+  }
+  return false;
+}
+
+}  // namespace
+
+int calibration_first(const std::vector<Tried>& tried, int winner) {
+  const Tried& w = tried[static_cast<std::size_t>(winner)];
+  if (!w.effect->moves_zero) return winner;
+  for (const std::size_t i : ranking(tried)) {
+    const Tried& t = tried[i];
+    if (t.effect->family != "calibration" || !t.admitted || t.outputs != w.outputs) continue;
+    if (t.fall_train > rules::straight_share * w.fall_train &&
+        t.fall_validate > rules::straight_share * w.fall_validate)
+      return static_cast<int>(i);
+  }
+  return winner;
+}
+
+bool with_the_zero_held(Books& books, const std::function<bool()>& one_more) {
+  const auto laws = with_the_users_zeros(books);
+  if (!laws) return false;
+  const Contender current = books.current;
+  const auto steps = books.d.steps;
+  const auto candidates = books.d.candidates;
+  const Prediction before = books.before_prediction;
+  if (tell_again(books, *laws) && one_more() && !owes_its_zero(books.current)) return true;
+  books.current = current;
+  books.d.steps = steps;
+  books.d.candidates = candidates;
+  books.before_prediction = before;
+  books.settle(books.current);
+  return false;
+}
+
+}  // namespace hysteron

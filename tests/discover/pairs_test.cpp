@@ -1,0 +1,201 @@
+// Rules that two effects at once need: a wrong zero beside a law that moves it, the same effect on both axes, friction
+// of a guide without a mass.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "discover/parts.h"
+#include "tests/discover/discoveries.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+
+constexpr double white = 2e-4;
+
+/// A gain of 1 m/V and a sensor behind it.
+Diagram with_sensor(const std::string& number = "") {
+  Diagram d;
+  d.inputs["u" + number].unit = "V";
+  Node& stage = d.blocks["stage" + number];
+  stage.type = "gain";
+  stage.parameters["gain"] = Value("1 m/V");
+  stage.in = {{"", "u" + number}};
+  Node& sensor = d.blocks["sensor" + number];
+  sensor.type = "calibration";
+  sensor.parameters["gain"] = Value(1.0);
+  sensor.parameters["offset"] = Value("0 m");
+  sensor.in = {{"", "stage" + number}};
+  d.outputs["y" + number] = "sensor" + number;
+  return d;
+}
+
+Diagram two_axes() {
+  Diagram d = with_sensor();
+  const Diagram second = with_sensor("2");
+  d.inputs["u2"] = *second.inputs.find("u2");
+  for (const auto& [name, node] : second.blocks) d.blocks[name] = node;
+  d.outputs["y2"] = "sensor2";
+  return d;
+}
+
+/// What the recordings of one device are made by: y from t, u and the temperature.
+using Law = std::function<double(double t, double u, double warmer)>;
+
+std::vector<double> by(const Law& law, const std::vector<double>& t, const std::vector<double>& u,
+                       const std::vector<double>& temperature, std::uint64_t seed) {
+  auto y = noise(t.size(), white, 0.1 * white, seed);
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] += law(t[k], u[k], temperature[k] - 295);
+  return y;
+}
+
+/// Two recordings at room temperature, and one of either role over 12 K.
+DataSet measured(const Law& first, const Law& second) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 60;
+  for (const auto& [role, kelvin, hertz] : {std::tuple{Role::train, 0.0, 1.1},
+                                            {Role::train, 12.0, 1.7},
+                                            {Role::validate, 0.0, 2.3},
+                                            {Role::validate, 12.0, 0.9}}) {
+    const auto t = rows(1000, 0.005);
+    const auto u = several_sines(t, 1, {hertz, 3.1 * hertz});
+    const auto u2 = several_sines(t, 0.9, {1.3 * hertz, 4.4 * hertz});
+    const auto warm = sampled(t, [k = kelvin](double x) { return 295 + k * x / 5; });
+    Recording r = recording(std::to_string(seed) + ".csv", role, t, u, by(first, t, u, warm, seed));
+    r.columns["u2"] = u2;
+    r.columns["y2"] = by(second, t, u2, warm, seed + 100);
+    r.columns["T"] = warm;
+    r.units["u2"] = parse_unit("V");
+    r.units["y2"] = parse_unit("m");
+    r.units["T"] = parse_unit("K");
+    list.push_back(std::move(r));
+    ++seed;
+  }
+  DataSet d = data_set(std::move(list), white);
+  d.notes["u2"].to = "u2";
+  d.notes["y2"] = d.notes["y"];
+  d.notes["y2"].to = "y2";
+  d.notes["T"].to = "T";
+  return d;
+}
+
+/// The same laws on one axis alone.
+DataSet one_axis(DataSet d) {
+  for (const char* name : {"u2", "y2"}) {
+    d.notes.erase(name);
+    for (auto& r : d.recordings) {
+      r.columns.erase(name);
+      r.units.erase(name);
+    }
+  }
+  return d;
+}
+
+class Pairs : public Discoveries {
+ protected:
+  static std::set<std::string> names(const Discovery& d) {
+    std::set<std::string> list;
+    for (const auto& s : d.steps) list.insert(s.winner.effect);
+    return list;
+  }
+};
+
+using Names = std::set<std::string>;
+
+TEST_F(Pairs, WhatActsOnBothAxesIsOneFindingAndLeavesRoomForAnother) {
+  // Temperature on both axes and a curve on both: four places, two effects.
+  const Law law = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer) + 0.004 * u * (1 - u); };
+  const std::vector<std::string> only{"temperature_gain", "sensor_nonlinearity", "thermal_expansion", "ageing"};
+  const auto d = discovered(two_axes(), measured(law, law), only);
+  EXPECT_EQ(names(d), (Names{"temperature_gain", "sensor_nonlinearity"})) << tried(d);
+  ASSERT_EQ(d.steps.size(), 4u) << tried(d);
+  EXPECT_EQ(d.remainder, Remainder::noise);
+}
+
+TEST_F(Pairs, AnEffectOfOneAxisIsNotTakenToTheOther) {
+  const Law warm = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer); };
+  const Law curved = [](double, double u, double) { return u + 0.02 * u * (1 - u); };
+  const auto d =
+      discovered(two_axes(), measured(warm, curved), {"temperature_gain", "sensor_nonlinearity", "calibration"});
+  EXPECT_EQ(names(d), (Names{"temperature_gain", "sensor_nonlinearity"})) << tried(d);
+  EXPECT_EQ(d.steps.size(), 2u) << tried(d);
+}
+
+TEST_F(Pairs, AWrongZeroBesideALateExpansionIsTheSensors) {
+  // 0.001 m/K, and a zero that is off by 20 K of it: no laboratory is that much colder one day.
+  const Law law = [](double, double u, double warmer) { return u + 0.001 * warmer + 0.02; };
+  const auto d = discovered(with_sensor(), one_axis(measured(law, law)), {"thermal_expansion", "calibration", "creep"});
+  EXPECT_EQ(names(d), (Names{"thermal_expansion", "calibration"})) << tried(d);
+}
+
+TEST_F(Pairs, AnotherDaysTemperatureIsNoWrongZero) {
+  // The model's zero was found at 293 K.
+  const Law law = [](double, double u, double warmer) { return u + 0.001 * (warmer + 2); };
+  const auto d = discovered(with_sensor(), one_axis(measured(law, law)), {"thermal_expansion", "calibration", "creep"});
+  EXPECT_EQ(names(d), (Names{"thermal_expansion"})) << tried(d);
+}
+
+TEST_F(Pairs, AWrongZeroIsSeenBesideWhatLeavesOnlyNoise) {
+  // One standard deviation of the noise in every row is one coefficient in each recording: chi2 per row is about one.
+  const Law law = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer) + 1.5 * white; };
+  const auto d = discovered(with_sensor(), one_axis(measured(law, law)), {"temperature_gain", "calibration"});
+  EXPECT_EQ(names(d), (Names{"temperature_gain", "calibration"})) << tried(d);
+}
+
+/// A guide with Coulomb friction holds `level` back, and takes `way` to slide: bristles by closed form between rows.
+std::vector<double> guided(const std::vector<double>& u, double level, double way) {
+  std::vector<double> y{u.front()};
+  double z = 0;
+  for (std::size_t k = 1; k < u.size(); ++k) {
+    const double step = u[k] - u[k - 1], end = step > 0 ? 1 : -1;
+    z = end + (z - end) * std::exp(-std::abs(step) / way);
+    y.push_back(u[k] - level * z);
+  }
+  return y;
+}
+
+TEST_F(Pairs, FrictionOfAGuideNeedsNoMass) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 90;
+  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.4}, {Role::validate, 0.7}}) {
+    const auto t = rows(1500, 0.005);
+    const auto u = decaying_triangle(t, top, 6);
+    auto y = guided(u, 0.003, 0.02);
+    const auto n = noise(t.size(), white, 0.1 * white, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  const auto d = discovered(with_sensor(), data_set(std::move(list), white),
+                            {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
+  EXPECT_EQ(names(d), (Names{"friction"})) << tried(d);
+  // Of 15 sigma of level half a sigma per turn is left; the way is known from its 30 rows per turn.
+  EXPECT_NEAR(value(d, "alpha") / value(d, "beta"), 0.003, 1e-4);
+  EXPECT_NEAR(1 / value(d, "beta"), 0.02, 0.002);
+}
+
+TEST(PartsOfAModel, AxesWithNothingBetweenThemAreFittedApart) {
+  const Registry registry = all_blocks();
+  Contender c;
+  c.diagram = two_axes();
+  c.program = compile(c.diagram, registry);
+  ASSERT_EQ(parts_of(c, {}).size(), 2u);
+  EXPECT_EQ(parts_of(c, {})[1].outputs, std::vector<std::string>{"y2"});
+  EXPECT_EQ(parts_of(c, {"stage.gain"}).size(), 2u) << "a free gain of one axis couples nothing";
+  c.diagram.blocks["stage2"].in = {{"", "u"}};
+  c.diagram.blocks["sensor2"].in = {{"", "stage"}};
+  c.diagram.blocks.erase("stage2");
+  c.diagram.inputs.erase("u2");
+  c.program = compile(c.diagram, registry);
+  EXPECT_EQ(parts_of(c, {}).size(), 2u) << "one drive does not couple what nobody fits";
+  EXPECT_EQ(parts_of(c, {"stage.gain"}).size(), 1u) << "a free gain before both does";
+  const auto seen = compile(seen_at(c.diagram, {"y2"}), registry);
+  EXPECT_EQ(seen->output_names, std::vector<std::string>{"y2"});
+  EXPECT_EQ(seen->parameters.size(), c.program->parameters.size()) << "values of one hold for the other";
+}
+
+}  // namespace
+}  // namespace hysteron
