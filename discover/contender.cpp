@@ -128,27 +128,8 @@ void thin_scans(std::vector<FreeParameter>& free, double most) {
   }
 }
 
-/// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.
-void spend_less(const Contender& c, std::vector<FreeParameter>& free, FitOptions& options) {
-  options.max_iterations = 5;
-  options.refine = 1;
-  if (c.steps <= 0) return;
-  const double simulations = screening_steps / c.steps;
-  std::vector<int> parameters;
-  for (const auto& f : free) parameters.push_back(f.parameter);
-  const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
-  const auto linear = static_cast<double>(std::count(affine.begin(), affine.end(), true));
-  const auto searched = static_cast<double>(affine.size()) - linear;
-  thin_scans(free, std::max(4.0, simulations / 2 / (1 + linear)));
-  options.max_iterations = static_cast<int>(std::clamp(simulations / 2 / (1 + linear + searched), 2.0, 5.0));
-}
-
-/// Steps that may be spent on the fit of one candidate with nonlinear states: some tens of seconds.
-constexpr double fit_steps = 1e8;
-
-/// A full fit of a slow model begins in fewer places and takes fewer steps from there.
-void keep_within_time(const Contender& c, DataModel& model, const Trial& fixed, std::vector<FreeParameter>& free,
-                      FitOptions& options) {
+/// Steps of one simulation of the train recordings from the start values: rows times substeps.
+double steps_from(DataModel& model, const Trial& fixed, const std::vector<FreeParameter>& free) {
   Trial start = fixed;
   for (const auto& f : free) start.push_back({f.parameter, f.start, f.recording});
   model.choose_substeps(start);
@@ -158,14 +139,37 @@ void keep_within_time(const Contender& c, DataModel& model, const Trial& fixed, 
     steps += static_cast<double>(model.times(r).size()) * model.substeps(r);
     most = std::max(most, model.substeps(r));
   }
-  if (most == 1) return;
+  return most == 1 ? 0 : steps;  // without nonlinear states nothing is slow
+}
+
+/// How many of the free parameters are found by linear least squares.
+double linear_ones(const Contender& c, const std::vector<FreeParameter>& free) {
   std::vector<int> parameters;
   for (const auto& f : free) parameters.push_back(f.parameter);
   const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
-  const auto linear = static_cast<double>(std::count(affine.begin(), affine.end(), true));
+  return static_cast<double>(std::count(affine.begin(), affine.end(), true));
+}
+
+/// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.
+void spend_less(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
+  options.max_iterations = 5;
+  options.refine = 1;
+  if (steps <= 0) return;
+  const double simulations = screening_steps / steps;
+  const double linear = linear_ones(c, free), searched = static_cast<double>(free.size()) - linear;
+  thin_scans(free, std::max(4.0, simulations / 2 / (1 + linear)));
+  options.max_iterations = static_cast<int>(std::clamp(simulations / 2 / (1 + linear + searched), 2.0, 5.0));
+}
+
+/// Steps that may be spent on the fit of one candidate with nonlinear states: some seconds.
+constexpr double fit_steps = 4e7;
+
+/// A full fit of a slow model begins in fewer places and takes fewer steps from there.
+void keep_within_time(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
+  if (steps <= 0) return;
+  const double linear = linear_ones(c, free), searched = static_cast<double>(free.size()) - linear;
   const double half = fit_steps / steps / 2;
   thin_scans(free, std::max(4.0, half / (1 + linear)));
-  const double searched = static_cast<double>(affine.size()) - linear;
   options.max_iterations =
       std::min(options.max_iterations, static_cast<int>(std::max(4.0, half / (1 + linear + searched))));
 }
@@ -197,8 +201,9 @@ void predict(Contender& c, DataModel& model, const Trial& values) {
 
 /// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
-void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-                const std::vector<std::string>& outputs) {
+/// The answer: steps_from().
+double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+                  const std::vector<std::string>& outputs) {
   c.program = compile(c.diagram, *shop.registry);
   const bool some = outputs.size() < c.program->output_names.size();
   const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
@@ -209,12 +214,13 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   if (free.empty()) {
     DataModel whole(c.program, shop.data, accuracy(shop, effort));
     predict(c, whole, fixed);
-    return;
+    return 0;
   }
   FitOptions options;
   options.max_iterations = effort == Effort::full ? 15 : 30;
-  if (effort == Effort::screen) spend_less(c, free, options);
-  if (effort == Effort::full) keep_within_time(c, model, fixed, free, options);
+  const double steps = effort == Effort::final ? 0 : steps_from(model, fixed, free);
+  if (effort == Effort::screen) spend_less(c, steps, free, options);
+  if (effort == Effort::full) keep_within_time(c, steps, free, options);
   options.intervals = effort == Effort::final;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;
@@ -224,10 +230,7 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
-  c.steps = 0;
-  for (const int r : model.recordings(Role::train))
-    c.steps += static_cast<double>(model.times(r).size()) * model.substeps(r);
-  if (!c.ok) return;
+  if (!c.ok) return steps;
   keep_of_recordings(c, fixed);
   Trial all = c.fit.values;
   all.insert(all.end(), fixed.begin(), fixed.end());
@@ -244,6 +247,7 @@ void fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, co
     if (std::none_of(c.fit.estimates.begin(), c.fit.estimates.end(),
                      [&](const ParameterEstimate& now) { return now.path == e.path && now.recording == e.recording; }))
       c.fit.estimates.push_back(std::move(e));
+  return steps;
 }
 
 /// Laws with many weights one behind the other multiply each other: linear each, not together. Each trial of what is
@@ -266,15 +270,18 @@ void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, cons
     return;
   }
   double last = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < 6; ++sweep) {
+  int sweeps = 6;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t k = 0; k < c.standing.size(); ++k) {
       // The newest first: it has no values yet.
       const std::size_t i = c.standing.size() - 1 - k;
       if (!chosen[i]) continue;
       std::vector<bool> one(c.standing.size(), false);
       one[i] = true;
-      fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one, outputs);
+      const double steps =
+          fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one, outputs);
       if (!c.ok) return;
+      if (steps > 0) sweeps = 2;  // a slow model is searched from coarse to fine anyway
     }
     const double now = c.fit.chi2;
     if (last - now < 1) return;
@@ -355,7 +362,6 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   Contender c;
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;
-  c.steps = before.steps;
   c.fit.estimates = before.fit.estimates;
   try {
     c.change = add_effect(before.diagram, *shop.registry, effect, law, place);

@@ -47,7 +47,6 @@ struct Contender {
   /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
   int found_on_validation = 0;
   long runs = 0;
-  double steps = 0;          ///< of one simulation of the train recordings: rows times substeps
   double score() const;      ///< evidence + p ln N, N = independent witnesses
   double tie_score() const;  ///< evidence + 2 p
 };

@@ -203,6 +203,7 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
     }
     if (coarse.empty()) {
       all = false;  // at values where it can be simulated this is done again
+      b.substeps = c.options.max_substeps;
       continue;
     }
     b.substeps = only_finer ? std::max(n, b.substeps) : n;
@@ -210,7 +211,8 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
       remarks.push_back(
           fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for", recording(r).name, n));
   }
-  c.substeps_chosen = all;
+  // Each time costs more than a hundred simulations; what runs away at three points is searched with what was found.
+  c.substeps_chosen = all || ++c.failed_choices >= 3;
   return remarks;
 }
 

@@ -37,6 +37,7 @@ struct DataModel::Content {
   std::vector<BoundRecording> bound;
   std::string not_exact;
   bool substeps_chosen = false;
+  int failed_choices = 0;  ///< of substeps, at values where a recording cannot be simulated
   bool needs_substeps = false;
   std::vector<std::string> free_states, remarks;
   std::vector<std::size_t> free_state_index;
