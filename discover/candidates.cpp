@@ -7,6 +7,7 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
+#include "discover/parts.h"
 #include "discover/residual_parts.h"
 #include "discover/structures.h"
 #include "discover/visible.h"
@@ -21,15 +22,8 @@ std::vector<int> moved_by(const Books& books, const std::string& written) {
   const std::string wire = program_signal(books.current.diagram, *books.shop.registry, written);
   int signal = p.find_signal(wire);
   if (signal < 0) signal = p.find_signal(wire + "[0]");
-  std::vector<int> list;
-  if (signal < 0) return list;
-  const int from = p.signals[static_cast<std::size_t>(signal)].block;
-  const auto below = p.downstream_of(from);
-  for (std::size_t o = 0; o < p.output_signals.size(); ++o) {
-    const int block = p.signals[static_cast<std::size_t>(p.output_signals[o])].block;
-    if (block == from || below[static_cast<std::size_t>(block)]) list.push_back(static_cast<int>(o));
-  }
-  return list;
+  if (signal < 0) return {};
+  return outputs_behind(p, p.signals[static_cast<std::size_t>(signal)].block);
 }
 
 /// The place moves none but these outputs; any will do where none is named.

@@ -83,8 +83,6 @@ std::vector<int> train_and_validate(const DataSet& data) {
   return list;
 }
 
-bool calibrates(const Standing& s) { return s.effect->family == "calibration"; }
-
 /// Values of single recordings that are not free this time.
 Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
   Trial trial;
@@ -212,6 +210,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
+    if (!c.prediction.y.empty()) return 0;  // another part was fitted, and told all outputs
     DataModel whole(c.program, shop.data, accuracy(shop, effort));
     predict(c, whole, fixed);
     return 0;
@@ -370,8 +369,8 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
     return c;
   }
   c.diagram = c.change.diagram;
-  c.zero_is_calibrated = before.zero_is_calibrated;
-  const bool new_zero = effect.moves_zero && !c.zero_is_calibrated && !at.offset_is_free;
+  c.zero_held = before.zero_held;
+  const bool new_zero = effect.moves_zero && !c.zero_held && !at.offset_is_free;
   c.standing.push_back({&effect, law, place, c.change.name, new_zero ? at.zeros : std::vector<std::string>{}});
   if (law.reweighs) c.standing.back().weights = at.weights;
   const int fresh = static_cast<int>(c.standing.size()) - 1;
@@ -383,6 +382,8 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   }
   return guarded(shop, std::move(c), effort, fresh, before.parameters);
 }
+
+bool calibrates(const Standing& s) { return s.effect->family == "calibration"; }
 
 std::vector<std::string> free_anyway(const Workshop& shop, const Contender& c) {
   auto paths = shop.free_paths;
@@ -398,7 +399,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   c.standing = contender.standing;
   c.of_recordings = contender.of_recordings;
   c.change = contender.change;
-  c.zero_is_calibrated = contender.zero_is_calibrated;
+  c.zero_held = contender.zero_held;
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 
@@ -443,6 +444,13 @@ std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int sta
     }
   }
   return list;
+}
+
+std::vector<double> values_of(const Contender& contender, std::size_t standing) {
+  std::vector<double> values;
+  for (const auto& p : parameters_of(contender, static_cast<int>(standing)))
+    if (p.estimate != nullptr) values.push_back(p.estimate->used);
+  return values;
 }
 
 }  // namespace hysteron

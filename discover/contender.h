@@ -41,8 +41,8 @@ struct Contender {
   std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
   Prediction prediction;                      ///< train and validate recordings
   ModelError error_of;                        ///< filled in by whoever holds the evidence
-  /// The zero is a calibration's, which stands: laws that move it (Effect::moves_zero) leave it where the user has it.
-  bool zero_is_calibrated = false;
+  /// Laws that move the zero (Effect::moves_zero) leave it where the user has it: it is a calibration's, or nobody's.
+  bool zero_held = false;
   int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
   /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
   int found_on_validation = 0;
@@ -84,6 +84,9 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
 /// Without the effect `index`; the others keep their values.
 Contender without(const Workshop& shop, const Contender& contender, std::size_t index);
 
+/// The effect is a calibration: its gain and zero are free whatever else is fitted.
+bool calibrates(const Standing& standing);
+
 /// What is free besides the laws' own parameters: the user's, and gain and zero of a calibration that stands. A gain or
 /// zero that is free anyway is no law's.
 std::vector<std::string> free_anyway(const Workshop& shop, const Contender& contender);
@@ -97,5 +100,7 @@ struct ParameterOfEffect {
   const ParameterEstimate* estimate = nullptr;
 };
 std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing = -1);
+/// Values [SI] of the parameters of one effect that were estimated, in the order of its law.
+std::vector<double> values_of(const Contender& contender, std::size_t standing);
 
 }  // namespace hysteron

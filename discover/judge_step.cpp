@@ -47,10 +47,7 @@ double share_of_excess(const ModelError& was, const ModelError& is, const std::v
 }  // namespace
 
 std::vector<double> own_values(const Tried& tried) {
-  std::vector<double> values;
-  for (const auto& p : parameters_of(tried.contender, static_cast<int>(tried.contender.standing.size()) - 1))
-    if (p.estimate != nullptr) values.push_back(p.estimate->used);
-  return values;
+  return values_of(tried.contender, tried.contender.standing.size() - 1);
 }
 
 bool look_alike(const Effect& a, const Effect& b) {

@@ -16,6 +16,9 @@ struct Part {
   bool has(std::size_t effect) const { return effects[effect]; }
 };
 
+/// Outputs that a block moves, as indices of the program's; all of them if nobody knows which block it is (-1).
+std::vector<int> outputs_behind(const Program& program, int block);
+
 /// The parts of a contender whose program is compiled; one part if everything hangs together. `free_paths`: what is
 /// free besides the laws (Workshop::free_paths); what the diagram declares free counts too.
 std::vector<Part> parts_of(const Contender& contender, const std::vector<std::string>& free_paths);

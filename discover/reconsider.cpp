@@ -68,7 +68,7 @@ std::optional<Contender> rest_of(Books& books, std::size_t i) {
   const auto members = members_of(books.current);
   Contender rest = books.base;
   // Without the calibration, the zero is the user's again: who else would take it up is not asked here.
-  rest.zero_is_calibrated = books.current.zero_is_calibrated || members[i].effect->family == "calibration";
+  rest.zero_held = books.current.zero_held || calibrates(books.current.standing[i]);
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
     auto t = tried_again(books, rest, members[j]);
@@ -156,7 +156,7 @@ bool tell_again(Books& books, const Contender& set) {
   const auto steps = books.d.steps;
   const Prediction before = books.before_prediction;
   books.current = books.base;
-  books.current.zero_is_calibrated = set.zero_is_calibrated;
+  books.current.zero_held = set.zero_held;
   books.before_prediction = {};
   books.d.steps.clear();
   auto left = members_of(set);

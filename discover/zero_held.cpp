@@ -21,9 +21,7 @@ double own_zero(const Contender& c) {
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
     const Standing& s = c.standing[i];
     if (!s.effect->own_zero) continue;
-    std::vector<double> values;
-    for (const auto& p : parameters_of(c, static_cast<int>(i)))
-      if (p.estimate != nullptr) values.push_back(p.estimate->used);
+    const auto values = values_of(c, i);
     if (values.size() == s.law.free.size()) sum += s.effect->own_zero(s.law, values);
   }
   return sum;
@@ -35,7 +33,7 @@ std::optional<Contender> with_the_users_zeros(Books& books) {
   Contender c = books.current;
   std::vector<ParameterValue> zeros;
   for (auto& s : c.standing) {
-    if (s.effect->id == "calibration" || (!s.zeros.empty() && has_own_constant(s))) return std::nullopt;
+    if (calibrates(s) || (!s.zeros.empty() && has_own_constant(s))) return std::nullopt;
     for (const auto& path : s.zeros) {
       const int parameter = parameter_index(*c.program, path);
       zeros.push_back({parameter, free_parameter(*books.base.program, path).start, -1});
@@ -44,7 +42,7 @@ std::optional<Contender> with_the_users_zeros(Books& books) {
   }
   if (zeros.empty()) return std::nullopt;
   c.diagram = with_parameters(c.diagram, *c.program, zeros);
-  c.zero_is_calibrated = true;
+  c.zero_held = true;
   c = refit(books.shop, c, Effort::full);
   books.d.model_runs += c.runs;
   if (!c.ok) return std::nullopt;
@@ -55,7 +53,7 @@ std::optional<Contender> with_the_users_zeros(Books& books) {
 /// A calibration that stands moves no zero beyond what the other laws could move it by themselves.
 bool owes_its_zero(const Contender& c) {
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
-    if (c.standing[i].effect->family != "calibration") continue;
+    if (!calibrates(c.standing[i])) continue;
     for (const auto& p : parameters_of(c, static_cast<int>(i)))
       if (p.estimate != nullptr && p.law->path == "offset") return std::abs(p.estimate->used) <= own_zero(c);
   }
