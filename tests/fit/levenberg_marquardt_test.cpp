@@ -143,6 +143,22 @@ TEST(LevenbergMarquardt, StopsWhenAskedWithTheBestSoFar) {
   EXPECT_LT(found.squared_error, 24.2);  // that of the start
 }
 
+TEST(LevenbergMarquardt, WhatGainsLessThanMattersIsNotGone) {
+  // Linear: one step from 9 + 4 to the 4 that no z takes away.
+  const auto plain = [](std::span<const double> z, std::vector<double>& r) {
+    r = {z[0] - 3, 2};
+    return true;
+  };
+  auto p = problem(plain, 1);
+  p.matters = 8.9;
+  EXPECT_NEAR(minimize(p, {0}, 100, 1e-12).z[0], 3, 1e-6) << "nine are to be gained";
+  p.matters = 9.1;
+  const auto found = minimize(p, {0}, 100, 1e-12);
+  EXPECT_EQ(found.trials, 0);
+  EXPECT_TRUE(found.converged);
+  EXPECT_EQ(found.z[0], 0);
+}
+
 TEST(LevenbergMarquardt, AnUnknownThatChangesNothingStaysWhereItIs) {
   const auto blind = [](std::span<const double> z, std::vector<double>& r) {
     r = {z[0] - 3, 2 * (z[0] - 3)};
