@@ -144,14 +144,15 @@ TEST(LevenbergMarquardt, StopsWhenAskedWithTheBestSoFar) {
 }
 
 TEST(LevenbergMarquardt, WhatGainsLessThanMattersIsNotGone) {
-  // Linear: one step from 9 + 4 to the 4 that no z takes away.
+  // Linear: from 9 + 4 to the 4 that no z takes away. One step, shortened by the damping of 1/100, leaves 3/101 of the
+  // way, and 9/101^2 to be gained.
   const auto plain = [](std::span<const double> z, std::vector<double>& r) {
     r = {z[0] - 3, 2};
     return true;
   };
   auto p = problem(plain, 1);
   p.matters = 8.9;
-  EXPECT_NEAR(minimize(p, {0}, 100, 1e-12).z[0], 3, 1e-6) << "nine are to be gained";
+  EXPECT_NEAR(minimize(p, {0}, 100, 1e-12).z[0], 3, 0.04) << "nine are to be gained";
   p.matters = 9.1;
   const auto found = minimize(p, {0}, 100, 1e-12);
   EXPECT_EQ(found.trials, 0);
