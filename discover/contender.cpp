@@ -134,7 +134,7 @@ double steps_from(DataModel& model, const Trial& fixed, const std::vector<FreePa
   double steps = 0;
   int most = 1;
   for (const int r : model.recordings(Role::train)) {
-    steps += static_cast<double>(model.times(r).size()) * model.substeps(r);
+    steps += static_cast<double>(model.steps(r));
     most = std::max(most, model.substeps(r));
   }
   return most == 1 ? 0 : steps;  // without nonlinear states nothing is slow

@@ -348,13 +348,13 @@ void Fitting::search(const std::vector<PointPointer>& starts) {
 
 /// Where the result needs finer substeps than the start, the search goes on with them.
 void Fitting::refine_substeps() {
-  std::map<int, int> before;
-  for (const int r : judged_) before[r] = model_.substeps(r);
+  std::map<int, long> before;
+  for (const int r : judged_) before[r] = model_.steps(r);
   const auto remarks =
       model_.choose_substeps(projection_->values(best_->z, best_->theta), judge_.noise().white(), true);
   result_.remarks.insert(result_.remarks.end(), remarks.begin(), remarks.end());
   bool changed = false;
-  for (const int r : judged_) changed = changed || model_.substeps(r) != before[r];
+  for (const int r : judged_) changed = changed || model_.steps(r) != before[r];
   if (!changed) return;
   projection_->forget();
   const auto z = best_->z;

@@ -155,69 +155,6 @@ std::vector<Prediction> DataModel::predict_each(std::span<const Trial> trials, s
   return predictions;
 }
 
-std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
-                                                    std::span<const double> noise, bool only_finer) {
-  Content& c = *content_;
-  std::vector<std::string> remarks;
-  if (!c.not_exact.empty() || !c.needs_substeps) {
-    c.substeps_chosen = true;
-    return remarks;
-  }
-  std::vector<double> tolerance(c.outputs.size());
-  for (std::size_t o = 0; o < tolerance.size(); ++o)
-    tolerance[o] = std::max(c.options.substep_tolerance * c.spans[o], noise.empty() ? 0.0 : noise[o] / 1000);
-  bool all = true;
-  for (int r = 0; r < n_recordings(); ++r) {
-    BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
-    // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
-    bool ran_away = false;
-    const auto rows_with = [&](int substeps) {
-      std::vector<Rows> rows;
-      try {
-        rows = c.one(r, values, substeps, false);
-      } catch (const Error& error) {
-        ran_away = ran_away || error.problems.front().code == "diverged";
-      } catch (const std::exception&) {
-      }
-      return rows;
-    };
-    auto coarse = rows_with(1);
-    int n = 1;
-    for (; n < c.options.max_substeps; n *= 2) {
-      auto fine = rows_with(2 * n);
-      double worst = coarse.empty() || fine.empty() ? std::numeric_limits<double>::infinity() : 0;
-      if (worst == 0)
-        for (std::size_t o = 0; o < fine.size(); ++o)
-          for (std::size_t i = 0; i < fine[o].size(); ++i)
-            worst = std::max(worst, std::abs(fine[o][i] - coarse[o][i]) / std::max(tolerance[o], 1e-300));
-      // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
-      if (worst <= 1) break;
-      coarse = std::move(fine);
-    }
-    if (c.options.bdf_otherwise && n >= c.options.max_substeps && b.advance->integrates() &&
-        (!coarse.empty() || ran_away)) {
-      c.not_exact =
-          fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name, n);
-      c.substeps_chosen = true;
-      return remarks;
-    }
-    if (coarse.empty()) {
-      all = false;  // at values where it can be simulated this is done again
-      b.substeps = c.options.max_substeps;
-      continue;
-    }
-    b.substeps = only_finer ? std::max(n, b.substeps) : n;
-    if (n >= c.options.max_substeps)
-      remarks.push_back(
-          fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for", recording(r).name, n));
-  }
-  // Each time costs more than a hundred simulations; what runs away at three points is searched with what was found.
-  c.substeps_chosen = all || ++c.failed_choices >= 3;
-  return remarks;
-}
-
-int DataModel::substeps(int recording) const { return content_->bound[static_cast<std::size_t>(recording)].substeps; }
-
 std::vector<double> DataModel::cross_check(std::span<const ParameterValue> values, std::span<const int> recordings) {
   Content& c = *content_;
   std::vector<double> worst(c.outputs.size(), 0.0);

@@ -36,7 +36,7 @@ struct Prediction {
 
 struct DataModelOptions {
   int threads = 1;                   ///< recordings side by side; the numbers do not depend on it
-  int max_substeps = 64;             ///< per row, where rows have to be split at all
+  int max_substeps = 64;             ///< per row, in the mean, where rows have to be split at all
   double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
@@ -90,13 +90,14 @@ class DataModel {
   /// responses to initial states.
   std::vector<Prediction> predict_each(std::span<const Trial> trials, std::span<const int> recordings);
 
-  /// Chooses the substeps of each recording at these values: doubled until no row changes by more than
-  /// max(noise[output] / 1000, substep_tolerance * span). Called by predict() at its first call with noise 0.
-  /// `only_finer`: a recording keeps its substeps where these values need fewer.
+  /// Chooses the substeps of each recording at these values: doubled where rows change by more than
+  /// max(noise[output] / 1000, substep_tolerance * span), until none does. Called by predict() at its first call with
+  /// noise 0. `only_finer`: a row keeps its substeps where these values need fewer.
   /// Returns a text for each recording where max_substeps did not suffice.
   std::vector<std::string> choose_substeps(std::span<const ParameterValue> values, std::span<const double> noise = {},
                                            bool only_finer = false);
-  int substeps(int recording) const;
+  int substeps(int recording) const;  ///< of the row that is cut into most
+  long steps(int recording) const;    ///< of one simulation: the substeps of all its rows
 
   /// Largest difference between the exact advance and BDF on these recordings, per output, over its span. Once per fit.
   std::vector<double> cross_check(std::span<const ParameterValue> values, std::span<const int> recordings);

@@ -20,11 +20,26 @@ struct BoundRecording {
   std::vector<std::vector<std::size_t>> at;  ///< [output][judged row]: index into instants
   std::vector<Rows> measured;                ///< [output][judged row]
   Rows times;
-  int substeps = 1;
-  Advance::Instants rows;  ///< the instants, as the advance knows them again
+  Advance::Instants rows;          ///< the instants, as the advance knows them again, and what they are cut into
+  std::vector<int> pieces;         ///< per instant: into how many parts the way to it is cut; empty: nothing is
+  std::vector<std::size_t> place;  ///< per instant: index into rows; empty: they are the instants
+  int substeps = 1;                ///< of each of the rows
   std::optional<Advance> advance;
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
   std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
+
+  void cut(std::vector<int> into);
+  /// Substeps on the way to each instant.
+  std::vector<int> substeps_of_rows() const;
+  /// Of what was computed in every row: the values at the instants.
+  void keep_instants(std::vector<std::vector<double>>& computed) const;
+};
+
+/// What the choice of substeps found in one recording.
+struct SubstepsFound {
+  bool suffice = false;    ///< else max_substeps were too few
+  bool simulated = false;  ///< at the end
+  bool ran_away = false;   ///< some simulation was not finite
 };
 
 struct DataModel::Content {
@@ -52,6 +67,7 @@ struct DataModel::Content {
   bool from_rest(const Recording& recording) const;
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
   std::vector<Rows> rows_of(const BoundRecording& b, const std::vector<std::vector<double>>& values) const;
+  SubstepsFound choose_substeps(int r, std::span<const ParameterValue> values, std::span<const double> tolerance);
   std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
   std::vector<Rows> finer_until_finite(int r, std::span<const ParameterValue> values);
   void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,

@@ -76,7 +76,7 @@ void DataModel::Content::bind(int r) {
       b.at[o].push_back(
           static_cast<std::size_t>(std::lower_bound(b.instants.begin(), b.instants.end(), t) - b.instants.begin()));
   if (not_exact.empty()) {
-    b.rows = std::make_shared<const std::vector<double>>(b.instants);
+    b.cut({});
     b.advance.emplace(program, signals);
     needs_substeps = needs_substeps || !b.advance->exact_without_substeps();
   }
@@ -147,6 +147,7 @@ void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest,
     o.substeps = substeps;
     o.at_rest = at_rest;
     (*b.advance)(run, b.rows, o, b.values);
+    b.keep_instants(b.values);
     return;
   }
   SimulateOptions o;
@@ -280,6 +281,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
       predict_one(r, trials[trial_of[i]], false, predictions[trial_of[i]], errors[trial_of[i]]);
       continue;
     }
+    b.keep_instants(b.many_values[i]);
     try {
       predictions[trial_of[i]].y[k] = rows_of(b, b.many_values[i]);
     } catch (const std::exception& e) {

@@ -1,0 +1,206 @@
+// Decides how finely recordings are simulated: into how many substeps each row is cut. Most rows of a recording need
+// few, those at a step of its input many: there a mass rings between two rows of a slow recording, and a play meets
+// its corner anywhere. They are chosen once and stay the same for all trials, so that a prediction depends smoothly on
+// its parameters.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+#include "engine/error.h"
+#include "fit/model_content.h"
+
+namespace hysteron {
+namespace {
+
+// Of the tolerance: by how much the error of a row must differ from that of the row before to count as made there. What
+// an earlier row left behind (in a memory, in a slow state) hardly changes from row to row.
+constexpr double made_here = 0.1;
+constexpr int most_pieces = 1024;  // of one row
+
+bool is_finite(const std::vector<Rows>& rows) { return !rows.empty(); }
+
+/// The largest difference, in tolerances.
+double worst_of(const std::vector<Rows>& coarse, const std::vector<Rows>& fine, std::span<const double> tolerance) {
+  if (!is_finite(coarse) || !is_finite(fine)) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t o = 0; o < fine.size(); ++o)
+    for (std::size_t i = 0; i < fine[o].size(); ++i)
+      worst = std::max(worst, std::abs(fine[o][i] - coarse[o][i]) / std::max(tolerance[o], 1e-300));
+  return worst;
+}
+
+/// Instants on whose way the error is made, with their neighbours, whose slopes it also hangs on.
+std::vector<bool> where_made(const BoundRecording& b, const std::vector<Rows>& coarse, const std::vector<Rows>& fine,
+                             std::span<const double> tolerance) {
+  std::vector<bool> made(b.instants.size(), false);
+  if (!is_finite(coarse) || !is_finite(fine)) return made;
+  for (std::size_t o = 0; o < fine.size(); ++o) {
+    double before = 0;
+    for (std::size_t i = 0; i < fine[o].size(); ++i) {
+      const double error = fine[o][i] - coarse[o][i];
+      if (std::abs(error - before) > made_here * tolerance[o]) {
+        const std::size_t k = b.at[o][i];
+        for (std::size_t j = k > 0 ? k - 1 : 0; j < std::min(k + 2, made.size()); ++j) made[j] = true;
+      }
+      before = error;
+    }
+  }
+  return made;
+}
+
+/// The pieces of each row, twice as many where the error is made; empty where that is nowhere in particular.
+std::vector<int> with_more_pieces(const BoundRecording& b, const std::vector<bool>& made) {
+  auto into = b.pieces.empty() ? std::vector<int>(b.instants.size(), 1) : b.pieces;
+  std::size_t more = 0;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    if (!made[i] || into[i] * b.substeps >= most_pieces) continue;
+    ++more;
+    into[i] *= 2;
+  }
+  return more > 0 && 2 * more < into.size() ? into : std::vector<int>{};
+}
+
+/// As fine as now or as before, in each row.
+void take_finer(BoundRecording& b, const std::vector<int>& before) {
+  auto all = b.substeps_of_rows();
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::max(all[i], before[i]);
+  const auto [least, most] = std::minmax_element(all.begin(), all.end());
+  b.substeps = *least;  // powers of two: it divides all others
+  if (*least == *most) return b.cut({});
+  for (int& n : all) n /= b.substeps;
+  b.cut(std::move(all));
+}
+
+}  // namespace
+
+/// The way to instant i in into[i] parts of one length; nothing is cut where it is empty.
+void BoundRecording::cut(std::vector<int> into) {
+  pieces = std::move(into);
+  place.clear();
+  if (pieces.empty()) {
+    rows = std::make_shared<const std::vector<double>>(instants);
+    return;
+  }
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(std::accumulate(pieces.begin(), pieces.end(), 0L)));
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const double before = i == 0 ? instants[0] : instants[i - 1], way = instants[i] - before;
+    for (int k = 1; k < pieces[i] && i > 0; ++k) all.push_back(before + way * k / pieces[i]);
+    place.push_back(all.size());
+    all.push_back(instants[i]);
+  }
+  rows = std::make_shared<const std::vector<double>>(std::move(all));
+}
+
+std::vector<int> BoundRecording::substeps_of_rows() const {
+  std::vector<int> all(instants.size(), substeps);
+  for (std::size_t i = 0; i < pieces.size(); ++i) all[i] *= pieces[i];
+  return all;
+}
+
+void BoundRecording::keep_instants(std::vector<std::vector<double>>& computed) const {
+  if (place.empty()) return;
+  for (auto& of_signal : computed) {
+    for (std::size_t i = 0; i < place.size(); ++i) of_signal[i] = of_signal[place[i]];
+    of_signal.resize(place.size());
+  }
+}
+
+SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const ParameterValue> values,
+                                                  std::span<const double> tolerance) {
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  SubstepsFound found;
+  // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
+  const auto rows_with = [&](int substeps) {
+    std::vector<Rows> rows;
+    try {
+      rows = one(r, values, substeps, false);
+    } catch (const Error& error) {
+      found.ran_away = found.ran_away || error.problems.front().code == "diverged";
+    } catch (const std::exception&) {
+    }
+    return rows;
+  };
+  b.cut({});
+  b.substeps = 1;
+  auto coarse = rows_with(1);
+  double worst_before = std::numeric_limits<double>::infinity();
+  const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
+  while (static_cast<std::size_t>(b.substeps) * b.rows->size() < most) {
+    auto fine = rows_with(2 * b.substeps);
+    // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
+    const double worst = worst_of(coarse, fine, tolerance);
+    if (worst <= 1) {
+      found.suffice = found.simulated = true;
+      return found;
+    }
+    auto into = with_more_pieces(b, where_made(b, coarse, fine, tolerance));
+    // Where cutting some rows did not help, the error comes from elsewhere.
+    const bool helps = worst < 0.7 * worst_before;
+    worst_before = worst;
+    if (into.empty() || !helps) {
+      b.substeps *= 2;
+      coarse = std::move(fine);
+    } else {
+      b.cut(std::move(into));
+      coarse = rows_with(b.substeps);
+    }
+  }
+  found.simulated = is_finite(coarse);
+  return found;
+}
+
+std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
+                                                    std::span<const double> noise, bool only_finer) {
+  Content& c = *content_;
+  std::vector<std::string> remarks;
+  if (!c.not_exact.empty() || !c.needs_substeps) {
+    c.substeps_chosen = true;
+    return remarks;
+  }
+  std::vector<double> tolerance(c.outputs.size());
+  for (std::size_t o = 0; o < tolerance.size(); ++o)
+    tolerance[o] = std::max(c.options.substep_tolerance * c.spans[o], noise.empty() ? 0.0 : noise[o] / 1000);
+  bool all = true;
+  for (int r = 0; r < n_recordings(); ++r) {
+    BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
+    const auto before = b.substeps_of_rows();
+    const auto found = c.choose_substeps(r, values, tolerance);
+    if (c.options.bdf_otherwise && !found.suffice && b.advance->integrates() && (found.simulated || found.ran_away)) {
+      c.not_exact = fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name,
+                                c.options.max_substeps);
+      c.substeps_chosen = true;
+      return remarks;
+    }
+    if (!found.suffice && !found.simulated) {
+      // At values where it can be simulated this is done again.
+      all = false;
+      b.cut({});
+      b.substeps = c.options.max_substeps;
+      continue;
+    }
+    if (only_finer) take_finer(b, before);
+    if (!found.suffice)
+      remarks.push_back(fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for",
+                                    recording(r).name, c.options.max_substeps));
+  }
+  // Each time costs more than a hundred simulations; what runs away at three points is searched with what was found.
+  c.substeps_chosen = all || ++c.failed_choices >= 3;
+  return remarks;
+}
+
+int DataModel::substeps(int recording) const {
+  const auto all = content_->bound[static_cast<std::size_t>(recording)].substeps_of_rows();
+  return *std::max_element(all.begin(), all.end());
+}
+
+long DataModel::steps(int recording) const {
+  const BoundRecording& b = content_->bound[static_cast<std::size_t>(recording)];
+  return static_cast<long>(b.rows ? b.rows->size() : b.instants.size()) * b.substeps;
+}
+
+}  // namespace hysteron
