@@ -35,6 +35,15 @@ struct BoucWen {
     const bouc_wen::Params<T> law{p.alpha, p.beta, p.gamma, p.d_p, value_of(p.exponent), value_of(p.scale)};
     return {bouc_wen::z_rate(law, s.z, rate.u)};
   }
+  /// Only for exponent 1 is there a closed form.
+  struct OwnStep {
+    bouc_wen::Params<double> law;
+    explicit OwnStep(const Params<double>& p) : law{p.alpha, p.beta, p.gamma, p.d_p, p.exponent, p.scale} {}
+    bool takes(double) const { return law.exponent == 1; }
+    State<double> operator()(const State<double>& s, const In<double>& from, const In<double>& to, double) const {
+      return {bouc_wen::z_in_closed_form(law, s.z, to.u - from.u)};
+    }
+  };
   static State<double> initial(const Params<double>& p) { return {p.initial}; }
   static std::string check(const Params<double>& p);
 };

@@ -2,7 +2,10 @@
 // models/mass_spring_damper.h.
 #pragma once
 
+#include <optional>
+
 #include "engine/block.h"
+#include "models/mass_motion.h"
 #include "models/mass_spring_damper.h"
 
 namespace hysteron::blocks {
@@ -18,6 +21,13 @@ struct MotionState {
 template <class T>
 struct MotionOut {
   T position, velocity;
+};
+
+/// The exact step of the row before serves this one where both are as long.
+struct LongRow {
+  std::optional<mass_motion::ExactStep> step;
+  double h = 0;  ///< [s]
+  const mass_motion::ExactStep& of(const mass_spring_damper::Params<double>& law, double length);
 };
 
 /// What all blocks of one mass share: ports, states, outputs, start.
@@ -67,6 +77,21 @@ struct MassOnStiffeningSpring : Mass {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest(law(p), in.force), 0};
   }
+  /// Rows longer than Runge-Kutta takes in one step: in several, or, the longest, the linear motion exactly and what
+  /// the spring holds beyond it as a force that moves in a straight line (mass_motion::steps_of_row).
+  class OwnStep {
+   public:
+    explicit OwnStep(const Params<double>& p) : law_(law(p)) {}
+    bool takes(double h) const { return mass_motion::steps_of_row(law_.mass, law_.stiffness, h) != 1; }
+    MotionState<double> operator()(const MotionState<double>& s, const ForceIn<double>& from, const ForceIn<double>& to,
+                                   double h);
+
+   private:
+    MotionState<double> long_row(const MotionState<double>& s, double from, double to, double h);
+
+    mass_spring_damper::Params<double> law_;
+    LongRow row_;
+  };
 
  private:
   template <class T>

@@ -1,6 +1,7 @@
 #include "blocks/mass_with_presliding.h"
 
-#include "blocks/mass_spring_damper.h"
+#include <algorithm>
+#include <array>
 
 namespace hysteron::blocks {
 
@@ -59,6 +60,114 @@ Sizes MassWithElements<Element>::sizes(const Shape& shape) {
   if (n < 1 || n != shape.length("slip_distance"))
     s.error = "\"contact_stiffness\" and \"slip_distance\" must be lists of one length; give one of each per element";
   return s;
+}
+
+template <class Element>
+MassWithElements<Element>::OwnStep::OwnStep(const View<double>& v)
+    : law_{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0},
+      stiffness_(v.list(contact_stiffness)),
+      distance_(v.list(slip_distance)),
+      excess_(v.parameter(excess)),
+      stribeck_velocity_(v.parameter(stribeck_velocity)) {
+  for (const double d : distance_) elements_.emplace_back(d, 0.0);
+}
+
+template <class Element>
+void MassWithElements<Element>::OwnStep::operator()(double* x, const double* from, const double* to, double h) {
+  const int steps = mass_motion::steps_of_row(law_.mass, law_.stiffness, h);
+  if (steps == 0) return long_row(x, *from, *to, h);
+  for (int i = 0; i < steps; ++i) {
+    const double begin = *from + (*to - *from) * i / steps;
+    const double end = i + 1 == steps ? *to : *from + (*to - *from) * (i + 1) / steps;
+    short_row(x, begin, end, h / steps);
+  }
+}
+
+/// Elements at these deflections, their distances `share` times as long. What the last step left is known.
+template <class Element>
+void MassWithElements<Element>::OwnStep::place_elements(const double* z, double share) {
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const double distance = distance_[i] * share;
+    if (elements_[i].z() != z[i] || elements_[i].distance() != distance)
+      elements_[i] = typename Element::OnItsWay(distance, z[i]);
+  }
+}
+
+template <class Element>
+void MassWithElements<Element>::OwnStep::move_elements(double* z, double way) {
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    elements_[i].move(way);
+    z[i] = elements_[i].z();
+  }
+}
+
+/// Where the elements stand is a function of the way since the last turning point: what slips fast is not stiff then.
+/// A row in which the motion turns is two.
+template <class Element>
+void MassWithElements<Element>::OwnStep::short_row(double* x, double from, double to, double h) {
+  const double rise = (to - from) / h;
+  double left = h;
+  for (int legs = 0; legs < 4 && left > 0; ++legs) {
+    const double begin = to - rise * left, pull = acceleration(x, begin);
+    place_elements(x + 2, level(x[1] + 0.5 * left * pull));
+    double length = left;
+    auto end = leg(x, begin, to, length);
+    if (legs < 3 && x[1] * end.velocity < 0) {
+      for (int i = 0; i < 2; ++i) {
+        length = std::min(left, length * std::clamp(x[1] / (x[1] - end.velocity), 0.0, 1.5));
+        end = leg(x, begin, begin + rise * length, length);
+      }
+    }
+    move_elements(x + 2, end.position - x[0]);
+    x[0] = end.position;
+    x[1] = end.velocity;
+    left = length < left ? left - length : 0;
+  }
+}
+
+template <class Element>
+double MassWithElements<Element>::OwnStep::acceleration(const double* x, double force) const {
+  for (std::size_t i = 0; i < stiffness_.size(); ++i) force -= stiffness_[i] * x[i + 2];
+  return mass_spring_damper::acceleration(law_, x[0], x[1], force);
+}
+
+/// The mass alone, on a spring of which the elements are a part.
+template <class Element>
+mass_motion::Motion MassWithElements<Element>::OwnStep::leg(const double* x, double from, double to, double h) const {
+  std::array<double, 2> moved{x[0], x[1]};
+  std::array<double, 10> work;
+  block_detail::runge_kutta(2, moved.data(), h, work.data(), [&](double c, const double* now, double* rate) {
+    double force = from + c * (to - from);
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) force -= stiffness_[i] * elements_[i].after(now[0] - x[0]);
+    rate[0] = now[1];
+    rate[1] = mass_spring_damper::acceleration(law_, now[0], now[1], force);
+  });
+  return {moved[0], moved[1]};
+}
+
+template <class Element>
+void MassWithElements<Element>::OwnStep::long_row(double* x, double from, double to, double h) {
+  const auto& step = row_.of(law_, h);
+  const mass_motion::Motion begin{x[0], x[1]};
+  double before = 0;
+  for (std::size_t i = 0; i < stiffness_.size(); ++i) before -= stiffness_[i] * x[i + 2];
+  const double free = step(begin, from + before, to).position, expected = free + step.yield() * before;
+  // Of the mean speed as it is expected: a force that falls while the speed rises would balance at several places.
+  place_elements(x + 2, level((expected - x[0]) / h));
+  const auto held = [&](double place) {
+    mass_motion::Force force;
+    const double way = place - x[0], side = way < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) {
+      const double after = elements_[i].after(way);
+      force.value -= stiffness_[i] * after;
+      force.slope -= stiffness_[i] * side * Element::rate(elements_[i].distance(), after, side);
+    }
+    return force;
+  };
+  const double end = mass_motion::end_position(free, step.yield(), expected, held);
+  x[1] = step(begin, from + before, to + held(end).value).velocity;
+  move_elements(x + 2, end - x[0]);
+  x[0] = end;
 }
 
 Kernel mass_with_presliding_block() { return kernel<MassWithElements<DahlElement>>(); }

@@ -2,8 +2,11 @@
 // beside which elements stick and slip. Does not decide their laws: models/presliding.h.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
+#include "blocks/mass_spring_damper.h"
 #include "engine/block.h"
 #include "models/mass_spring_damper.h"
 #include "models/presliding.h"
@@ -15,12 +18,14 @@ struct DahlElement {
   static T rate(const T& distance, const T& z, const T& velocity) {
     return presliding::deflection_rate(distance, z, velocity);
   }
+  using OnItsWay = presliding::SlippingElement;
 };
 struct SlipElement {
   template <class T>
   static T rate(const T& distance, const T& z, const T& velocity) {
     return presliding::slip_rate(distance, z, velocity);
   }
+  using OnItsWay = presliding::YieldingElement;
 };
 
 template <class Element>
@@ -58,6 +63,33 @@ struct MassWithElements {
     v.out[0] = velocity;
     v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
   }
+  /// Long rows (mass_motion::steps_of_row): the linear motion of the mass exactly, its elements along the way from row
+  /// to row, and their force moving in a straight line. Short ones: Runge-Kutta, the
+  /// elements along the way where that is cheap.
+  class OwnStep {
+   public:
+    explicit OwnStep(const View<double>& v);
+    bool takes(double) const { return true; }
+    void operator()(double* x, const double* from, const double* to, double h);
+
+   private:
+    double level(double velocity) const {
+      return excess_ > 0 ? presliding::stribeck_level(excess_, stribeck_velocity_, velocity) : 1.0;
+    }
+    void long_row(double* x, double from, double to, double h);
+    double acceleration(const double* x, double force) const;
+    void short_row(double* x, double from, double to, double h);
+    mass_motion::Motion leg(const double* x, double from, double to, double h) const;
+    void place_elements(const double* z, double share);
+    void move_elements(double* z, double way);
+
+    mass_spring_damper::Params<double> law_;
+    std::span<const double> stiffness_, distance_;
+    double excess_, stribeck_velocity_;
+    std::vector<typename Element::OnItsWay> elements_;
+    LongRow row_;
+  };
+
   /// The elements at rest hold nothing: as after a long decaying motion.
   static void rest(const View<double>& v) {
     v.out[0] = mass_spring_damper::rest({v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0}, v.u[0]);

@@ -22,6 +22,10 @@
 //   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, given_memory,
 //   check_memory, next_corner, pace, reach_back, check (on View<double>); rows(const RowsView&) where the block knows
 //   better than the loop over rows that is made of its advance, derivative and output otherwise (rows.h).
+// Both: struct OwnStep, where the block knows its states behind a row of straight inputs better than Runge-Kutta does:
+//   made from Params<double> or a View<double>; takes(h) says whether it steps through a row of that length [s], or
+//   share of a jump; the call (state, from, to, h) -> State, or (double* x, from, to, h), does, `from` and `to` being
+//   the inputs at its ends.
 #pragma once
 
 #include <array>

@@ -129,7 +129,7 @@ struct RowsView {
 
   /// Numbers that one block needs beside its own.
   static std::size_t scratch_size(int inputs, int states, int memory, int outputs) {
-    return static_cast<std::size_t>(3 * inputs + 5 * states + memory + outputs);
+    return static_cast<std::size_t>(4 * inputs + 5 * states + memory + outputs);
   }
 };
 

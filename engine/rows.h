@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "engine/block_forms.h"
@@ -38,6 +39,21 @@ inline void follow_row(double h, bool jumps, int path_steps, const Move& move) {
     move(static_cast<double>(i) / path_steps, (i + 1.0) / path_steps, 1.0 / path_steps, 1.0);
 }
 
+/// Does the block step through a row on its own where it knows better than Runge-Kutta: B::OwnStep, made from the
+/// parameters of a run, with takes(h) and a call that moves its states from one row to the next (block.h).
+template <class B>
+concept StepsOnItsOwn = requires {
+  typename B::OwnStep;
+};
+
+template <class B>
+auto own_step(const auto& parameters) {
+  if constexpr (StepsOnItsOwn<B>)
+    return typename B::OwnStep(parameters);
+  else
+    return Nothing{};
+}
+
 template <class B, std::size_t lanes>
 void fixed_rows_of(const RowsView& r) {
   using F = Forms<B>;
@@ -56,10 +72,13 @@ void fixed_rows_of(const RowsView& r) {
   std::copy_n(r.u, n_u, u.begin());
   std::copy_n(r.y, n_y, y.begin());
   std::array<P, lanes> p;
+  using Own = decltype(own_step<B>(std::declval<P>()));
+  std::array<std::optional<Own>, lanes> own;
   [[maybe_unused]] std::array<S, lanes> s{};
   [[maybe_unused]] std::array<M, lanes> m{};
   for (std::size_t l = 0; l < lanes; ++l) {
     p[l] = load<double>(P{}, r.views[l].p);
+    own[l].emplace(own_step<B>(p[l]));
     if constexpr (n_x > 0) s[l] = load<double>(S{}, r.x + l * n_x);
     if constexpr (n_m > 0) m[l] = load<double>(M{}, r.m + l * n_m);
   }
@@ -82,6 +101,12 @@ void fixed_rows_of(const RowsView& r) {
             to[i] = end == 1 ? now[i] : before[i] + end * way;
             middle[i] = 0.5 * (from[i] + to[i]);
             rate[i] = way / duration;
+          }
+          if constexpr (StepsOnItsOwn<B>) {
+            if (own[l]->takes(length)) {
+              s[l] = (*own[l])(s[l], load<double>(I{}, from.data()), load<double>(I{}, to.data()), length);
+              return;
+            }
           }
           std::array<double, n_x> x;
           std::array<double, 5 * n_x> work;
@@ -141,11 +166,13 @@ void sized_rows_of_lane(const RowsView& r, int lane) {
   double* now = r.scratch;
   double* middle = now + n_u;
   double* rate = middle + n_u;
-  double* work = rate + n_u;
+  double* until = rate + n_u;
+  double* work = until + n_u;
   double* next = work + 5 * n_x;
   double* own = r.m + lane * n_m;
   double* out = next + n_m;
   double* x = r.x + lane * n_x;
+  [[maybe_unused]] auto own_law = own_step<B>(v);
   const auto gather = [&](std::ptrdiff_t row, double* to) {
     for (int i = 0; i < n_u; ++i) to[i] = r.u[i][row * r.lanes + lane];
   };
@@ -161,6 +188,16 @@ void sized_rows_of_lane(const RowsView& r, int lane) {
           jumps = jumps || rate[i] != 0;
         }
         follow_row(r.h[k], jumps, r.path_steps, [&](double begin, double end, double length, double duration) {
+          if constexpr (StepsOnItsOwn<B>) {
+            if (own_law.takes(length)) {
+              for (int i = 0; i < n_u; ++i) {
+                middle[i] = now[i] - (1 - begin) * rate[i];
+                until[i] = now[i] - (1 - end) * rate[i];
+              }
+              own_law(x, middle, until, length);
+              return;
+            }
+          }
           v.u = middle;
           for (int i = 0; i < n_u; ++i) rate[i] /= duration;
           v.du = rate;

@@ -16,8 +16,8 @@
 namespace hysteron {
 namespace {
 
-// Of the tolerance: by how much the error of a row must differ from that of the row before to count as made there. What
-// an earlier row left behind (in a memory, in a slow state) hardly changes from row to row.
+// Of the tolerance, and of what the worst row makes: by how much the error of a row must differ from that of the row
+// before to count as made there. What an earlier row left behind (in a memory, in a slow state) hardly changes.
 constexpr double made_here = 0.1;
 constexpr int most_pieces = 1024;  // of one row
 
@@ -39,14 +39,14 @@ std::vector<bool> where_made(const BoundRecording& b, const std::vector<Rows>& c
   std::vector<bool> made(b.instants.size(), false);
   if (!is_finite(coarse) || !is_finite(fine)) return made;
   for (std::size_t o = 0; o < fine.size(); ++o) {
-    double before = 0;
-    for (std::size_t i = 0; i < fine[o].size(); ++i) {
-      const double error = fine[o][i] - coarse[o][i];
-      if (std::abs(error - before) > made_here * tolerance[o]) {
-        const std::size_t k = b.at[o][i];
-        for (std::size_t j = k > 0 ? k - 1 : 0; j < std::min(k + 2, made.size()); ++j) made[j] = true;
-      }
-      before = error;
+    std::vector<double> more(fine[o].size());
+    for (std::size_t i = 0; i < more.size(); ++i)
+      more[i] = std::abs(fine[o][i] - coarse[o][i] - (i == 0 ? 0 : fine[o][i - 1] - coarse[o][i - 1]));
+    const double most = more.empty() ? 0 : *std::max_element(more.begin(), more.end());
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      if (!(more[i] > made_here * std::max(most, tolerance[o]))) continue;
+      const std::size_t k = b.at[o][i];
+      for (std::size_t j = k > 0 ? k - 1 : 0; j < std::min(k + 2, made.size()); ++j) made[j] = true;
     }
   }
   return made;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hysteron::bouc_wen {
 
@@ -32,6 +33,31 @@ T z_rate(const Params<T>& p, const T& z, const T& v) {
   const T bend = p.beta * abs(v) * z + p.gamma * v * abs(z);
   if (p.exponent == 1) return p.alpha * v - bend;
   return p.alpha * v - bend * pow(abs(z) / T{p.scale}, p.exponent - 1);
+}
+
+/// The hysteretic part [m] behind a way of the input [V] in one direction, from z: z_rate solved along the way, in
+/// closed form for n = 1: an exponential before z passes 0, and another one behind. For other n there is none.
+inline double z_in_closed_form(const Params<double>& p, double z, double way) {
+  // y = z in the direction of the way, or against it where z pushes back: dy/ds = slope - bend y, slope >= 0.
+  const double side = std::copysign(1.0, way) * std::copysign(1.0, p.alpha), slope = std::fabs(p.alpha);
+  const double gamma = std::copysign(p.gamma, p.gamma * p.alpha);
+  double y = side * z, left = std::fabs(way);
+  const auto moved = [&](double bend, double length) {
+    const double x = bend * length;
+    const double reached = std::fabs(x) < 1e-8 ? length * (1 - 0.5 * x) : -std::expm1(-x) / bend;
+    return y + (slope - bend * y) * reached;
+  };
+  if (y < 0) {
+    const double bend = p.beta - gamma, grown = slope > 0 ? -bend * y / slope : -1;
+    const double to_zero = slope == 0    ? std::numeric_limits<double>::infinity()
+                           : bend == 0   ? -y / slope
+                           : grown <= -1 ? std::numeric_limits<double>::infinity()
+                                         : std::log1p(grown) / bend;
+    if (to_zero >= left) return side * moved(bend, left);
+    left -= to_zero;
+    y = 0;
+  }
+  return side * moved(p.beta + gamma, left);
 }
 
 /// Largest |z| for a rising input: alpha = (beta + gamma) z |z/scale|^(n-1) solved for z.

@@ -2,7 +2,9 @@
 // and the hysteresis of a spring. Does not decide what they act on.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace hysteron::presliding {
 
@@ -57,10 +59,86 @@ inline double sliding_share(double crossover, double velocity) {
   return speed > 0 ? velocity / speed : 0;
 }
 
-/// Deflection [m] after a steady motion by x [m] from z = 0 in one direction: distance (1 - exp(-|x|/distance))
-/// sign(x).
-inline double deflection_after(double distance, double x) {
-  return std::copysign(distance * -std::expm1(-std::fabs(x) / distance), x);
+/// Deflection [m] behind a motion by x [m] in one direction, from z: deflection_rate solved along the way.
+inline double deflection_after(double distance, double x, double z = 0) {
+  return z + (std::copysign(distance, x) - z) * -std::expm1(-std::fabs(x) / distance);
 }
+
+/// Of an element that yields (slip_rate), in its distances: the way from 0 on which its deflection grows to a share < 1
+/// of the distance, (artanh + arctan)/2, and the share behind a way, its inverse.
+inline double yielding_way(double share) { return 0.5 * (std::atanh(share) + std::atan(share)); }
+class YieldingShare {
+ public:
+  static double behind(double way) {
+    static const YieldingShare table;
+    const double place = way * per_one;
+    if (!(place < last)) return way >= 0 ? 1 : way;  // 1 but for rounding; not a number stays none
+    const auto k = static_cast<std::size_t>(place);
+    const double c = place - static_cast<double>(k), a = table.share_[k], b = table.share_[k + 1];
+    const auto slope = [](double s) { return (1 - s * s * s * s) / per_one; };
+    const double rise = b - a, before = slope(a) - rise, behind = rise - slope(b);
+    return a + c * (rise + (1 - c) * (before * (1 - c) + behind * c));  // Hermite's cubic
+  }
+
+ private:
+  static constexpr int per_one = 64, last = 10 * per_one;
+  std::array<double, last + 1> share_{};
+
+  YieldingShare() {
+    for (int k = 1; k <= last; ++k) {
+      // Newton from the place before, where the way still hangs on the share but for rounding.
+      const double way = static_cast<double>(k) / per_one;
+      double share = share_[static_cast<std::size_t>(k - 1)];
+      for (int i = 0; i < 60 && share < 1; ++i) {
+        const double move = (way - yielding_way(share)) * (1 - share * share * share * share);
+        share = std::fmin(share + move, 1.0);
+        if (std::fabs(move) < 1e-17) break;
+      }
+      share_[static_cast<std::size_t>(k)] = share;
+    }
+  }
+};
+
+/// An element at some deflection z [m]: where it stands behind a motion by x [m] in one direction.
+class SlippingElement {
+ public:
+  SlippingElement(double distance, double z) : distance_(distance), z_(z) {}
+  double z() const { return z_; }
+  double distance() const { return distance_; }
+  double after(double x) const { return deflection_after(distance_, x, z_); }
+  void move(double x) { z_ = after(x); }
+
+ private:
+  double distance_, z_;
+};
+
+/// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance.
+class YieldingElement {
+ public:
+  YieldingElement(double distance, double z)
+      : distance_(distance), z_(z), way_(yielding_way(std::fmin(std::fabs(z) / distance, 1.0))) {}
+  double z() const { return z_; }
+  double distance() const { return distance_; }
+  double after(double x) const {
+    if (x == 0) return z_;
+    if (z_ * x >= 0) return std::copysign(distance_ * YieldingShare::behind(way_ + std::fabs(x) / distance_), x);
+    const double beyond = std::fabs(x) - std::fabs(z_);
+    return beyond <= 0 ? z_ + x : std::copysign(distance_ * YieldingShare::behind(beyond / distance_), x);
+  }
+  void move(double x) {
+    if (x == 0) return;
+    const double beyond = std::fabs(x) - std::fabs(z_);
+    if (z_ * x < 0 && beyond <= 0) {
+      *this = YieldingElement(distance_, z_ + x);
+      return;
+    }
+    way_ = z_ * x < 0 ? beyond / distance_ : way_ + std::fabs(x) / distance_;
+    z_ = std::copysign(distance_ * YieldingShare::behind(way_), x);
+  }
+
+ private:
+  double distance_, z_;
+  double way_;  ///< from 0 to |z|, in distances
+};
 
 }  // namespace hysteron::presliding

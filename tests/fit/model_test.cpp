@@ -117,6 +117,37 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
   EXPECT_LT(model.steps(0), before);
 }
 
+/// A guide of 400 Hz beside elements that hold back a tenth of the force, in rows of 1/40 s: 60 radians each, in which
+/// its ringing dies away.
+ProgramPointer stage_beside_elements(const std::string& type) {
+  Diagram d = lab::diagram("y");
+  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
+  auto& mass = lab::add(d, "mass", type, "force");
+  mass.parameters["mass"] = "1 kg";
+  mass.parameters["damping"] = "1000 N*s/m";
+  mass.parameters["stiffness"] = "6.3e6 N/m";
+  mass.parameters["contact_stiffness"] = NumberList{{2e6, "N/m"}, {9e5, "N/m"}};
+  mass.parameters["slip_distance"] = NumberList{{0.1, "um"}, {0.3, "um"}};
+  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
+  return compile(d, lab::registry());
+}
+
+TEST(DataModel, SlowRowsOfAGuideNeedNoStepsOfItsResonance) {
+  for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"}) {
+    const auto program = stage_beside_elements(type);
+    DataSet data = recordings(1 / 40.0, 400);
+    lab::measure(data, program, 0, 22);
+    DataModelOptions options;
+    options.relative_tolerance = 1e-9;
+    DataModel model(program, lab::shared(data), options);
+    const std::vector<int> both{0, 1};
+    ASSERT_TRUE(model.predict({}, both).ok) << type;
+    EXPECT_EQ(model.why_not_exact(), "") << type;
+    EXPECT_LT(model.steps(1), 20 * 400) << type << ": Runge-Kutta has no answer from less than 22 steps a row";
+    EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << type;  // 1e-6 of the span was asked for
+  }
+}
+
 TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
   const auto program = stage_on_a_stiffening_spring("1 N/m^3");
   DataSet data = recordings(0.01, 300);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "engine/dual.h"
@@ -110,6 +111,21 @@ INSTANTIATE_TEST_SUITE_P(Traces, BoucWenGolden,
                          testing::Values(Case{"bw_forward_sine", 1}, Case{"bw_forward_triangle", 1},
                                          Case{"bw_forward_n2_sine", 2}),
                          [](const auto& made) { return std::string(made.param.name); });
+
+TEST(BoucWenModel, AWayOfAnyLengthInClosedForm) {
+  // beta = gamma and beta < gamma bend nothing on one side; a negative slope turns the loop over.
+  for (const auto [alpha, beta, gamma] :
+       {std::array{0.6187, 0.2418, 0.0237}, std::array{0.6, 0.2, 0.2}, std::array{0.6, 0.1, 0.3},
+        std::array{0.6, 0.3, -0.2}, std::array{-0.6, 0.3, 0.1}, std::array{0.0, 0.3, 0.1}}) {
+    const Params<double> p{.alpha = alpha, .beta = beta, .gamma = gamma};
+    for (const double z : {-1.7, -0.2, 0.0, 0.4, 1.9})
+      for (const double way : {-8.0, -0.3, 0.01, 1.0, 20.0})
+        // The corner at z = 0 is met inside one of 40 000 steps: their length squared times the change of slope.
+        EXPECT_NEAR(bouc_wen::z_in_closed_form(p, z, way), move(p, z, 0, way, 40000), 2e-8)
+            << alpha << " " << z << " " << way;
+  }
+  EXPECT_EQ(bouc_wen::z_in_closed_form(table, 0.3, 0), 0.3);
+}
 
 }  // namespace
 }  // namespace hysteron

@@ -1,0 +1,123 @@
+// Steps of any length of a mass on a spring, and of the elements beside it, against fine steps of Runge-Kutta.
+#include "models/mass_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "models/presliding.h"
+
+namespace hysteron {
+namespace {
+
+using mass_motion::ExactStep;
+using mass_motion::Force;
+using mass_motion::Motion;
+
+/// m x'' + d x' + k x = F, by so many steps that their error (their length to the power of four) is rounding.
+Motion marched(double mass, double damping, double stiffness, Motion x, double h, double begin, double end) {
+  const int steps = 20000;
+  const double dt = h / steps;
+  for (int i = 0; i < steps; ++i) {
+    const auto rate = [&](const Motion& at, double share) {
+      const double force = begin + (end - begin) * (i + share) / steps;
+      return Motion{at.velocity, (force - damping * at.velocity - stiffness * at.position) / mass};
+    };
+    const auto moved = [&](const Motion& by, double length) {
+      return Motion{x.position + length * by.position, x.velocity + length * by.velocity};
+    };
+    const Motion k1 = rate(x, 0), k2 = rate(moved(k1, dt / 2), 0.5), k3 = rate(moved(k2, dt / 2), 0.5),
+                 k4 = rate(moved(k3, dt), 1);
+    x.position += dt / 6 * (k1.position + 2 * k2.position + 2 * k3.position + k4.position);
+    x.velocity += dt / 6 * (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity);
+  }
+  return x;
+}
+
+TEST(MassMotion, AStepOfAnyLengthIsWhatManySmallOnesSay) {
+  // Mass 2 kg, 50 N/m: 5 rad/s, critical damping 20 N s/m. From one radian to a dozen.
+  for (const double damping : {0.0, 0.5, 19.9999, 20.0, 20.0001, 60.0, 2000.0})
+    for (const double h : {0.21, 2.5}) {
+      const Motion start{0.01, -0.3};
+      const ExactStep step(2, damping, 50, h);
+      const Motion found = step(start, 1.5, -0.7), truth = marched(2, damping, 50, start, h, 1.5, -0.7);
+      EXPECT_NEAR(found.position, truth.position, 1e-11) << damping << " " << h;
+      EXPECT_NEAR(found.velocity, truth.velocity, 1e-11) << damping << " " << h;
+      const Motion more = step(start, 1.5, 0.3);
+      EXPECT_NEAR(more.position - found.position, step.yield() * 1.0, 1e-15) << "a newton more at the end";
+    }
+}
+
+TEST(MassMotion, TheEndBalancesAForceThatHangsOnIt) {
+  // A hardening force, one that holds back by a constant at most, and one that pulls: x = free + yield F(x).
+  const std::array<std::function<Force(double)>, 3> laws{
+      [](double x) {
+        return Force{-40 * x * x * x, -120 * x * x};
+      },
+      [](double x) {
+        return Force{-3 * std::tanh(50 * x), -150 / (std::cosh(50 * x) * std::cosh(50 * x))};
+      },
+      [](double x) {
+        return Force{2 * x, 2};
+      }};
+  for (const auto& law : laws)
+    for (const double free : {-2.0, 1e-3, 0.7}) {
+      const double x = mass_motion::end_position(free, 0.2, free, law);
+      EXPECT_NEAR(x, free + 0.2 * law(x).value, 1e-13) << free;
+    }
+  const auto none = [](double x) { return Force{100 + x * x * 100, 200 * x}; };
+  EXPECT_TRUE(std::isnan(mass_motion::end_position(1, 0.2, 1, none)) ||
+              std::fabs(mass_motion::end_position(1, 0.2, 1, none)) < 10);
+}
+
+/// dz = law(z, side) |dx| along a way in one direction.
+double along(const std::function<double(double, double)>& rate, double z, double way) {
+  const int steps = 40000;
+  const double v = way / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double k1 = rate(z, v), k2 = rate(z + k1 / 2, v), k3 = rate(z + k2 / 2, v);
+    z += (k1 + 2 * (k2 + k3) + rate(z + k3, v)) / 6;
+  }
+  return z;
+}
+
+TEST(PreslidingModel, AWayOfAnyLengthIsWhatItsRateSays) {
+  const double distance = 0.3;
+  for (const double z : {-0.29, -0.1, 0.0, 0.2, 0.2999})
+    for (const double way : {-4.0, -0.25, -0.01, 0.002, 0.3, 1.1, 9.0}) {
+      const auto dahl = [&](double at, double v) { return presliding::deflection_rate(distance, at, v); };
+      presliding::SlippingElement slipping(distance, z);
+      EXPECT_NEAR(slipping.after(way), along(dahl, z, way), 1e-12) << z << " " << way;
+      slipping.move(way);
+      EXPECT_EQ(slipping.z(), presliding::deflection_after(distance, way, z));
+      const auto slip = [&](double at, double v) { return presliding::slip_rate(distance, at, v); };
+      presliding::YieldingElement yielding(distance, z);
+      EXPECT_NEAR(yielding.after(way), along(slip, z, way), 2e-8 * distance) << z << " " << way;
+      // Two ways in one direction are one; and the element knows its way again from its deflection.
+      const double at_once = yielding.after(way);
+      yielding.move(0.4 * way);
+      EXPECT_NEAR(presliding::YieldingElement(distance, yielding.z()).after(0.6 * way), at_once, 2e-8 * distance);
+      yielding.move(0.6 * way);
+      EXPECT_NEAR(yielding.z(), at_once, 2e-8 * distance) << z << " " << way;
+    }
+  for (const double z : {-0.1, 0.1}) {
+    presliding::YieldingElement still(distance, z);
+    EXPECT_EQ(still.after(0), z);
+    EXPECT_EQ(still.after(-0.0), z);
+    still.move(0);
+    EXPECT_EQ(still.z(), z);
+  }
+}
+
+TEST(PreslidingModel, TheShareBehindAWayIsTheInverseOfTheWay) {
+  for (double share = 0; share < 0.9999; share += 0.0137)
+    EXPECT_NEAR(presliding::YieldingShare::behind(presliding::yielding_way(share)), share, 1e-8);
+  EXPECT_EQ(presliding::YieldingShare::behind(1e9), 1);
+  EXPECT_TRUE(std::isnan(presliding::YieldingShare::behind(std::nan(""))));
+}
+
+}  // namespace
+}  // namespace hysteron
