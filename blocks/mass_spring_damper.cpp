@@ -1,6 +1,5 @@
 #include "blocks/mass_spring_damper.h"
 
-#include <array>
 #include <cmath>
 
 namespace hysteron::blocks {
@@ -61,7 +60,7 @@ void describe_start(Declaration& d) {
   d.parameter("initial_velocity", "m/s", "velocity at the start").optional("0");
 }
 
-const mass_motion::ExactStep& LongRow::of(const mass_spring_damper::Params<double>& law, double length) {
+const mass_motion::ExactStep& RowStep::of(const mass_spring_damper::Params<double>& law, double length) {
   // Lengths of rows differ by the rounding of their times.
   if (!step || std::fabs(length - h) > 1e-9 * h) {
     step.emplace(law.mass, law.damping, law.stiffness, length);
@@ -70,34 +69,31 @@ const mass_motion::ExactStep& LongRow::of(const mass_spring_damper::Params<doubl
   return *step;
 }
 
+mass_motion::Force MassOnStiffeningSpring::OwnStep::beyond(double x) const {
+  return {law_.stiffness * x - mass_spring_damper::spring(law_, x),
+          law_.stiffness - mass_spring_damper::slope(law_, x)};
+}
+
 MotionState<double> MassOnStiffeningSpring::OwnStep::operator()(const MotionState<double>& s,
                                                                 const ForceIn<double>& from, const ForceIn<double>& to,
                                                                 double h) {
   const int steps = mass_motion::steps_of_row(law_.mass, law_.stiffness, h);
-  if (steps == 0) return long_row(s, from.force, to.force, h);
-  std::array<double, 2> x{s.position, s.velocity};
-  std::array<double, 10> work;
+  mass_motion::Motion x{s.position, s.velocity};
+  if (steps == 0) {
+    const auto& step = row_.of(law_, h);
+    const double before = beyond(x.position).value;
+    const double free = step(x, from.force + before, to.force).position;
+    const double end = mass_motion::end_position(free, step.yield(), free + step.yield() * before,
+                                                 [&](double place) { return beyond(place); });
+    return {end, step(x, from.force + before, to.force + beyond(end).value).velocity};
+  }
+  const auto& whole = row_.of(law_, h / steps);
+  const auto& half = half_row_.of(law_, h / steps / 2);
+  const double rise = (to.force - from.force) / steps;
   for (int i = 0; i < steps; ++i)
-    block_detail::runge_kutta(2, x.data(), h / steps, work.data(), [&](double c, const double* now, double* rate) {
-      const double force = from.force + (to.force - from.force) * ((i + c) / steps);
-      rate[0] = now[1];
-      rate[1] = mass_spring_damper::acceleration(law_, now[0], now[1], force);
-    });
-  return {x[0], x[1]};
-}
-
-MotionState<double> MassOnStiffeningSpring::OwnStep::long_row(const MotionState<double>& s, double from, double to,
-                                                              double h) {
-  const auto& step = row_.of(law_, h);
-  const auto beyond = [&](double x) {
-    return mass_motion::Force{law_.stiffness * x - mass_spring_damper::spring(law_, x),
-                              law_.stiffness - mass_spring_damper::slope(law_, x)};
-  };
-  const mass_motion::Motion begin{s.position, s.velocity};
-  const double before = beyond(s.position).value;
-  const double free = step(begin, from + before, to).position;
-  const double end = mass_motion::end_position(free, step.yield(), free + step.yield() * before, beyond);
-  return {end, step(begin, from + before, to + beyond(end).value).velocity};
+    x = mass_motion::step_under(whole, half, x, from.force + rise * i, from.force + rise * (i + 1),
+                                [&](double place) { return beyond(place).value; });
+  return {x.position, x.velocity};
 }
 
 Kernel mass_spring_damper_block() { return kernel<MassSpringDamper>(); }

@@ -24,7 +24,7 @@ struct MotionOut {
 };
 
 /// The exact step of the row before serves this one where both are as long.
-struct LongRow {
+struct RowStep {
   std::optional<mass_motion::ExactStep> step;
   double h = 0;  ///< [s]
   const mass_motion::ExactStep& of(const mass_spring_damper::Params<double>& law, double length);
@@ -77,20 +77,20 @@ struct MassOnStiffeningSpring : Mass {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest(law(p), in.force), 0};
   }
-  /// Rows longer than Runge-Kutta takes in one step: in several, or, the longest, the linear motion exactly and what
-  /// the spring holds beyond it as a force that moves in a straight line (mass_motion::steps_of_row).
+  /// The linear motion exactly; what the spring holds beyond it as a force between the rows, or, in the longest rows,
+  /// as one that moves in a straight line (mass_motion::steps_of_row).
   class OwnStep {
    public:
     explicit OwnStep(const Params<double>& p) : law_(law(p)) {}
-    bool takes(double h) const { return mass_motion::steps_of_row(law_.mass, law_.stiffness, h) != 1; }
+    bool takes(double h) const { return mass_motion::has_exact_step(law_.mass, law_.damping, law_.stiffness, h); }
     MotionState<double> operator()(const MotionState<double>& s, const ForceIn<double>& from, const ForceIn<double>& to,
                                    double h);
 
    private:
-    MotionState<double> long_row(const MotionState<double>& s, double from, double to, double h);
+    mass_motion::Force beyond(double x) const;
 
     mass_spring_damper::Params<double> law_;
-    LongRow row_;
+    RowStep row_, half_row_;
   };
 
  private:

@@ -131,14 +131,25 @@ double MassWithElements<Element>::OwnStep::acceleration(const double* x, double 
   return mass_spring_damper::acceleration(law_, x[0], x[1], force);
 }
 
+/// What the elements hold, pulling, where the mass has moved so far.
+template <class Element>
+double MassWithElements<Element>::OwnStep::pull(double way) const {
+  double force = 0;
+  for (std::size_t i = 0; i < stiffness_.size(); ++i) force -= stiffness_[i] * elements_[i].after(way);
+  return force;
+}
+
 /// The mass alone, on a spring of which the elements are a part.
 template <class Element>
-mass_motion::Motion MassWithElements<Element>::OwnStep::leg(const double* x, double from, double to, double h) const {
+mass_motion::Motion MassWithElements<Element>::OwnStep::leg(const double* x, double from, double to, double h) {
+  const mass_motion::Motion begin{x[0], x[1]};
+  const auto at = [&](double place) { return pull(place - x[0]); };
+  if (mass_motion::has_exact_step(law_.mass, law_.damping, law_.stiffness, h))
+    return mass_motion::step_under(row_.of(law_, h), half_row_.of(law_, h / 2), begin, from, to, at);
   std::array<double, 2> moved{x[0], x[1]};
   std::array<double, 10> work;
   block_detail::runge_kutta(2, moved.data(), h, work.data(), [&](double c, const double* now, double* rate) {
-    double force = from + c * (to - from);
-    for (std::size_t i = 0; i < stiffness_.size(); ++i) force -= stiffness_[i] * elements_[i].after(now[0] - x[0]);
+    const double force = from + c * (to - from) + at(now[0]);
     rate[0] = now[1];
     rate[1] = mass_spring_damper::acceleration(law_, now[0], now[1], force);
   });

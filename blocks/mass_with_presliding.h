@@ -63,8 +63,8 @@ struct MassWithElements {
     v.out[0] = velocity;
     v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
   }
-  /// Long rows (mass_motion::steps_of_row): the linear motion of the mass exactly, its elements along the way from row
-  /// to row, and their force moving in a straight line. Short ones: Runge-Kutta, the
+  /// The linear motion of the mass exactly, its elements along its way. Long rows (mass_motion::steps_of_row): their
+  /// force moves in a straight line. Short ones: Runge-Kutta, the
   /// elements along the way where that is cheap.
   class OwnStep {
    public:
@@ -79,7 +79,8 @@ struct MassWithElements {
     void long_row(double* x, double from, double to, double h);
     double acceleration(const double* x, double force) const;
     void short_row(double* x, double from, double to, double h);
-    mass_motion::Motion leg(const double* x, double from, double to, double h) const;
+    mass_motion::Motion leg(const double* x, double from, double to, double h);
+    double pull(double way) const;
     void place_elements(const double* z, double share);
     void move_elements(double* z, double way);
 
@@ -87,7 +88,7 @@ struct MassWithElements {
     std::span<const double> stiffness_, distance_;
     double excess_, stribeck_velocity_;
     std::vector<typename Element::OnItsWay> elements_;
-    LongRow row_;
+    RowStep row_, half_row_;
   };
 
   /// The elements at rest hold nothing: as after a long decaying motion.

@@ -13,27 +13,34 @@ struct Motion {
   double velocity = 0;  ///< [m/s]
 };
 
-/// The step of length h [s] of m x'' + d x' + k x = F(t), F linear in between. k > 0, and h sqrt(k/m) not far below 1:
-/// for much shorter steps the closed form cancels.
-/// Source: superposition of the static answer to F, of that to F', and of the free motion; e.g. Craig, Kurdila,
+/// The step of length h [s] of m x'' + d x' + k x = F(t), F a parabola or a straight line in between. k > 0, and h
+/// sqrt(k/m) not far below a tenth: for much shorter steps the closed form cancels.
+/// Source: superposition of the static answers to F, F' and F'', and of the free motion; e.g. Craig, Kurdila,
 /// Fundamentals of Structural Dynamics (2006), section 6.
 class ExactStep {
  public:
   ExactStep(double mass, double damping, double stiffness, double h) {
     const double a = damping / (2 * mass), square = stiffness / mass;
     free_motion(a, square, h);
-    const double lag = damping / (stiffness * h);  // by which the answer to a ramp trails behind it
-    to_both_.position = (1 - xx_) / stiffness;
-    to_both_.velocity = -vx_ / stiffness;
-    to_rise_.position = (1 - lag + xx_ * lag - xv_ / h) / stiffness;
-    to_rise_.velocity = (1 / h + vx_ * lag - vv_ / h) / stiffness;
+    // The static answer to (t/h)^n is a polynomial that starts at some place with some velocity; the free motion takes
+    // these away.
+    const double lag = damping / (stiffness * h), swing = mass / (stiffness * h * h);
+    to_both_ = answer(stiffness, 1, 0, 1, 0, h);
+    to_rise_ = answer(stiffness, -lag, 1, 1 - lag, 1, h);
+    const double bend = 2 * (lag * lag - swing);
+    to_bend_ = answer(stiffness, bend, -2 * lag, 1 - 2 * lag + bend, 2 - 2 * lag, h);
   }
 
   /// From `start`, the force going from `begin` to `end` [N].
   Motion operator()(const Motion& start, double begin, double end) const {
-    const double rise = end - begin;
-    return {xx_ * start.position + xv_ * start.velocity + to_both_.position * begin + to_rise_.position * rise,
-            vx_ * start.position + vv_ * start.velocity + to_both_.velocity * begin + to_rise_.velocity * rise};
+    return (*this)(start, begin, end - begin, 0);
+  }
+  /// The force being begin + rise t/h + bend (t/h)^2.
+  Motion operator()(const Motion& start, double begin, double rise, double bend) const {
+    return {xx_ * start.position + xv_ * start.velocity + to_both_.position * begin + to_rise_.position * rise +
+                to_bend_.position * bend,
+            vx_ * start.position + vv_ * start.velocity + to_both_.velocity * begin + to_rise_.velocity * rise +
+                to_bend_.velocity * bend};
   }
   /// How far each newton of the force at the end moves the end [m/N]; positive.
   double yield() const { return to_rise_.position; }
@@ -57,8 +64,13 @@ class ExactStep {
     vv_ = c - a * s;
   }
 
+  /// From rest, of a static answer that begins at x0 [N] with x0' [N per h] and ends so: all over k.
+  Motion answer(double k, double x0, double v0, double x1, double v1, double h) const {
+    return {(x1 - xx_ * x0 - xv_ * v0 / h) / k, (v1 / h - vx_ * x0 - vv_ * v0 / h) / k};
+  }
+
   double xx_ = 0, xv_ = 0, vx_ = 0, vv_ = 0;
-  Motion to_both_, to_rise_;
+  Motion to_both_, to_rise_, to_bend_;
 };
 
 /// A force and how it changes with the place: [N], [N/m].
@@ -91,13 +103,35 @@ double end_position(double free, double yield, double x, const Law& force) {
   return std::fabs(error) <= 1e-9 * (std::fabs(x) + std::fabs(free)) ? x : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Into how many steps a row of h [s] is cut for an explicit formula; [kg], [N/m]. One up to a radian of the free
-/// motion; of an eighth of a radian each in longer rows, which costs Runge-Kutta two millionths of the ringing per
-/// radian; 0 from ten radians on: there the linear motion is better taken exactly and the rest as a force that moves in
-/// a straight line. In shorter rows that would be too crude: what sticks and slips beside the spring turns inside them.
+/// A step under a force from outside that goes straight from `begin` to `end` [N] and one that hangs on the place,
+/// pull(x) [N], taken as the parabola through its values at the start, in the middle and at the end: twice around.
+/// half: the step of half the length.
+template <class Pull>
+Motion step_under(const ExactStep& whole, const ExactStep& half, const Motion& start, double begin, double end,
+                  const Pull& pull) {
+  const double first = pull(start.position), rise = end - begin;
+  double middle = first, last = first;
+  const auto turn = [&] { return 4 * middle - 3 * first - last; };
+  const auto bend = [&] { return 2 * (first - 2 * middle + last); };
+  for (int i = 0; i < 2; ++i) {
+    middle = pull(half(start, begin + first, 0.5 * (rise + turn()), 0.25 * bend()).position);
+    if (i == 0) last = 2 * middle - first;
+    last = pull(whole(start, begin + first, rise + turn(), bend()).position);
+  }
+  return whole(start, begin + first, rise + turn(), bend());
+}
+
+/// Whether ExactStep is exact but for rounding: not for steps far below a radian, nor where damping outweighs all.
+inline bool has_exact_step(double mass, double damping, double stiffness, double h) {
+  return h * h * stiffness > 0.0025 * mass && damping < 1e3 * stiffness * h;
+}
+
+/// Into how many steps a row of h [s] is cut; [kg], [N/m]: one up to a radian of the free motion; 0 from ten radians
+/// on, where what happens between the rows is left out; in between eight, whatever the row, so that halving it halves
+/// them too, and who halves rows until nothing changes sees what they miss.
 inline int steps_of_row(double mass, double stiffness, double h) {
   const double square = h * h * stiffness / mass;
-  return !(square > 1) ? 1 : square > 100 ? 0 : static_cast<int>(std::ceil(8 * std::sqrt(square)));
+  return !(square > 1) ? 1 : square > 100 ? 0 : 8;
 }
 
 }  // namespace hysteron::mass_motion

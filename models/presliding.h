@@ -115,13 +115,12 @@ class SlippingElement {
 /// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance.
 class YieldingElement {
  public:
-  YieldingElement(double distance, double z)
-      : distance_(distance), z_(z), way_(yielding_way(std::fmin(std::fabs(z) / distance, 1.0))) {}
+  YieldingElement(double distance, double z) : distance_(distance), z_(z) {}
   double z() const { return z_; }
   double distance() const { return distance_; }
   double after(double x) const {
     if (x == 0) return z_;
-    if (z_ * x >= 0) return std::copysign(distance_ * YieldingShare::behind(way_ + std::fabs(x) / distance_), x);
+    if (z_ * x >= 0) return std::copysign(distance_ * YieldingShare::behind(way() + std::fabs(x) / distance_), x);
     const double beyond = std::fabs(x) - std::fabs(z_);
     return beyond <= 0 ? z_ + x : std::copysign(distance_ * YieldingShare::behind(beyond / distance_), x);
   }
@@ -132,13 +131,19 @@ class YieldingElement {
       *this = YieldingElement(distance_, z_ + x);
       return;
     }
-    way_ = z_ * x < 0 ? beyond / distance_ : way_ + std::fabs(x) / distance_;
+    way_ = z_ * x < 0 ? beyond / distance_ : way() + std::fabs(x) / distance_;
     z_ = std::copysign(distance_ * YieldingShare::behind(way_), x);
   }
 
  private:
+  /// From 0 to |z|, in distances. On its way back nobody asks.
+  double way() const {
+    if (way_ < 0) way_ = yielding_way(std::fmin(std::fabs(z_) / distance_, 1.0));
+    return way_;
+  }
+
   double distance_, z_;
-  double way_;  ///< from 0 to |z|, in distances
+  mutable double way_ = -1;  ///< not known yet
 };
 
 }  // namespace hysteron::presliding

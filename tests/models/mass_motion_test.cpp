@@ -18,12 +18,13 @@ using mass_motion::Force;
 using mass_motion::Motion;
 
 /// m x'' + d x' + k x = F, by so many steps that their error (their length to the power of four) is rounding.
-Motion marched(double mass, double damping, double stiffness, Motion x, double h, double begin, double end) {
+Motion marched(double mass, double damping, double stiffness, Motion x, double h,
+               const std::function<double(double)>& force_at) {
   const int steps = 20000;
   const double dt = h / steps;
   for (int i = 0; i < steps; ++i) {
     const auto rate = [&](const Motion& at, double share) {
-      const double force = begin + (end - begin) * (i + share) / steps;
+      const double force = force_at((i + share) / steps);
       return Motion{at.velocity, (force - damping * at.velocity - stiffness * at.position) / mass};
     };
     const auto moved = [&](const Motion& by, double length) {
@@ -43,12 +44,41 @@ TEST(MassMotion, AStepOfAnyLengthIsWhatManySmallOnesSay) {
     for (const double h : {0.21, 2.5}) {
       const Motion start{0.01, -0.3};
       const ExactStep step(2, damping, 50, h);
-      const Motion found = step(start, 1.5, -0.7), truth = marched(2, damping, 50, start, h, 1.5, -0.7);
+      const Motion found = step(start, 1.5, -0.7),
+                   truth = marched(2, damping, 50, start, h, [](double part) { return 1.5 - 2.2 * part; });
       EXPECT_NEAR(found.position, truth.position, 1e-11) << damping << " " << h;
       EXPECT_NEAR(found.velocity, truth.velocity, 1e-11) << damping << " " << h;
       const Motion more = step(start, 1.5, 0.3);
       EXPECT_NEAR(more.position - found.position, step.yield() * 1.0, 1e-15) << "a newton more at the end";
     }
+}
+
+TEST(MassMotion, AParabolaOfForceIsFollowedToo) {
+  for (const double damping : {0.0, 0.5, 20.0, 60.0})
+    for (const double h : {0.02, 0.21, 2.5}) {
+      const Motion start{0.01, -0.3};
+      const ExactStep step(2, damping, 50, h);
+      const auto truth =
+          marched(2, damping, 50, start, h, [](double part) { return 1.5 - 4 * part + 3 * part * part; });
+      const Motion found = step(start, 1.5, -4, 3);
+      EXPECT_NEAR(found.position, truth.position, 1e-11) << damping << " " << h;
+      EXPECT_NEAR(found.velocity, truth.velocity, 1e-10) << damping << " " << h;  // 1e-16 (2 pi h/period)^-4 of 3 N
+    }
+}
+
+TEST(MassMotion, AForceThatHangsOnThePlaceIsRightToTheFourthPowerOfTheStep) {
+  // A spring half as hard again, as a force beside a linear one; against the exact motion on 75 N/m.
+  const auto error = [](int steps) {
+    const double h = 1.0 / steps;
+    const ExactStep whole(2, 0.5, 50, h), half(2, 0.5, 50, h / 2);
+    Motion x{0.01, -0.3};
+    for (int i = 0; i < steps; ++i)
+      x = mass_motion::step_under(whole, half, x, 0.2 * i * h, 0.2 * (i + 1) * h, [](double at) { return -25 * at; });
+    const Motion truth = ExactStep(2, 0.5, 75, 1)(Motion{0.01, -0.3}, 0, 0.2);
+    return std::fabs(x.position - truth.position);
+  };
+  EXPECT_LT(error(10), 2.6e-4 * 0.06);  // of the amplitude: half of 0.5^4/120, half a radian a step
+  EXPECT_NEAR(std::log2(error(10) / error(20)), 4, 0.6);
 }
 
 TEST(MassMotion, TheEndBalancesAForceThatHangsOnIt) {
