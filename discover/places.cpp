@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "discover/wiring.h"
 #include "engine/error.h"
@@ -42,12 +43,16 @@ Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind
   return p;
 }
 
-/// The signal before constant offsets: a gain-like effect must not act on the zero of a sensor (DESIGN 5).
+/// The signal before constant offsets and what a cable picks up: a gain-like effect must not act on the zero of a
+/// sensor (DESIGN 5), and nothing in the device delays the mains.
 std::string before_offset(const Wiring& w, const std::string& signal) {
   const std::string block = w.source(signal);
   if (block.empty()) return signal;
   const Node* node = w.body(block);
-  if (node == nullptr || (node->type != "calibration" && node->type != "sum")) return signal;
+  const auto is_any_of = [&](std::initializer_list<const char*> types) {
+    return std::find(types.begin(), types.end(), node->type) != types.end();
+  };
+  if (node == nullptr || !is_any_of({"calibration", "sum", "mains_interference", "rounding"})) return signal;
   std::string moving;
   for (const auto& wire : w.diagram().blocks.find(block)->in) {
     const std::string from = w.signal(wire.from);

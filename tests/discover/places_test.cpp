@@ -91,6 +91,16 @@ TEST_F(Places, OfTheCommandStayBeforeAnEffectOfTheCoreThatWasFoundFirst) {
       << "it stands there already";
 }
 
+TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
+  Circumstances at;
+  at.unit = parse_unit("um");
+  const auto& mains = effects.get("mains_interference");
+  const Added a = add_effect(linear_stage(), registry, mains, mains.laws(at).front(),
+                             places_of(mains, linear_stage(), registry).front());
+  for (const char* effect : {"dead_time", "sensor_nonlinearity", "creep", "structural_resonance", "hysteresis"})
+    EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
+}
+
 TEST_F(Places, NamedInTheDiagramGoBeforeThoseWorkedOut) {
   Diagram d = linear_stage();
   d.places["command"] = {"stage"};
