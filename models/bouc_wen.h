@@ -44,7 +44,10 @@ inline double z_in_closed_form(const Params<double>& p, double z, double way) {
   double y = side * z, left = std::fabs(way);
   const auto moved = [&](double bend, double length) {
     const double x = bend * length;
-    const double reached = std::fabs(x) < 1e-8 ? length * (1 - 0.5 * x) : -std::expm1(-x) / bend;
+    // (1 - exp(-x))/x: a short row needs no more than five terms of it.
+    const double share =
+        std::fabs(x) < 0.02 ? 1 - x * (0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120))) : -std::expm1(-x) / x;
+    const double reached = length * share;
     return y + (slope - bend * y) * reached;
   };
   if (y < 0) {
