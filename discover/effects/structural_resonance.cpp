@@ -7,6 +7,11 @@
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
+namespace {
+
+constexpr double most_damping = 0.2;  // ratio; with more it is a phase shifter with four parameters
+
+}  // namespace
 
 Effect structural_resonance() {
   Effect e;
@@ -55,7 +60,7 @@ Effect structural_resonance() {
     damping.path = "damping";
     damping.start = 0.03;
     damping.lower = 5e-4;
-    damping.upper = 0.2;  // more is a phase shifter with four parameters
+    damping.upper = most_damping;
     damping.log_scale = true;
     damping.plausible_upper = 0.1;
     LawParameter position, velocity;
@@ -65,6 +70,10 @@ Effect structural_resonance() {
     position.upper = velocity.upper = 2;
     law.free = {frequency, damping, position, velocity};
     return std::vector<Law>{law};
+  };
+  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
+    if (values[1] < 0.99 * most_damping) return "";
+    return fmt::format("at its damping of {:.2g}, the limit, it would shift the phase and not ring", values[1]);
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)

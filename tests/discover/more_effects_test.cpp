@@ -140,11 +140,12 @@ TEST_F(MoreEffects, AnotherAxisIsNamedFromItsDrive) {
               1e-3);  // 1 mm of noise over 1800 rows of half a volt
 }
 
-TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
+/// A twentieth of the motion is that of a mode of 37 Hz with this damping ratio.
+DataSet with_a_mode(double z) {
   // q'' + 2 z w q' + w^2 q = w^2 u by the central difference with 100 steps a row: y = u + 0.05 (q - u).
   std::vector<Recording> list;
   std::uint64_t seed = 700;
-  const double hertz = 37, w = 2 * pi * hertz, z = 0.02;
+  const double w = 2 * pi * 37;
   for (const auto& [role, step] : {std::pair{Role::train, 2e-3}, {Role::train, 3e-3}, {Role::validate, 2.5e-3}}) {
     const auto t = rows(1200, step);
     const auto u = levels(
@@ -161,11 +162,23 @@ TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
     }
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
   }
-  const Discovery d = diagnosed(plain_gain(), data_set(list, 1e-3));
+  return data_set(list, 1e-3);
+}
+
+TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
+  const Discovery d = diagnosed(plain_gain(), with_a_mode(0.02));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "structural_resonance") << tried(d);
-  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, hertz,
-              0.2);  // a quarter of the width z f of the peak
+  // A quarter of the width z f of the peak.
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 37, 0.2);
+}
+
+TEST_F(MoreEffects, WhatOnlyShiftsThePhaseIsNoResonance) {
+  const Discovery d = diagnosed(plain_gain(), with_a_mode(0.8), {"structural_resonance"});
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  EXPECT_TRUE(std::any_of(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) {
+    return c.reason.find("would shift the phase and not ring") != std::string::npos;
+  })) << tried(d);
 }
 
 TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
@@ -219,7 +232,6 @@ TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
   EXPECT_NEAR(winner.found.at(0).estimate.used, 0.7, 0.01);
   EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5, 0.01);
 }
-
 
 /// The mass with a further force(x, v), by small semi-implicit Euler steps.
 template <class Force>
