@@ -71,6 +71,7 @@ class YieldingShare {
  public:
   static double behind(double way) {
     static const YieldingShare table;
+    if (way < 0) return -behind(-way);
     const double place = way * per_one;
     if (!(place < last)) return way >= 0 ? 1 : way;  // 1 but for rounding; not a number stays none
     const auto k = static_cast<std::size_t>(place);

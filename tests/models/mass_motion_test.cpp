@@ -146,6 +146,7 @@ TEST(PreslidingModel, TheShareBehindAWayIsTheInverseOfTheWay) {
   for (double share = 0; share < 0.9999; share += 0.0137)
     EXPECT_NEAR(presliding::YieldingShare::behind(presliding::yielding_way(share)), share, 1e-8);
   EXPECT_EQ(presliding::YieldingShare::behind(1e9), 1);
+  EXPECT_EQ(presliding::YieldingShare::behind(-0.3), -presliding::YieldingShare::behind(0.3));
   EXPECT_TRUE(std::isnan(presliding::YieldingShare::behind(std::nan(""))));
 }
 
