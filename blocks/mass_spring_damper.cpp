@@ -80,12 +80,9 @@ MotionState<double> MassOnStiffeningSpring::OwnStep::operator()(const MotionStat
   const int steps = mass_motion::steps_of_row(law_.mass, law_.stiffness, h);
   mass_motion::Motion x{s.position, s.velocity};
   if (steps == 0) {
-    const auto& step = row_.of(law_, h);
-    const double before = beyond(x.position).value;
-    const double free = step(x, from.force + before, to.force).position;
-    const double end = mass_motion::end_position(free, step.yield(), free + step.yield() * before,
-                                                 [&](double place) { return beyond(place); });
-    return {end, step(x, from.force + before, to.force + beyond(end).value).velocity};
+    x = mass_motion::step_to_balance(row_.of(law_, h), x, from.force, to.force,
+                                     [&](double place) { return beyond(place); });
+    return {x.position, x.velocity};
   }
   const auto& whole = row_.of(law_, h / steps);
   const auto& half = half_row_.of(law_, h / steps / 2);

@@ -23,7 +23,7 @@ struct MotionOut {
   T position, velocity;
 };
 
-/// The exact step of the row before serves this one where both are as long.
+/// An exact step that is made anew where a row is not as long as the one before.
 struct RowStep {
   std::optional<mass_motion::ExactStep> step;
   double h = 0;  ///< [s]
@@ -77,8 +77,8 @@ struct MassOnStiffeningSpring : Mass {
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
     return {mass_spring_damper::rest(law(p), in.force), 0};
   }
-  /// The linear motion exactly; what the spring holds beyond it as a force between the rows, or, in the longest rows,
-  /// as one that moves in a straight line (mass_motion::steps_of_row).
+  /// The linear motion exactly; what the spring holds beyond it as a force on the place: mass_motion::step_under, and
+  /// in the longest rows step_to_balance.
   class OwnStep {
    public:
     explicit OwnStep(const Params<double>& p) : law_(law(p)) {}

@@ -108,8 +108,9 @@ void MassWithElements<Element>::OwnStep::short_row(double* x, double from, doubl
   const double rise = (to - from) / h;
   double left = h;
   for (int legs = 0; legs < 4 && left > 0; ++legs) {
-    const double begin = to - rise * left, pull = acceleration(x, begin);
-    place_elements(x + 2, level(x[1] + 0.5 * left * pull));
+    const double begin = to - rise * left;
+    const double gain = mass_spring_damper::acceleration(law_, x[0], x[1], begin - held(x));
+    place_elements(x + 2, level(x[1] + 0.5 * left * gain));
     double length = left;
     auto end = leg(x, begin, to, length);
     if (legs < 3 && x[1] * end.velocity < 0) {
@@ -125,13 +126,15 @@ void MassWithElements<Element>::OwnStep::short_row(double* x, double from, doubl
   }
 }
 
+/// What the elements hold back in these states [N].
 template <class Element>
-double MassWithElements<Element>::OwnStep::acceleration(const double* x, double force) const {
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) force -= stiffness_[i] * x[i + 2];
-  return mass_spring_damper::acceleration(law_, x[0], x[1], force);
+double MassWithElements<Element>::OwnStep::held(const double* x) const {
+  double force = 0;
+  for (std::size_t i = 0; i < stiffness_.size(); ++i) force += stiffness_[i] * x[i + 2];
+  return force;
 }
 
-/// What the elements hold, pulling, where the mass has moved so far.
+/// What they pull with [N] where the mass has moved by `way` [m].
 template <class Element>
 double MassWithElements<Element>::OwnStep::pull(double way) const {
   double force = 0;
@@ -160,25 +163,20 @@ template <class Element>
 void MassWithElements<Element>::OwnStep::long_row(double* x, double from, double to, double h) {
   const auto& step = row_.of(law_, h);
   const mass_motion::Motion begin{x[0], x[1]};
-  double before = 0;
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) before -= stiffness_[i] * x[i + 2];
-  const double free = step(begin, from + before, to).position, expected = free + step.yield() * before;
+  const double before = held(x);
+  const double expected = step(begin, from - before, to - before).position;
   // Of the mean speed as it is expected: a force that falls while the speed rises would balance at several places.
   place_elements(x + 2, level((expected - x[0]) / h));
-  const auto held = [&](double place) {
-    mass_motion::Force force;
+  const auto end = mass_motion::step_to_balance(step, begin, from, to, [&](double place) {
     const double way = place - x[0], side = way < 0 ? -1 : 1;
-    for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-      const double after = elements_[i].after(way);
-      force.value -= stiffness_[i] * after;
-      force.slope -= stiffness_[i] * side * Element::rate(elements_[i].distance(), after, side);
-    }
+    mass_motion::Force force{pull(way), 0};
+    for (std::size_t i = 0; i < stiffness_.size(); ++i)
+      force.slope -= stiffness_[i] * side * Element::rate(elements_[i].distance(), elements_[i].after(way), side);
     return force;
-  };
-  const double end = mass_motion::end_position(free, step.yield(), expected, held);
-  x[1] = step(begin, from + before, to + held(end).value).velocity;
-  move_elements(x + 2, end - x[0]);
-  x[0] = end;
+  });
+  move_elements(x + 2, end.position - x[0]);
+  x[0] = end.position;
+  x[1] = end.velocity;
 }
 
 Kernel mass_with_presliding_block() { return kernel<MassWithElements<DahlElement>>(); }

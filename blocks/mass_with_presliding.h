@@ -63,9 +63,8 @@ struct MassWithElements {
     v.out[0] = velocity;
     v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
   }
-  /// The linear motion of the mass exactly, its elements along its way. Long rows (mass_motion::steps_of_row): their
-  /// force moves in a straight line. Short ones: Runge-Kutta, the
-  /// elements along the way where that is cheap.
+  /// The linear motion of the mass exactly, its elements along its way: mass_motion::step_under, and in the longest
+  /// rows step_to_balance. Runge-Kutta for the mass alone where rows are too short for that, or nothing drives it back.
   class OwnStep {
    public:
     explicit OwnStep(const View<double>& v);
@@ -77,7 +76,7 @@ struct MassWithElements {
       return excess_ > 0 ? presliding::stribeck_level(excess_, stribeck_velocity_, velocity) : 1.0;
     }
     void long_row(double* x, double from, double to, double h);
-    double acceleration(const double* x, double force) const;
+    double held(const double* x) const;
     void short_row(double* x, double from, double to, double h);
     mass_motion::Motion leg(const double* x, double from, double to, double h);
     double pull(double way) const;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -69,9 +68,9 @@ void take_finer(BoundRecording& b, const std::vector<int>& before) {
   auto all = b.substeps_of_rows();
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::max(all[i], before[i]);
   const auto [least, most] = std::minmax_element(all.begin(), all.end());
-  b.substeps = *least;  // powers of two: it divides all others
+  b.substeps = *least;
   if (*least == *most) return b.cut({});
-  for (int& n : all) n /= b.substeps;
+  for (int& n : all) n = (n + b.substeps - 1) / b.substeps;  // powers of two but for max_substeps
   b.cut(std::move(all));
 }
 

@@ -113,7 +113,8 @@ class SlippingElement {
   double distance_, z_;
 };
 
-/// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance.
+/// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance. Held beyond its
+/// distance (which may grow shorter) it gives way at once.
 class YieldingElement {
  public:
   YieldingElement(double distance, double z) : distance_(distance), z_(z) {}

@@ -169,5 +169,25 @@ TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
   EXPECT_EQ(model.steps(0), chosen) << "the others are simulated as before";
 }
 
+TEST(DataModel, WhatAlwaysRunsAwayIsNotAskedForItsSubstepsForEver) {
+  // A spring that softens until it pushes, at ten times the force that it can hold.
+  const auto program = stage_on_a_stiffening_spring("1 N/m^3");
+  DataSet data = recordings(0.01, 300);
+  lab::measure(data, program, 0, 23);
+  DataModelOptions options;
+  options.bdf_otherwise = false;
+  DataModel model(program, lab::shared(data), options);
+  const Trial lost{{parameter_index(*program, "mass.stiffening"), -1e12}};
+  std::vector<long> runs;
+  for (int i = 0; i < 5; ++i) {
+    const long before = model.runs();
+    EXPECT_FALSE(model.predict(lost, std::vector<int>{0, 1}).ok);
+    runs.push_back(model.runs() - before);
+  }
+  EXPECT_EQ(runs[0], runs[2]) << "at other values it might be simulated";
+  EXPECT_LT(3 * runs[3], runs[2]) << "three times were enough";
+  EXPECT_EQ(runs[3], runs[4]);
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -99,8 +99,7 @@ TEST(MassMotion, TheEndBalancesAForceThatHangsOnIt) {
       EXPECT_NEAR(x, free + 0.2 * law(x).value, 1e-13) << free;
     }
   const auto none = [](double x) { return Force{100 + x * x * 100, 200 * x}; };
-  EXPECT_TRUE(std::isnan(mass_motion::end_position(1, 0.2, 1, none)) ||
-              std::fabs(mass_motion::end_position(1, 0.2, 1, none)) < 10);
+  EXPECT_TRUE(std::isnan(mass_motion::end_position(1, 0.2, 1, none))) << "21 + 20 x^2 is never x";
 }
 
 /// dz = law(z, side) |dx| along a way in one direction.
