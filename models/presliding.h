@@ -100,6 +100,22 @@ class YieldingShare {
   }
 };
 
+/// The share behind a way where it was above 1 (the distance grew shorter): the same law, (arcoth + arctan)/2, from the
+/// other side. Newton in the logarithm of what is above 1, in which the way is nearly linear.
+inline double relaxed_share(double share, double way) {
+  const auto way_of = [](double part) { return 0.5 * (std::atanh(1 / part) + std::atan(part)); };
+  const double whole = way_of(share) + way;
+  double above = std::log(share - 1);
+  for (int i = 0; i < 60; ++i) {
+    const double part = 1 + std::exp(above);
+    if (!(part > 1)) return 1;
+    const double move = (way_of(part) - whole) * (1 + part) * (1 + part * part);
+    above += move;
+    if (!(std::fabs(move) > 1e-12)) break;
+  }
+  return 1 + std::exp(above);
+}
+
 /// An element at some deflection z [m]: where it stands behind a motion by x [m] in one direction.
 class SlippingElement {
  public:
@@ -113,8 +129,7 @@ class SlippingElement {
   double distance_, z_;
 };
 
-/// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance. Held beyond its
-/// distance (which may grow shorter) it gives way at once.
+/// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance.
 class YieldingElement {
  public:
   YieldingElement(double distance, double z) : distance_(distance), z_(z) {}
@@ -122,6 +137,8 @@ class YieldingElement {
   double distance() const { return distance_; }
   double after(double x) const {
     if (x == 0) return z_;
+    if (z_ * x > 0 && std::fabs(z_) > distance_)
+      return std::copysign(distance_ * relaxed_share(std::fabs(z_) / distance_, std::fabs(x) / distance_), x);
     if (z_ * x >= 0) return std::copysign(distance_ * YieldingShare::behind(way() + std::fabs(x) / distance_), x);
     const double beyond = std::fabs(x) - std::fabs(z_);
     return beyond <= 0 ? z_ + x : std::copysign(distance_ * YieldingShare::behind(beyond / distance_), x);
@@ -129,8 +146,8 @@ class YieldingElement {
   void move(double x) {
     if (x == 0) return;
     const double beyond = std::fabs(x) - std::fabs(z_);
-    if (z_ * x < 0 && beyond <= 0) {
-      *this = YieldingElement(distance_, z_ + x);
+    if ((z_ * x < 0 && beyond <= 0) || (z_ * x > 0 && std::fabs(z_) > distance_)) {
+      *this = YieldingElement(distance_, after(x));
       return;
     }
     way_ = z_ * x < 0 ? beyond / distance_ : way() + std::fabs(x) / distance_;
@@ -140,7 +157,7 @@ class YieldingElement {
  private:
   /// From 0 to |z|, in distances. On its way back nobody asks.
   double way() const {
-    if (way_ < 0) way_ = yielding_way(std::fmin(std::fabs(z_) / distance_, 1.0));
+    if (way_ < 0) way_ = yielding_way(std::fabs(z_) / distance_);
     return way_;
   }
 

@@ -119,7 +119,7 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
 
 /// A guide of 400 Hz beside elements that hold back a tenth of the force, in rows of 1/40 s: 60 radians each, in which
 /// its ringing dies away.
-ProgramPointer stage_beside_elements(const std::string& type) {
+ProgramPointer stage_beside_elements(const std::string& type, double excess = 0) {
   Diagram d = lab::diagram("y");
   lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
   auto& mass = lab::add(d, "mass", type, "force");
@@ -128,8 +128,26 @@ ProgramPointer stage_beside_elements(const std::string& type) {
   mass.parameters["stiffness"] = "6.3e6 N/m";
   mass.parameters["contact_stiffness"] = NumberList{{2e6, "N/m"}, {9e5, "N/m"}};
   mass.parameters["slip_distance"] = NumberList{{0.1, "um"}, {0.3, "um"}};
+  mass.parameters["excess"] = excess;
+  mass.parameters["stribeck_velocity"] = "5 um/s";  // of up to 10 um/s
   lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
   return compile(d, lab::registry());
+}
+
+TEST(DataModel, ElementsThatHoldLessWhileTheySlideFastAgreeWithTheIntegrator) {
+  // Two and a half radians in a row, and a quarter of one.
+  for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"})
+    for (const double step : {1e-3, 1e-4}) {
+      const auto program = stage_beside_elements(type, 0.5);
+      DataSet data = recordings(step, 1500);
+      lab::measure(data, program, 0, 24);
+      DataModelOptions options;
+      options.relative_tolerance = 1e-9;
+      DataModel model(program, lab::shared(data), options);
+      ASSERT_TRUE(model.predict({}, std::vector<int>{0, 1}).ok) << type;
+      EXPECT_EQ(model.why_not_exact(), "") << type;
+      EXPECT_LT(model.cross_check({}, std::vector<int>{0, 1})[0], 5e-6) << type;  // 1e-6 of the span was asked for
+    }
 }
 
 TEST(DataModel, SlowRowsOfAGuideNeedNoStepsOfItsResonance) {

@@ -115,7 +115,7 @@ double along(const std::function<double(double, double)>& rate, double z, double
 
 TEST(PreslidingModel, AWayOfAnyLengthIsWhatItsRateSays) {
   const double distance = 0.3;
-  for (const double z : {-0.29, -0.1, 0.0, 0.2, 0.2999})
+  for (const double z : {-0.5, -0.29, -0.1, 0.0, 0.2, 0.2999, 0.3003})
     for (const double way : {-4.0, -0.25, -0.01, 0.002, 0.3, 1.1, 9.0}) {
       const auto dahl = [&](double at, double v) { return presliding::deflection_rate(distance, at, v); };
       presliding::SlippingElement slipping(distance, z);
