@@ -16,9 +16,18 @@
 namespace hysteron {
 namespace {
 
-/// Outputs that a wire moves, as indices of the program's outputs.
+/// Outputs to which a wire leads, as indices of the program's outputs: a coupling that reads it beside another axis
+/// does not put it on the way of that one.
 std::vector<int> moved_by(const Books& books, const std::string& written) {
   const Program& p = *books.current.program;
+  if (written.find('/') == std::string::npos) {
+    const Wiring w(books.current.diagram, *books.shop.registry);
+    std::vector<int> list;
+    for (const auto& output : w.outputs_on_the_way(w.signal(written)))
+      list.push_back(
+          static_cast<int>(std::find(p.output_names.begin(), p.output_names.end(), output) - p.output_names.begin()));
+    return list;
+  }
   const std::string wire = program_signal(books.current.diagram, *books.shop.registry, written);
   int signal = p.find_signal(wire);
   if (signal < 0) signal = p.find_signal(wire + "[0]");

@@ -35,7 +35,8 @@ Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind
   for (const auto& effect : w.chain(wire)) {
     const std::string theirs = kind_of(w, registry, effect);
     if (!theirs.empty() && rank(theirs) > rank(kind)) {
-      p.at = effect + ".in";
+      const auto ports = w.ports(effect);  // one that reads a second signal names its ports
+      p.at = effect + "." + (ports.size() > 1 ? ports.front() : "in");
       return p;
     }
     p.wire = effect;  // add_effect puts it behind the chain: that is the signal that the effect sees
@@ -60,7 +61,7 @@ std::string before_offset(const Wiring& w, const std::string& signal) {
     if (!moving.empty()) return signal;
     moving = from;
   }
-  if (moving.empty() || w.readers(moving).size() != 1) return signal;
+  if (moving.empty() || w.followers(moving).size() != 1) return signal;
   return before_offset(w, moving);
 }
 
@@ -118,7 +119,7 @@ class Finder {
   std::vector<std::string> drives() const {
     std::vector<std::string> list;
     for (const auto& name : w_.diagram().inputs.names())
-      if (w_.reaches_output(name)) list.push_back(name);
+      if (w_.reaches_output(name) && !w_.followers(name).empty()) list.push_back(name);
     if (!list.empty()) return list;
     for (const auto& s : w_.signals()) {
       const Node* node = w_.body(w_.source(s));

@@ -101,6 +101,20 @@ std::vector<Reader> Wiring::readers(const std::string& signal) const {
   return list;
 }
 
+bool Wiring::is_inserted(const std::string& block) const {
+  const Node* node = diagram_.blocks.find(block);
+  if (node == nullptr || node->effect.empty()) return false;
+  // A choice that replaced a block (vary) is a block of the user's, not one of ours on the wire.
+  const Node* off = node->from.find("off");
+  return off != nullptr && off->type == "pass";
+}
+
+std::vector<Reader> Wiring::followers(const std::string& signal) const {
+  auto list = readers(signal);
+  std::erase_if(list, [&](const Reader& r) { return r.index > 0 && is_inserted(r.block); });
+  return list;
+}
+
 std::vector<std::string> Wiring::signals() const {
   auto list = diagram_.inputs.names();
   for (const auto& [name, node] : diagram_.blocks)
@@ -176,9 +190,10 @@ bool Wiring::is_constant(const std::string& signal) const {
   return k != nullptr && k->declaration.inputs.empty() && !k->uses_time && !k->declaration.is_series;
 }
 
-bool Wiring::reaches_output(const std::string& from) const {
+std::vector<std::string> Wiring::outputs_behind(const std::string& from, bool beside) const {
   std::set<std::string> seen;
   std::vector<std::string> open{from};
+  std::set<std::string> reached;
   while (!open.empty()) {
     const std::string s = open.back();
     open.pop_back();
@@ -188,25 +203,29 @@ bool Wiring::reaches_output(const std::string& from) const {
       return read.substr(0, read.find('[')) == s.substr(0, s.find('['));
     };
     for (const auto& [name, wire] : diagram_.outputs)
-      if (reads(wire)) return true;
+      if (reads(wire)) reached.insert(name);
     for (const auto& [name, node] : diagram_.blocks)
-      for (const auto& wire : node.in)
-        if (reads(wire.from))
+      for (std::size_t i = 0; i < node.in.size(); ++i)
+        if (reads(node.in[i].from) && (beside || i == 0 || !is_inserted(name)))
           for (auto& next : outputs_of(name)) open.push_back(std::move(next));
   }
-  return false;
+  auto list = diagram_.outputs.names();
+  std::erase_if(list, [&](const std::string& name) { return !reached.contains(name); });
+  return list;
+}
+
+bool Wiring::reaches_output(const std::string& from) const { return !outputs_behind(from, true).empty(); }
+
+std::vector<std::string> Wiring::outputs_on_the_way(const std::string& from) const {
+  return outputs_behind(from, false);
 }
 
 std::vector<std::string> Wiring::chain(const std::string& signal) const {
   std::vector<std::string> list;
   std::string s = signal;
   while (list.size() < 64) {
-    const auto r = readers(s);
-    if (r.size() != 1 || r.front().block.empty() || !r.front().element.empty()) break;
-    const Node* node = diagram_.blocks.find(r.front().block);
-    // A choice that replaced a block (vary) is a block of the user's, not one of ours on the wire.
-    const Node* off = node->from.find("off");
-    if (node->effect.empty() || off == nullptr || off->type != "pass") break;
+    const auto r = followers(s);
+    if (r.size() != 1 || !r.front().element.empty() || !is_inserted(r.front().block)) break;
     s = r.front().block;
     list.push_back(s);
   }

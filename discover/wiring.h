@@ -38,6 +38,9 @@ class Wiring {
   /// The block that makes a signal; "" for an input of the diagram.
   std::string source(const std::string& signal) const;
   std::vector<Reader> readers(const std::string& signal) const;
+  /// The readers through which the signal goes on: without the effects on other wires that only have it beside them (a
+  /// temperature, the drive of another axis).
+  std::vector<Reader> followers(const std::string& signal) const;
   /// Every signal of this level: inputs first, then blocks in the order of the file.
   std::vector<std::string> signals() const;
   std::vector<std::string> outputs_of(const std::string& block) const;  ///< signals that a block makes
@@ -49,15 +52,21 @@ class Wiring {
   bool has_states(const std::string& block) const;    ///< states or a remembered past
   bool is_constant(const std::string& signal) const;  ///< made by a block without inputs whose signal never moves
   bool reaches_output(const std::string& signal) const;
+  /// Outputs of the diagram to which a signal goes on (see followers), in their order.
+  std::vector<std::string> outputs_on_the_way(const std::string& signal) const;
 
-  /// Effects that stand on this wire one after the other, each the only reader of the one before: names of the choices.
+  /// Effects that stand on this wire one after the other, each the only follower of the one before: names of the
+  /// choices.
   std::vector<std::string> chain(const std::string& signal) const;
   /// The signal at the beginning of a chain of blocks, with one moving input each, that commute with such a law.
   std::string root(const std::string& signal, Commutes law) const { return root(signal, law, 0); }
 
  private:
   std::string root(const std::string& signal, Commutes law, int depth) const;
+  /// Outputs that a signal moves; `beside`: also where another wire's effect only has it beside that wire.
+  std::vector<std::string> outputs_behind(const std::string& signal, bool beside) const;
   bool passes(const std::string& block, Commutes law) const;
+  bool is_inserted(const std::string& block) const;  ///< an effect that was put on a wire
   const Diagram& diagram_;
   const Registry& registry_;
 };

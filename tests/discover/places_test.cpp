@@ -6,6 +6,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/add.h"
+#include "discover/wiring.h"
 
 namespace hysteron {
 namespace {
@@ -99,6 +100,60 @@ TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
                              places_of(mains, linear_stage(), registry).front());
   for (const char* effect : {"dead_time", "sensor_nonlinearity", "creep", "structural_resonance", "hysteresis"})
     EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
+}
+
+/// Ageing and a gain by temperature read a second signal: that one is no place for anything.
+TEST_F(Places, BesideAnEffectThatReadsASecondSignalStayThoseOfTheSignalItself) {
+  Circumstances at;
+  at.unit = parse_unit("um");
+  Diagram d = linear_stage();
+  d.inputs["T"] = {"degC", "", 0};
+  const auto& gain = effects.get("temperature_gain");
+  Place behind = place_at(d, registry, "stage");
+  behind.side = "T";
+  const Added a = add_effect(d, registry, gain, gain.laws(at).front(), behind);
+  for (const char* effect : {"amplifier_lag", "dead_time", "sensor_nonlinearity", "creep", "saturation", "hysteresis"})
+    EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
+  for (const auto& p : find_places(a.diagram, registry)) EXPECT_TRUE(p.at == "u" || p.at == "stage") << p.at;
+}
+
+TEST_F(Places, BeforeAnEffectThatReadsASecondSignalAreNamedByItsPort) {
+  Circumstances at;
+  at.unit = parse_unit("V");
+  Diagram d = linear_stage();
+  d.inputs["cycles_before"] = {"", "", 0};
+  const auto& ageing = effects.get("ageing");
+  Place before = place_at(d, registry, "u");
+  before.side = "cycles_before";
+  const Added a = add_effect(d, registry, ageing, ageing.laws(at).front(), before);
+  const auto& lag = effects.get("amplifier_lag");
+  const auto places = places_of(lag, a.diagram, registry);
+  ASSERT_EQ(places.size(), 1u);
+  const Added both = add_effect(a.diagram, registry, lag, lag.laws(at).front(), places.front());
+  EXPECT_EQ(both.diagram.blocks.find("u_ageing")->in.front().from, both.name) << "the amplifier comes first";
+}
+
+TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
+  Diagram d = linear_stage();
+  const Diagram second = linear_stage();
+  d.inputs["u2"].unit = "V";
+  d.blocks["stage2"] = *second.blocks.find("stage");
+  d.blocks["stage2"].in = {{"", "u2"}};
+  d.blocks["sensor2"] = *second.blocks.find("sensor");
+  d.blocks["sensor2"].in = {{"", "stage2"}};
+  d.outputs["y2"] = "sensor2";
+  Circumstances at;
+  at.unit = at.side_unit = parse_unit("um");
+  Place beside = place_at(d, registry, "stage2");
+  beside.side = "stage";
+  const auto& coupling = effects.get("cross_coupling");
+  const Added a = add_effect(d, registry, coupling, coupling.laws(at).front(), beside);
+  const Wiring w(a.diagram, registry);
+  EXPECT_EQ(w.outputs_on_the_way("stage"), std::vector<std::string>{"y"});
+  EXPECT_EQ(w.outputs_on_the_way("stage2"), std::vector<std::string>{"y2"});
+  EXPECT_TRUE(w.reaches_output("stage"));
+  EXPECT_EQ(where("sensor_nonlinearity", a.diagram), where("sensor_nonlinearity", d))
+      << "before the zero of the sensor, whoever else reads the motion";
 }
 
 TEST_F(Places, NamedInTheDiagramGoBeforeThoseWorkedOut) {
