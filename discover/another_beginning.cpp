@@ -14,14 +14,14 @@ constexpr int beginnings = 3;  // names that are tried in its place
 
 /// The best admitted effect on top of the present model, fitted together with it. `begun` is none: beside that one the
 /// present effect was refused.
-std::optional<Contender> with_one_more(Books& books, const std::string& begun, double fall_of_the_first) {
+std::optional<Contender> with_one_more(Books& books, const std::string& begun) {
   auto tried = list_candidates(books, 2);
   fit_candidates(books, tried, 2);
   join_twins(tried);
   std::erase_if(tried, [&](const Tried& t) { return t.effect->id == begun; });
-  compare_all(books, tried, fall_of_the_first);
-  refit_best(books, tried, fall_of_the_first, 0.9);
-  enrich(books, tried, 2, fall_of_the_first, 0.9);
+  compare_all(books, tried, As::further);
+  refit_best(books, tried, As::further, 0.9);
+  enrich(books, tried, 2, As::further, 0.9);
   const int best = best_admitted(tried);
   if (best < 0) return std::nullopt;
   return std::move(tried[static_cast<std::size_t>(best)].contender);
@@ -30,10 +30,10 @@ std::optional<Contender> with_one_more(Books& books, const std::string& begun, d
 }  // namespace
 
 bool another_beginning(Books& books, const std::vector<Tried>& first) {
-  if (books.stopped() || books.options.max_steps < 2 || !structure_is_left(books)) return false;
+  if (books.stopped() || books.options.max_steps < 2) return false;
+  if (books.evidence->over_usual_floor(books.current.prediction).all <= rules::floor_gate) return false;
   const Contender stands = books.current;
   const std::string begun = books.d.steps.front().winner.effect;
-  const double before = books.d.steps.front().before.chi2_validate;
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(first)) {
@@ -44,7 +44,7 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
     books.progress("beginning with " + t.effect->id, 0.9);
     books.current = t.contender;
     books.settle(books.current);
-    auto pair = with_one_more(books, begun, before - books.current.error_of.chi2_validate);
+    auto pair = with_one_more(books, begun);
     if (pair && (!best || pair->error_of.rms_validate < best->error_of.rms_validate)) best = std::move(pair);
   }
   books.current = stands;

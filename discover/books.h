@@ -70,25 +70,28 @@ double blur(const Contender& contender);
 
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step);
 
-/// More than noise, on validation recordings of some output.
+/// More than noise, on validation recordings of some output together, or in a recording of any role.
 bool structure_is_left(const Books& books);
-/// Of chi2 on validation, by the first step; 0 before there is one.
-double first_fall(const Books& books);
+/// How a candidate is judged: as if it were the first effect, or on top of laws that may have left something.
+enum class As { first, further };
+/// What the laws that stand may have left of their own effects, by the recording, for an imperfect law leaves a part of
+/// what it describes where that acts: of chi2 in each of ModelError::recordings. Empty if judged as a first one.
+std::vector<double> left_by_laws(const Books& books, As as);
 
 /// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried);
 /// The first of them that passes the rules of a claim; -1 = none.
 int best_admitted(const std::vector<Tried>& tried);
 /// Noise by the best of them, then everybody's error in its units, then the rules.
-void compare_all(Books& books, std::vector<Tried>& tried, double first_fall);
+void compare_all(Books& books, std::vector<Tried>& tried, As as);
 /// Further effects were screened with the earlier ones held: the best few are fitted together with them.
-void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, double bar);
+void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar);
 /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
 /// effect that was found they are screened with that one held, and fitted together only where that brings something.
-void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall, double bar);
+void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar);
 /// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
 /// rival: that it was refused says nothing against it.
-void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, double first_fall);
+void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as);
 
 /// Candidates that explain the recordings as well as the winner, best first.
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner);
@@ -102,9 +105,10 @@ std::optional<Experiment> experiment_between(Books& books, const Tried& a, const
 /// they were. One that no recording could show needs only to be seen.
 bool would_tell(const Experiment& experiment, bool hidden);
 
-/// Takes the winner into the present model, with its ties and the experiment that would break them.
+/// Takes the winner into the present model, with its ties and the experiment that would break them. `alike`: the same
+/// effect found on another axis, whose ties are those of this one too.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar);
+           double bar, const FoundStep* alike = nullptr);
 
 /// Into the record of what was tried. `winner`, `ties`: indices of tried; -1 = nobody.
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner, const std::vector<int>& ties);

@@ -12,14 +12,14 @@ void judge_again(Tried& w, const ModelError& before) {
   was.error_of = before;
   was.parameters = 0;
   const bool admitted = w.admitted;
-  judge(w, was, 0);
+  judge(w, was, {});
   w.admitted = admitted;
 }
 
 }  // namespace
 
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar) {
+           double bar, const FoundStep* alike) {
   Tried& w = tried[winner];
   books.progress("intervals of " + w.effect->id, bar);
   FoundStep found;
@@ -38,6 +38,11 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
     found.experiment_would_tell = would_tell(*e, rival.hidden);
     if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
       found.experiment = e;
+  }
+  if (alike != nullptr) {
+    found.ties = alike->ties;
+    found.experiment = alike->experiment;
+    found.experiment_would_tell = alike->experiment_would_tell;
   }
   take(books, step, w, std::move(found));
 }

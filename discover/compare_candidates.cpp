@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "discover/books.h"
 
@@ -46,11 +47,32 @@ void leave_to_calibration(std::vector<Tried>& tried) {
 
 /// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
 /// magnitude: what stays far below the least fall of a claim needs no fit of everything.
-bool within_reach(const Books& books, const Tried& t, double first_fall) {
-  const double own =
-      std::min(rules::own_law_left * rules::own_law_left * first_fall, books.current.error_of.excess_validate());
-  const double fall = books.current.error_of.chi2_validate - t.contender.error_of.chi2_validate;
+bool within_reach(const Books& books, const Tried& t, As as) {
+  const auto left = left_by_laws(books, as);
+  const auto& recordings = books.current.error_of.recordings;
+  double own = 0;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (recordings[i].role == Role::validate) own += left[i];
+  own = std::min(own, books.current.error_of.excess_validate());
+  // What was taken up by the values that are held can be in the way on other recordings.
+  const double fall = std::max(books.current.error_of.chi2_validate - t.contender.error_of.chi2_validate,
+                               books.current.error_of.chi2_train - t.contender.error_of.chi2_train);
   return fall > rules::screened_part * std::max(rules::claim_fall, own);
+}
+
+/// The best few by score, and the best two on the recordings that were fitted: a law whose share the held values have
+/// taken up is wrong on the others until everything is fitted.
+std::set<std::size_t> worth_a_fit(const std::vector<Tried>& tried) {
+  auto order = ranking(tried);
+  const auto first = [&](std::size_t n) {
+    return std::set<std::size_t>(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(n, order.size())));
+  };
+  auto list = first(4);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tried[a].contender.error_of.evidence_train < tried[b].contender.error_of.evidence_train;
+  });
+  list.merge(first(2));
+  return list;
 }
 
 /// The richer law starts where the simple one ended, for parameters of the same name.
@@ -69,6 +91,16 @@ Law started_from(const Tried& t, std::size_t law) {
 
 }  // namespace
 
+std::vector<double> left_by_laws(const Books& books, As as) {
+  if (as == As::first || books.current.standing.empty()) return {};
+  const auto base = books.evidence->error(books.base.prediction).recordings;
+  std::vector<double> left;
+  for (std::size_t i = 0; i < base.size(); ++i)
+    left.push_back(rules::own_law_left * rules::own_law_left *
+                   std::max(0.0, base[i].chi2 - books.current.error_of.recordings[i].chi2));
+  return left;
+}
+
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < tried.size(); ++i)
@@ -85,23 +117,25 @@ int best_admitted(const std::vector<Tried>& tried) {
   return -1;
 }
 
-void compare_all(Books& books, std::vector<Tried>& tried, double first_fall) {
+void compare_all(Books& books, std::vector<Tried>& tried, As as) {
   books.evidence->settle(best_of_each_output(books, tried));
   books.current.error_of = books.evidence->error(books.current.prediction);
+  const auto left = left_by_laws(books, as);
   for (auto& t : tried) {
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(t, books.current, first_fall);
+    judge(t, books.current, left);
   }
   leave_to_calibration(tried);
 }
 
-void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, double bar) {
-  auto order = ranking(tried);
+void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
+  const auto worth = worth_a_fit(tried);
   std::vector<std::size_t> screened_out;
-  for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
-    Tried& t = tried[order[k]];
-    if (k >= 4 || !within_reach(books, t, first_fall)) {
-      screened_out.push_back(order[k]);
+  for (const std::size_t i : ranking(tried)) {
+    if (books.stopped()) break;
+    Tried& t = tried[i];
+    if (!worth.contains(i) || !within_reach(books, t, as)) {
+      screened_out.push_back(i);
       continue;
     }
     books.progress("together with what was found: " + t.effect->id, bar);
@@ -109,11 +143,11 @@ void refit_best(Books& books, std::vector<Tried>& tried, double first_fall, doub
     books.d.model_runs += better.runs;
     if (better.ok) t.contender = std::move(better);
   }
-  compare_all(books, tried, first_fall);
+  compare_all(books, tried, as);
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }
 
-void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall, double bar) {
+void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar) {
   const auto order = ranking(tried);
   if (order.empty()) return;
   const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
@@ -122,7 +156,7 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall
     Tried& t = tried[order[k]];
     // A law that brings nothing in its simple form has nothing to enrich.
     const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
-                           (step == 1 || within_reach(books, t, first_fall));
+                           (step == 1 || within_reach(books, t, as));
     for (std::size_t law = 1; law < t.laws.size(); ++law) {
       if (!promising && !t.laws[law].apart) continue;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
@@ -140,10 +174,10 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, double first_fall
       any = true;
     }
   }
-  if (any) compare_all(books, tried, first_fall);
+  if (any) compare_all(books, tried, as);
 }
 
-void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, double first_fall) {
+void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as) {
   for (auto& t : books.hidden) {
     if (!look_alike(*t.effect, winner) || books.stopped()) continue;
     t.laws = t.effect->laws(t.circumstances);
@@ -152,7 +186,7 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, d
         with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
     books.d.model_runs += t.contender.runs;
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(t, books.current, first_fall);
+    judge(t, books.current, left_by_laws(books, as));
     t.hidden = true;
     tried.push_back(std::move(t));
   }

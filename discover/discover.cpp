@@ -65,17 +65,16 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
 
 namespace {
 
-/// False if nothing was claimed. `first_fall` = fall of chi2 on validation by the first finding; `kept`: what was
-/// tried; `outputs`: only what moves none but these, all if empty.
-bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kept,
-              const std::vector<std::string>& outputs = {}, const std::vector<const Effect*>& only = {}) {
+/// False if nothing was claimed. `kept`: what was tried; `outputs`: only what moves none but these, all if empty.
+bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std::vector<std::string>& outputs = {},
+              const std::vector<const Effect*>& only = {}) {
   const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
   auto tried = list_candidates(books, step, outputs, only);
   fit_candidates(books, tried, step);
   join_twins(tried);
-  compare_all(books, tried, first_fall);
-  if (step > 1) refit_best(books, tried, first_fall, bar(0.7));
-  enrich(books, tried, step, first_fall, bar(0.8));
+  compare_all(books, tried, as);
+  if (step > 1) refit_best(books, tried, as, bar(0.7));
+  enrich(books, tried, step, as, bar(0.8));
   int winner = best_admitted(tried);
   if (winner >= 0) {
     sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
@@ -84,7 +83,7 @@ bool one_step(Books& books, int step, double first_fall, std::vector<Tried>* kep
   if (winner >= 0) winner = calibration_first(tried, winner);
   std::vector<int> ties;
   if (winner >= 0) {
-    try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, first_fall);
+    try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
@@ -118,7 +117,7 @@ void a_wrong_zero(Books& books) {
   if (straight.empty() || books.d.steps.empty()) return;
   const auto one_more = [&] {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
-    return more_than_noise(books) && one_step(books, step, first_fall(books), nullptr, {}, straight);
+    return more_than_noise(books) && one_step(books, step, As::further, nullptr, {}, straight);
   };
   if (room() && !structure_is_left(books)) one_more();
   if (room()) with_the_zero_held(books, one_more);
@@ -129,11 +128,11 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     const bool go_on = step == 1 || structure_is_left(books);
-    if (go_on && one_step(books, step, first_fall(books), step == 1 ? &first : nullptr)) continue;
+    if (go_on && one_step(books, step, As::further, step == 1 ? &first : nullptr)) continue;
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.
     const auto alone = untouched_outputs(books);
-    if (step == 1 || alone.empty() || !one_step(books, step, 0, nullptr, alone)) break;
+    if (step == 1 || alone.empty() || !one_step(books, step, As::first, nullptr, alone)) break;
   }
   a_wrong_zero(books);
 }
@@ -141,13 +140,8 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
 }  // namespace
 
 bool structure_is_left(const Books& books) {
-  return books.evidence->over_usual_floor(books.current.prediction) > rules::floor_gate;
-}
-
-double first_fall(const Books& books) {
-  if (books.d.steps.empty()) return 0;
-  const FoundStep& first = books.d.steps.front();
-  return first.before.chi2_validate - first.after.chi2_validate;
+  const OverFloor over = books.evidence->over_usual_floor(books.current.prediction);
+  return std::max(over.all, over.one) > rules::floor_gate;
 }
 
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,

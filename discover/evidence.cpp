@@ -10,6 +10,8 @@
 namespace hysteron {
 namespace {
 
+constexpr double deviations_of_chance = 4;  // once in tens of thousands of recordings
+
 double deviation(const Rows& rows) {
   double mean = 0;
   for (const double v : rows) mean += v;
@@ -112,26 +114,35 @@ ModelError Evidence::error(const Prediction& prediction) const {
   return e;
 }
 
-double Evidence::over_usual_floor(const Prediction& prediction) const {
+OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   NoiseModel usual = noise();
-  for (std::size_t o = 0; o < usual.outputs.size(); ++o) usual.outputs[o].one_over_f = before_.outputs[o].one_over_f;
+  for (std::size_t o = 0; o < usual.outputs.size(); ++o)
+    usual.outputs[o].one_over_f = std::min(usual.outputs[o].one_over_f, before_.outputs[o].one_over_f);
   const Judge judge(base_, usual);
   std::vector<double> chi2(base_.outputs().size(), 0.0), n(base_.outputs().size(), 0.0);
+  OverFloor over;
   for (const int r : recordings_) {
-    if (base_.recording(r).role == Role::train || prediction.y[static_cast<std::size_t>(r)].empty()) continue;
+    if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
     const auto w = judge.residual(base_, prediction, r);
     std::size_t begin = 0;
     for (std::size_t o = 0; o < chi2.size(); ++o) {
-      const std::size_t rows = base_.measured(r, static_cast<int>(o)).size();
-      for (std::size_t k = begin; k < begin + rows; ++k) chi2[o] += w[k] * w[k];
-      n[o] += static_cast<double>(rows);
+      const Rows& measured = base_.measured(r, static_cast<int>(o));
+      if (measured.empty()) continue;
+      const std::size_t rows = measured.size() - (base_.zero_per_recording(static_cast<int>(o)) ? 1 : 0);
+      double here = 0;
+      for (std::size_t k = begin; k < begin + rows; ++k) here += w[k] * w[k];
       begin += rows;
+      // An effect may show in one kind of recording alone, where chance is larger, for the rows are fewer.
+      const double chance = deviations_of_chance * std::sqrt(2 / static_cast<double>(rows));
+      over.one = std::max(over.one, here / static_cast<double>(rows) - chance);
+      if (base_.recording(r).role == Role::train) continue;
+      chi2[o] += here;
+      n[o] += static_cast<double>(rows);
     }
   }
-  double most = 0;
   for (std::size_t o = 0; o < chi2.size(); ++o)
-    if (n[o] > 0) most = std::max(most, chi2[o] / n[o]);
-  return most;
+    if (n[o] > 0) over.all = std::max(over.all, chi2[o] / n[o]);
+  return over;
 }
 
 double Evidence::plain_over_floor(const ModelError& error) const {

@@ -48,6 +48,12 @@ struct ModelError {
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
 };
 
+/// chi2 per row: 1 = noise.
+struct OverFloor {
+  double all = 0;  ///< on validation recordings together
+  double one = 0;  ///< in one recording, less what chance makes there: an effect may show in one kind alone
+};
+
 /// The measure of a discovery. Residuals are whitened by one fixed filter (fit/whiten.h). Then
 /// - where a data sheet says how large the noise is: evidence = chi2;
 /// - where nobody says, what the best model leaves is all that is known of noise and misfit. Its size is
@@ -71,9 +77,9 @@ class Evidence {
   /// are both not right are compared piece by piece (see tie_by_pieces).
   std::vector<double> pieces(const Prediction& prediction) const;
 
-  /// chi2 per row on validation with as much 1/f noise as sensors usually have, whatever this residual speaks for: slow
-  /// structure that passes for noise until somebody tries an effect on it. Of several outputs the largest.
-  double over_usual_floor(const Prediction& prediction) const;
+  /// With as much 1/f noise as sensors usually have, or less where the residual says so: slow structure passes for
+  /// noise until somebody tries an effect on it. Of several outputs the largest.
+  OverFloor over_usual_floor(const Prediction& prediction) const;
   /// The plain mean square on validation over that of a sensor with much 1/f noise (RecordingError::plain), of several
   /// outputs the largest; 1 where nobody states the noise. A wrong zero is one coefficient in each recording, which the
   /// thousands of others hide in chi2.

@@ -48,7 +48,9 @@ constexpr double share_of_first =
 /// A straight line takes 97 % of the squares of a parabola over its range away, and less of other curves: who leaves
 /// less than a hundredth to a curve is no curve.
 constexpr double straight_share = 0.99;
-constexpr double share_of_rest = 0.6;    ///< a further effect removes this share of the excess ...
+constexpr double share_of_rest = 0.6;  ///< a further effect removes this share of the excess ...
+/// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all.
+constexpr double share_of_all = 0.3;
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
 constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
@@ -57,9 +59,9 @@ constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain
 constexpr int enriched = 3;        ///< names whose richer laws are tried
 }  // namespace rules
 
-/// Fills falls, share, admitted and reason. `first_fall` = fall of chi2 on validation by the first finding (0 in step
-/// 1).
-void judge(Tried& tried, const Contender& before, double first_fall);
+/// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
+/// that stand may have left of their own effects; empty = judged as the first effect.
+void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
 
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);

@@ -25,23 +25,52 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
   return train && validate;
 }
 
-/// What stands above the noise on validation, of the outputs that the place moves: one axis cannot take away what
-/// another one leaves. Counted by chi2, or `plain`.
+/// A validate recording of an output that the place moves: one axis cannot take away what another one leaves.
+bool counts(const RecordingError& r, const std::vector<std::string>& outputs) {
+  return r.role == Role::validate &&
+         (outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end());
+}
+
+/// What stands above the noise on validation, by chi2 or `plain`.
 double excess_of(const ModelError& error, const std::vector<std::string>& outputs, bool plain) {
   double excess = 0;
   for (const auto& r : error.recordings)
-    if (r.role == Role::validate &&
-        (outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end()))
-      excess += plain ? r.plain_excess() : r.excess();
+    if (counts(r, outputs)) excess += plain ? r.plain_excess() : r.excess();
   return excess;
 }
 
-/// Share of what stands above the noise. By chi2; where that says noise, by plain squares: a wrong zero is one
+/// The same by chi2, without what the laws that stand may have left in each recording.
+double excess_beyond(const ModelError& error, const std::vector<std::string>& outputs,
+                     const std::vector<double>& left_by_laws) {
+  double excess = 0;
+  for (std::size_t i = 0; i < left_by_laws.size(); ++i)
+    if (const auto& r = error.recordings[i]; counts(r, outputs)) excess += std::max(0.0, r.excess() - left_by_laws[i]);
+  return excess;
+}
+
+/// Fall of chi2 on validation in recordings where it is more than the laws that stand may have left there.
+double fall_beyond(const ModelError& was, const ModelError& is, const std::vector<double>& left_by_laws) {
+  double beyond = 0;
+  for (std::size_t i = 0; i < left_by_laws.size(); ++i) {
+    const double fall = was.recordings[i].chi2 - is.recordings[i].chi2;
+    if (was.recordings[i].role == Role::validate && fall > left_by_laws[i]) beyond += fall;
+  }
+  return beyond;
+}
+
+/// Share of what stands above the noise. By chi2; where that says noise, by plain squares too: a wrong zero is one
 /// coefficient in each recording, and what it takes away is lost among the thousands of the others.
-double share_of_excess(const ModelError& was, const ModelError& is, const std::vector<std::string>& outputs) {
-  const bool plain = was.over_floor() <= rules::floor_gate;
-  const double excess = excess_of(was, outputs, plain);
-  return excess > 0 ? (excess - excess_of(is, outputs, plain)) / excess : 0;
+double share_of_excess(const ModelError& was, const ModelError& is, const std::vector<std::string>& outputs,
+                       const std::vector<double>& left_by_laws) {
+  const auto share = [&](bool plain) {
+    const double excess = excess_of(was, outputs, plain);
+    return excess > 0 ? (excess - excess_of(is, outputs, plain)) / excess : 0;
+  };
+  double by_chi2 = share(false);
+  const double beyond = excess_beyond(was, outputs, left_by_laws);
+  if (beyond > rules::claim_fall && by_chi2 > rules::share_of_all)
+    by_chi2 = std::max(by_chi2, (beyond - excess_beyond(is, outputs, left_by_laws)) / beyond);
+  return was.over_floor() > rules::floor_gate ? by_chi2 : std::max(by_chi2, share(true));
 }
 
 }  // namespace
@@ -58,7 +87,7 @@ bool look_alike(const Effect& a, const Effect& b) {
   return names(a, b) || names(b, a);
 }
 
-void judge(Tried& tried, const Contender& before, double first_fall) {
+void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   const Contender& c = tried.contender;
   tried.admitted = false;
   if (!c.ok) {
@@ -71,8 +100,7 @@ void judge(Tried& tried, const Contender& before, double first_fall) {
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
-  const double plain = was.chi2_validate - is.chi2_validate;
-  tried.share = share_of_excess(was, is, tried.outputs);
+  tried.share = share_of_excess(was, is, tried.outputs, left_by_laws);
   if (!(tried.fall_validate > rules::claim_fall)) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
@@ -93,17 +121,17 @@ void judge(Tried& tried, const Contender& before, double first_fall) {
       }
   }
   const bool above_noise = was.over_floor() > rules::floor_gate;
-  if (first_fall <= 0 && above_noise && tried.share < rules::share_of_first && !owns_an_excitation(was, is)) {
+  if (left_by_laws.empty() && above_noise && tried.share < rules::share_of_first && !owns_an_excitation(was, is)) {
     tried.reason =
         fmt::format("a patch: it takes away {} of what stands above the noise, and most of it in no kind of recording",
                     percent(tried.share));
     return;
   }
-  if (first_fall > 0) {
+  if (!left_by_laws.empty()) {
     // Another effect's law does not take what an imperfect law leaves down to the noise of other recordings.
-    const bool to_the_noise = is.over_floor() <= rules::floor_gate;
-    if (!to_the_noise && plain < rules::own_law_left * rules::own_law_left * first_fall) {
-      tried.reason = "no larger than what the law of the first effect may have left of its own";
+    const bool to_the_noise = above_noise && is.over_floor() <= rules::floor_gate;
+    if (!to_the_noise && fall_beyond(was, is, left_by_laws) < rules::claim_fall) {
+      tried.reason = "no larger than what the laws that were found may have left of their own";
       return;
     }
     if (tried.share < rules::share_of_rest && !owns_an_excitation(was, is)) {

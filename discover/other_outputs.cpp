@@ -2,6 +2,7 @@
 // and stand in one room, and one that is looked for on each axis in turn uses up the steps that others need.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "discover/books.h"
 
@@ -41,6 +42,22 @@ const Tried* better_there(const Books& books, const Tried& t, const std::vector<
   return nullptr;
 }
 
+/// The step that found the effect, if its rivals explain these outputs too.
+std::optional<FoundStep> alike_on(const Books& books, const Tried& t, const std::vector<Tried>& others) {
+  for (const auto& s : books.d.steps) {
+    if (s.winner.effect != t.effect->id) continue;
+    FoundStep same = s;
+    std::erase_if(same.ties, [&](const Candidate& tie) {
+      return std::none_of(others.begin(), others.end(), [&](const Tried& o) {
+        return o.effect->id == tie.effect && o.admitted && o.outputs == t.outputs;
+      });
+    });
+    if (same.ties.empty()) return std::nullopt;
+    return same;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& others_tried, double bar) {
@@ -59,15 +76,19 @@ void on_other_outputs(Books& books, const std::string& id, const std::vector<Tri
       books.d.model_runs += t.contender.runs;
     }
     join_twins(tried);
-    compare_all(books, tried, 0);
-    enrich(books, tried, step, 0, bar);
+    compare_all(books, tried, As::first);
+    enrich(books, tried, step, As::first, bar);
     for (auto& t : tried)
       if (const Tried* other = t.admitted ? better_there(books, t, others_tried) : nullptr; other != nullptr) {
         t.admitted = false;
         t.reason = other->effect->id + " explains that output better";
       }
     const int winner = best_admitted(tried);
-    if (winner >= 0) claim(books, step, tried, static_cast<std::size_t>(winner), {}, bar);
+    if (winner >= 0) {
+      const auto index = static_cast<std::size_t>(winner);
+      const auto alike = alike_on(books, tried[index], others_tried);
+      claim(books, step, tried, index, {}, bar, alike ? &*alike : nullptr);
+    }
     keep_candidates(books, tried, step, winner, {});
     if (winner < 0) return;
   }

@@ -197,5 +197,49 @@ TEST(PartsOfAModel, AxesWithNothingBetweenThemAreFittedApart) {
   EXPECT_EQ(seen->parameters.size(), c.program->parameters.size()) << "values of one hold for the other";
 }
 
+/// Ten recordings of one axis, of which one of either role is warm.
+DataSet one_warm_of_five(const Law& law) {
+  std::vector<Recording> list;
+  for (int k = 0; k < 10; ++k) {
+    const auto t = rows(1000, 0.005);
+    const auto u = several_sines(t, 1, {7 + 0.2 * k, 29 + 0.3 * k});
+    const auto warm = sampled(t, [k](double x) { return 295 + (k % 5 == 4 ? 12 * x / 5 : 0.0); });
+    const auto seed = static_cast<std::uint64_t>(300 + k);
+    Recording r =
+        recording(std::to_string(k) + ".csv", k < 5 ? Role::train : Role::validate, t, u, by(law, t, u, warm, seed));
+    r.columns["T"] = warm;
+    r.units["T"] = parse_unit("K");
+    list.push_back(std::move(r));
+  }
+  DataSet d = data_set(std::move(list), white);
+  d.notes["T"].to = "T";
+  return d;
+}
+
+TEST_F(Pairs, WhatShowsInOneKindOfRecordingAloneIsLookedFor) {
+  // The gain by temperature is as large as the noise in the warm recordings, none in the others: chi2 is 1.09 per
+  // row of all, which passes for noise, and 1.5 in the warm ones.
+  const Law law = [](double, double u, double warmer) { return u * (1 + 9e-5 * warmer) + 0.004 * u * (1 - u); };
+  const auto d = discovered(with_sensor(), one_warm_of_five(law),
+                            {"temperature_gain", "sensor_nonlinearity", "asymmetry", "calibration"});
+  EXPECT_TRUE(names(d).contains("temperature_gain")) << tried(d);
+  EXPECT_EQ(names(d).size(), 2u) << tried(d);
+}
+
+/// Both axes move alike: what the one cannot tell the other cannot tell either.
+TEST_F(Pairs, ATieOnOneAxisIsATieOnTheOther) {
+  DataSet d = measured([](double, double u, double) { return 1.01 * u; }, [](double, double, double) { return 0.0; });
+  for (std::size_t k = 0; k < d.recordings.size(); ++k) {
+    Recording& r = d.recordings[k];
+    r.columns["u2"] = r.columns["u"];
+    r.columns["y2"] = noise(r.t.size(), white, 0.1 * white, 500 + k);
+    for (std::size_t i = 0; i < r.t.size(); ++i) r.columns["y2"][i] += 1.01 * r.columns["u"][i];
+  }
+  const auto found = discovered(two_axes(), d, {"calibration", "cross_coupling"});
+  ASSERT_EQ(found.steps.size(), 2u) << tried(found);
+  EXPECT_EQ(found.verdict, Verdict::not_distinguishable) << tried(found);
+  for (const auto& s : found.steps) EXPECT_FALSE(s.ties.empty()) << s.winner.place;
+}
+
 }  // namespace
 }  // namespace hysteron

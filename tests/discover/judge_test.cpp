@@ -1,0 +1,82 @@
+// The rules of a claim on errors made by hand: what an imperfect law may have left, and where.
+#include <gtest/gtest.h>
+
+#include "discover/discover.h"
+#include "discover/investigation.h"
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t rows = 1000;
+
+/// Two train and two validate recordings, slow and fast, with these chi2.
+ModelError error(double train_slow, double train_fast, double validate_slow, double validate_fast) {
+  ModelError e;
+  for (const auto& [role, chi2] : {std::pair{Role::train, train_slow},
+                                   {Role::train, train_fast},
+                                   {Role::validate, validate_slow},
+                                   {Role::validate, validate_fast}}) {
+    RecordingError r;
+    r.role = role;
+    r.output = "y";
+    r.rows = rows;
+    r.chi2 = r.evidence = chi2;
+    r.plain = rows;
+    (role == Role::train ? e.chi2_train : e.chi2_validate) += chi2;
+    (role == Role::train ? e.n_train : e.n_validate) += rows;
+    e.recordings.push_back(r);
+  }
+  e.evidence_train = e.chi2_train;
+  e.evidence_validate = e.chi2_validate;
+  e.witnesses = 4 * rows;
+  return e;
+}
+
+class Judging : public ::testing::Test {
+ protected:
+  /// A candidate that leaves `after`, on top of laws that left `before` and may have left so much of their own.
+  Tried judged(const ModelError& before, const ModelError& after, const std::vector<double>& left) const {
+    Tried t;
+    t.effect = effects.find("backlash");
+    t.contender.ok = true;
+    t.contender.error_of = after;
+    Contender was;
+    was.ok = true;
+    was.error_of = before;
+    judge(t, was, left);
+    return t;
+  }
+  Effects effects = all_effects();
+};
+
+TEST_F(Judging, WhatALawMayHaveLeftCountsWhereThatLawActs) {
+  const ModelError before = error(1400, 1900, 1400, 1900);
+  const ModelError in_the_slow = error(1000, 1850, 1000, 1850);
+  const std::vector<double> of_the_fast{0, 900, 0, 900};  // a lag does nothing where nothing is fast
+  const Tried right = judged(before, in_the_slow, of_the_fast);
+  EXPECT_TRUE(right.admitted) << right.reason;
+  EXPECT_GT(right.share, 0.9) << "of what no other law can have left";
+  // The same fall where the law that stands acts may be that law's own.
+  const Tried wrong = judged(before, error(1395, 1300, 1395, 1300), of_the_fast);
+  EXPECT_FALSE(wrong.admitted);
+  EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
+}
+
+TEST_F(Judging, WhatTakesASmallShareOfAllIsAPatchWhereverItLies) {
+  const Tried t = judged(error(1100, 3900, 1100, 3900), error(1010, 3850, 1010, 3850), {0, 3000, 0, 3000});
+  EXPECT_FALSE(t.admitted);
+  EXPECT_NE(t.reason.find("a patch"), std::string::npos) << t.reason;
+}
+
+TEST_F(Judging, NoiseIsNothingThatALawIsTakenDownTo) {
+  // Noise before: that it is noise afterwards says nothing for the candidate.
+  const Tried t = judged(error(1000, 1080, 1000, 1080), error(1000, 1010, 1000, 1010), {0, 300, 0, 300});
+  EXPECT_FALSE(t.admitted);
+  EXPECT_NE(t.reason.find("may have left of their own"), std::string::npos) << t.reason;
+  // Structure before, noise afterwards: no imperfect law is repaired so well by another effect's.
+  const Tried down = judged(error(1000, 1600, 1000, 1600), error(1000, 1010, 1000, 1010), {0, 900, 0, 900});
+  EXPECT_TRUE(down.admitted) << down.reason;
+}
+
+}  // namespace
+}  // namespace hysteron
