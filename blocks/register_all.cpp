@@ -86,6 +86,7 @@ Registry all_blocks() {
   r.add(blocks::polynomial_block());
   r.add(blocks::calibration_block());
   r.add(blocks::cross_coupling_block());
+  r.add(blocks::late_cross_coupling_block());
   r.add(blocks::temperature_gain_block());
   r.add(blocks::thermal_expansion_block());
   r.add(blocks::pyro_charge_block());

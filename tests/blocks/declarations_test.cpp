@@ -170,6 +170,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "polynomial",
                                        "soft_saturation",
                                        "cross_coupling",
+                                       "late_cross_coupling",
                                        "temperature_gain",
                                        "thermal_expansion",
                                        "resonance",
