@@ -105,10 +105,9 @@ std::optional<Experiment> experiment_between(Books& books, const Tried& a, const
 /// they were. One that no recording could show needs only to be seen.
 bool would_tell(const Experiment& experiment, bool hidden);
 
-/// Takes the winner into the present model, with its ties and the experiment that would break them. `alike`: the same
-/// effect found on another axis, whose ties are those of this one too.
+/// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar, const FoundStep* alike = nullptr);
+           double bar);
 
 /// Into the record of what was tried. `winner`, `ties`: indices of tried; -1 = nobody.
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner, const std::vector<int>& ties);

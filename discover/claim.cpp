@@ -19,7 +19,7 @@ void judge_again(Tried& w, const ModelError& before) {
 }  // namespace
 
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar, const FoundStep* alike) {
+           double bar) {
   Tried& w = tried[winner];
   books.progress("intervals of " + w.effect->id, bar);
   FoundStep found;
@@ -38,11 +38,6 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
     found.experiment_would_tell = would_tell(*e, rival.hidden);
     if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
       found.experiment = e;
-  }
-  if (alike != nullptr) {
-    found.ties = alike->ties;
-    found.experiment = alike->experiment;
-    found.experiment_would_tell = alike->experiment_would_tell;
   }
   take(books, step, w, std::move(found));
 }

@@ -2,7 +2,6 @@
 // and stand in one room, and one that is looked for on each axis in turn uses up the steps that others need.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "discover/books.h"
 
@@ -42,20 +41,47 @@ const Tried* better_there(const Books& books, const Tried& t, const std::vector<
   return nullptr;
 }
 
-/// The step that found the effect, if its rivals explain these outputs too.
-std::optional<FoundStep> alike_on(const Books& books, const Tried& t, const std::vector<Tried>& others) {
-  for (const auto& s : books.d.steps) {
-    if (s.winner.effect != t.effect->id) continue;
-    FoundStep same = s;
-    std::erase_if(same.ties, [&](const Candidate& tie) {
-      return std::none_of(others.begin(), others.end(), [&](const Tried& o) {
-        return o.effect->id == tie.effect && o.admitted && o.outputs == t.outputs;
-      });
-    });
-    if (same.ties.empty()) return std::nullopt;
-    return same;
+/// The effect, and those that could not be told from it where it was found.
+std::vector<const Effect*> with_rivals(const Books& books, const Effect& effect) {
+  std::vector<const Effect*> list{&effect};
+  for (const auto& s : books.d.steps)
+    if (s.winner.effect == effect.id)
+      for (const auto& tie : s.ties)
+        if (const Effect* rival = books.effects.find(tie.effect);
+            rival != nullptr && std::find(list.begin(), list.end(), rival) == list.end())
+          list.push_back(rival);
+  return list;
+}
+
+/// Fits each on the way to these outputs.
+std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& outputs,
+                            const std::vector<const Effect*>& effects, int step, double bar) {
+  auto tried = list_candidates(books, step, outputs, effects);
+  for (auto& t : tried) {
+    books.progress(t.effect->id + " at " + t.place.at, bar);
+    t.contender = with_effect(books.shop, books.current, *t.effect, as_found(books, *t.effect, t.laws.front()), t.place,
+                              t.circumstances, Effort::full);
+    books.d.model_runs += t.contender.runs;
   }
-  return std::nullopt;
+  join_twins(tried);
+  compare_all(books, tried, As::first);
+  enrich(books, tried, step, As::first, bar);
+  return tried;
+}
+
+/// The best place of the effect, -1 where it is not admitted or somebody else explains that output better.
+int best_place(const Books& books, std::vector<Tried>& tried, const Effect& effect, const std::vector<Tried>& others) {
+  for (auto& t : tried) {
+    if (!t.admitted || t.effect != &effect) continue;
+    const Tried* other = better_there(books, t, others);
+    if (other == nullptr) other = better_there(books, t, tried);
+    if (other == nullptr) continue;
+    t.admitted = false;
+    t.reason = other->effect->id + " explains that output better";
+  }
+  for (const std::size_t i : ranking(tried))
+    if (tried[i].admitted && tried[i].effect == &effect) return static_cast<int>(i);
+  return -1;
 }
 
 }  // namespace
@@ -68,28 +94,17 @@ void on_other_outputs(Books& books, const std::string& id, const std::vector<Tri
     const auto others = outputs_without(books, effect->family);
     if (others.empty()) return;
     const int step = static_cast<int>(books.d.steps.size()) + 1;
-    auto tried = list_candidates(books, step, others, {effect});
-    for (auto& t : tried) {
-      books.progress(id + " at " + t.place.at, bar);
-      t.contender = with_effect(books.shop, books.current, *effect, as_found(books, *effect, t.laws.front()), t.place,
-                                t.circumstances, Effort::full);
-      books.d.model_runs += t.contender.runs;
-    }
-    join_twins(tried);
-    compare_all(books, tried, As::first);
-    enrich(books, tried, step, As::first, bar);
-    for (auto& t : tried)
-      if (const Tried* other = t.admitted ? better_there(books, t, others_tried) : nullptr; other != nullptr) {
-        t.admitted = false;
-        t.reason = other->effect->id + " explains that output better";
-      }
-    const int winner = best_admitted(tried);
+    auto tried = tried_on(books, others, with_rivals(books, *effect), step, bar);
+    const int winner = best_place(books, tried, *effect, others_tried);
+    std::vector<int> ties;
     if (winner >= 0) {
+      // What one axis cannot tell another one may.
       const auto index = static_cast<std::size_t>(winner);
-      const auto alike = alike_on(books, tried[index], others_tried);
-      claim(books, step, tried, index, {}, bar, alike ? &*alike : nullptr);
+      try_hidden(books, tried, *effect, As::first);
+      ties = ties_of(books, tried, index);
+      claim(books, step, tried, index, ties, bar);
     }
-    keep_candidates(books, tried, step, winner, {});
+    keep_candidates(books, tried, step, winner, ties);
     if (winner < 0) return;
   }
 }
