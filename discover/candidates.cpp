@@ -16,33 +16,40 @@
 namespace hysteron {
 namespace {
 
-/// Outputs to which a wire leads, as indices of the program's outputs: a coupling that reads it beside another axis
-/// does not put it on the way of that one.
-std::vector<int> moved_by(const Books& books, const std::string& written) {
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Outputs of the program, measured or not, to which a wire leads: a coupling that reads it beside another axis does
+/// not put it on the way of that one. Empty where nobody knows.
+Names moved_by(const Books& books, const std::string& written) {
   const Program& p = *books.current.program;
+  Names list;
   if (written.find('/') == std::string::npos) {
     const Wiring w(books.current.diagram, *books.shop.registry);
-    std::vector<int> list;
     for (const auto& output : w.outputs_on_the_way(w.signal(written)))
-      list.push_back(
-          static_cast<int>(std::find(p.output_names.begin(), p.output_names.end(), output) - p.output_names.begin()));
+      std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
+                   [&](const std::string& name) { return is_of_output(name, output); });
     return list;
   }
   const std::string wire = program_signal(books.current.diagram, *books.shop.registry, written);
   int signal = p.find_signal(wire);
   if (signal < 0) signal = p.find_signal(wire + "[0]");
   if (signal < 0) return {};
-  return outputs_behind(p, p.signals[static_cast<std::size_t>(signal)].block);
+  for (const int o : outputs_behind(p, p.signals[static_cast<std::size_t>(signal)].block))
+    list.push_back(p.output_names[static_cast<std::size_t>(o)]);
+  return list;
 }
 
-/// The place moves none but these outputs; any will do where none is named.
-bool only_moves(const Books& books, const Place& place, const std::vector<std::string>& outputs) {
-  if (outputs.empty()) return true;
-  const auto moved = moved_by(books, place.wire);
-  return !moved.empty() && std::all_of(moved.begin(), moved.end(), [&](int o) {
-    return std::find(outputs.begin(), outputs.end(), books.base_model->outputs()[static_cast<std::size_t>(o)]) !=
-           outputs.end();
-  });
+/// The place moves something that was measured, and of that none but these outputs; any will do where none is named.
+bool may_stand(const Books& books, const Place& place, const Names& outputs) {
+  auto moved = moved_by(books, place.wire);
+  if (moved.empty()) return outputs.empty();
+  std::erase_if(moved, [&](const std::string& o) { return !contains(books.base_model->outputs(), o); });
+  return !moved.empty() && (outputs.empty() || std::all_of(moved.begin(), moved.end(),
+                                                           [&](const std::string& o) { return contains(outputs, o); }));
 }
 
 /// The effect stands already on the way to an output that this place moves: each axis has its own.
@@ -52,9 +59,8 @@ bool standing_before(const Books& books, const Effect& e, const Place& place) {
   return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& s) {
     if (s.effect->family != e.family) return false;
     const auto there = moved_by(books, s.place.wire);
-    return there.empty() || here.empty() || std::any_of(here.begin(), here.end(), [&](int o) {
-             return std::find(there.begin(), there.end(), o) != there.end();
-           });
+    return there.empty() || here.empty() ||
+           std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
   });
 }
 
@@ -63,8 +69,7 @@ std::vector<double> lines_left(const Books& books, const Tried& t,
                                const std::vector<std::pair<double, double>>& bands) {
   std::vector<double> lines;
   for (std::size_t o = 0; o < books.base_model->outputs().size(); ++o) {
-    const auto& name = books.base_model->outputs()[o];
-    if (!t.outputs.empty() && std::find(t.outputs.begin(), t.outputs.end(), name) == t.outputs.end()) continue;
+    if (!t.outputs.empty() && !contains(t.outputs, books.base_model->outputs()[o])) continue;
     const ResidualParts parts(*books.evidence, books.current.prediction, static_cast<int>(o));
     for (const double f : strongest_lines(parts, bands, 2)) lines.push_back(f);
   }
@@ -109,17 +114,14 @@ namespace {
 
 /// Outputs that none of the chosen effects moves.
 template <class Chosen>
-std::vector<std::string> outputs_not_moved(const Books& books, const Chosen& chosen) {
-  std::vector<bool> moved(books.base_model->outputs().size(), false);
+Names outputs_not_moved(const Books& books, const Chosen& chosen) {
+  Names list = books.base_model->outputs();
   for (const auto& s : books.current.standing) {
     if (!chosen(s)) continue;
     const auto by_it = moved_by(books, s.place.wire);
     if (by_it.empty()) return {};  // nobody knows which
-    for (const int o : by_it) moved[static_cast<std::size_t>(o)] = true;
+    std::erase_if(list, [&](const std::string& o) { return contains(by_it, o); });
   }
-  std::vector<std::string> list;
-  for (std::size_t o = 0; o < moved.size(); ++o)
-    if (!moved[o]) list.push_back(books.base_model->outputs()[o]);
   return list;
 }
 
@@ -142,15 +144,13 @@ int found_effects(const Books& books) {
 namespace {
 
 /// Every effect at every place where it may enter, with what the recordings show there.
-std::vector<Tried> everywhere(Books& books, int step, const std::vector<std::string>& outputs,
-                              const std::vector<const Effect*>& only) {
+std::vector<Tried> everywhere(Books& books, int step, const Names& outputs, const std::vector<const Effect*>& only) {
   std::vector<Tried> list;
   std::vector<Place> places;
   for (const auto& e : books.effects.list()) {
     if (!books.wanted(e) || (!only.empty() && std::find(only.begin(), only.end(), &e) == only.end())) continue;
     auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
-    std::erase_if(where,
-                  [&](const Place& p) { return standing_before(books, e, p) || !only_moves(books, p, outputs); });
+    std::erase_if(where, [&](const Place& p) { return standing_before(books, e, p) || !may_stand(books, p, outputs); });
     if (where.empty() && standing(books, e)) continue;
     if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e, books.registry)});
     for (const auto& p : where) {
@@ -200,8 +200,7 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   }
   for (auto* list_of : {&kept, &books.hidden})
     for (auto& t : *list_of) {
-      for (const int o : moved_by(books, t.place.wire))
-        t.outputs.push_back(books.base_model->program().output_names[static_cast<std::size_t>(o)]);
+      t.outputs = moved_by(books, t.place.wire);
       begin_at_lines(books, t);
     }
   return kept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "discover/wiring.h"
 #include "fit/free_parameter.h"
 
 namespace hysteron {
@@ -88,7 +89,7 @@ std::vector<Part> parts_of(const Contender& c, const std::vector<std::string>& f
 Diagram seen_at(const Diagram& diagram, const std::vector<std::string>& outputs) {
   Diagram seen = diagram;
   for (const auto& [name, wire] : diagram.outputs) {
-    if (std::find(outputs.begin(), outputs.end(), name) != outputs.end()) continue;
+    if (std::any_of(outputs.begin(), outputs.end(), [&](const auto& o) { return is_of_output(o, name); })) continue;
     seen.outputs.erase(name);
     seen.record.push_back(wire);  // a block that nobody reads is refused
   }

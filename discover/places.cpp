@@ -75,6 +75,22 @@ std::string start_of_chain(const Wiring& w, const std::string& signal) {
   return signal;
 }
 
+/// The wires that are measured: that of each output, or those that a mux bundles for it, each with a law of its own.
+std::vector<std::string> measured_wires(const Wiring& w) {
+  std::vector<std::string> list;
+  for (const auto& [name, from] : w.diagram().outputs) {
+    const std::string s = w.signal(from);
+    if (s.empty()) continue;
+    const std::string begin = start_of_chain(w, s);
+    const Node* node = w.outputs_of(begin).empty() ? nullptr : w.body(begin);
+    if (node != nullptr && node->type == "mux")
+      for (const auto& wire : w.diagram().blocks.find(begin)->in) list.push_back(w.signal(wire.from));
+    else
+      list.push_back(s);
+  }
+  return list;
+}
+
 void set_groups(const Wiring& w, Place& place) {
   for (const auto law : {Commutes::nothing, Commutes::gains, Commutes::linear, Commutes::time_invariant})
     place.group[static_cast<int>(law)] = w.root(w.signal(place.wire), law);
@@ -135,10 +151,8 @@ class Finder {
   }
 
   void measured() {
-    for (const auto& [name, from] : w_.diagram().outputs) {
-      const std::string s = w_.signal(from);
-      if (!s.empty()) add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
-    }
+    for (const auto& s : measured_wires(w_))
+      add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
   }
 
   /// Before and behind each block with memory; where there is none, before and behind the whole chain.
@@ -159,9 +173,7 @@ class Finder {
     }
     if (any) return;
     for (const auto& s : drives()) add(on_wire(w_, registry_, "core", s));
-    for (const auto& [name, from] : w_.diagram().outputs) {
-      const std::string s = w_.signal(from);
-      if (s.empty()) continue;
+    for (const auto& s : measured_wires(w_)) {
       Place behind = on_wire(w_, registry_, "core", start_of_chain(w_, before_offset(w_, s)));
       behind.behind_core = true;
       add(std::move(behind));
@@ -274,12 +286,16 @@ std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, cons
   std::vector<SideSignal> list;
   for (const auto& [name, input] : w.diagram().inputs)
     if (fits(name, parse_unit(input.unit))) list.push_back({name, {}});
-  if (effect.side == Side::other_axis && w.diagram().outputs.size() > 1)  // its motion, not only its drive
-    for (const auto& [name, from] : w.diagram().outputs)
-      if (const auto s = w.signal(from); !s.empty()) list.push_back({start_of_chain(w, before_offset(w, s)), {}});
+  if (const auto measured = measured_wires(w);
+      effect.side == Side::other_axis && measured.size() > 1)  // its motion, not only its drive
+    for (const auto& s : measured) list.push_back({start_of_chain(w, before_offset(w, s)), {}});
   if (data == nullptr) return list;
+  const auto is_output = [&](const std::string& name) {
+    const auto& outputs = w.diagram().outputs;
+    return std::any_of(outputs.begin(), outputs.end(), [&](const auto& o) { return is_of_output(name, o.first); });
+  };
   for (const auto& [name, note] : data->notes) {
-    if (w.is_input(name) || w.diagram().outputs.find(name) != nullptr) continue;
+    if (w.is_input(name) || is_output(name)) continue;
     const auto has = [&](const Recording& r) { return r.columns.contains(name); };
     if (data->recordings.empty() || !std::all_of(data->recordings.begin(), data->recordings.end(), has)) continue;
     const Unit& unit = data->recordings.front().units.at(name);
@@ -315,9 +331,9 @@ std::vector<Place> beside(const std::vector<Place>& places, const Effect& effect
 
 /// Nothing but a constant lies between a wire and an output.
 bool is_measured(const Wiring& w, const Registry& registry, const std::string& wire) {
-  return std::any_of(w.diagram().outputs.begin(), w.diagram().outputs.end(), [&](const auto& output) {
-    const std::string s = w.signal(output.second);
-    return !s.empty() && on_wire(w, registry, "measured", start_of_chain(w, before_offset(w, s))).wire == wire;
+  const auto measured = measured_wires(w);
+  return std::any_of(measured.begin(), measured.end(), [&](const std::string& s) {
+    return on_wire(w, registry, "measured", start_of_chain(w, before_offset(w, s))).wire == wire;
   });
 }
 
@@ -356,8 +372,8 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
        effect.block_type == "rounding") &&
       diagram.places.find("measured") == nullptr) {
     list.clear();
-    for (const auto& [name, from] : diagram.outputs) {
-      Place p = on_wire(w, registry, "measured", start_of_chain(w, w.signal(from)));
+    for (const auto& s : measured_wires(w)) {
+      Place p = on_wire(w, registry, "measured", start_of_chain(w, s));
       set_groups(w, p);
       const auto there = standing_at(w, p);
       if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));

@@ -41,6 +41,10 @@ std::string program_signal(const Diagram& diagram, const Registry& registry, con
   return signal;
 }
 
+bool is_of_output(const std::string& name, const std::string& output) {
+  return name == output || name.starts_with(output + "[");
+}
+
 Wiring::Wiring(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
 
 const Node* Wiring::body(const std::string& block) const {

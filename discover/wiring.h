@@ -24,6 +24,9 @@ struct Reader {
 /// of a block inside it.
 std::string program_signal(const Diagram& diagram, const Registry& registry, const std::string& signal);
 
+/// The compiled program's output `name` is this output of the diagram, or an element of it: "y[1]" of "y".
+bool is_of_output(const std::string& name, const std::string& output);
+
 class Wiring {
  public:
   Wiring(const Diagram& diagram, const Registry& registry);

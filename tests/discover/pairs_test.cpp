@@ -197,6 +197,51 @@ TEST(PartsOfAModel, AxesWithNothingBetweenThemAreFittedApart) {
   EXPECT_EQ(seen->parameters.size(), c.program->parameters.size()) << "values of one hold for the other";
 }
 
+/// The same with y and y2 under the names of the elements of one output.
+DataSet as_elements_of_y(DataSet d) {
+  for (const auto& [name, element] : {std::pair{"y", "y[0]"}, {"y2", "y[1]"}}) {
+    auto note = d.notes.extract(name);
+    note.key() = note.mapped().to = element;
+    d.notes.insert(std::move(note));
+    for (auto& r : d.recordings) {
+      r.columns[element] = std::move(r.columns.at(name));
+      r.units[element] = r.units.at(name);
+      r.columns.erase(name);
+      r.units.erase(name);
+    }
+  }
+  return d;
+}
+
+TEST_F(Pairs, OutputsThatAreElementsOfOneSignalAreJudgedAsAnyOther) {
+  Diagram d = two_axes();
+  Node& both = d.blocks["both"];
+  both.type = "mux";
+  both.in = {{"", "sensor"}, {"", "sensor2"}};
+  d.outputs = {};
+  d.outputs["y"] = "both";
+  DataSet data = measured([](double, double u, double warmer) { return u * (1 + 0.002 * warmer); },
+                          [](double, double u, double) { return u + 0.004 * u * (1 - u); });
+  const auto found =
+      discovered(d, as_elements_of_y(std::move(data)), {"temperature_gain", "sensor_nonlinearity", "ageing"});
+  EXPECT_EQ(names(found), (Names{"temperature_gain", "sensor_nonlinearity"})) << tried(found);
+}
+
+TEST_F(Pairs, AnOutputThatNobodyMeasuredIsInNobodysWay) {
+  const Diagram axes = two_axes();
+  Diagram d = axes;
+  d.outputs = {};
+  d.outputs["drive"] = "u2";  // before those that were measured
+  d.outputs["moved"] = "stage";
+  for (const auto& [name, from] : axes.outputs) d.outputs[name] = from;
+  const Law warm = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer); };
+  const Law curved = [](double, double u, double) { return u + 0.02 * u * (1 - u); };
+  const std::vector<std::string> only{"temperature_gain", "sensor_nonlinearity", "calibration"};
+  const auto found = discovered(d, measured(warm, curved), only);
+  EXPECT_EQ(names(found), (Names{"temperature_gain", "sensor_nonlinearity"})) << tried(found);
+  EXPECT_EQ(found.steps.size(), 2u) << tried(found);
+}
+
 /// Ten recordings of one axis, of which one of either role is warm.
 DataSet one_warm_of_five(const Law& law) {
   std::vector<Recording> list;
