@@ -75,7 +75,8 @@ bool structure_is_left(const Books& books);
 /// How a candidate is judged: as if it were the first effect, or on top of laws that may have left something.
 enum class As { first, further };
 /// What the laws that stand may have left of their own effects, by the recording, for an imperfect law leaves a part of
-/// what it describes where that acts: of chi2 in each of ModelError::recordings. Empty if judged as a first one.
+/// what it describes where that acts: of chi2 in each of ModelError::recordings. Empty if judged as a first one, and
+/// where none stands.
 std::vector<double> left_by_laws(const Books& books, As as);
 
 /// Indices of candidates that could be fitted, best score first.

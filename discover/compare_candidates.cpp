@@ -46,9 +46,8 @@ void leave_to_calibration(std::vector<Tried>& tried) {
 }
 
 /// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
-/// magnitude: what stays far below the least fall of a claim needs no fit of everything.
-bool within_reach(const Books& books, const Tried& t, As as) {
-  const auto left = left_by_laws(books, as);
+/// magnitude: what stays far below the least fall of a claim needs no fit of everything. `left`: see left_by_laws.
+bool within_reach(const Books& books, const Tried& t, const std::vector<double>& left) {
   const auto& recordings = books.current.error_of.recordings;
   double own = 0;
   for (std::size_t i = 0; i < left.size(); ++i)
@@ -130,11 +129,12 @@ void compare_all(Books& books, std::vector<Tried>& tried, As as) {
 
 void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
   const auto worth = worth_a_fit(tried);
+  const auto left = left_by_laws(books, as);
   std::vector<std::size_t> screened_out;
   for (const std::size_t i : ranking(tried)) {
     if (books.stopped()) break;
     Tried& t = tried[i];
-    if (!worth.contains(i) || !within_reach(books, t, as)) {
+    if (!worth.contains(i) || !within_reach(books, t, left)) {
       screened_out.push_back(i);
       continue;
     }
@@ -151,12 +151,13 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
   const auto order = ranking(tried);
   if (order.empty()) return;
   const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
+  const auto left = left_by_laws(books, as);
   bool any = false;
   for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
     Tried& t = tried[order[k]];
     // A law that brings nothing in its simple form has nothing to enrich.
     const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
-                           (step == 1 || within_reach(books, t, as));
+                           (step == 1 || within_reach(books, t, left));
     for (std::size_t law = 1; law < t.laws.size(); ++law) {
       if (!promising && !t.laws[law].apart) continue;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
@@ -178,6 +179,7 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
 }
 
 void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as) {
+  const auto left = left_by_laws(books, as);
   for (auto& t : books.hidden) {
     if (!look_alike(*t.effect, winner) || books.stopped()) continue;
     t.laws = t.effect->laws(t.circumstances);
@@ -186,7 +188,7 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, A
         with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
     books.d.model_runs += t.contender.runs;
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(t, books.current, left_by_laws(books, as));
+    judge(t, books.current, left);
     t.hidden = true;
     tried.push_back(std::move(t));
   }

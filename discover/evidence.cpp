@@ -69,6 +69,19 @@ void Evidence::settle(const Prediction& best) {
   per_chi2_ = witnesses_ / squares;
 }
 
+std::vector<Evidence::Slice> Evidence::slices(int recording) const {
+  std::vector<Slice> list;
+  std::size_t begin = 0;
+  for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o) {
+    const std::size_t rows = base_.measured(recording, o).size();
+    if (rows == 0) continue;
+    const bool zero_is_free = base_.zero_per_recording(o);
+    list.push_back({o, begin, rows - (zero_is_free ? 1 : 0), zero_is_free});
+    begin += list.back().size;
+  }
+  return list;
+}
+
 ModelError Evidence::error(const Prediction& prediction) const {
   ModelError e;
   e.ok = prediction.ok;
@@ -80,11 +93,8 @@ ModelError Evidence::error(const Prediction& prediction) const {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
     const auto w = residual(prediction, r);
     const bool is_train = base_.recording(r).role == Role::train;
-    std::size_t begin = 0;
-    for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o) {
+    for (const auto& [o, begin, size, zero_is_free] : slices(r)) {
       const Rows& measured = base_.measured(r, o);
-      if (measured.empty()) continue;
-      const std::size_t size = measured.size() - (base_.zero_per_recording(o) ? 1 : 0);
       RecordingError one;
       one.recording = base_.recording(r).name;
       one.role = base_.recording(r).role;
@@ -96,7 +106,6 @@ ModelError Evidence::error(const Prediction& prediction) const {
       for (std::size_t k = begin; k < begin + size; ++k) one.chi2 += w[k] * w[k];
       one.evidence = one.chi2 * per_chi2_;
       one.plain = one.rms * one.rms * static_cast<double>(one.rows) / noisy_variance(o);
-      begin += size;
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
       (is_train ? e.evidence_train : e.evidence_validate) += one.evidence;
       (is_train ? e.n_train : e.n_validate) += static_cast<double>(size);
@@ -124,20 +133,17 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   for (const int r : recordings_) {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
     const auto w = judge.residual(base_, prediction, r);
-    std::size_t begin = 0;
-    for (std::size_t o = 0; o < chi2.size(); ++o) {
-      const Rows& measured = base_.measured(r, static_cast<int>(o));
-      if (measured.empty()) continue;
-      const std::size_t rows = measured.size() - (base_.zero_per_recording(static_cast<int>(o)) ? 1 : 0);
+    for (const auto& slice : slices(r)) {
+      const auto o = static_cast<std::size_t>(slice.output);
+      const auto rows = static_cast<double>(slice.size);
       double here = 0;
-      for (std::size_t k = begin; k < begin + rows; ++k) here += w[k] * w[k];
-      begin += rows;
+      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k) here += w[k] * w[k];
       // An effect may show in one kind of recording alone, where chance is larger, for the rows are fewer.
-      const double chance = deviations_of_chance * std::sqrt(2 / static_cast<double>(rows));
-      over.one = std::max(over.one, here / static_cast<double>(rows) - chance);
+      const double chance = deviations_of_chance * std::sqrt(2 / rows);
+      over.one = std::max(over.one, here / rows - chance);
       if (base_.recording(r).role == Role::train) continue;
       chi2[o] += here;
-      n[o] += static_cast<double>(rows);
+      n[o] += rows;
     }
   }
   for (std::size_t o = 0; o < chi2.size(); ++o)
@@ -169,16 +175,12 @@ std::vector<double> Evidence::pieces(const Prediction& prediction) const {
   std::vector<double> list;
   for (const int r : recordings_) {
     const auto w = residual(prediction, r);
-    std::size_t begin = 0;
-    for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o) {
-      const std::size_t rows = base_.measured(r, o).size();
-      if (rows == 0) continue;
+    for (const auto& slice : slices(r)) {
       // Back from whitened cosines to whitened rows; a coefficient that is free per recording is zero.
-      const bool dropped = base_.zero_per_recording(o);
+      const std::size_t rows = slice.size + (slice.zero_is_free ? 1 : 0);
       std::vector<double> row(rows, 0.0);
-      std::copy_n(w.begin() + static_cast<std::ptrdiff_t>(begin), rows - (dropped ? 1 : 0),
-                  row.begin() + (dropped ? 1 : 0));
-      begin += rows - (dropped ? 1 : 0);
+      std::copy_n(w.begin() + static_cast<std::ptrdiff_t>(slice.begin), slice.size,
+                  row.begin() + (slice.zero_is_free ? 1 : 0));
       inverse_cosine_transform(row);
       for (std::size_t k = 0; k < count; ++k) {
         double chi2 = 0;

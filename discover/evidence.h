@@ -95,6 +95,14 @@ class Evidence {
   std::optional<std::pair<double, double>> test_error(const Prediction& prediction) const;
 
  private:
+  /// Where the residual of one output lies in that of its recording (residual()): `size` coefficients from `begin`, one
+  /// less than rows where a zero of its own is free.
+  struct Slice {
+    int output = 0;
+    std::size_t begin = 0, size = 0;
+    bool zero_is_free = false;
+  };
+  std::vector<Slice> slices(int recording) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 

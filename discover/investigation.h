@@ -49,7 +49,8 @@ constexpr double share_of_first =
 /// less than a hundredth to a curve is no curve.
 constexpr double straight_share = 0.99;
 constexpr double share_of_rest = 0.6;  ///< a further effect removes this share of the excess ...
-/// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all.
+/// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all:
+/// as much as a structure must take away to be told.
 constexpr double share_of_all = 0.3;
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told

@@ -1,7 +1,6 @@
 #include "io/runs_job.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "io/job_parts.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
+#include "io/runs_names.h"
 #include "io/value_text.h"
 
 namespace hysteron {
@@ -46,9 +46,9 @@ class RunsReader {
         if (check_name(place, name, "value")) job_.values.push_back(value(name, place, true));
     if (const auto claims = root.find("claims"); claims && claims->expect_array("[{\"id\": \"C2-07\", ...}]"))
       for (const auto& place : claims->elements()) claim(place);
-    check_names();
+    check_names(file_, job_);
     file_.throw_if_any();
-    check_circles();
+    check_circles(file_, job_);
     file_.throw_if_any();
     return std::move(job_);
   }
@@ -530,122 +530,6 @@ class RunsReader {
     if (c.expected && !c.tolerance)
       place.add("missing_key", "an expected value needs a tolerance", "write \"tolerance\": \"1 %\" or \"1e-6 um\"");
     job_.claims.push_back(std::move(c));
-  }
-
-  // ---- names --------------------------------------------------------------------------------------------------------
-
-  /// `what`: "run" or "value".
-  template <class Named>
-  void check_one_of(const std::vector<Named>& list, const char* what, const WrittenText& name) {
-    if (name.text.empty()) return;
-    std::vector<std::string> known;
-    for (const auto& one : list) known.push_back(one.name);
-    if (std::find(known.begin(), known.end(), name.text) == known.end())
-      file_.add(fmt::format("unknown_{}", what), name.pointer, fmt::format("there is no {} \"{}\"", what, name.text),
-                did_you_mean(name.text, known));
-  }
-  void check_run(const WrittenText& name) { check_one_of(job_.runs, "run", name); }
-  void check_value(const WrittenText& name) { check_one_of(job_.values, "value", name); }
-  void check_value_wish(const ValueWish& v) {
-    check_run(v.run);
-    if (v.of.minus_run) check_run(*v.of.minus_run);
-    check_conditions(v.where);
-    for (const auto& name : v.over_values) check_value(name);
-  }
-
-  void check_conditions(const std::vector<RowCondition>& where) {
-    for (const auto& c : where)
-      if (c.signal.minus_run) check_run(*c.signal.minus_run);
-  }
-
-  void check_names() {
-    for (const auto& r : job_.runs) {
-      for (const auto& u : r.use) check_run(u.run);
-      for (const auto& s : r.set_of) check_value(s.value);
-      if (r.data) check_run(r.data->run);
-      if (r.of_run) check_run(*r.of_run);
-      if (r.kind == RunKind::select) check_run(r.other_run);
-      check_conditions(r.where);
-      for (const auto& column : r.rows)
-        for (const auto& cell : column.cells) check_value(cell.value);
-      if (r.kind == RunKind::find || r.kind == RunKind::minimize) check_value_wish(r.aim);
-    }
-    for (const auto& v : job_.values) check_value_wish(v);
-    for (const auto& p : job_.plots) {
-      for (const auto& name : p.runs) check_run(name);
-      for (const auto& s : p.y.signals)
-        if (s.minus_run) check_run(*s.minus_run);
-      check_conditions(p.where);
-    }
-    for (const auto& c : job_.claims) {
-      check_value(c.value);
-      for (const auto& name : c.order) check_value(name);
-    }
-  }
-
-  // ---- circles ------------------------------------------------------------------------------------------------------
-
-  static void add_needs_of(const ValueWish& v, bool with_run, std::vector<std::string>& needs) {
-    for (const auto& name : v.over_values) needs.push_back("value " + name.text);
-    if (with_run && !v.run.text.empty()) needs.push_back("run " + v.run.text);
-    if (v.of.minus_run) needs.push_back("run " + v.of.minus_run->text);
-    for (const auto& c : v.where)
-      if (c.signal.minus_run) needs.push_back("run " + c.signal.minus_run->text);
-  }
-
-  /// What a run or a value ("run none", "value stroke") must have before it can be worked out.
-  std::vector<std::string> needs_of(const std::string& what) const {
-    std::vector<std::string> needs;
-    for (const auto& r : job_.runs) {
-      if ("run " + r.name != what) continue;
-      for (const auto& u : r.use) needs.push_back("run " + u.run.text);
-      for (const auto& s : r.set_of) needs.push_back("value " + s.value.text);
-      if (r.data) needs.push_back("run " + r.data->run.text);
-      if (r.of_run) needs.push_back("run " + r.of_run->text);
-      if (r.kind == RunKind::select) needs.push_back("run " + r.other_run.text);
-      for (const auto& c : r.where)
-        if (c.signal.minus_run) needs.push_back("run " + c.signal.minus_run->text);
-      for (const auto& column : r.rows)
-        for (const auto& cell : column.cells)
-          if (!cell.value.text.empty()) needs.push_back("value " + cell.value.text);
-      if (r.kind == RunKind::find || r.kind == RunKind::minimize) add_needs_of(r.aim, false, needs);
-    }
-    for (const auto& v : job_.values)
-      if ("value " + v.name == what) add_needs_of(v, true, needs);
-    return needs;
-  }
-
-  /// Depth first; `way` leads to `what`, `seen` is known to be free of circles. Returns the circle, or nothing.
-  std::vector<std::string> circle_from(const std::string& what, std::vector<std::string>& way,
-                                       std::vector<std::string>& seen) const {
-    if (std::find(seen.begin(), seen.end(), what) != seen.end()) return {};
-    if (const auto begin = std::find(way.begin(), way.end(), what); begin != way.end()) {
-      std::vector<std::string> circle(begin, way.end());
-      circle.push_back(what);
-      return circle;
-    }
-    way.push_back(what);
-    for (const auto& need : needs_of(what))
-      if (auto circle = circle_from(need, way, seen); !circle.empty()) return circle;
-    way.pop_back();
-    seen.push_back(what);
-    return {};
-  }
-
-  void check_circles() {
-    std::vector<std::string> seen;
-    const auto check = [&](const std::string& what, const std::string& pointer) {
-      std::vector<std::string> way;
-      const auto circle = circle_from(what, way, seen);
-      if (circle.empty()) return false;
-      file_.add("circular", pointer, fmt::format("{} needs itself: {}", circle.front(), fmt::join(circle, " -> ")),
-                "take one of them from something else");
-      return true;
-    };
-    for (const auto& r : job_.runs)
-      if (check("run " + r.name, r.pointer)) return;
-    for (const auto& v : job_.values)
-      if (check("value " + v.name, v.pointer)) return;
   }
 
   JsonFile file_;

@@ -43,7 +43,8 @@ Effect cross_coupling() {
   e.side = Side::other_axis;
   e.parameters = {{"coefficient", "unit of the signal per unit of the other axis", "static share of the other axis",
                    "0.1 .. 5 % of this axis' own; a good flexure stage 0.98 % at most"},
-                  {"time", "s", "with which it arrives; frames and cables pass on what is slow", ""}};
+                  {"time", "s", "with which it arrives; frames and cables pass on what is slow",
+                   "not known beforehand: a twentieth of the longest recording at most, later it is a drift"}};
   e.look_alikes = {{"calibration", "axes_independent", "a calibration does not follow the other axis"},
                    {"mains_interference", "zero_run", "the mains is coherent with no axis"}};
   e.family = "cross_coupling";

@@ -48,6 +48,15 @@ class Places : public ::testing::Test {
     for (const auto& p : places_of(effects.get(effect), d, registry)) list.push_back(p.at);
     return list;
   }
+  /// The diagram with an effect at a wire that reads `side` beside it; `unit` of the wire.
+  Added with_beside(const Diagram& d, const char* effect, const char* at, const char* side, const char* unit) {
+    Circumstances c;
+    c.unit = c.side_unit = parse_unit(unit);
+    const auto& e = effects.get(effect);
+    Place place = place_at(d, registry, at);
+    place.side = side;
+    return add_effect(d, registry, e, e.laws(c).front(), place);
+  }
   Registry registry = all_blocks();
   Effects effects = all_effects();
 };
@@ -104,14 +113,9 @@ TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
 
 /// Ageing and a gain by temperature read a second signal: that one is no place for anything.
 TEST_F(Places, BesideAnEffectThatReadsASecondSignalStayThoseOfTheSignalItself) {
-  Circumstances at;
-  at.unit = parse_unit("um");
   Diagram d = linear_stage();
   d.inputs["T"] = {"degC", "", 0};
-  const auto& gain = effects.get("temperature_gain");
-  Place behind = place_at(d, registry, "stage");
-  behind.side = "T";
-  const Added a = add_effect(d, registry, gain, gain.laws(at).front(), behind);
+  const Added a = with_beside(d, "temperature_gain", "stage", "T", "um");
   for (const char* effect : {"amplifier_lag", "dead_time", "sensor_nonlinearity", "creep", "saturation", "hysteresis"})
     EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
   for (const auto& p : find_places(a.diagram, registry)) EXPECT_TRUE(p.at == "u" || p.at == "stage") << p.at;
@@ -122,10 +126,7 @@ TEST_F(Places, BeforeAnEffectThatReadsASecondSignalAreNamedByItsPort) {
   at.unit = parse_unit("V");
   Diagram d = linear_stage();
   d.inputs["cycles_before"] = {"", "", 0};
-  const auto& ageing = effects.get("ageing");
-  Place before = place_at(d, registry, "u");
-  before.side = "cycles_before";
-  const Added a = add_effect(d, registry, ageing, ageing.laws(at).front(), before);
+  const Added a = with_beside(d, "ageing", "u", "cycles_before", "V");
   const auto& lag = effects.get("amplifier_lag");
   const auto places = places_of(lag, a.diagram, registry);
   ASSERT_EQ(places.size(), 1u);
@@ -142,18 +143,23 @@ TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
   d.blocks["sensor2"] = *second.blocks.find("sensor");
   d.blocks["sensor2"].in = {{"", "stage2"}};
   d.outputs["y2"] = "sensor2";
-  Circumstances at;
-  at.unit = at.side_unit = parse_unit("um");
-  Place beside = place_at(d, registry, "stage2");
-  beside.side = "stage";
-  const auto& coupling = effects.get("cross_coupling");
-  const Added a = add_effect(d, registry, coupling, coupling.laws(at).front(), beside);
+  const Added a = with_beside(d, "cross_coupling", "stage2", "stage", "um");
   const Wiring w(a.diagram, registry);
   EXPECT_EQ(w.outputs_on_the_way("stage"), std::vector<std::string>{"y"});
   EXPECT_EQ(w.outputs_on_the_way("stage2"), std::vector<std::string>{"y2"});
   EXPECT_TRUE(w.reaches_output("stage"));
   EXPECT_EQ(where("sensor_nonlinearity", a.diagram), where("sensor_nonlinearity", d))
       << "before the zero of the sensor, whoever else reads the motion";
+}
+
+TEST_F(Places, OfABundleAreThoseOfItsWires) {
+  Diagram d = linear_stage();
+  d.blocks["second"] = *linear_stage().blocks.find("sensor");
+  d.blocks["second"].in = {{"", "stage"}};
+  d.blocks["both"] = node("mux", {{"", "sensor"}, {"", "second"}});
+  d.outputs = {};
+  d.outputs["y"] = "both";
+  EXPECT_EQ(where("calibration", d), (std::vector<std::string>{"sensor", "second"}));
 }
 
 TEST_F(Places, NamedInTheDiagramGoBeforeThoseWorkedOut) {
