@@ -235,7 +235,9 @@ std::vector<PointPointer> Fitting::scan() {
     scan_one_by_one(values, points);
   if (projection_->n_nonlinear() > 0) try_points(spread(), points);
   std::stable_sort(points.begin(), points.end(), [](auto& a, auto& b) { return a->chi2 < b->chi2; });
-  points.erase(std::unique(points.begin(), points.end(), [](auto& a, auto& b) { return a->z == b->z; }), points.end());
+  // Where a parameter moves no row (a limit beyond the peaks), one start stands for all of its values.
+  const auto alike = [](auto& a, auto& b) { return a->z == b->z || a->chi2 == b->chi2; };
+  points.erase(std::unique(points.begin(), points.end(), alike), points.end());
   return points;
 }
 

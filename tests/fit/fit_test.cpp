@@ -201,6 +201,21 @@ TEST(Fit, AScanLeadsPastALocalMinimum) {
   EXPECT_NEAR(with.values[0].value, 1.4, 1e-4);
 }
 
+TEST(Fit, StartsThatMoveNoRowAreOneStart) {
+  // One-sided plays at rest at 0 keep nothing of a positive past: all such values look alike, and better than one that
+  // is negative as the truth is, but too large.
+  DataSet data = two_recordings();
+  data.recordings.front() = lab::recording("train", Role::train, 0.01, 400, decaying);
+  const auto program = compile(plays(6), lab::registry());
+  const int before = parameter_index(*program, "core.before");
+  lab::measure(data, program, 0, 6, {{before, -0.02}});
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"core.before"});
+  free[0].scan = {-1, -0.1, 0.1, 0.5, 1};
+  const auto found = fit(model, noise_before_fit(model), free);
+  EXPECT_NEAR(found.values[0].value, -0.02, 1e-9);
+}
+
 TEST(Fit, TwoGainsInSeriesAreNamedAndGetNoValue) {
   DataSet data = two_recordings();
   Diagram d = lab::diagram("b");
