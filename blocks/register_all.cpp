@@ -15,6 +15,7 @@
 #include "blocks/delay_line.h"
 #include "blocks/discrete_transfer_function.h"
 #include "blocks/gain.h"
+#include "blocks/guide_friction.h"
 #include "blocks/impedance_estimator.h"
 #include "blocks/integrator.h"
 #include "blocks/jiles_atherton.h"
@@ -139,6 +140,7 @@ Registry all_blocks() {
   r.add(blocks::mass_with_mode_block());
   r.add(blocks::mass_with_presliding_block());
   r.add(blocks::sliding_friction_block());
+  r.add(blocks::guide_friction_block());
   r.add(blocks::mass_on_hysteretic_spring_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());

@@ -81,7 +81,7 @@ std::vector<double> left_by_laws(const Books& books, As as);
 
 /// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried);
-/// The first of them that passes the rules of a claim; -1 = none.
+/// The first of them that passes the rules of a claim, or who scores alike by fewer numbers; -1 = none.
 int best_admitted(const std::vector<Tried>& tried);
 /// Noise by the best of them, then everybody's error in its units, then the rules.
 void compare_all(Books& books, std::vector<Tried>& tried, As as);

@@ -111,9 +111,21 @@ std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
 }
 
 int best_admitted(const std::vector<Tried>& tried) {
-  for (const std::size_t i : ranking(tried))
-    if (tried[i].admitted) return static_cast<int>(i);
-  return -1;
+  const auto numbers = [&](int i) {
+    const Tried& t = tried[static_cast<std::size_t>(i)];
+    return t.laws[t.law].free.size();
+  };
+  int best = -1;
+  double least = 0;
+  for (const std::size_t i : ranking(tried)) {
+    const Tried& t = tried[i];
+    if (!t.admitted) continue;
+    if (best < 0) least = t.contender.score();
+    if (t.contender.score() > least + rules::alike) break;
+    const int next = static_cast<int>(i);
+    if (best < 0 || numbers(next) < numbers(best)) best = next;
+  }
+  return best;
 }
 
 void compare_all(Books& books, std::vector<Tried>& tried, As as) {

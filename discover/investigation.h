@@ -34,8 +34,11 @@ struct Tried {
 namespace rules {
 constexpr double claim_fall =
     10;  ///< validation evidence must fall by this: nothing-hidden cases reached 1.8, true ones start at 14.5
-constexpr double tie = 7;            ///< in evidence + 2p
-constexpr double pieces_tell = 2;    ///< standard deviations: with structure left, less is a tie (Vuong)
+constexpr double tie = 7;          ///< in evidence + 2p
+constexpr double pieces_tell = 2;  ///< standard deviations: with structure left, less is a tie (Vuong)
+/// Of the score: who needs fewer numbers for the same goes first, also where a spare one is held at a bound and not
+/// counted (a second pole of a lag beside a dead time).
+constexpr double alike = 1;
 constexpr double exchange = 6;       ///< fall of the score for which a look-alike is taken instead
 constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
 constexpr double slow_noise =

@@ -45,9 +45,13 @@ void Fitting::write_estimates() {
   }
   for (std::size_t k = 0; k < low.size(); ++k) {
     auto& e = result_.estimates[static_cast<std::size_t>(projection_->nonlinear()[k])];
-    const double near = 1e-9 * std::max(1.0, std::abs(best_->z[k]));
-    e.at_lower = best_->z[k] <= low[k] + near;
-    e.at_upper = !e.at_lower && best_->z[k] >= high[k] - near;
+    // In the size of the box, or of the numbers where it is open: a lost motion of 0.1 nm is not zero.
+    const double z = best_->z[k];
+    const auto near = [&](double bound) {
+      return 1e-9 * (std::isfinite(high[k] - low[k]) ? high[k] - low[k] : std::max(std::abs(z), std::abs(bound)));
+    };
+    e.at_lower = std::isfinite(low[k]) && z <= low[k] + near(low[k]);
+    e.at_upper = !e.at_lower && std::isfinite(high[k]) && z >= high[k] - near(high[k]);
   }
   for (std::size_t j = 0; j < best_->bound.size(); ++j) {
     auto& e = result_.estimates[static_cast<std::size_t>(projection_->linear()[j])];

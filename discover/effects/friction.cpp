@@ -15,9 +15,8 @@ double travel(const Circumstances& at) {
   return range > 0 ? range : 1e-6;
 }
 
-/// Holds more before it slides fast.
-Law with_excess(Law law, const Circumstances& at) {
-  law.name = "presliding with Stribeck's excess (LuGre)";
+/// Holds more before it slides fast. `fast`: the whole travel in a row, from which speeds are tried downwards.
+Law with_excess(Law law, double fast, const Unit& speed_unit) {
   give(law.block, "excess", 0.0);
   LawParameter excess;
   excess.path = "excess";
@@ -25,9 +24,7 @@ Law with_excess(Law law, const Circumstances& at) {
   excess.upper = 3;
   excess.scan = {0.2, 0.7};
   excess.plausible_upper = 1;  // breakaway over Coulomb friction: 1 .. 2
-  // Speeds from the whole travel in a row downwards.
-  const double fast = travel(at) / std::max(at.shortest_step, 1e-9);
-  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, parse_unit("m/s")));
+  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, speed_unit));
   LawParameter speed;
   speed.path = "stribeck_velocity";
   speed.start = 1e-3 * fast;
@@ -77,32 +74,32 @@ Law on_a_speed(const Circumstances& at, bool flows) {
 }
 
 /// In the guide of something that moves without a mass of its own: what the guide holds back is missing from the
-/// motion. Dahl's law with the way as its time: z' = (level/slip)*v - |v|*z/slip.
-Law on_a_motion(const Circumstances& at) {
+/// motion. `sticky`: it holds more before it slides fast.
+Law on_a_motion(const Circumstances& at, bool sticky) {
   Law law;
-  law.name = "holds the motion back (Dahl)";
-  law.block.type = "bouc_wen";
+  law.name = sticky ? "holds the motion back, with Stribeck's excess (LuGre)" : "holds the motion back (Dahl)";
+  law.block.type = "guide_friction";
   const double range = at.range() > 0 ? at.range() : 1;
-  give(law.block, "gamma", with_unit(0.0, parse_unit(fmt::format("1/({})", unit_text(at.unit)))));
-  give(law.block, "d_p", 1.0);
-  LawParameter slope;
-  slope.path = "alpha";
-  slope.start = 0.05;
-  slope.lower = 0;  // it takes energy
-  slope.upper = 1;  // it cannot push
-  slope.scan = {0.01, 0.1};
-  give(law.block, "alpha", slope.start);
-  LawParameter bend;
-  bend.path = "beta";
-  bend.start = 30 / range;
+  LawParameter level;
+  level.path = "level";
+  level.start = 0.01 * range;
+  level.lower = 0;            // it takes energy
+  level.upper = 0.1 * range;  // see the slip distance: it slides once the pull is above this
+  level.scan = {0.001 * range, 0.01 * range};
+  give(law.block, "level", with_unit(level.start, at.unit));
+  LawParameter slip;
+  slip.path = "slip_distance";
+  slip.start = 0.03 * range;
   // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
-  bend.lower = 10 / range;
-  bend.upper = 1e4 / range;
-  bend.log_scale = true;
-  bend.scan = per_decade(10 / range, 1e3 / range, 2);
-  give(law.block, "beta", with_unit(bend.start, parse_unit(fmt::format("1/({})", unit_text(at.unit)))));
-  law.free = {slope, bend};
-  return law;
+  slip.upper = 0.1 * range;
+  slip.lower = 1e-7 * range;
+  slip.log_scale = true;
+  slip.scan = per_decade(1e-3 * range, 0.1 * range, 2);
+  give(law.block, "slip_distance", with_unit(slip.start, at.unit));
+  law.free = {level, slip};
+  return sticky ? with_excess(law, range / std::max(at.shortest_step, 1e-9),
+                              parse_unit(fmt::format("({})/s", unit_text(at.unit))))
+                : law;
 }
 
 bool is_motion(const Unit& unit) {
@@ -133,14 +130,14 @@ Effect friction() {
   e.variation = "presliding";
   e.else_a_block = true;
   e.is_memory = true;
-  e.parameters = {{"contact_stiffness", "N/m", "while it sticks", ""},
-                  {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
-                  {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
-                  {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
-                  {"alpha", "", "on a wire that carries a motion: how much sticks, of a small motion", "0 .. 1"},
-                  {"beta", "1/m", "there: over the way after which it slides", "20 1/mm .. 10 1/um"},
-                  {"level", "m/s", "on a wire that carries a speed: friction over the damping behind it", ""},
-                  {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
+  e.parameters = {
+      {"contact_stiffness", "N/m", "while it sticks", ""},
+      {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
+      {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
+      {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
+      {"level", "unit of the wire",
+       "on a wire that carries a speed: friction over the damping behind it; a motion: what is held back", ""},
+      {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},
                    {"saturation", "triangle", "friction has a loop where the motion turns, a clamp has none"},
                    {"backlash", "triangle", "lost motion is the same at all amplitudes"},
@@ -148,8 +145,10 @@ Effect friction() {
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
     if (at.by.empty() && is_motion(at.unit))
-      return fmt::format("{:.3g} {} held back, after {:.3g} {}", at.unit.difference_from_si(values[0] / values[1]),
-                         at.unit.text, at.unit.difference_from_si(1 / values[1]), at.unit.text);
+      return fmt::format(
+          "{:.3g} {} held back, after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
+          at.unit.difference_from_si(values[1]), at.unit.text,
+          values.size() > 2 ? fmt::format(", {:.2g} % more before it slides fast", 100 * values[2]) : "");
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
@@ -157,7 +156,7 @@ Effect friction() {
                        100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
   };
   e.laws = [](const Circumstances& at) {
-    if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{on_a_motion(at)};
+    if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{on_a_motion(at, false), on_a_motion(at, true)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     Law law;
     law.name = "presliding (Dahl)";
@@ -181,7 +180,14 @@ Effect friction() {
     for (const double f : {0.003, 0.02, 0.1}) d.scan.push_back(f * range);
     d.plausible_upper = 50e-6;
     law.free = {k, d};
-    return std::vector<Law>{law, with_excess(law, at)};
+    Law sticky = with_excess(law, range / std::max(at.shortest_step, 1e-9), parse_unit("m/s"));
+    sticky.name = "presliding with Stribeck's excess (LuGre)";
+    return std::vector<Law>{law, sticky};
+  };
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
+    const bool slides_late =
+        law.block.type == "guide_friction" && std::max(values[0], values[1]) > 0.99 * law.free[1].upper;
+    return slides_late ? "it would slide only behind a tenth of the stroke: that is the actuator's own hysteresis" : "";
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())

@@ -315,6 +315,7 @@ inline std::vector<Sample> samples() {
         {"contact_stiffness", {20, 9}},
         {"slip_distance", {1.5, 4}}}},
       {"sliding_friction", {{"level", {0.7}}, {"slip_distance", {0.3}}, {"crossover", {0.4}}}},
+      {"guide_friction", {{"level", {0.2}}, {"slip_distance", {0.3}}, {"excess", {0.5}}, {"stribeck_velocity", {0.7}}}},
       {"integrator", {{"initial", {0.6}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 3}}, {"den", {0.5, 2, 8}}}},
       {"transfer_function", {{"gain", {2}}, {"num", {1, 0.2, 3}}, {"den", {0.5, 2, 8}}}},

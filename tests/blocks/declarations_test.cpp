@@ -179,6 +179,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mass_with_presliding",
                                        "mass_on_hysteretic_spring",
                                        "sliding_friction",
+                                       "guide_friction",
                                        "tapi",
                                        "sampled_tapi_inverse",
                                        "asymmetric_prandtl_ishlinskii",

@@ -30,7 +30,7 @@ def words(actuator, mass=(), heater=()):
     return dict(B1=actuator, B2=actuator, B3=actuator, B4=mass, B5=heater)
 
 
-ELSEWHERE = dict(asymmetry=("B5",))  # plants that are not given an effect which they could well have: rivals only
+ELSEWHERE = dict(asymmetry=("B5",), amplifier_lag=("B5",))  # plants that are not given an effect which they could well have: rivals only
 FAST, FAST_MASS = ("multisine", "freq_high", "chirp"), ("multisine", "steps", "chirp")
 LARGE, LARGE_MASS = ("sine_multiamp", "triangle"), ("sine_multiamp", "triangle")
 HEAT = ("staircase", "prbs", "steps", "sine")
@@ -183,6 +183,7 @@ def heights(trace):
 def scale(plant, recordings, hidden, target, accuracy=0.01):
     """The amount that makes the effect `target` [um] rms in its most visible recording; None where there is none."""
     law = EFFECTS[hidden.name]
+    top = law.top * (2e3 if plant.base in ELSEWHERE.get(hidden.name, ()) else 1)  # minutes beside milliseconds
 
     def height(amount):
         reached = max(heights(traces(plant, recordings, with_amount(hidden, amount))))
@@ -190,18 +191,18 @@ def scale(plant, recordings, hidden, target, accuracy=0.01):
     low = (law.unit, height(law.unit))
     if law.linear:
         amount = low[0] * target / max(low[1], 1e-15)
-        return with_amount(hidden, amount) if amount <= law.top else None
+        return with_amount(hidden, amount) if amount <= top else None
     while low[1] > target:
         low = (low[0] / 8, height(low[0] / 8))
     high = low
     while high[1] < target:
         low = high
-        if low[0] > law.top:
+        if low[0] > top:
             return None
         ahead = low[0] * min(64.0, max(1.5, 1.3 * target / max(low[1], 1e-12)) if low[1] > 0 else 2.0)
         high = (ahead, height(ahead))
     amount = between(low, high, target, accuracy, height)
-    return with_amount(hidden, amount) if amount is not None and amount <= law.top else None
+    return with_amount(hidden, amount) if amount is not None and amount <= top else None
 
 
 def between(low, high, target, accuracy, height):

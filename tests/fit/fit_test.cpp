@@ -201,6 +201,24 @@ TEST(Fit, AScanLeadsPastALocalMinimum) {
   EXPECT_NEAR(with.values[0].value, 1.4, 1e-4);
 }
 
+TEST(Fit, AValueFarBelowOneInSiIsNotTakenForItsLowerBound) {
+  DataSet data = two_recordings();
+  for (auto& r : data.recordings)
+    for (auto& u : r.columns["u"]) u *= 1e-9;  // nanovolts
+  Diagram d = lab::diagram("g");
+  lab::add(d, "gap", "backlash", "u").parameters["gap"] = "1 nV";
+  lab::add(d, "g", "gain", "gap").parameters["gain"] = "1e9 um/V";
+  const auto lost = compile(d, lab::registry());
+  lab::measure(data, lost, 1e-9, 6, {{parameter_index(*lost, "gap.gap"), 0.3e-9}});
+  DataModel model(lost, lab::shared(data));
+  auto free = free_parameters(*lost, {"gap.gap"});
+  free[0].lower = 0;
+  const auto r = fit(model, noise_before_fit(model), free);
+  EXPECT_NEAR(*estimate(r, "gap.gap").value, 0.3e-9, 1e-12);
+  EXPECT_FALSE(estimate(r, "gap.gap").at_lower);
+  EXPECT_TRUE(estimate(r, "gap.gap").sigma.has_value());
+}
+
 TEST(Fit, StartsThatMoveNoRowAreOneStart) {
   // One-sided plays at rest at 0 keep nothing of a positive past: all such values look alike, and better than one that
   // is negative as the truth is, but too large.
