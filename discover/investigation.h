@@ -70,6 +70,10 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);
 
+/// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
+/// is.
+std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at);
+
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);
 

@@ -79,6 +79,12 @@ std::vector<double> own_values(const Tried& tried) {
   return values_of(tried.contender, tried.contender.standing.size() - 1);
 }
 
+std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at) {
+  if (!effect.implausible) return "";
+  const auto values = values_of(fitted, fitted.standing.size() - 1);
+  return values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
+}
+
 bool look_alike(const Effect& a, const Effect& b) {
   const auto names = [](const Effect& x, const Effect& y) {
     return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),
@@ -111,14 +117,10 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
     return;
   }
-  if (tried.effect->implausible) {
-    const auto values = own_values(tried);
-    if (values.size() == tried.laws[tried.law].free.size())
-      if (const std::string why = tried.effect->implausible(tried.laws[tried.law], values, tried.circumstances);
-          !why.empty()) {
-        tried.reason = why;
-        return;
-      }
+  if (const std::string why = why_implausible(*tried.effect, tried.laws[tried.law], c, tried.circumstances);
+      !why.empty()) {
+    tried.reason = why;
+    return;
   }
   const bool above_noise = was.over_floor() > rules::floor_gate;
   if (left_by_laws.empty() && above_noise && tried.share < rules::share_of_first && !owns_an_excitation(was, is)) {

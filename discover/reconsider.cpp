@@ -113,7 +113,9 @@ std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, 
         books.progress(fmt::format("{} in place of {}", e.id, member.id), bar);
         Contender other = with_effect(books.shop, rest, e, law, places[p], at[p], Effort::full);
         books.d.model_runs += other.runs;
-        if (other.ok && other.score() < books.current.score() - rules::exchange) return other;
+        if (other.ok && other.score() < books.current.score() - rules::exchange &&
+            why_implausible(e, law, other, at[p]).empty())
+          return other;
       }
     }
   }

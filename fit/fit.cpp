@@ -314,24 +314,24 @@ void Fitting::search_globally(std::vector<PointPointer>& starts) {
 // --- search
 // -----------------------------------------------------------------------------------------------------------
 
-void Fitting::search_from(const std::vector<double>& start) {
-  int iterations = 0;
-  bool converged = false;
-  std::string message;
+/// False where no parameter moves a row at the start.
+bool Fitting::search_from(const std::vector<double>& start) {
+  SearchEnd end;
   const auto found = search_locally(
       *projection_, start, options_.max_iterations, tolerance(),
       [&] {
         ++candidates_;
         return go_on("search");
       },
-      iterations, converged, message, options_.matters);
+      end, options_.matters);
   if (found) keep(found);
-  result_.iterations += iterations;
+  result_.iterations += end.iterations;
   if ((found && found == best_) || result_.starts == 0) {
-    result_.converged = converged;
-    result_.convergence = message;
+    result_.converged = end.converged;
+    result_.convergence = end.message;
   }
   ++result_.starts;
+  return !end.flat;
 }
 
 void Fitting::search(const std::vector<PointPointer>& starts) {
@@ -342,8 +342,10 @@ void Fitting::search(const std::vector<PointPointer>& starts) {
     return;
   }
   if (options_.global.empty() || options_.polish) {
-    const auto n = std::min<std::size_t>(starts.size(), static_cast<std::size_t>(std::max(1, options_.refine)));
-    for (std::size_t i = 0; i < n && !result_.stopped; ++i) search_from(starts[i]->z);
+    // From a start where nothing moves a row no search has begun: an effect that is not there yet looks best so.
+    int left = std::max(1, options_.refine);
+    for (std::size_t i = 0; i < starts.size() && left > 0 && !result_.stopped; ++i)
+      left -= search_from(starts[i]->z) ? 1 : 0;
   }
   if (!best_) keep(projection_->at(starts.front()->z));  // stopped before the first search began
 }

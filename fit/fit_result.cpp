@@ -264,11 +264,10 @@ void Fitting::fit_the_waiting() {
     Trial fixed = result_.values;
     fixed.insert(fixed.end(), options_.fixed.begin(), options_.fixed.end());
     Projection projection(model_, judge_, waiting, affine_of(waiting), {r}, fixed);
-    bool converged = false;
-    std::string message;
+    SearchEnd end;
     const auto point = search_locally(
-        projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); },
-        result_.iterations, converged, message);
+        projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); }, end);
+    result_.iterations += end.iterations;
     const auto values = point ? projection.values(point->z, point->theta) : Trial{};
     for (std::size_t i = 0; i < waiting.size(); ++i) {
       auto e = estimate_at_start(model_, waiting[i]);

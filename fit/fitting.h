@@ -37,7 +37,7 @@ class Fitting {
   std::vector<std::vector<double>> spread() const;
   void search_globally(std::vector<PointPointer>& starts);
   void search(const std::vector<PointPointer>& starts);
-  void search_from(const std::vector<double>& start);
+  bool search_from(const std::vector<double>& start);
   void refine_substeps();
   void finish();
   void write_estimates();

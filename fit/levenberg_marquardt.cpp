@@ -39,6 +39,7 @@ class Search {
     error_ = squared(residual_);
     while (result_.trials < max_iterations_) {
       if (!linearize()) return end(false, "stopped: no derivatives here");
+      result_.flat = result_.iterations == 0 && length(longest_.data(), n_) == 0;
       if (to_gain_ <= std::max(tolerance_ * error_, problem_.matters))
         return end(true, "converged: the error no longer falls");
       switch (improve()) {

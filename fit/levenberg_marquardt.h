@@ -46,6 +46,7 @@ struct LeastSquaresResult {
   int iterations = 0;  ///< accepted steps
   int trials = 0;      ///< max_iterations counts these
   bool converged = false;
+  bool flat = false;  ///< no unknown moves the residual at the start: there is no way down to be seen from there
   std::string message;
 };
 

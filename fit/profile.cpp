@@ -75,12 +75,10 @@ class Side {
     auto affine = task_.affine;
     affine.erase(affine.begin() + static_cast<std::ptrdiff_t>(which_));
     Projection projection(*task_.model, *task_.judge, others_, affine, task_.recordings, fixed);
-    int iterations = 0;
-    bool converged = false;
-    std::string message;
+    SearchEnd end;
     const double tolerance = task_.model->why_not_exact().empty() ? 1e-8 : 1e-6;
-    const auto point = search_locally(projection, projection.start(), task_.max_iterations, tolerance, task_.go_on,
-                                      iterations, converged, message);
+    const auto point =
+        search_locally(projection, projection.start(), task_.max_iterations, tolerance, task_.go_on, end);
     if (!point) return {};
     const auto values = projection.values(point->z, point->theta);
     for (std::size_t i = 0; i < others_.size(); ++i) others_[i].start = values[i].value;
@@ -111,8 +109,7 @@ class Side {
 }  // namespace
 
 PointPointer search_locally(Projection& projection, std::vector<double> z, int max_iterations, double tolerance,
-                            const std::function<bool()>& go_on, int& iterations, bool& converged, std::string& message,
-                            double matters) {
+                            const std::function<bool()>& go_on, SearchEnd& end, double matters) {
   PointPointer best;
   const auto see = [&](std::span<const double> at) {
     auto point = projection.at(at);
@@ -121,8 +118,8 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
   };
   if (projection.n_nonlinear() == 0) {
     see(z);
-    converged = best != nullptr;
-    message = "linear least squares: exact";
+    end.converged = best != nullptr;
+    end.message = "linear least squares: exact";
     return best;
   }
   LeastSquares problem;
@@ -140,9 +137,7 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
   problem.go_on = go_on;
   problem.matters = matters;
   const auto found = minimize(problem, std::move(z), max_iterations, tolerance);
-  iterations += found.iterations;
-  converged = found.converged;
-  message = found.message;
+  end = {found.iterations, found.converged, found.flat, found.message};
   return best;
 }
 

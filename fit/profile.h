@@ -29,9 +29,16 @@ struct ProfileTask {
 /// parameters).
 Profile profile_of(const ProfileTask& task, int which, double sigma, std::vector<double>& better);
 
+/// How a local search ended.
+struct SearchEnd {
+  int iterations = 0;
+  bool converged = false;
+  bool flat = false;  ///< nothing moved a row where it began
+  std::string message;
+};
+
 /// One bounded local search from z; the best point, or null where nothing could be simulated.
 PointPointer search_locally(Projection& projection, std::vector<double> z, int max_iterations, double tolerance,
-                            const std::function<bool()>& go_on, int& iterations, bool& converged, std::string& message,
-                            double matters = 0);
+                            const std::function<bool()>& go_on, SearchEnd& end, double matters = 0);
 
 }  // namespace hysteron

@@ -185,9 +185,12 @@ Effect friction() {
     return std::vector<Law>{law, sticky};
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
-    const bool slides_late =
-        law.block.type == "guide_friction" && std::max(values[0], values[1]) > 0.99 * law.free[1].upper;
-    return slides_late ? "it would slide only behind a tenth of the stroke: that is the actuator's own hysteresis" : "";
+    if (law.block.type != "guide_friction") return "";
+    const double level = values[0], slip = values[1];
+    if (std::max(level, slip) > 0.99 * law.free[1].upper)
+      return "it would slide only behind a tenth of the stroke: that is the actuator's own hysteresis";
+    // Dry friction without presliding and a gap obey one law, the play operator.
+    return slip < 0.1 * level ? "it sticks fully until it slides: that is lost motion" : "";
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())

@@ -208,6 +208,32 @@ TEST_F(Pairs, AStickyGuideHoldsMoreBeforeItSlidesFast) {
   EXPECT_NEAR(value(d, "excess"), 0.4, 0.06);
 }
 
+TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
+  // Five flanks that touch one after the other: bristles that slip at once fit them better than one gap does.
+  std::vector<Recording> list;
+  std::uint64_t seed = 120;
+  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.8}}) {
+    const auto t = rows(1500, 0.005);
+    const auto u = decaying_triangle(t, top, 6);
+    std::vector<double> w(5, 0.0), y;
+    for (const double x : u) {
+      double sum = 0;
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        const double half = 0.005 * (0.9 + 0.05 * static_cast<double>(i));
+        w[i] = std::max(x - half, std::min(x + half, w[i]));
+        sum += w[i] / 5;
+      }
+      y.push_back(sum + 0.004 * sum * (1 - sum));
+    }
+    const auto n = noise(t.size(), white, 0.1 * white, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  const auto d =
+      discovered(with_sensor(), data_set(std::move(list), white), {"friction", "backlash", "sensor_nonlinearity"});
+  EXPECT_EQ(names(d), (Names{"backlash", "sensor_nonlinearity"})) << tried(d);
+}
+
 TEST(PartsOfAModel, AxesWithNothingBetweenThemAreFittedApart) {
   const Registry registry = all_blocks();
   Contender c;

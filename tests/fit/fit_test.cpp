@@ -232,6 +232,10 @@ TEST(Fit, StartsThatMoveNoRowAreOneStart) {
   free[0].scan = {-1, -0.1, 0.1, 0.5, 1};
   const auto found = fit(model, noise_before_fit(model), free);
   EXPECT_NEAR(found.values[0].value, -0.02, 1e-9);
+  // Also where one start alone is searched from: from 0 itself no search begins.
+  FitOptions one;
+  one.refine = 1;
+  EXPECT_NEAR(fit(model, noise_before_fit(model), free, one).values[0].value, -0.02, 1e-9);
 }
 
 TEST(Fit, TwoGainsInSeriesAreNamedAndGetNoValue) {
