@@ -1,5 +1,6 @@
 #include "blocks/late_prandtl_ishlinskii.h"
 
+#include <cmath>
 #include <vector>
 
 namespace hysteron::blocks {
@@ -37,15 +38,20 @@ void LatePrandtlIshlinskii::rows(const RowsView& r) {
     double* x = r.x + lane * v.n_x;
     v.m = m;
     v.x = x;
-    std::vector<double> times;
+    std::vector<double> times, keeps(threshold.size());
     for (std::size_t i = 0; i < threshold.size(); ++i) times.push_back(threshold[i] > 0 ? time_of(v, i) : 0);
+    double row = 0;  // how long the rows are for which `keeps` holds
     for (std::ptrdiff_t k = 0; k < r.count; ++k) {
+      if (r.h[k] != row) {
+        row = r.h[k];
+        for (std::size_t i = 0; i < times.size(); ++i) keeps[i] = std::exp(-row / times[i]);
+      }
       const double u = r.u[0][k * r.lanes + lane], u_before = r.u[0][(k - 1) * r.lanes + lane];
       for (std::size_t i = 0; i < threshold.size(); ++i) {
         const double before = m[i];
         m[i] = play::follow(sides_of(v), threshold[i], before, u);
         if (threshold[i] > 0)
-          x[i] = late::after_row(times[i], x[i], v.parameter(ahead), before, m[i], u_before, u, r.h[k]);
+          x[i] = late::after_row(times[i], x[i], v.parameter(ahead), before, m[i], u_before, u, row, keeps[i]);
       }
       v.u = &u;
       v.out = r.y[0] + k * r.lanes + lane;

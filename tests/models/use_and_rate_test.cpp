@@ -58,7 +58,7 @@ TEST(LateModel, AnOperatorThatIsTakenAlongWithinARowIsFollowedAsBySmallSteps) {
     h += 2.0 / steps / tau * (w - ahead * u - h);
   }
   // Steps of 1e-6 s: half a step times the rate, below 1, over tau.
-  EXPECT_NEAR(late::after_row(tau, 0.2, ahead, 0, 0.7, 0.1, 1.1, 2), h, 2e-6);
+  EXPECT_NEAR(late::after_row(tau, 0.2, ahead, 0, 0.7, 0.1, 1.1, 2, std::exp(-2 / tau)), h, 2e-6);
 }
 
 TEST(MainsModel, MeanSquareIsHalfTheSquaresOfTheAmplitudes) {
