@@ -23,10 +23,11 @@ inline double after_ramp(double tau, double h, double before, double now, double
 inline double after_row(double tau, double h, double ahead, double w0, double w1, double u0, double u1, double duration,
                         double keep) {
   const double way = u1 - u0, moved = w1 - w0;
-  // The operator moves as fast as u, in the last part of the row.
-  const double still = way != 0 ? std::fmax(0.0, 1 - std::fmin(1.0, moved / way)) : 1.0;
-  if ((still == 1 || still == 0) && duration > 0)  // mostly
+  // The operator moves as fast as u, in the last part of the row; all of it, but for the rounding of w.
+  const double share = way != 0 ? moved / way : 0, rounding = 1e-12;
+  if (duration > 0 && (share >= 1 - rounding || !(share > 0)))  // mostly
     return after_ramp(tau, h, w0 - ahead * u0, w1 - ahead * u1, duration, keep);
+  const double still = share < 1 ? 1 - share : 0;
   const double u_taken = u0 + still * way;
   h = after_ramp(tau, h, w0 - ahead * u0, w0 - ahead * u_taken, still * duration);
   return after_ramp(tau, h, w0 - ahead * u_taken, w1 - ahead * u1, (1 - still) * duration);
