@@ -105,6 +105,7 @@ std::vector<const Effect*> straight_effects(const Books& books) {
   return list;
 }
 
+/// What is slow is a few coefficients in each recording, beside which all the others are noise: by plain squares too.
 bool more_than_noise(const Books& books) {
   return structure_is_left(books) || books.evidence->plain_over_floor(books.current.error_of) > rules::floor_gate;
 }
@@ -127,7 +128,7 @@ void a_wrong_zero(Books& books) {
 void one_by_one(Books& books, std::vector<Tried>& first) {
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
-    const bool go_on = step == 1 || structure_is_left(books);
+    const bool go_on = step == 1 || more_than_noise(books);
     if (go_on && one_step(books, step, As::further, step == 1 ? &first : nullptr)) continue;
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.

@@ -146,6 +146,27 @@ TEST_F(Pairs, AWrongZeroIsSeenBesideWhatLeavesOnlyNoise) {
   EXPECT_EQ(names(d), (Names{"temperature_gain", "calibration"})) << tried(d);
 }
 
+TEST_F(Pairs, WhatIsSlowIsLookedForThoughItIsAFewCoefficientsOnly) {
+  // Steps that are held for 5 s behind a wrong gain; what follows them with 1.5 s leaves 0.9 times the noise beside it,
+  // in the slowest cosines alone: chi2 per row stays below the gate.
+  std::vector<Recording> list;
+  std::uint64_t seed = 70;
+  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.7}, {Role::validate, 0.9}}) {
+    const auto t = rows(2000, 0.005);
+    const auto u = sampled(t, [top = top](double x) { return x < 0.5 ? 0 : x < 5.5 ? top : 0.3 * top; });
+    auto y = noise(t.size(), white, 0.1 * white, seed);
+    double late = 0;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      if (k > 0) late += (u[k] - late) * (1 - std::exp(-0.005 / 1.5));
+      y[k] += 1.02 * u[k] + 4 * white * late;
+    }
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  const auto d =
+      discovered(with_sensor(), data_set(std::move(list), white), {"calibration", "creep", "hysteresis", "asymmetry"});
+  EXPECT_EQ(names(d), (Names{"calibration", "creep"})) << tried(d);
+}
+
 /// A guide with Coulomb friction holds `level` back, and takes `way` to slide: bristles by closed form between rows,
 /// the motion that balances them by halving. It holds `excess` more before it slides fast, by the speed of the motion,
 /// a row long, over `fast` per row.
