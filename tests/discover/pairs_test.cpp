@@ -95,6 +95,13 @@ DataSet one_axis(DataSet d) {
   return d;
 }
 
+Recording noisy(Role role, const std::vector<double>& t, const std::vector<double>& u, std::vector<double> y,
+                std::uint64_t seed) {
+  const auto n = noise(t.size(), white, 0.1 * white, seed);
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
+  return recording(std::to_string(seed) + ".csv", role, t, u, std::move(y));
+}
+
 class Pairs : public Discoveries {
  protected:
   static std::set<std::string> names(const Discovery& d) {
@@ -197,9 +204,7 @@ TEST_F(Pairs, FrictionOfAGuideNeedsNoMass) {
     const auto t = rows(1500, 0.005);
     const auto u = decaying_triangle(t, top, 6);
     auto y = guided(u, 0.003, 0.02);
-    const auto n = noise(t.size(), white, 0.1 * white, seed);
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
-    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+    list.push_back(noisy(role, t, u, std::move(y), seed++));
   }
   const auto d = discovered(with_sensor(), data_set(std::move(list), white),
                             {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
@@ -216,9 +221,7 @@ TEST_F(Pairs, AStickyGuideHoldsMoreBeforeItSlidesFast) {
     const auto t = rows(1500, 0.005);
     const auto u = sampled(t, [f = hertz](double x) { return std::sin(2 * pi * f * x); });
     auto y = guided(u, 0.01, 0.02, 0.4, 0.01);  // 2 m/s: as fast as the middle one of the three
-    const auto n = noise(t.size(), white, 0.1 * white, seed);
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
-    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+    list.push_back(noisy(role, t, u, std::move(y), seed++));
   }
   const auto d = discovered(with_sensor(), data_set(std::move(list), white),
                             {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
@@ -246,9 +249,7 @@ TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
       }
       y.push_back(sum + 0.004 * sum * (1 - sum));
     }
-    const auto n = noise(t.size(), white, 0.1 * white, seed);
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
-    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+    list.push_back(noisy(role, t, u, std::move(y), seed++));
   }
   const auto d =
       discovered(with_sensor(), data_set(std::move(list), white), {"friction", "backlash", "sensor_nonlinearity"});
