@@ -148,7 +148,7 @@ void AdvanceState::move_loop(int loop, double h) {
     work.path = &path;
     for (int i = 0; i < pieces; ++i) {
       const double begin = static_cast<double>(i) / pieces, end = i + 1 == pieces ? 1.0 : (i + 1.0) / pieces;
-      loop_step(part, before, begin, end, 1.0 / pieces, 1.0);
+      loop_step(part, before, begin, end, jump_duration / pieces, jump_duration);
       if (i + 1 < pieces) loop_values(part);
     }
     work.path = nullptr;

@@ -102,8 +102,8 @@ class Declaration {
   std::string group;       ///< "sources", "math", "continuous", "hysteresis", ...
   std::string place;       ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
   bool is_linear = false;  ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
-  bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate: a jump of the input is
-                                     ///< the path of a fast ramp
+  bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate where that is high, and
+                                     ///< zero at rest: a jump of the input is the path of a fast ramp
   bool is_series = false;            ///< driven by a recorded series (parameter "samples")
   bool is_sampled = false;           ///< runs at offset + k period only, and holds its outputs between
   bool is_elementwise = false;       ///< on vectors: one such block per element, with the same parameters

@@ -109,6 +109,10 @@ struct Functions {
   Call reset = nullptr;   ///< blocks with modes; out: states at the beginning of `mode`, which follows `mode_before`
 };
 
+/// [s] How long a jump takes that is followed (path.h): so short that what a law makes of its speed is that of an
+/// infinite one. A power of two: what is homogeneous in the rate keeps its bits.
+inline constexpr double jump_duration = 0x1p-30;
+
 /// Many rows of one block, one behind the other, in runs side by side ("lanes") that differ in their numbers only: what
 /// the exact advance asks for where the inputs of all rows are known. The number of row k in lane l stands at
 /// [k * lanes + l]; row -1 is the point before the first one.

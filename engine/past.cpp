@@ -38,8 +38,9 @@ class Walker {
     remember();
   }
   void go(double from, double to) {
-    rate_[0] = to - from;
-    for (int i = 0; i < pieces && !x_.empty(); ++i) step(from, static_cast<double>(i) / pieces, 1.0 / pieces);
+    rate_[0] = (to - from) / jump_duration;
+    for (int i = 0; i < pieces && !x_.empty(); ++i)
+      step(from, to - from, static_cast<double>(i) / pieces, 1.0 / pieces);
     u_[0] = to;
     remember();
   }
@@ -52,15 +53,17 @@ class Walker {
     block_.kernel->advance(view_);
     std::copy(memory_.begin(), memory_.end(), run_.m.begin() + block_.m_begin);
   }
-  std::vector<double> slope(double from, double s, const std::vector<double>& x) {
+  /// dx/ds at a place s of the way, 0 ... 1.
+  std::vector<double> slope(double from, double way, double s, const std::vector<double>& x) {
     std::vector<double> k(x.size());
-    u_[0] = from + s * rate_[0];
+    u_[0] = from + s * way;
     view_.x = x.data();
     view_.out = k.data();
     block_.kernel->derivative(view_);
+    for (double& rate : k) rate *= jump_duration;
     return k;
   }
-  void step(double from, double s, double h) {
+  void step(double from, double way, double s, double h) {
     double* state = run_.x.data() + block_.x_begin;
     const std::vector<double> x(state, state + block_.sizes.states);
     const auto moved = [&](const std::vector<double>& k, double by) {
@@ -68,8 +71,8 @@ class Walker {
       for (std::size_t i = 0; i < x.size(); ++i) there[i] += by * k[i];
       return there;
     };
-    const auto a = slope(from, s, x), b = slope(from, s + h / 2, moved(a, h / 2)),
-               c = slope(from, s + h / 2, moved(b, h / 2)), d = slope(from, s + h, moved(c, h));
+    const auto a = slope(from, way, s, x), b = slope(from, way, s + h / 2, moved(a, h / 2)),
+               c = slope(from, way, s + h / 2, moved(b, h / 2)), d = slope(from, way, s + h, moved(c, h));
     for (std::size_t i = 0; i < x.size(); ++i) state[i] += h / 6 * (a[i] + 2 * (b[i] + c[i]) + d[i]);
   }
 

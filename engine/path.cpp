@@ -144,7 +144,8 @@ void JumpPath::integrate(Run& run, Work& work, double t, std::vector<double>& x)
       for (std::size_t i = 0; i < states_.size(); ++i) trial_[at(states_[i])] = moving[i];
       evaluate_derivatives(program_, *run_, *work_, t_, trial_.data());
       double sum = 0;  // of zeros: not zero if one of them is not finite
-      for (std::size_t i = 0; i < states_.size(); ++i) sum += 0 * (rates[i] = work_->dx[at(states_[i])]);
+      for (std::size_t i = 0; i < states_.size(); ++i)
+        sum += 0 * (rates[i] = jump_duration * work_->dx[at(states_[i])]);
       return sum == 0;
     };
     system.state_name = [this](int i) { return program_.state_names[at(states_[at(i)])]; };

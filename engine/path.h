@@ -1,9 +1,10 @@
 // Decides what a jump does to memory and to rate-independent laws: they follow it as the path of a fast ramp.
 //
 // At a jump the outputs of the blocks that jump move from their old to their new values, s = 0 ... 1, while time and
-// all other states stand still. Rates along the path are d/ds; a law dx/dt = f(x, u, du/dt) that is homogeneous of
-// degree one in the rate becomes dx/ds = f(x, u, du/ds) (Visintin, Differential Models of Hysteresis, 1994, chapter 1:
-// rate independence). All blocks between take part, so the result is that of the ramp, whatever stands between and
+// all other states stand still. A law dx/dt = f(x, u, du/dt) that is homogeneous of degree one in the rate, if only
+// where the rate is high (a friction that falls with the speed), has a limit there: the path of a ramp, however short
+// (Visintin, Differential Models of Hysteresis, 1994, chapter 1: rate independence). Rates along the path are those of
+// a ramp of jump_duration. All blocks between take part, so the result is that of the ramp, whatever stands between and
 // whatever the output grid. Memory commits along the path. What does not move (no rate-independent state and no
 // nonlinear block in front of memory) needs no path: memory then simply follows to the end.
 #pragma once

@@ -188,8 +188,8 @@ void prepare(const Program& program, Run& run, int block);
 void reset(const Program& program, Run& run);
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series);
 
-/// A point of the path that a jump follows (path.h): the outputs of jumping blocks lie between, rates are d/ds, and
-/// only rate-independent states move.
+/// A point of the path that a jump follows (path.h): the outputs of jumping blocks lie between, rates are those of a
+/// ramp of jump_duration, and only rate-independent states move.
 struct PathPoint {
   double s = 0;  ///< 0 ... 1
   const double* from = nullptr;

@@ -28,15 +28,15 @@ inline void runge_kutta(int n, double* x, double h, double* work, const Slope& s
   for (int i = 0; i < n; ++i) x[i] += h / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
 }
 
-/// States over one row: a step of h, or, where h = 0 and the inputs differ, `path_steps` along their jump, on which the
-/// rates are those of a ramp of duration one. move(begin, end, length): one Runge-Kutta step from `begin` to `end`
-/// (shares of the way of the inputs) that takes `length`; the rates of the inputs are their way over `duration`.
+/// States over one row: a step of h, or, where h = 0 and the inputs differ, `path_steps` along their jump (path.h).
+/// move(begin, end, length, duration): one Runge-Kutta step from `begin` to `end` (shares of the way of the inputs)
+/// that takes `length`; the rates of the inputs are their way over `duration`.
 template <class Move>
 inline void follow_row(double h, bool jumps, int path_steps, const Move& move) {
   if (h > 0) return move(0.0, 1.0, h, h);
   if (!jumps) return;
   for (int i = 0; i < path_steps; ++i)
-    move(static_cast<double>(i) / path_steps, (i + 1.0) / path_steps, 1.0 / path_steps, 1.0);
+    move(static_cast<double>(i) / path_steps, (i + 1.0) / path_steps, jump_duration / path_steps, jump_duration);
 }
 
 /// Does the block step through a row on its own where it knows better than Runge-Kutta: B::OwnStep, made from the

@@ -196,7 +196,7 @@ bool special_rate(const Program& program, WorkOf<T>& work, int block) {
   if (work.path != nullptr && work.path->jumping[block] != 0) {
     if (work.calls[at(block)].source_only) between(b, *work.path, work.y);
     for (int i = b.y_begin; i < b.y_begin + b.sizes.outputs; ++i)
-      work.rate[at(i)] = work.path->to[i] - work.path->from[i];
+      work.rate[at(i)] = (work.path->to[i] - work.path->from[i]) / jump_duration;
     return true;
   }
   if (b.hit_index < 0) return false;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "models/presliding.h"
+
 namespace hysteron::guide {
 
 /// Units for a motion in m; any other works alike.
@@ -15,16 +17,12 @@ struct Params {
   T stribeck_velocity{1};  ///< [m/s]  speed of the free motion at which the excess is gone, > 0 where there is one
 };
 
-/// What it holds at most at a speed of the free motion, over what it holds while it slides fast.
-/// Source: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425 (Stribeck curve).
-/// The speed is that of the free motion: the two agree while it slides, and with its own speed a guide without mass
-/// would jump where the friction falls.
+/// What it holds at most at a speed of the free motion, over what it holds while it slides fast. The speed is that of
+/// the free motion: the two agree while it slides, and with its own speed a guide without mass would jump where the
+/// friction falls.
 template <class T>
 T sliding_level(const Params<T>& p, const T& free_speed) {
-  using std::exp;
-  if (!(p.excess > T{0})) return T{1};
-  const T ratio = free_speed / p.stribeck_velocity;
-  return 1.0 + p.excess * exp(-(ratio * ratio));
+  return p.excess > T{0} ? presliding::stribeck_level(p.excess, p.stribeck_velocity, free_speed) : T{1};
 }
 
 /// Rate [1/s] of the share s that it holds of `level`, for a rate v [m/s] of the free motion u; the motion is
@@ -33,8 +31,9 @@ T sliding_level(const Params<T>& p, const T& free_speed) {
 ///   ds/dt = (y' - |y'| s/g)/slip_distance,  y' = v - level ds/dt,  g = sliding_level
 ///
 /// Dahl's element along the way of the motion itself, solved for its rate: along u with k = (1 - s/g)/slip_distance in
-/// the direction of v, ds/dt = v k/(1 + level k). Rate independent for excess 0. Needs level k > -1: see may_jump.
-/// Source: Dahl, AIAA J. 14 (1976) 1675-1682; Canudas de Wit et al. (as above).
+/// the direction of v, ds/dt = v k/(1 + level k). Rate independent for excess 0, and where the motion is fast beside
+/// the Stribeck velocity. Needs level k > -1: see may_jump. Source: Dahl, AIAA J. 14 (1976) 1675-1682; Stribeck's
+/// curve: presliding::stribeck_level.
 template <class T>
 T share_rate(const Params<T>& p, const T& share, const T& free_speed) {
   const T g = sliding_level(p, free_speed);

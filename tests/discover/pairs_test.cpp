@@ -95,12 +95,26 @@ DataSet one_axis(DataSet d) {
   return d;
 }
 
-Recording noisy(Role role, const std::vector<double>& t, const std::vector<double>& u, std::vector<double> y,
-                std::uint64_t seed) {
-  const auto n = noise(t.size(), white, 0.1 * white, seed);
-  for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
-  return recording(std::to_string(seed) + ".csv", role, t, u, std::move(y));
+/// How the recordings of one device were made: of each its role and the number by which its drive differs.
+using Runs = std::vector<std::pair<Role, double>>;
+using Drive = std::function<std::vector<double>(const std::vector<double>& t, double number)>;
+using Answer = std::function<std::vector<double>(const std::vector<double>& t, const std::vector<double>& u)>;
+
+/// Rows of 5 ms, with noise of one seed after the other from `seed` on.
+DataSet one_device(const Runs& runs, std::size_t count, const Drive& drive, const Answer& answer, std::uint64_t seed) {
+  std::vector<Recording> list;
+  for (const auto& [role, number] : runs) {
+    const auto t = rows(count, 0.005);
+    const auto u = drive(t, number);
+    auto y = answer(t, u);
+    const auto n = noise(t.size(), white, 0.1 * white, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  return data_set(std::move(list), white);
 }
+
+std::vector<double> swinging(const std::vector<double>& t, double top) { return decaying_triangle(t, top, 6); }
 
 class Pairs : public Discoveries {
  protected:
@@ -156,21 +170,20 @@ TEST_F(Pairs, AWrongZeroIsSeenBesideWhatLeavesOnlyNoise) {
 TEST_F(Pairs, WhatIsSlowIsLookedForThoughItIsAFewCoefficientsOnly) {
   // Steps that are held for 5 s behind a wrong gain; what follows them with 1.5 s leaves 0.9 times the noise beside it,
   // in the slowest cosines alone: chi2 per row stays below the gate.
-  std::vector<Recording> list;
-  std::uint64_t seed = 70;
-  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.7}, {Role::validate, 0.9}}) {
-    const auto t = rows(2000, 0.005);
-    const auto u = sampled(t, [top = top](double x) { return x < 0.5 ? 0 : x < 5.5 ? top : 0.3 * top; });
-    auto y = noise(t.size(), white, 0.1 * white, seed);
+  const Drive steps = [](const auto& t, double top) {
+    return sampled(t, [top](double x) { return x < 0.5 ? 0 : x < 5.5 ? top : 0.3 * top; });
+  };
+  const Answer slow = [](const auto&, const std::vector<double>& u) {
+    std::vector<double> y;
     double late = 0;
-    for (std::size_t k = 0; k < t.size(); ++k) {
+    for (std::size_t k = 0; k < u.size(); ++k) {
       if (k > 0) late += (u[k] - late) * (1 - std::exp(-0.005 / 1.5));
-      y[k] += 1.02 * u[k] + 4 * white * late;
+      y.push_back(1.02 * u[k] + 4 * white * late);
     }
-    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
-  }
-  const auto d =
-      discovered(with_sensor(), data_set(std::move(list), white), {"calibration", "creep", "hysteresis", "asymmetry"});
+    return y;
+  };
+  const auto data = one_device({{Role::train, 1.0}, {Role::train, 0.7}, {Role::validate, 0.9}}, 2000, steps, slow, 70);
+  const auto d = discovered(with_sensor(), data, {"calibration", "creep", "hysteresis", "asymmetry"});
   EXPECT_EQ(names(d), (Names{"calibration", "creep"})) << tried(d);
 }
 
@@ -198,16 +211,10 @@ std::vector<double> guided(const std::vector<double>& u, double level, double wa
 }
 
 TEST_F(Pairs, FrictionOfAGuideNeedsNoMass) {
-  std::vector<Recording> list;
-  std::uint64_t seed = 90;
-  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.4}, {Role::validate, 0.7}}) {
-    const auto t = rows(1500, 0.005);
-    const auto u = decaying_triangle(t, top, 6);
-    auto y = guided(u, 0.003, 0.02);
-    list.push_back(noisy(role, t, u, std::move(y), seed++));
-  }
-  const auto d = discovered(with_sensor(), data_set(std::move(list), white),
-                            {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
+  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.003, 0.02); };
+  const auto data =
+      one_device({{Role::train, 1.0}, {Role::train, 0.4}, {Role::validate, 0.7}}, 1500, swinging, guide, 90);
+  const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
   EXPECT_EQ(names(d), (Names{"friction"})) << tried(d);
   // Of 15 sigma of level half a sigma per turn is left; the way is known from its 30 rows per turn.
   EXPECT_NEAR(value(d, "level"), 0.003, 1e-4);
@@ -215,16 +222,13 @@ TEST_F(Pairs, FrictionOfAGuideNeedsNoMass) {
 }
 
 TEST_F(Pairs, AStickyGuideHoldsMoreBeforeItSlidesFast) {
-  std::vector<Recording> list;
-  std::uint64_t seed = 95;
-  for (const auto& [role, hertz] : {std::pair{Role::train, 0.2}, {Role::train, 2.0}, {Role::validate, 0.7}}) {
-    const auto t = rows(1500, 0.005);
-    const auto u = sampled(t, [f = hertz](double x) { return std::sin(2 * pi * f * x); });
-    auto y = guided(u, 0.01, 0.02, 0.4, 0.01);  // 2 m/s: as fast as the middle one of the three
-    list.push_back(noisy(role, t, u, std::move(y), seed++));
-  }
-  const auto d = discovered(with_sensor(), data_set(std::move(list), white),
-                            {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
+  const Drive sine = [](const auto& t, double hertz) {
+    return sampled(t, [hertz](double x) { return std::sin(2 * pi * hertz * x); });
+  };
+  // 2 m/s: as fast as the middle one of the three.
+  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.01, 0.02, 0.4, 0.01); };
+  const auto data = one_device({{Role::train, 0.2}, {Role::train, 2.0}, {Role::validate, 0.7}}, 1500, sine, guide, 95);
+  const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
   EXPECT_EQ(names(d), (Names{"friction"})) << tried(d);
   EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
   // The law goes by the speed of the free motion, the data by that of the motion: the same while it slides.
@@ -232,13 +236,22 @@ TEST_F(Pairs, AStickyGuideHoldsMoreBeforeItSlidesFast) {
   EXPECT_NEAR(value(d, "excess"), 0.4, 0.06);
 }
 
+TEST_F(Pairs, FrictionOfAGuideShowsInStepsThatAreHeld) {
+  // A staircase up and down, held between its rows: each of its jumps is a ramp too fast for any excess.
+  const Drive stairs = [](const auto& t, double top) {
+    return sampled(t, [top](double x) { return top / 6 * std::floor(6 * std::sin(2 * pi * 0.4 * x) + 0.5); });
+  };
+  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.01, 0.05); };
+  auto data = one_device({{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.7}}, 1500, stairs, guide, 130);
+  data.notes["u"].between = Between::hold;
+  const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "asymmetry"});
+  EXPECT_EQ(names(d), (Names{"friction"})) << tried(d);
+  EXPECT_NEAR(value(d, "level"), 0.01, 5e-4);
+}
+
 TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
   // Five flanks that touch one after the other: bristles that slip at once fit them better than one gap does.
-  std::vector<Recording> list;
-  std::uint64_t seed = 120;
-  for (const auto& [role, top] : {std::pair{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.8}}) {
-    const auto t = rows(1500, 0.005);
-    const auto u = decaying_triangle(t, top, 6);
+  const Answer flanks = [](const auto&, const std::vector<double>& u) {
     std::vector<double> w(5, 0.0), y;
     for (const double x : u) {
       double sum = 0;
@@ -249,10 +262,11 @@ TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
       }
       y.push_back(sum + 0.004 * sum * (1 - sum));
     }
-    list.push_back(noisy(role, t, u, std::move(y), seed++));
-  }
-  const auto d =
-      discovered(with_sensor(), data_set(std::move(list), white), {"friction", "backlash", "sensor_nonlinearity"});
+    return y;
+  };
+  const auto data =
+      one_device({{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.8}}, 1500, swinging, flanks, 120);
+  const auto d = discovered(with_sensor(), data, {"friction", "backlash", "sensor_nonlinearity"});
   EXPECT_EQ(names(d), (Names{"backlash", "sensor_nonlinearity"})) << tried(d);
 }
 

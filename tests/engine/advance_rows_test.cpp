@@ -259,6 +259,29 @@ TEST(AdvanceStates, AJumpIntoBoucWenIsTheRamp) {
   for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(y[k], 1.6126e-6 * u[k] - rising(0, u[k]), 1e-15) << k;
 }
 
+TEST(AdvanceStates, AJumpIntoAGuideIsARampTooFastForAnyExcess) {
+  const Node sticky =
+      block("guide_friction",
+            {{"level", "0.2 V"}, {"slip_distance", "0.3 V"}, {"excess", 0.5}, {"stribeck_velocity", "1 V/s"}}, {"u"});
+  Node plain = sticky;
+  plain.parameters.erase("excess");
+  const auto t = grid(0, 1, 4);
+  const auto u = series(t, {0, 1, 1, 0.4, 0.5}, Between::hold);
+  const auto y = response(sticky, u, t, 1);
+  EXPECT_EQ(y, response(plain, u, t, 1)) << "a jump is too fast for the excess";
+  // y + level s = 1 with s = 1 - exp(-y/distance), and 0.4 from there.
+  EXPECT_NEAR(y[1] + 0.2 * (1 - std::exp(-y[1] / 0.3)), 1, 1e-14);
+  const double held = (1 - y[1]) / 0.2;
+  EXPECT_NEAR(y[3] + 0.2 * (-1 + (1 + held) * std::exp((y[3] - y[1]) / 0.3)), 0.4, 1e-14);
+  // The integrator follows the same path.
+  const auto program = compiled(diagram({{"y", sticky}}, {"y"}, {{"u", "V"}}));
+  auto run = start(*program);
+  bind_input(*program, run, "u", u);
+  SimulateOptions options{.method = Method::bdf, .relative_tolerance = 1e-9};
+  options.instants = t;
+  EXPECT_LT(distance(simulate(*program, run, options).values[0], y), 1e-7);
+}
+
 TEST(AdvanceStates, GoldenTracesAreFollowedAtTheirOwnRows) {
   for (const bool bouc_wen : {true, false}) {
     auto columns = golden(bouc_wen ? "bw_forward_sine" : "ja_forward_sine");

@@ -44,6 +44,25 @@ TEST(Past, OfARateIndependentLawIsTheWayThatASimulationTakes) {
   EXPECT_NEAR(walked, trace(way).back(), 1e-7 * std::abs(walked));
 }
 
+TEST(Past, OfAGuideIsGoneThroughFasterThanItsExcessLasts) {
+  const auto guide =
+      block("guide_friction",
+            {{"level", "0.2 V"}, {"slip_distance", "0.3 V"}, {"excess", 0.5}, {"stribeck_velocity", "1 V/s"}}, {"u"});
+  const double walked = first_value(with_past(guide, {{0, "V"}, {1, "V"}, {0.4, "V"}}));
+  // y + level s = u along its own way: s = 1 - exp(-y/distance), and from there with -1 as its end.
+  const auto way = [](double u, double from, double held, double end) {
+    double low = from, high = u;
+    for (int i = 0; i < 60; ++i) {
+      const double y = (low + high) / 2;
+      const double rest = y + 0.2 * (end + (held - end) * std::exp(-std::abs(y - from) / 0.3)) - u;
+      (rest * end < 0 ? low : high) = y;
+    }
+    return low;
+  };
+  const double up = way(1, 0, 0, 1);
+  EXPECT_NEAR(walked, way(0.4, up, (1 - up) / 0.2, -1), 1e-12);  // 400 steps of RK4 a way
+}
+
 TEST(Past, IsResetWithTheRunAndFollowsItsParameters) {
   NumberList past;
   for (const double v : {0.0, 5.0, 0.0}) past.push_back({v, "V"});
