@@ -288,7 +288,8 @@ void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, cons
   }
 }
 
-bool is_measured(const DataSet& data, const std::vector<std::string>& outputs) {
+/// Does any recording measure one of these outputs: what nobody measured, nothing can fit.
+bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& name) {
     return std::any_of(data.recordings.begin(), data.recordings.end(),
                        [&](const Recording& r) { return r.columns.contains(name); });
@@ -299,7 +300,7 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
   c.program = compile(c.diagram, *shop.registry);
   for (const auto& part : parts_of(c, shop.free_paths)) {
     if (fresh >= 0 && !part.has(static_cast<std::size_t>(fresh))) continue;  // nothing there has changed
-    if (!is_measured(*shop.data, part.outputs)) continue;
+    if (!any_recorded(*shop.data, part.outputs)) continue;
     auto chosen = part.effects;
     if (effort == Effort::screen && fresh >= 0)
       for (std::size_t i = 0; i < chosen.size(); ++i)

@@ -114,14 +114,12 @@ bool more_than_noise(const Books& books) {
 /// each recording, beside which all the others are noise. Only a straight effect is asked for.
 void a_wrong_zero(Books& books) {
   const auto straight = straight_effects(books);
-  const auto room = [&] { return found_effects(books) < books.options.max_steps && !books.stopped(); };
-  if (straight.empty() || books.d.steps.empty()) return;
-  const auto one_more = [&] {
+  const bool room = found_effects(books) < books.options.max_steps && !books.stopped();
+  if (!room || straight.empty() || books.d.steps.empty()) return;
+  with_the_zero_held(books, [&] {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     return more_than_noise(books) && one_step(books, step, As::further, nullptr, {}, straight);
-  };
-  if (room() && !structure_is_left(books)) one_more();
-  if (room()) with_the_zero_held(books, one_more);
+  });
 }
 
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.

@@ -1,6 +1,7 @@
 // The rules of a claim on errors made by hand: what an imperfect law may have left, and where.
 #include <gtest/gtest.h>
 
+#include "discover/books.h"
 #include "discover/discover.h"
 #include "discover/investigation.h"
 
@@ -76,6 +77,22 @@ TEST_F(Judging, NoiseIsNothingThatALawIsTakenDownTo) {
   // Structure before, noise afterwards: no imperfect law is repaired so well by another effect's.
   const Tried down = judged(error(1000, 1600, 1000, 1600), error(1000, 1010, 1000, 1010), {0, 900, 0, 900});
   EXPECT_TRUE(down.admitted) << down.reason;
+}
+
+TEST_F(Judging, OfTwoThatFitAlikeTheOneWithFewerNumbersIsTaken) {
+  const auto of = [&](int numbers, double chi2) {
+    Tried t = judged(error(1400, 1900, 1400, 1900), error(1000, chi2, 1000, chi2), {0, 0, 0, 0});
+    t.laws.resize(1);
+    for (int i = 0; i < numbers; ++i) t.laws[0].free.push_back({.path = std::to_string(i)});
+    t.contender.parameters = 0;  // the score is the error alone
+    return t;
+  };
+  EXPECT_EQ(best_admitted({of(4, 1000), of(2, 1000 + 0.4 * rules::alike)}), 1) << "0.8 of what is alike";
+  EXPECT_EQ(best_admitted({of(4, 1000), of(2, 1000 + 0.6 * rules::alike)}), 0) << "the error decides";
+  EXPECT_EQ(best_admitted({of(2, 1000), of(4, 1000)}), 0);
+  Tried barred = of(1, 1000);
+  barred.admitted = false;
+  EXPECT_EQ(best_admitted({of(4, 1000), barred}), 0);
 }
 
 }  // namespace
