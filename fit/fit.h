@@ -34,7 +34,7 @@ struct FitProgress {
 struct FitOptions {
   int max_iterations = 40;  ///< of the local search, per start
   double matters = 0;       ///< a fall of chi2 for which no further step of the local search is taken
-  int refine = 2;           ///< scan points that are searched from
+  int refine = 2;           ///< scan points that are searched from; a start from which nothing moves is none of them
   int max_scan = 64;        ///< points of a grid over several scanned parameters; beyond, one parameter after the other
   /// Covariance, intervals, undetermined combinations: one more Jacobian and two points per parameter searched; where
   /// the model bends over an interval and is advanced exactly, profiles besides.

@@ -8,6 +8,7 @@
 namespace hysteron {
 namespace {
 
+/// Every run and value that is named somewhere is there.
 class Names {
  public:
   Names(JsonFile& file, const RunsJob& job) : file_(file), job_(job) {}
@@ -66,6 +67,7 @@ class Names {
   const RunsJob& job_;
 };
 
+/// No run and no value needs itself.
 class Circles {
  public:
   Circles(JsonFile& file, const RunsJob& job) : file_(file), job_(job) {}

@@ -30,7 +30,8 @@ def words(actuator, mass=(), heater=()):
     return dict(B1=actuator, B2=actuator, B3=actuator, B4=mass, B5=heater)
 
 
-ELSEWHERE = dict(asymmetry=("B5",), amplifier_lag=("B5",))  # plants that are not given an effect which they could well have: rivals only
+# Plants that are not given an effect which they could well have: it is a rival there only.
+ELSEWHERE = dict(asymmetry=("B5",), amplifier_lag=("B5",))
 FAST, FAST_MASS = ("multisine", "freq_high", "chirp"), ("multisine", "steps", "chirp")
 LARGE, LARGE_MASS = ("sine_multiamp", "triangle"), ("sine_multiamp", "triangle")
 HEAT = ("staircase", "prbs", "steps", "sine")

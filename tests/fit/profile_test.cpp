@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/fit.h"
-#include "tests/fit/lab.h"
+#include "tests/fit/two_recordings.h"
 
 namespace hysteron {
 namespace {
 
-double sweep(double t) { return 5 + 5 * std::sin(2 * std::numbers::pi * (0.5 * t + 0.4 * t * t)); }
+using namespace lab;
 
 DataSet data_of(double noise, std::size_t rows = 400) {
   DataSet data;
@@ -20,13 +19,6 @@ DataSet data_of(double noise, std::size_t rows = 400) {
   data.notes["y"].noise.one_over_f = 0.0;
   data.recordings = {lab::recording("train", Role::train, 0.01, rows, sweep)};
   return data;
-}
-
-Diagram lag_and_gain() {
-  Diagram d = lab::diagram("g");
-  lab::add(d, "amplifier", "lag", "u").parameters["times"] = NumberList{{50, "ms"}};
-  lab::add(d, "g", "gain", "amplifier").parameters["gain"] = "1 um/V";
-  return d;
 }
 
 TEST(ProfileLikelihood, OfALinearParameterIsItsInterval) {
