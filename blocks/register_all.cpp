@@ -15,6 +15,7 @@
 #include "blocks/delay_line.h"
 #include "blocks/discrete_transfer_function.h"
 #include "blocks/gain.h"
+#include "blocks/generalized_prandtl_ishlinskii.h"
 #include "blocks/guide_friction.h"
 #include "blocks/impedance_estimator.h"
 #include "blocks/integrator.h"
@@ -120,6 +121,7 @@ Registry all_blocks() {
 
   r.add(blocks::play_block());
   r.add(blocks::prandtl_ishlinskii_block());
+  r.add(blocks::generalized_prandtl_ishlinskii_block());
   r.add(blocks::late_prandtl_ishlinskii_block());
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());

@@ -42,6 +42,30 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
   return law;
 }
 
+/// The operators follow a bent drive, beside a linear part that does not: domains need not switch evenly over the
+/// range, so that loops are wider at one end and their middle lines are bent (Preisach's density need not be even). Of
+/// a drive to one side of zero, whose ends are not alike.
+Law plays_of_a_bent_drive(const Circumstances& at) {
+  Law law = plays(at, "10 one-sided plays of a bent drive", 10, 0.03, 0.9, "one", 1.0);
+  law.block.type = "generalized_prandtl_ishlinskii";
+  give(law.block, "lower", level(at.lowest, at.unit));
+  give(law.block, "upper", level(at.highest, at.unit));
+  for (const char* path : {"slope_at_lower", "slope_at_upper"}) {
+    LawParameter slope;
+    slope.path = path;
+    slope.start = 1;
+    slope.lower = 0;
+    slope.upper = 3;  // a steeper curve would fall elsewhere
+    slope.scan = {0.5, 1.5};
+    law.free.push_back(slope);
+    give(law.block, path, Number{1.0, {}});
+  }
+  return law;
+}
+
+/// Is the drive to one side of zero: a tenth of its range may lie beyond.
+bool is_unipolar(const Circumstances& at) { return at.lowest > -0.1 * at.range() || at.highest < 0.1 * at.range(); }
+
 /// Elements that yield beside the spring of a mass. They follow the motion, as the loss in a flexure or a piezo stack
 /// does; plays on the drive would ring along with the mass.
 Law slip_elements(const Circumstances& at) {
@@ -90,7 +114,8 @@ std::string loop_width(const Law& law, const std::vector<double>& values, const 
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
   const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
   if (list == nullptr || sides == nullptr || !(range > 0)) return "";
-  const std::size_t own = values.size() == list->size() ? 0 : 1;  // the weight of threshold 0 may be fixed at one
+  // The weight of threshold 0 may be fixed at one.
+  const std::size_t own = law.free.front().path == element("weights", 0) ? 0 : 1;
   double stroke = own == 1 ? range : 0;
   double gap = 0;
   for (std::size_t i = own; i < list->size(); ++i) {
@@ -114,7 +139,9 @@ Effect hysteresis() {
   e.equation =
       "y = w0*u + sum w_i*z_i;  one-sided play z = max(u - r, min(u, z)), two-sided z = max(u - r, min(u + r, z)),  "
       "w_i >= 0";
-  e.source = "Kuhnen, Eur. J. Control 9 (2003) 407; thesis Eqs. 2.15-2.19";
+  e.source =
+      "Kuhnen, Eur. J. Control 9 (2003) 407; thesis Eqs. 2.15-2.19; bent drive: Al Janaideh, Rakheja, Su, IEEE/ASME "
+      "Trans. Mechatronics 16 (2011) 734";
   e.residual =
       "A lens of the residual against the drive, closed at turning points, that shrinks with the amplitude; odd "
       "harmonics only.";
@@ -130,7 +157,8 @@ Effect hysteresis() {
       {"thresholds", "unit of the wire", "of the plays; fixed over 4 .. 65 % of the range (richer: 2 .. 90 %)", ""},
       {"weights", "", "of the plays, relative to the wire's own gain",
        "each 0.01 .. 0.2; the loop is 2 % of the stroke at small and 10 .. 15 % at full drive (piceramic.com "
-       "tutorial)"}};
+       "tutorial)"},
+      {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"}};
   e.look_alikes = {
       {"amplifier_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
       {"sensor_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
@@ -143,9 +171,11 @@ Effect hysteresis() {
   e.summary = loop_width;
   e.laws = [](const Circumstances& at) {
     if (!at.by.empty()) return std::vector<Law>{slip_elements(at)};
-    return std::vector<Law>{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
-                            plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
-                            plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
+    std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
+                          plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
+                          plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
+    if (is_unipolar(at)) laws.push_back(plays_of_a_bent_drive(at));
+    return laws;
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.memory_blocks.empty())

@@ -151,6 +151,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "rounding",
                                        "pyro_charge",
                                        "mains_interference",
+                                       "generalized_prandtl_ishlinskii",
                                        "late_prandtl_ishlinskii",
                                        "ageing",
                                        "tank",

@@ -57,6 +57,41 @@ INSTANTIATE_TEST_SUITE_P(Blocks, MemoryLaw,
                          testing::ValuesIn(bench::samples_where([](const Bench& b) { return b.sizes.memory > 0; })),
                          bench::sample_name);
 
+TEST(GeneralizedPrandtlIshlinskiiBlock, WithAStraightCurveIsThePlainOne) {
+  for (const double sides : {0.0, 1.0}) {
+    const Bench::Values operators{{"thresholds", {0, 0.3, 0.8}}, {"weights", {1.2, 0.4, 0.3}}, {"sides", {sides}}};
+    auto with_curve = operators;
+    with_curve["lower"] = {-1};
+    with_curve["upper"] = {2};
+    with_curve["slope_at_lower"] = with_curve["slope_at_upper"] = {1};
+    const Bench plain("prandtl_ishlinskii", operators), bent("generalized_prandtl_ishlinskii", with_curve);
+    Numbers a = plain.initial_memory(), b = bent.initial_memory();
+    for (std::uint64_t k = 0; k < 100; ++k) {
+      const Numbers u{2 * random::normal(3, 0, k)};
+      a = plain.advance(a, u);
+      b = bent.advance(b, u);
+      ASSERT_NEAR(bent.output(0, u, {}, b)[0], plain.output(0, u, {}, a)[0], 1e-14) << k;
+    }
+  }
+}
+
+TEST(GeneralizedPrandtlIshlinskiiBlock, ItsLoopsFollowTheCurveAndItsLinearPartTheDrive) {
+  const Bench b("generalized_prandtl_ishlinskii", {{"thresholds", {0, 0.5}},
+                                                   {"weights", {2, 3}},
+                                                   {"lower", {0}},
+                                                   {"upper", {2}},
+                                                   {"slope_at_lower", {0}},
+                                                   {"slope_at_upper", {1.5}}});
+  // In its middle the curve stands at half the range, less an eighth of the difference of the slopes times it.
+  const double middle = 1 - 2 * 1.5 / 8;
+  Numbers m = b.advance(b.initial_memory(), {1});
+  EXPECT_NEAR(b.output(0, {1}, {}, m)[0], 2 * 1 + 3 * (middle - 0.5), 1e-15);
+  m = b.advance(m, {2});
+  EXPECT_NEAR(b.output(0, {2}, {}, m)[0], 2 * 2 + 3 * (2 - 0.5), 1e-15);
+  m = b.advance(m, {1});  // back by more than the threshold along the curve: it follows
+  EXPECT_NEAR(b.output(0, {1}, {}, m)[0], 2 * 1 + 3 * middle, 1e-15);
+}
+
 TEST(PrandtlIshlinskiiBlock, ReproducesTheGoldenTraceInMetres) {
   HYSTERON_NEEDS_GOLDEN("pi_forward_sine");
   const auto trace = golden::read("pi_forward_sine");

@@ -77,8 +77,17 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
         block("late_prandtl_ishlinskii",
               {{"thresholds", list({0, 0.1, 0.7}, "V")}, {"weights", list({1, 0.4, 0.2}, "um/V")}, {"time", "0.2 s"}},
               {"u"})},
+       {"uneven", block("generalized_prandtl_ishlinskii",
+                        {{"thresholds", list({0, 0.1, 0.7}, "V")},
+                         {"weights", list({1, 0.4, 0.2}, "um/V")},
+                         {"sides", "two"},
+                         {"lower", "-2 V"},
+                         {"upper", "3 V"},
+                         {"slope_at_lower", 0.3},
+                         {"slope_at_upper", 1.7}},
+                        {"u"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"two", "one", "joint", "tapi", "aged", "behind", "late", "bent", "coupled", "stack"}, {{"u", "V"}});
+      {"uneven", "two", "one", "joint", "tapi", "aged", "behind", "late", "bent", "coupled", "stack"}, {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;

@@ -1,0 +1,88 @@
+// Hysteresis by another formula than plays: a Preisach density, whose loops are not those of plays of the drive.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/discover/discoveries.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+
+constexpr double white = 2e-4;
+
+/// Relays that switch up at a and down at b, 0 <= b <= a <= 1, of the density 1 + uneven (a + b): of the triangle from
+/// b to a they give (a - b)^2/2 (1 + uneven (a + b)), its centroid standing for the linear density. Mayergoyz, IEEE
+/// Trans. Magn. 22 (1986) 603-608: each turn that was not wiped out is a corner of a staircase.
+std::vector<double> relays(const std::vector<double>& u, double uneven) {
+  const auto triangle = [&](double a, double b) { return (a - b) * (a - b) / 2 * (1 + uneven * (a + b)); };
+  std::vector<double> turns{0.0}, y;  // from the lowest drive: minimum, maximum, minimum ...
+  double last = 0;
+  for (const double now : u) {
+    const bool up = turns.size() % 2 == 1;
+    if (up ? now < last : now > last) turns.push_back(last);
+    last = now;
+    const auto wiped = [&] {
+      return turns.size() % 2 == 1 ? now >= turns[turns.size() - 2] : now <= turns[turns.size() - 2];
+    };
+    while (turns.size() >= 3 && wiped()) turns.resize(turns.size() - 2);
+    double sum = 0;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const double next = i + 1 < turns.size() ? turns[i + 1] : now;
+      sum += i % 2 == 0 ? triangle(next, turns[i]) : -triangle(turns[i], next);
+    }
+    y.push_back(sum);
+  }
+  return y;
+}
+
+class HysteresisLaws : public Discoveries {
+ protected:
+  static DataSet recorded(double amount, double uneven) {
+    std::vector<Recording> list;
+    std::uint64_t seed = 200;
+    for (const auto& [role, top, periods] :
+         {std::tuple{Role::train, 1.0, 5}, {Role::train, 0.6, 8}, {Role::validate, 0.9, 7}}) {
+      const auto t = rows(1500, 0.005);
+      const auto u = decaying_triangle(t, top, periods);
+      const auto loop = relays(u, uneven);
+      auto y = noise(t.size(), white, 0.1 * white, seed);
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += u[k] + amount * (loop[k] - 0.8 * u[k]);
+      list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+    }
+    return data_set(std::move(list), white);
+  }
+  static Diagram gain() {
+    Diagram d;
+    d.inputs["u"].unit = "V";
+    Node& stage = d.blocks["stage"];
+    stage.type = "gain";
+    stage.parameters["gain"] = Value("1 m/V");
+    stage.in = {{"", "u"}};
+    d.outputs["y"] = "stage";
+    return d;
+  }
+};
+
+TEST_F(HysteresisLaws, RelaysOfAnEvenDensityArePlays) {
+  // By closed form: the loops of a constant density are those of plays of constant weight.
+  const auto up = relays({0, 0.25, 0.5, 0.75, 1, 0.5}, 0);
+  EXPECT_NEAR(up[4], 0.5, 1e-15);
+  EXPECT_NEAR(up[5], 0.5 - 0.125, 1e-15);
+}
+
+TEST_F(HysteresisLaws, AnUnevenDensityIsHysteresisAndNoCurveBesides) {
+  const auto d = discovered(gain(), recorded(0.06, 1.5),
+                            {"hysteresis", "asymmetry", "sensor_nonlinearity", "saturation", "friction", "backlash"});
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(winner(d), "hysteresis") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "10 one-sided plays of a bent drive") << tried(d);
+  EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
+  // Loops are wider where relays are dense: the drive is bent upwards.
+  EXPECT_LT(value(d, "slope_at_lower"), value(d, "slope_at_upper")) << tried(d);
+}
+
+}  // namespace
+}  // namespace hysteron
