@@ -16,6 +16,16 @@ double removed_beyond_calibration(const Books& books, const Structure& s) {
   return s.beyond_calibration - left;
 }
 
+/// A line where a standing law looks for lines is that law's: it wanders a little, and its law does not.
+bool is_of_a_standing_law(const Books& books, const Structure& s) {
+  if (s.kind != "line_in_time" || !(s.period > 0)) return false;
+  for (const auto& standing : books.current.standing)
+    for (const auto& p : standing.law.free)
+      for (const auto& [low, high] : p.line_bands)
+        if (low * s.period <= 1 && 1 <= high * s.period) return true;
+  return false;
+}
+
 /// A structure that no effect describes explains more than the effects did: what they took away was part of it.
 void withdraw(Books& books) {
   for (auto& c : books.d.candidates)
@@ -77,7 +87,8 @@ void conclude(Books& books) {
   // A clamp is a kink at a level too: what effects explain down to the noise needs no structure.
   const bool effects_suffice = !books.d.steps.empty() && floor <= rules::floor_gate;
   const bool structure_wins =
-      structure && structure->explains() && !effects_suffice && structure->share_removed > rules::structure_share &&
+      structure && structure->explains() && !is_of_a_standing_law(books, *structure) && !effects_suffice &&
+      structure->share_removed > rules::structure_share &&
       structure->fall_validate > std::max(removed_beyond_calibration(books, *structure), rules::claim_fall);
   if (structure_wins) {
     books.d.verdict = Verdict::unexplained;

@@ -10,6 +10,14 @@
 namespace hysteron {
 namespace {
 
+/// Most of what stands above the noise in a recording; or half of it, where only noise is left: how large the noise of
+/// one recording is nobody knows to some per cent, and of a small excess that is a large part.
+bool takes_most(const RecordingError& was, const RecordingError& is) {
+  const double fall = was.chi2 - is.chi2;
+  const bool to_the_noise = is.chi2 <= rules::floor_gate * static_cast<double>(is.rows);
+  return fall >= (to_the_noise ? rules::share_of_first : rules::share_of_own) * was.excess();
+}
+
 /// True if the candidate takes away most of what stands above the noise in at least one train and one validate
 /// recording: a real effect owns a kind of excitation, a patch nibbles everywhere.
 bool owns_an_excitation(const ModelError& before, const ModelError& after) {
@@ -19,7 +27,7 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
     const auto& b = before.recordings[i];
     const double rows = static_cast<double>(b.rows);
     if (b.chi2 < rules::floor_gate * rows) continue;
-    if (b.chi2 - after.recordings[i].chi2 < rules::share_of_own * b.excess()) continue;
+    if (!takes_most(b, after.recordings[i])) continue;
     (b.role == Role::train ? train : validate) = true;
   }
   return train && validate;

@@ -165,16 +165,19 @@ TEST_F(FurtherEffects, AgeingIsRefusedWhereAllRecordingsWereMadeAtOnce) {
 
 // --- the mains --------------------------------------------------------------------------------------------------
 
-/// A line of 49.93 Hz with another phase in each recording.
-DataSet humming(double amplitude, double step) {
+/// A line of 49.93 Hz with another phase in each recording; it wanders to and fro by so many turns.
+DataSet humming(double amplitude, double step, int count = 1500, double wander = 0) {
   std::vector<Recording> list;
   std::uint64_t seed = 2500;
   for (const Role role : {Role::train, Role::train, Role::validate, Role::validate}) {
-    const auto t = rows(1500, step);
+    const auto t = rows(count, step);
     const auto u = several_sines(t, 1, {1.0 / t.back(), 4.0 / t.back()});
     auto y = noise(t.size(), 1e-3, 1e-4, seed);
     const double phase = 1.7 * static_cast<double>(seed);
-    for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + amplitude * std::sin(2 * pi * 49.93 * t[k] + phase);
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      const double turns = 49.93 * t[k] + wander * std::sin(0.4 * t[k] + phase);
+      y[k] += u[k] + amplitude * std::sin(2 * pi * turns + phase);
+    }
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
   }
   return data_set(list, 1e-3);
@@ -195,6 +198,13 @@ TEST_F(FurtherEffects, ALineOfTheMainsIsNamedWithItsFrequencyWhateverItsPhase) {
 TEST_F(FurtherEffects, WhatTheValuesOfARecordingTakeAwayByChanceIsNoLine) {
   const Discovery d = diagnosed(plain_gain(), humming(0, 2e-3));
   EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+}
+
+TEST_F(FurtherEffects, AMainsThatWandersIsTheMainsAndNotOutsideTheList) {
+  // By some hundredths of a hertz: a line of each recording's own takes more of it away than one frequency for all.
+  const Discovery d = diagnosed(plain_gain(), humming(0.05, 2e-3, 5000, 0.1), {"mains_interference", "creep"});
+  EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
+  EXPECT_EQ(winner(d), "mains_interference") << tried(d);
 }
 
 TEST_F(FurtherEffects, ALineIsRefusedWhereNoRecordingIsSampledQuicklyEnough) {
