@@ -81,6 +81,14 @@ double share_of_excess(const ModelError& was, const ModelError& is, const std::v
   return was.over_floor() > rules::floor_gate ? by_chi2 : std::max(by_chi2, share(true));
 }
 
+/// Its law can imitate one that stands (hysteresis a friction). A straight line leaves nothing to imitate.
+bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
+  return std::any_of(standing.standing.begin(), standing.standing.end(), [&](const Standing& s) {
+    return !calibrates(s) &&
+           std::find(effect.contains.begin(), effect.contains.end(), s.effect->id) != effect.contains.end();
+  });
+}
+
 }  // namespace
 
 std::vector<double> own_values(const Tried& tried) {
@@ -139,8 +147,12 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   }
   if (!left_by_laws.empty()) {
     // Another effect's law does not take what an imperfect law leaves down to the noise of other recordings.
-    const bool to_the_noise = above_noise && is.over_floor() <= rules::floor_gate;
-    if (!to_the_noise && fall_beyond(was, is, left_by_laws) < rules::claim_fall) {
+    const bool imitates = imitates_a_standing_law(*tried.effect, before);
+    const bool to_the_noise = above_noise && is.over_floor() <= rules::floor_gate && !imitates;
+    auto left = left_by_laws;
+    if (imitates)
+      for (double& chi2 : left) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
+    if (!to_the_noise && fall_beyond(was, is, left) < rules::claim_fall) {
       tried.reason = "no larger than what the laws that were found may have left of their own";
       return;
     }

@@ -36,14 +36,17 @@ ModelError error(double train_slow, double train_fast, double validate_slow, dou
 class Judging : public ::testing::Test {
  protected:
   /// A candidate that leaves `after`, on top of laws that left `before` and may have left so much of their own.
-  Tried judged(const ModelError& before, const ModelError& after, const std::vector<double>& left) const {
+  Tried judged(const ModelError& before, const ModelError& after, const std::vector<double>& left,
+               const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
     Tried t;
-    t.effect = effects.find("backlash");
+    t.effect = effects.find(effect);
+    t.laws.resize(1);
     t.contender.ok = true;
     t.contender.error_of = after;
     Contender was;
     was.ok = true;
     was.error_of = before;
+    was.standing.emplace_back().effect = effects.find(on_top_of);
     judge(t, was, left);
     return t;
   }
@@ -77,6 +80,19 @@ TEST_F(Judging, NoiseIsNothingThatALawIsTakenDownTo) {
   // Structure before, noise afterwards: no imperfect law is repaired so well by another effect's.
   const Tried down = judged(error(1000, 1600, 1000, 1600), error(1000, 1010, 1000, 1010), {0, 900, 0, 900});
   EXPECT_TRUE(down.admitted) << down.reason;
+}
+
+TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
+  // Friction by its simple law took 2e6 away of each fast recording and leaves 900 of its own: so says the table of
+  // laws.
+  const std::vector<double> left{0, 450, 0, 450};
+  const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
+  EXPECT_TRUE(judged(before, after, left, "backlash", "friction").admitted);
+  const Tried imitated = judged(before, after, left, "hysteresis", "friction");
+  EXPECT_FALSE(imitated.admitted);
+  EXPECT_NE(imitated.reason.find("may have left of their own"), std::string::npos) << imitated.reason;
+  EXPECT_TRUE(judged(before, after, left, "hysteresis", "calibration").admitted) << "a straight line is exact";
+  EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, "hysteresis", "friction").admitted) << "beyond a tenth";
 }
 
 TEST_F(Judging, ARecordingTakenDownToTheNoiseIsOwnedByHalfOfIt) {
