@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "discover/effects/library.h"
 
@@ -107,24 +108,44 @@ std::string slip_summary(const Law& law, const std::vector<double>& values, cons
   return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
 }
 
-/// Width of the largest loop over the stroke: at half the range a rising branch lags by min(r, R - r) for each play.
-std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  if (!at.by.empty()) return slip_summary(law, values, at);
+/// The loop of each play at half the range: a rising branch lags by min(r, R - r). Of laws on a wire.
+struct Loop {
+  double stroke = 0, gap = 0;
+  double narrow = 0;  ///< part of the gap by plays that a tenth of the range takes along
+};
+std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const double range = at.range();
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
   const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
-  if (list == nullptr || sides == nullptr || !(range > 0)) return "";
+  if (list == nullptr || sides == nullptr || !(range > 0)) return std::nullopt;
   // The weight of threshold 0 may be fixed at one.
   const std::size_t own = law.free.front().path == element("weights", 0) ? 0 : 1;
-  double stroke = own == 1 ? range : 0;
-  double gap = 0;
+  Loop loop;
+  loop.stroke = own == 1 ? range : 0;
   for (std::size_t i = own; i < list->size(); ++i) {
     const double r = at.unit.difference_to_si((*list)[i].value) * (*sides == "two" ? 2 : 1);
-    const double w = values[i - own];
-    stroke += w * std::max(range - r, 0.0);
-    gap += w * std::max(std::min(r, range - r), 0.0);
+    const double w = values[i - own], gap = w * std::max(std::min(r, range - r), 0.0);
+    loop.stroke += w * std::max(range - r, 0.0);
+    loop.gap += gap;
+    if (r < 0.1 * range) loop.narrow += gap;
   }
-  return stroke > 0 ? fmt::format("a loop of about {:.2g} % of the stroke at full drive", 100 * gap / stroke) : "";
+  return loop;
+}
+
+/// Width of the largest loop over the stroke.
+std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  if (!at.by.empty()) return slip_summary(law, values, at);
+  const auto loop = loop_of(law, values, at);
+  if (!loop || !(loop->stroke > 0)) return "";
+  return fmt::format("a loop of about {:.2g} % of the stroke at full drive", 100 * loop->gap / loop->stroke);
+}
+
+/// Domains switch over the whole range; what has followed after a tenth of it is a clearance.
+std::string why_no_hysteresis(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  if (!at.by.empty()) return "";
+  const auto loop = loop_of(law, values, at);
+  if (!loop || !(loop->gap > 0) || loop->narrow < 0.95 * loop->gap) return "";
+  return "all of its loop lies within a tenth of the stroke: that is lost motion";
 }
 
 }  // namespace
@@ -169,6 +190,7 @@ Effect hysteresis() {
   e.contains = {"calibration", "friction"};
   e.variation = "hysteretic_spring";
   e.summary = loop_width;
+  e.implausible = why_no_hysteresis;
   e.laws = [](const Circumstances& at) {
     if (!at.by.empty()) return std::vector<Law>{slip_elements(at)};
     std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),

@@ -266,7 +266,7 @@ TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
   };
   const auto data =
       one_device({{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.8}}, 1500, swinging, flanks, 120);
-  const auto d = discovered(with_sensor(), data, {"friction", "backlash", "sensor_nonlinearity"});
+  const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "sensor_nonlinearity"});
   EXPECT_EQ(names(d), (Names{"backlash", "sensor_nonlinearity"})) << tried(d);
 }
 
