@@ -54,16 +54,6 @@ class HysteresisLaws : public Discoveries {
     }
     return data_set(std::move(list), white);
   }
-  static Diagram gain() {
-    Diagram d;
-    d.inputs["u"].unit = "V";
-    Node& stage = d.blocks["stage"];
-    stage.type = "gain";
-    stage.parameters["gain"] = Value("1 m/V");
-    stage.in = {{"", "u"}};
-    d.outputs["y"] = "stage";
-    return d;
-  }
 };
 
 TEST_F(HysteresisLaws, RelaysOfAnEvenDensityArePlays) {
@@ -74,7 +64,7 @@ TEST_F(HysteresisLaws, RelaysOfAnEvenDensityArePlays) {
 }
 
 TEST_F(HysteresisLaws, AnUnevenDensityIsHysteresisAndNoCurveBesides) {
-  const auto d = discovered(gain(), recorded(0.06, 1.5),
+  const auto d = discovered(plain_gain(), recorded(0.06, 1.5),
                             {"hysteresis", "asymmetry", "sensor_nonlinearity", "saturation", "friction", "backlash"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(winner(d), "hysteresis") << tried(d);
