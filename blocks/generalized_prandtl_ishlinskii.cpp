@@ -13,8 +13,7 @@ void GeneralizedPrandtlIshlinskii::describe(Declaration& d) {
       .at("core");
   d.law(
        "y = sum weights[i] w_i; one: w_i = max(c - thresholds[i], min(c, w_i before)); two: with min(c + "
-       "thresholds[i], "
-       "w_i before); c = curve of u; threshold 0: w = u")
+       "thresholds[i], w_i before); c = curve of u; threshold 0: w = u")
       .from(
           "Al Janaideh, Rakheja, Su, IEEE/ASME Trans. Mechatronics 16 (2011) 734-744 (one envelope for both "
           "branches); curve: Fritsch, Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246");
@@ -37,18 +36,13 @@ void GeneralizedPrandtlIshlinskii::describe(Declaration& d) {
   d.parameter("before", "$a", "an input that was visited before the start").optional("0");
 }
 
-Sizes GeneralizedPrandtlIshlinskii::sizes(const Shape& shape) {
-  Sizes s;
-  s.memory = shape.length("thresholds");
-  if (s.memory < 1 || s.memory != shape.length("weights"))
-    s.error = "\"thresholds\" and \"weights\" must be lists of one length; give one weight per threshold";
-  return s;
-}
+Sizes GeneralizedPrandtlIshlinskii::sizes(const Shape& shape) { return PrandtlIshlinskii::sizes(shape); }
 
 std::string GeneralizedPrandtlIshlinskii::check(const View<double>& v) {
   if (!(v.parameter(lower) < v.parameter(upper)))
-    return fmt::format("lower, {:.6g}, is not below upper, {:.6g} [SI]; exchange them", v.parameter(lower),
-                       v.parameter(upper));
+    return fmt::format(
+        "lower, {:.6g}, is not below upper, {:.6g} [SI]; give the range of the drive, its lower end first",
+        v.parameter(lower), v.parameter(upper));
   const double steepest = std::max(v.parameter(slope_at_lower), v.parameter(slope_at_upper));
   if (steepest > curved_drive::steepest)
     return fmt::format("a slope of {:.4g}: the curve would fall in between; take at most {:.0f}", steepest,

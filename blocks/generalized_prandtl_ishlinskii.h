@@ -33,7 +33,7 @@ struct GeneralizedPrandtlIshlinskii {
                                         v.parameter(slope_at_upper)};
     return curved_drive::curved(curve, u);
   }
-  /// Threshold 0 follows the drive itself.
+  /// Operators that follow the drive itself: the one of threshold 0, or none.
   template <class T>
   static std::size_t linear(const View<T>& v) {
     return v.list(thresholds)[0] == 0.0 ? 1 : 0;

@@ -15,7 +15,7 @@ namespace {
 bool takes_most(const RecordingError& was, const RecordingError& is) {
   const double fall = was.chi2 - is.chi2;
   const bool to_the_noise = is.chi2 <= rules::floor_gate * static_cast<double>(is.rows);
-  return fall >= (to_the_noise ? rules::share_of_first : rules::share_of_own) * was.excess();
+  return fall >= (to_the_noise ? rules::share_to_noise : rules::share_of_own) * was.excess();
 }
 
 /// True if the candidate takes away most of what stands above the noise in at least one train and one validate
@@ -122,7 +122,11 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
-  tried.share = share_of_excess(was, is, tried.outputs, left_by_laws);
+  const bool imitates = imitates_a_standing_law(*tried.effect, before);
+  auto left = left_by_laws;
+  if (imitates)
+    for (double& chi2 : left) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
+  tried.share = share_of_excess(was, is, tried.outputs, left);
   if (!(tried.fall_validate > rules::claim_fall)) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
@@ -147,11 +151,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   }
   if (!left_by_laws.empty()) {
     // Another effect's law does not take what an imperfect law leaves down to the noise of other recordings.
-    const bool imitates = imitates_a_standing_law(*tried.effect, before);
     const bool to_the_noise = above_noise && is.over_floor() <= rules::floor_gate && !imitates;
-    auto left = left_by_laws;
-    if (imitates)
-      for (double& chi2 : left) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
     if (!to_the_noise && fall_beyond(was, is, left) < rules::claim_fall) {
       tried.reason = "no larger than what the laws that were found may have left of their own";
       return;

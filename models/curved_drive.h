@@ -7,7 +7,7 @@ namespace hysteron::curved_drive {
 /// Units for a drive in V; any other works alike.
 template <class T>
 struct Params {
-  T lower{0}, upper{1};  ///< [V] ends of the range, lower < upper: there the curve is the straight line
+  T lower{0}, upper{1};  ///< [V] ends of the range, lower < upper, both of which the curve keeps
   T slope_at_lower{1};   ///< [-] 0 .. 3, of the straight line's; 1 at both ends is the straight line itself
   T slope_at_upper{1};   ///< [-] 0 .. 3
 };

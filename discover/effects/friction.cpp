@@ -83,18 +83,18 @@ Law on_a_motion(const Circumstances& at, bool sticky) {
   LawParameter level;
   level.path = "level";
   level.start = 0.01 * range;
-  level.lower = 0;            // it takes energy
-  level.upper = 0.1 * range;  // see the slip distance: it slides once the pull is above this
+  level.lower = 0;                  // it takes energy
+  level.upper = short_way * range;  // see the slip distance: it slides once the pull is above this
   level.scan = {0.001 * range, 0.01 * range};
   give(law.block, "level", with_unit(level.start, at.unit));
   LawParameter slip;
   slip.path = "slip_distance";
   slip.start = 0.03 * range;
   // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
-  slip.upper = 0.1 * range;
+  slip.upper = short_way * range;
   slip.lower = 1e-7 * range;
   slip.log_scale = true;
-  slip.scan = per_decade(1e-3 * range, 0.1 * range, 2);
+  slip.scan = per_decade(1e-3 * range, short_way * range, 2);
   give(law.block, "slip_distance", with_unit(slip.start, at.unit));
   law.free = {level, slip};
   return sticky ? with_excess(law, range / std::max(at.shortest_step, 1e-9),

@@ -108,10 +108,11 @@ std::string slip_summary(const Law& law, const std::vector<double>& values, cons
   return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
 }
 
-/// The loop of each play at half the range: a rising branch lags by min(r, R - r). Of laws on a wire.
+/// The loops of all plays at half the range, where a rising branch lags by min(r, R - r) [SI of the wire]. Of laws on a
+/// wire.
 struct Loop {
   double stroke = 0, gap = 0;
-  double narrow = 0;  ///< part of the gap by plays that a tenth of the range takes along
+  double narrow = 0;  ///< part of the gap by plays that a short way takes along
 };
 std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const double range = at.range();
@@ -127,7 +128,7 @@ std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, c
     const double w = values[i - own], gap = w * std::max(std::min(r, range - r), 0.0);
     loop.stroke += w * std::max(range - r, 0.0);
     loop.gap += gap;
-    if (r < 0.1 * range) loop.narrow += gap;
+    if (r < short_way * range) loop.narrow += gap;
   }
   return loop;
 }
@@ -140,11 +141,13 @@ std::string loop_width(const Law& law, const std::vector<double>& values, const 
   return fmt::format("a loop of about {:.2g} % of the stroke at full drive", 100 * loop->gap / loop->stroke);
 }
 
+constexpr double nearly_all = 0.95;  // of a loop: what noise puts on the other plays is less than a twentieth
+
 /// Domains switch over the whole range; what has followed after a tenth of it is a clearance.
 std::string why_no_hysteresis(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   if (!at.by.empty()) return "";
   const auto loop = loop_of(law, values, at);
-  if (!loop || !(loop->gap > 0) || loop->narrow < 0.95 * loop->gap) return "";
+  if (!loop || !(loop->gap > 0) || loop->narrow < nearly_all * loop->gap) return "";
   return "all of its loop lies within a tenth of the stroke: that is lost motion";
 }
 

@@ -55,6 +55,8 @@ std::string unit_text(const Unit& unit);
 Number level(double si, const Unit& unit);
 /// [K] A room in which a device is usually calibrated, 20 .. 25 degC: of it what is nearest to `temperature`.
 double usual_room(double temperature);
+/// Part of the stroke behind which a clearance or a guide's friction has followed; domains switch over all of it.
+inline constexpr double short_way = 0.1;
 /// Why nothing can be seen at a place where the signal does not move, "" where it does or nobody looked.
 std::string stands_still(const Circumstances& at);
 

@@ -56,8 +56,8 @@ class HysteresisLaws : public Discoveries {
   }
 };
 
-TEST_F(HysteresisLaws, RelaysOfAnEvenDensityArePlays) {
-  // By closed form: the loops of a constant density are those of plays of constant weight.
+TEST_F(HysteresisLaws, RelaysOfAnEvenDensityFillTriangles) {
+  // Half the square of the way, up to the top and back from it.
   const auto up = relays({0, 0.25, 0.5, 0.75, 1, 0.5}, 0);
   EXPECT_NEAR(up[4], 0.5, 1e-15);
   EXPECT_NEAR(up[5], 0.5 - 0.125, 1e-15);
@@ -72,6 +72,36 @@ TEST_F(HysteresisLaws, AnUnevenDensityIsHysteresisAndNoCurveBesides) {
   EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
   // Loops are wider where relays are dense: the drive is bent upwards.
   EXPECT_LT(value(d, "slope_at_lower"), value(d, "slope_at_upper")) << tried(d);
+}
+
+TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {
+  const Effect& hysteresis = effects.get("hysteresis");
+  const auto bends = [&](double lowest, double highest) {
+    Circumstances at;
+    at.lowest = lowest;
+    at.highest = highest;
+    const auto laws = hysteresis.laws(at);
+    return std::any_of(laws.begin(), laws.end(),
+                       [](const Law& l) { return l.block.type == "generalized_prandtl_ishlinskii"; });
+  };
+  EXPECT_TRUE(bends(0, 100));
+  EXPECT_TRUE(bends(-5, 100));
+  EXPECT_FALSE(bends(-100, 100));
+}
+
+TEST_F(HysteresisLaws, ALoopWithinATenthOfTheStrokeIsLostMotion) {
+  const Effect& hysteresis = effects.get("hysteresis");
+  Circumstances at;
+  at.lowest = 0;
+  at.highest = 1;
+  at.unit = parse_unit("V");
+  at.gain_is_free = true;  // six weights
+  const Law law = hysteresis.laws(at).front();
+  // Thresholds of 0.04, 0.162 ... 0.65 of the range: 0.04 w of the first, 0.162 w of the second.
+  EXPECT_NE(hysteresis.implausible(law, {0.1, 0, 0, 0, 0, 0}, at), "");
+  EXPECT_NE(hysteresis.implausible(law, {0.1, 0.001, 0, 0, 0, 0}, at), "") << "4 % of it lie beyond";
+  EXPECT_EQ(hysteresis.implausible(law, {0.1, 0.002, 0, 0, 0, 0}, at), "") << "8 %";
+  EXPECT_EQ(hysteresis.implausible(law, {0, 0, 0, 0, 0, 0}, at), "") << "no loop at all";
 }
 
 }  // namespace

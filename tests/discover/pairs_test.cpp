@@ -98,7 +98,7 @@ DataSet one_axis(DataSet d) {
 /// How the recordings of one device were made: of each its role and the number by which its drive differs.
 using Runs = std::vector<std::pair<Role, double>>;
 using Drive = std::function<std::vector<double>(const std::vector<double>& t, double number)>;
-using Answer = std::function<std::vector<double>(const std::vector<double>& t, const std::vector<double>& u)>;
+using Answer = std::function<std::vector<double>(const std::vector<double>& u)>;
 
 /// Rows of 5 ms, with noise of one seed after the other from `seed` on.
 DataSet one_device(const Runs& runs, std::size_t count, const Drive& drive, const Answer& answer, std::uint64_t seed) {
@@ -106,7 +106,7 @@ DataSet one_device(const Runs& runs, std::size_t count, const Drive& drive, cons
   for (const auto& [role, number] : runs) {
     const auto t = rows(count, 0.005);
     const auto u = drive(t, number);
-    auto y = answer(t, u);
+    auto y = answer(u);
     const auto n = noise(t.size(), white, 0.1 * white, seed);
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k];
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
@@ -173,7 +173,7 @@ TEST_F(Pairs, WhatIsSlowIsLookedForThoughItIsAFewCoefficientsOnly) {
   const Drive steps = [](const auto& t, double top) {
     return sampled(t, [top](double x) { return x < 0.5 ? 0 : x < 5.5 ? top : 0.3 * top; });
   };
-  const Answer slow = [](const auto&, const std::vector<double>& u) {
+  const Answer slow = [](const std::vector<double>& u) {
     std::vector<double> y;
     double late = 0;
     for (std::size_t k = 0; k < u.size(); ++k) {
@@ -211,7 +211,7 @@ std::vector<double> guided(const std::vector<double>& u, double level, double wa
 }
 
 TEST_F(Pairs, FrictionOfAGuideNeedsNoMass) {
-  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.003, 0.02); };
+  const Answer guide = [](const auto& u) { return guided(u, 0.003, 0.02); };
   const auto data =
       one_device({{Role::train, 1.0}, {Role::train, 0.4}, {Role::validate, 0.7}}, 1500, swinging, guide, 90);
   const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
@@ -226,7 +226,7 @@ TEST_F(Pairs, AStickyGuideHoldsMoreBeforeItSlidesFast) {
     return sampled(t, [hertz](double x) { return std::sin(2 * pi * hertz * x); });
   };
   // 2 m/s: as fast as the middle one of the three.
-  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.01, 0.02, 0.4, 0.01); };
+  const Answer guide = [](const auto& u) { return guided(u, 0.01, 0.02, 0.4, 0.01); };
   const auto data = one_device({{Role::train, 0.2}, {Role::train, 2.0}, {Role::validate, 0.7}}, 1500, sine, guide, 95);
   const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "creep", "asymmetry"});
   EXPECT_EQ(names(d), (Names{"friction"})) << tried(d);
@@ -241,7 +241,7 @@ TEST_F(Pairs, FrictionOfAGuideShowsInStepsThatAreHeld) {
   const Drive stairs = [](const auto& t, double top) {
     return sampled(t, [top](double x) { return top / 6 * std::floor(6 * std::sin(2 * pi * 0.4 * x) + 0.5); });
   };
-  const Answer guide = [](const auto&, const auto& u) { return guided(u, 0.01, 0.05); };
+  const Answer guide = [](const auto& u) { return guided(u, 0.01, 0.05); };
   auto data = one_device({{Role::train, 1.0}, {Role::train, 0.5}, {Role::validate, 0.7}}, 1500, stairs, guide, 130);
   data.notes["u"].between = Between::hold;
   const auto d = discovered(with_sensor(), data, {"friction", "hysteresis", "backlash", "asymmetry"});
@@ -251,7 +251,7 @@ TEST_F(Pairs, FrictionOfAGuideShowsInStepsThatAreHeld) {
 
 TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
   // Five flanks that touch one after the other: bristles that slip at once fit them better than one gap does.
-  const Answer flanks = [](const auto&, const std::vector<double>& u) {
+  const Answer flanks = [](const std::vector<double>& u) {
     std::vector<double> w(5, 0.0), y;
     for (const double x : u) {
       double sum = 0;

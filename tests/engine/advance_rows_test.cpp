@@ -273,7 +273,7 @@ TEST(AdvanceStates, AJumpIntoAGuideIsARampTooFastForAnyExcess) {
   EXPECT_NEAR(y[1] + 0.2 * (1 - std::exp(-y[1] / 0.3)), 1, 1e-14);
   const double held = (1 - y[1]) / 0.2;
   EXPECT_NEAR(y[3] + 0.2 * (-1 + (1 + held) * std::exp((y[3] - y[1]) / 0.3)), 0.4, 1e-14);
-  // The integrator follows the same path.
+  // The integrator follows the same path, to a hundred of its tolerances.
   const auto program = compiled(diagram({{"y", sticky}}, {"y"}, {{"u", "V"}}));
   auto run = start(*program);
   bind_input(*program, run, "u", u);
