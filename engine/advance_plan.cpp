@@ -237,7 +237,7 @@ void AdvancePlan::find_behind() {
 }
 
 bool AdvancePlan::is_plain(const Run& run) const {
-  return program->sampled_blocks.empty() && momentary.empty() && !(sources_jump(run) && (has_histories || series_turn));
+  return program->sampled_blocks.empty() && !has_corners() && !(sources_jump(run) && (has_histories || series_turn));
 }
 
 bool AdvancePlan::sources_jump(const Run& run) const {

@@ -32,6 +32,7 @@ AdvanceRows::AdvanceRows(const AdvancePlan& plan, int lanes)
     for (const int b : level.nonlinear) add(b);
   for (const auto& loop : plan_.loops)
     for (const int b : loop.blocks) add(b);
+  for (const int b : plan_.momentary) add(b);
   for (const auto& part : plan_.parts)
     signals_.insert(signals_.end(), part.output_signals().begin(), part.output_signals().end());
   computed_.assign(at(program_.n_y), false);
@@ -70,25 +71,28 @@ void AdvanceRows::begin(std::span<AdvanceState* const> states, std::size_t rows)
   for (const int b : plan_.constants)
     for (int s = plan_.block(b).y_begin; s < plan_.block(b).y_begin + plan_.block(b).sizes.outputs; ++s)
       for (std::size_t k = 0; k < rows * lanes_; ++k) own_[at(s)][k] = state_of(k % lanes_).y[at(s)];
-  for (const auto& level : plan_.levels)
-    for (const int block : level.nonlinear) {
-      const BlockInstance& b = plan_.block(block);
-      const auto n_x = at(b.sizes.states), n_m = at(b.sizes.memory);
-      for (std::size_t l = 0; l < lanes_; ++l) {
-        std::copy_n(state_of(l).x.begin() + b.x_begin, n_x, x_.data() + lanes_ * at(b.x_begin) + l * n_x);
-        std::copy_n(state_of(l).run.m.begin() + b.m_begin, n_m, m_.data() + lanes_ * at(b.m_begin) + l * n_m);
-        views_[lanes_ * at(block) + l] = state_of(l).work.views[at(block)];
-      }
+  const auto take = [&](int block) {
+    const BlockInstance& b = plan_.block(block);
+    const auto n_x = at(b.sizes.states), n_m = at(b.sizes.memory);
+    for (std::size_t l = 0; l < lanes_; ++l) {
+      std::copy_n(state_of(l).x.begin() + b.x_begin, n_x, x_.data() + lanes_ * at(b.x_begin) + l * n_x);
+      std::copy_n(state_of(l).run.m.begin() + b.m_begin, n_m, m_.data() + lanes_ * at(b.m_begin) + l * n_m);
+      views_[lanes_ * at(block) + l] = state_of(l).work.views[at(block)];
     }
+  };
+  for (const auto& level : plan_.levels)
+    for (const int block : level.nonlinear) take(block);
+  for (const int block : plan_.momentary) take(block);
 }
 
 /// Steps, kinds and times of the rows that lead through the next points; how many rows.
 std::size_t AdvanceRows::lay_out_rows(const Schedule& schedule, std::size_t first, std::size_t points, int substeps) {
-  const bool times = plan_.has_histories;
-  row_is_point_ = substeps == 1 && !times;
+  const bool times = plan_.has_histories || !plan_.momentary.empty();
+  row_is_point_ = substeps == 1 && !plan_.has_histories;
   if (row_is_point_) {
     steps_ = schedule.h.data() + first;
     kinds_ = schedule.kind.data() + first;
+    times_ = schedule.t.data() + first;
     return points;
   }
   for (auto* list : {&h_, &t_, &branch_}) list->clear();
@@ -108,6 +112,7 @@ std::size_t AdvanceRows::lay_out_rows(const Schedule& schedule, std::size_t firs
   }
   steps_ = h_.data();
   kinds_ = kind_.data();
+  times_ = t_.data();
   return h_.size();
 }
 
@@ -174,6 +179,7 @@ void AdvanceRows::pass_block(std::span<AdvanceState* const> states, int block, s
   r.x = x_.data() + lanes_ * at(b.x_begin);
   r.m = m_.data() + lanes_ * at(b.m_begin);
   r.h = steps_;
+  if (b.kernel->uses_time) r.t = times_;
   r.path_steps = states.front()->path_steps_of(block);
   r.scratch = scratch_.data();
   b.kernel->rows(r);
@@ -184,10 +190,10 @@ void AdvanceRows::pass_history(AdvanceState& state, int lane, int block, std::si
   const auto source = at(b.source.front()), signal = at(b.y_begin);
   View<double>& v = state.work.views[at(block)];
   for (std::size_t k = 0; k < rows; ++k) {
-    v.t = t_[k];
+    v.t = times_[k];
     v.branch = branch_[k];
     state.y[source] = in_[source][k * lanes_ + at(lane)];
-    state.look_back(block, t_[k]);
+    state.look_back(block, times_[k]);
     own_[signal][k * lanes_ + at(lane)] = state.y[signal];
   }
 }
@@ -281,6 +287,7 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
       for (const int loop : level.loops)
         for (std::size_t l = 0; l < states.size(); ++l) pass_loop(*states[l], l, loop, rows);
     }
+    for (const int block : plan_.momentary) pass_block(states, block, rows);
     record(schedule, first, points, values);
     if (has_run_away(values)) {
       for (auto* run : values)

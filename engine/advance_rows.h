@@ -60,6 +60,7 @@ class AdvanceRows {
   bool row_is_point_ = false;  // then row_ is not there
   const double* steps_ = nullptr;
   const int* kinds_ = nullptr;
+  const double* times_ = nullptr;
   std::vector<const double*> inputs_;
   std::vector<double*> outputs_;
 };

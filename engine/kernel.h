@@ -128,6 +128,7 @@ struct RowsView {
   double* x = nullptr;                  ///< states, lane by lane: at row -1, left as they are at the last row
   double* m = nullptr;                  ///< memory, the same; what no output can see (weight 0) may be left behind
   const double* h = nullptr;            ///< per row: the step that leads to it [s]; 0: there the inputs jump
+  const double* t = nullptr;            ///< per row [s]; null for blocks that do not use the time
   int path_steps = 0;                   ///< Runge-Kutta steps along a jump; 0: states stand still there
   double* scratch = nullptr;            ///< of scratch_size()
 

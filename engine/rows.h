@@ -177,6 +177,7 @@ void sized_rows_of_lane(const RowsView& r, int lane) {
     for (int i = 0; i < n_u; ++i) to[i] = r.u[i][row * r.lanes + lane];
   };
   for (int k = 0; k < r.count; ++k) {
+    if (r.t != nullptr) v.t = v.branch = r.t[k];
     v.u = now;
     if constexpr (has_states) {
       if (n_x > 0) {

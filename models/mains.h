@@ -14,10 +14,14 @@ template <class T>
 T hum(const T& frequency, std::span<const T> cosine, std::span<const T> sine, const T& t) {
   using std::cos;
   using std::sin;
-  T sum{0};
+  const T angle = 2 * std::numbers::pi * frequency * t;
+  const T c1 = cos(angle), s1 = sin(angle);
+  T c = c1, s = s1, sum{0};  // of harmonic k: one turned on by the first angle is the next
   for (std::size_t k = 0; k < cosine.size(); ++k) {
-    const T angle = 2 * std::numbers::pi * static_cast<double>(k + 1) * frequency * t;
-    sum += cosine[k] * cos(angle) + sine[k] * sin(angle);
+    sum += cosine[k] * c + sine[k] * s;
+    const T turned = c * c1 - s * s1;
+    s = s * c1 + c * s1;
+    c = turned;
   }
   return sum;
 }

@@ -21,20 +21,25 @@ SeriesPointer wave(double frequency, Between between = Between::linear) {
 }
 
 /// Every kind of block: fixed and sized ones, memory, states linear and not, a dead time, a loop with an operator in
-/// it.
+/// it, a function of time on top.
 ProgramPointer everything() {
-  return compiled(diagram({{"law", thesis_bouc_wen("u")},
-                           {"core", thesis_operators("u")},
-                           {"both", block("sum", {}, {"law", "core"})},
-                           {"x", block("lag", {{"times", list({0.01, 0.003}, "s")}}, {"both"})},
-                           {"w", block("play", {{"radius", "0.2 um"}}, {"x"})},
-                           {"late", block("dead_time", {{"delay", "2.3 ms"}}, {"w"})},
-                           {"e", block("sum", {{"signs", "+-"}}, {"u", "y"})},
-                           {"limited", block("saturation", {{"lower", "-1 V"}, {"upper", "2 V"}}, {"e"})},
-                           {"speed", block("gain", {{"gain", "40 1/s"}}, {"limited"})},
-                           {"y", block("integrator", {}, {"speed"})},
-                           {"product", block("product", {}, {"w", "u"})}},
-                          {"law", "core", "x", "w", "late", "y", "product", "u"}, {{"u", "V"}}));
+  return compiled(diagram(
+      {{"law", thesis_bouc_wen("u")},
+       {"core", thesis_operators("u")},
+       {"both", block("sum", {}, {"law", "core"})},
+       {"x", block("lag", {{"times", list({0.01, 0.003}, "s")}}, {"both"})},
+       {"w", block("play", {{"radius", "0.2 um"}}, {"x"})},
+       {"late", block("dead_time", {{"delay", "2.3 ms"}}, {"w"})},
+       {"e", block("sum", {{"signs", "+-"}}, {"u", "y"})},
+       {"limited", block("saturation", {{"lower", "-1 V"}, {"upper", "2 V"}}, {"e"})},
+       {"speed", block("gain", {{"gain", "40 1/s"}}, {"limited"})},
+       {"y", block("integrator", {}, {"speed"})},
+       {"product", block("product", {}, {"w", "u"})},
+       {"hum", block("mains_interference",
+                     {{"frequency", "50 Hz"}, {"cosine", list({0.1, 0.02}, "um")}, {"sine", list({-0.3, 0.05}, "um")}},
+                     {"w"})},
+       {"loud", block("gain", {{"gain", 10}}, {"hum"})}},
+      {"law", "core", "x", "w", "late", "y", "product", "hum", "loud", "u"}, {{"u", "V"}}));
 }
 
 hysteron::Run run_number(const Program& program, int i, const SeriesPointer& u) {
@@ -47,6 +52,7 @@ hysteron::Run run_number(const Program& program, int i, const SeriesPointer& u) 
   set_parameter(program, run, "w.radius", 1e-7 * (1 + 0.1 * i));
   set_parameter(program, run, "late.delay", 0.0023 + 1e-4 * i);
   set_parameter(program, run, "limited.upper", 2 - 0.1 * i);
+  set_parameter(program, run, "hum.frequency", 50 + 0.1 * i);
   run.x[0] += 1e-8 * i;
   return run;
 }
