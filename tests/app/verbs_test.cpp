@@ -4,27 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "engine/units.h"
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
+#include "tests/app/lab_test.h"
 #include "tests/app/schema_check.h"
 
 namespace hysteron {
 namespace {
 
 using nlohmann::json;
-using process::Folder;
 using process::hysteron;
 using process::Outcome;
 
-class Verbs : public testing::Test {
- protected:
-  void SetUp() override { lab::furnish(folder_); }
-  json result(const std::string& folder) { return json::parse(folder_.read(folder + "/result.json")); }
-  const Folder folder_;
-};
+class Verbs : public LabTest {};
 
 const char sine[] = R"({
   "format": 1, "title": "Sine",
@@ -44,63 +38,6 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_NE(outcome.out.find("diagram.json: ok: 3 blocks, 1 input, 1 output"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("dataset.json: ok: 2 recordings, 350 rows judged"), std::string::npos) << outcome.out;
   EXPECT_EQ(folder_.entries(), before);
-}
-
-TEST_F(Verbs, InspectSaysWhatTheRecordingsCanAndCannotShow) {
-  const Outcome outcome = hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.starts_with("The data: no fault found.")) << outcome.out;
-  EXPECT_NE(outcome.out.find("report: dataset.inspect/report.html"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("They cannot show thermal_expansion: no column of the recordings is a temperature"),
-            std::string::npos)
-      << outcome.out;
-  const json inspection = result("dataset.inspect")["facts"]["inspection"];
-  EXPECT_EQ(inspection["recordings"].size(), 2U);
-  EXPECT_EQ(inspection["columns"][0]["is"], "input");
-  EXPECT_EQ(inspection["columns"][0]["unit"], "V");
-  EXPECT_TRUE(inspection["faults"].empty());
-  EXPECT_FALSE(inspection["cannot_show"].empty());
-  EXPECT_EQ(schema::refuses("result", folder_.read("dataset.inspect/result.json")), "");
-}
-
-TEST_F(Verbs, InspectPrintsTheSameFactsAsJsonAndWritesNothing) {
-  const auto before = folder_.entries();
-  const Outcome outcome = hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json", "--json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(folder_.entries(), before);
-  const json facts = json::parse(outcome.out);
-  hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json", "-o", "out"});
-  EXPECT_EQ(facts, result("out")["facts"]);
-}
-
-TEST_F(Verbs, InspectNeedsNoDiagramAndSaysWhatItAssumed) {
-  const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("No diagram was named"), std::string::npos) << outcome.out;
-  const json inspection = result("out")["facts"]["inspection"];
-  ASSERT_EQ(inspection["recordings"].size(), 1U);  // cut for fitting, looked at as one
-  EXPECT_EQ(inspection["recordings"][0]["rows"], 200);
-}
-
-TEST_F(Verbs, InspectTellsAGapOfTheClock) {
-  std::string text = lab::recording();
-  for (int k = 0; k < 2; ++k) {  // two rows in the middle
-    const auto begin = text.find('\n', text.size() / 2) + 1;
-    text.erase(begin, text.find('\n', begin) + 1 - begin);
-  }
-  folder_.write("a.csv", text);
-  const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("a.csv: 2 rows missing, in 1 gap of its clock"), std::string::npos) << outcome.out;
-}
-
-TEST_F(Verbs, DiagnoseBeginsWithTheData) {
-  const Outcome outcome = hysteron(
-      folder_.path(), {"diagnose", "diagram.json", "--data", "dataset.json", "-o", "out", "--only", "amplifier_lag"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  const json told = result("out");
-  EXPECT_EQ(told["sections"][0]["title"], "The data");
-  EXPECT_EQ(told["facts"]["inspection"]["recordings"].size(), 2U);
 }
 
 TEST_F(Verbs, LinearizeWritesTheUnitOfAGainSoThatItCanBeReadBack) {
@@ -283,155 +220,6 @@ TEST_F(Verbs, SharesOfEverySplitAddUpToAHundredPercent) {
     EXPECT_NE(std::find(by.begin(), by.end(), variable), by.end()) << variable;
 }
 
-TEST_F(Verbs, FitFindsTheGainAndWritesADiagramThatRuns) {
-  std::string text = lab::diagram();
-  text.replace(text.find("\"value\": 1.5"), 12, "\"value\": 1.2");
-  folder_.write("poor.json", text);
-  const Outcome outcome =
-      hysteron(folder_.path(), {"fit", "poor.json", "--data", "dataset.json", "--write", "good.json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json parameter = result("poor.fit")["facts"]["parameters"][0];
-  EXPECT_EQ(parameter["parameter"], "gain");
-  EXPECT_EQ(parameter["unit"], "um/V");
-  EXPECT_NEAR(parameter["value"].get<double>(), 1.5, 1e-6);  // six digits in the CSV
-  EXPECT_LE(parameter["low95"].get<double>(), 1.5 + 1e-6);
-  EXPECT_GE(parameter["high95"].get<double>(), 1.5 - 1e-6);
-  for (const char* file : {"good.json", "poor.fit/fitted.json"})
-    EXPECT_EQ(
-        hysteron(folder_.path(), {"compare", file, "--data", "dataset.json", "--tolerance", "1 nm", "-o", "after"})
-            .code,
-        0)
-        << file;
-}
-
-TEST_F(Verbs, FitWithNothingFreeSaysHowToFreeSomething) {
-  std::string text = lab::diagram();
-  text.replace(text.find(", \"free\": true"), 14, "");
-  folder_.write("fixed.json", text);
-  const Outcome outcome = hysteron(folder_.path(), {"fit", "fixed.json", "--data", "dataset.json"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("--free"), std::string::npos) << outcome.err;
-  EXPECT_EQ(hysteron(folder_.path(), {"fit", "fixed.json", "--data", "dataset.json", "--free", "gain"}).code, 0);
-}
-
-TEST_F(Verbs, AJobComparesMethodsAndKeepsTheBest) {
-  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "diagram.json", "data": "dataset.json",
-    "free": [{"parameter": "gain", "lower": "0.1 um/V", "upper": "10 um/V", "start": "0.3 um/V"}],
-    "method": ["search", {"name": "pso", "runs": 50, "then": "nothing"}], "seed": 3, "write": "good.json"})");
-  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json facts = result("job.fit")["facts"];
-  EXPECT_NEAR(facts["parameters"][0]["value"].get<double>(), 1.5, 1e-6);  // six digits in the CSV
-  EXPECT_NEAR(facts["parameters"][0]["start"].get<double>(), 0.3, 1e-12);
-  EXPECT_EQ(facts["seed"], 3);
-  EXPECT_NE(outcome.out.find("seconds"), std::string::npos) << outcome.out;  // the table of methods
-  EXPECT_EQ(hysteron(folder_.path(), {"compare", "good.json", "--data", "dataset.json", "--tolerance", "1 nm"}).code,
-            0);
-  // The table says seconds to the terminal only: the same input gives the same file.
-  const std::string first = folder_.read("job.fit/result.json");
-  ASSERT_EQ(hysteron(folder_.path(), {"fit", "job.json"}).code, 0);
-  EXPECT_EQ(folder_.read("job.fit/result.json"), first);
-}
-
-TEST_F(Verbs, FitReadsWeightsOffTheSlopesAsTheThesisDoes) {
-  folder_.write("plays.json", R"({"format": 1, "title": "plays", "inputs": {"u": {"unit": "V"}},
-    "blocks": {"core": {"type": "prandtl_ishlinskii", "thresholds": ["0 V", "1 V"], "weights": ["1 um/V", "0.1 um/V"], "in": "u"}},
-    "outputs": {"y": "core"}})");
-  // From rest to 2 V and back: slopes 1.5 and 1.75 um/V, so weights 1.5 and 0.25.
-  folder_.write("loop.csv", "t [s],u [V],y [um]\n0,0,0\n1,0.5,0.75\n2,1,1.5\n3,1.5,2.375\n4,2,3.25\n5,1,1.75\n6,0,0\n");
-  folder_.write("loop.json", R"({"format": 1, "recordings": [{"file": "loop.csv", "role": "train"},
-    {"file": "loop.csv", "role": "validate"}]})");
-  const Outcome outcome = hysteron(folder_.path(), {"fit", "plays.json", "--data", "loop.json", "--method", "slopes"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json parameters = result("plays.fit")["facts"]["parameters"];
-  ASSERT_EQ(parameters.size(), 2U);
-  EXPECT_NEAR(parameters[0]["value"].get<double>(), 1.5, 1e-12);
-  EXPECT_NEAR(parameters[1]["value"].get<double>(), 0.25, 1e-12);
-  EXPECT_TRUE(parameters[1]["low95"].is_null());
-  const Outcome wrong =
-      hysteron(folder_.path(), {"fit", "diagram.json", "--data", "dataset.json", "--method", "slopes"});
-  EXPECT_EQ(wrong.code, 2);  // its model has no such block
-  EXPECT_NE(wrong.err.find("prandtl_ishlinskii"), std::string::npos) << wrong.err;
-}
-
-TEST_F(Verbs, AWrongJobIsToldWithItsLineAndCure) {
-  const auto told = [&](const std::string& members, const char* code, int line) {
-    folder_.write("job.json",
-                  "{\"format\": 1, \"do\": \"fit\",\n\"diagram\": \"diagram.json\", \"data\": \"dataset.json\",\n" +
-                      members + "}");
-    const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json", "--errors", "json"});
-    EXPECT_EQ(outcome.code, 2) << outcome.out;
-    const json problem = json::parse(outcome.err)["problems"][0];
-    EXPECT_EQ(problem["code"], code) << problem;
-    EXPECT_EQ(problem["line"], line) << problem;
-    EXPECT_EQ(problem["file"], "job.json") << problem;
-    EXPECT_NE(problem["cure"], "") << problem;
-  };
-  told("\"free\": [\n{\"parameter\": \"gian\"}]", "unknown_parameter", 4);
-  told("\"free\": [{\"parameter\": \"gain\",\n\"lower\": \"1 kg\"}]", "wrong_unit", 4);
-  told("\"free\": [{\"parameter\": \"gain\",\n\"start\": \"5 um/V\", \"upper\": \"2 um/V\"}]", "start_outside", 4);
-  told("\"method\": {\n\"name\": \"psso\"}", "unknown_method", 4);
-  told("\"colour\": 1", "unknown_key", 3);
-  EXPECT_FALSE(folder_.has("job.fit"));
-  const Outcome no_data = hysteron(folder_.path(), {"fit", "diagram.json"});
-  EXPECT_EQ(no_data.code, 2);
-  EXPECT_NE(no_data.err.find("--data"), std::string::npos) << no_data.err;
-}
-
-TEST_F(Verbs, AJobPlacesThresholdsAndTheSlopesOfTheThesisAreAMethod) {
-  folder_.write("truth.json", R"({"format": 1, "blocks": {
-    "drive": {"type": "triangle", "amplitude": "4 V", "offset": "4 V", "phase": "-90 deg", "frequency": "1 Hz"},
-    "core": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 1.5, 4], "unit": "V"},
-             "weights": {"value": [0.8, 0.3, 0.2], "unit": "um/V"}, "in": "drive"}},
-    "record": ["drive", "core"], "simulate": {"until": "3 s", "every": "5 ms"}})");
-  folder_.write("pi.json", R"({"format": 1, "inputs": {"drive": {"unit": "V"}}, "blocks": {
-    "model": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 1, 2], "unit": "V"},
-              "weights": {"value": [1, 0.1, 0.1], "unit": "um/V"}, "in": "drive"}}, "outputs": {"core": "model"}})");
-  ASSERT_EQ(hysteron(folder_.path(), {"run", "truth.json", "-o", "lab"}).code, 0);
-  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "pi.json", "data": "lab/traces/signals.csv",
-    "thresholds": {"block": "model", "count": 3}})");
-  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const auto value = [&](const std::string& out, const std::string& path) {
-    const json facts = result(out)["facts"];
-    for (const auto& p : facts["parameters"])
-      if (p["parameter"] == path) return p["value"].get<double>();
-    return std::nan("");
-  };
-  EXPECT_NEAR(value("job.fit", "model.weights[0]"), 0.8, 1e-3);  // no noise; the search ends within 1e-9 of chi2
-  EXPECT_NEAR(value("job.fit", "model.weights[1]"), 0.3, 1e-3);
-  const Outcome slopes = hysteron(
-      folder_.path(), {"fit", "pi.json", "--data", "lab/traces/signals.csv", "--method", "slopes", "-o", "slopes"});
-  ASSERT_EQ(slopes.code, 0) << slopes.err;
-  // Up to 1 V the branch that rises from zero has the slope 0.8 um/V, whatever comes behind.
-  EXPECT_NEAR(value("slopes", "model.weights[0]"), 0.8, 1e-6);
-}
-
-TEST_F(Verbs, AnInterruptedFitKeepsItsBestAndSaysSo) {
-  // A budget that would take hours; however slow the machine, the fit is at work when the signal comes.
-  folder_.write("lag.json", R"({"format": 1, "inputs": {"u": {"unit": "V"}}, "blocks": {
-    "lag": {"type": "lag", "times": {"value": [5], "unit": "ms"}, "in": "u"},
-    "sensor": {"type": "calibration", "gain": "1.5 um/V", "offset": "0.2 um", "in": "lag"}},
-    "outputs": {"y": "sensor"}})");
-  folder_.write("job.json", R"({"format": 1, "do": "fit", "diagram": "lag.json", "data": "dataset.json",
-    "free": [{"parameter": "lag.times", "lower": "0.1 ms", "upper": "1 s"}],
-    "method": {"name": "isres", "runs": 1000000000}})");
-  const Outcome outcome = hysteron(folder_.path(), {"fit", "job.json"}, "", 4000);
-  EXPECT_EQ(outcome.code, 130) << outcome.out << outcome.err;
-  ASSERT_TRUE(folder_.has("job.fit/parameters.json")) << outcome.err;
-  EXPECT_EQ(result("job.fit")["facts"]["interrupted"], true);
-  EXPECT_NE(outcome.err.find("job.fit"), std::string::npos) << outcome.err;  // where the best so far lies
-}
-
-TEST_F(Verbs, AFitDatesItsParametersAsItIsTold) {
-  const Outcome outcome =
-      process::shell(folder_.path(), "SOURCE_DATE_EPOCH=86400 hysteron fit diagram.json --data dataset.json -o out");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json parameters = json::parse(folder_.read("out/parameters.json"));
-  EXPECT_EQ(parameters["fit"]["date"], "1970-01-02T00:00:00Z");
-  EXPECT_EQ(parameters["fit"]["data"], "dataset.json");
-}
-
 TEST_F(Verbs, AddPrintsTheChangeAndRemoveUndoesItToTheLetter) {
   const Outcome shown = hysteron(folder_.path(), {"add", "creep", "diagram.json", "--at", "actuator"});
   ASSERT_EQ(shown.code, 0) << shown.err;
@@ -509,89 +297,6 @@ TEST_F(Verbs, WhatIsWrittenSatisfiesTheShippedSchemas) {
     EXPECT_EQ(schema::refuses("diagram", folder_.read(file)), "") << file;
   EXPECT_EQ(schema::refuses("dataset", folder_.read("stage/dataset.json")), "");
   EXPECT_NE(schema::refuses("result", "{\"format\": 1}"), "") << "the schema takes anything";
-}
-
-TEST_F(Verbs, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOneThatDoes) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
-  const std::vector<std::string> words{"discover", "diagram.json", "--data", "dataset.json", "--check", "-o", "out"};
-  folder_.write("a.csv", lab::noisy_recording(1));
-  folder_.write("b.csv", lab::noisy_recording(2));
-  const Outcome adequate = hysteron(folder_.path(), words);
-  EXPECT_EQ(adequate.code, 0) << adequate.out << adequate.err;
-  EXPECT_TRUE(adequate.out.ends_with("adequate: out/report.html\n")) << adequate.out;
-
-  folder_.write("a.csv", lab::noisy_recording(3, 0.02));  // 20 ms at a period of 0.5 s: a hundred times the noise
-  folder_.write("b.csv", lab::noisy_recording(4, 0.02));
-  const Outcome missing = hysteron(folder_.path(), words);
-  EXPECT_EQ(missing.code, 1) << missing.out << missing.err;
-  EXPECT_NE(missing.out.find("lag"), std::string::npos) << missing.out;
-  EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
-}
-
-TEST_F(Verbs, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(1));
-  folder_.write("b.csv", lab::noisy_recording(2));
-  // 5 % less than the recordings have, though free: a plain discovery fits it, a check does not.
-  const std::vector<std::string> words{"discover", "diagram.json", "--data",          "dataset.json", "--check",
-                                       "--json",   "--set",        "gain=1.425 um/V", "-o",           "out"};
-  const Outcome moved = hysteron(folder_.path(), words);
-  EXPECT_EQ(moved.code, 1) << moved.out << moved.err;
-  EXPECT_TRUE(moved.out.starts_with("{")) << moved.out;
-  for (const char* said : {"\"explained\": false", "\"parameters_moved\": true", "\"parameters\"", "(was 1.425)"})
-    EXPECT_NE(moved.out.find(said), std::string::npos) << said << " in " << moved.out;
-  EXPECT_TRUE(folder_.has("out/result.json"));
-}
-
-/// What the lines of the waterfalls are.
-std::set<std::string> floor_labels(const json& all) {
-  std::set<std::string> labels;
-  for (const auto& s : all["sections"])
-    for (const auto& f : s.value("figures", json::array()))
-      for (const auto& b : f.value("bars", json::array()))
-        if (b["role"] == "floor") labels.insert(b["label"]);
-  return labels;
-}
-
-TEST_F(Verbs, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
-  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
-  ASSERT_EQ(hysteron(folder_.path(),
-                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
-                .code,
-            0);
-  const json all = result("out");
-  const json& floor = all["facts"]["floor"][0];
-  // Six periods of a law that repeats exactly: what differs is the noise of 5 nm. The least of two recordings with some
-  // 400 rows each: a standard deviation is good to 1/sqrt(2 * 400) = 3.5 %, three of these.
-  EXPECT_NEAR(floor["repeatability_rms"].get<double>(), 0.005, 0.1 * 0.005) << floor;
-  EXPECT_NE(floor["repeats"].get<std::string>().find("periods in"), std::string::npos);
-  EXPECT_TRUE(floor_labels(all).contains("repeatability"));
-}
-
-TEST_F(Verbs, DiscoverHoldsTheErrorAgainstTheNoiseWhereNothingWasRecordedTwice) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  data.replace(data.find("\"train\""), 7, R"("train", "until": "0.48 s")");  // a period lasts 0.5 s
-  data.replace(data.find("\"validate\""), 10, R"("validate", "until": "0.4 s")");
-  folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
-  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
-  ASSERT_EQ(hysteron(folder_.path(),
-                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
-                .code,
-            0);
-  const json all = result("out");
-  EXPECT_EQ(floor_labels(all), std::set<std::string>{"noise of the sensor"});
-  EXPECT_FALSE(all["facts"]["floor"][0].contains("repeatability_rms"));
-  EXPECT_NE(folder_.read("out/report.html").find("Nothing was recorded twice"), std::string::npos);
 }
 
 TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {

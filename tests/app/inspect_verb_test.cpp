@@ -1,0 +1,78 @@
+// What `hysteron inspect data` and the first page of a diagnosis say of recordings.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hysteron_process.h"
+#include "tests/app/lab.h"
+#include "tests/app/lab_test.h"
+#include "tests/app/schema_check.h"
+
+namespace hysteron {
+namespace {
+
+using nlohmann::json;
+using process::hysteron;
+using process::Outcome;
+
+class InspectVerb : public LabTest {};
+
+TEST_F(InspectVerb, InspectSaysWhatTheRecordingsCanAndCannotShow) {
+  const Outcome outcome = hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("The data: no fault found.")) << outcome.out;
+  EXPECT_NE(outcome.out.find("report: dataset.inspect/report.html"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("They cannot show thermal_expansion: no column of the recordings is a temperature"),
+            std::string::npos)
+      << outcome.out;
+  const json inspection = result("dataset.inspect")["facts"]["inspection"];
+  EXPECT_EQ(inspection["recordings"].size(), 2U);
+  EXPECT_EQ(inspection["columns"][0]["is"], "input");
+  EXPECT_EQ(inspection["columns"][0]["unit"], "V");
+  EXPECT_TRUE(inspection["faults"].empty());
+  EXPECT_FALSE(inspection["cannot_show"].empty());
+  EXPECT_EQ(schema::refuses("result", folder_.read("dataset.inspect/result.json")), "");
+}
+
+TEST_F(InspectVerb, InspectPrintsTheSameFactsAsJsonAndWritesNothing) {
+  const auto before = folder_.entries();
+  const Outcome outcome = hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json", "--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(folder_.entries(), before);
+  const json facts = json::parse(outcome.out);
+  hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json", "-o", "out"});
+  EXPECT_EQ(facts, result("out")["facts"]);
+}
+
+TEST_F(InspectVerb, InspectNeedsNoDiagramAndSaysWhatItAssumed) {
+  const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("No diagram was named"), std::string::npos) << outcome.out;
+  const json inspection = result("out")["facts"]["inspection"];
+  ASSERT_EQ(inspection["recordings"].size(), 1U);  // cut for fitting, looked at as one
+  EXPECT_EQ(inspection["recordings"][0]["rows"], 200);
+}
+
+TEST_F(InspectVerb, InspectTellsAGapOfTheClock) {
+  std::string text = lab::recording();
+  for (int k = 0; k < 2; ++k) {  // two rows in the middle
+    const auto begin = text.find('\n', text.size() / 2) + 1;
+    text.erase(begin, text.find('\n', begin) + 1 - begin);
+  }
+  folder_.write("a.csv", text);
+  const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("a.csv: 2 rows missing, in 1 gap of its clock"), std::string::npos) << outcome.out;
+}
+
+TEST_F(InspectVerb, DiagnoseBeginsWithTheData) {
+  const Outcome outcome = hysteron(
+      folder_.path(), {"diagnose", "diagram.json", "--data", "dataset.json", "-o", "out", "--only", "amplifier_lag"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const json told = result("out");
+  EXPECT_EQ(told["sections"][0]["title"], "The data");
+  EXPECT_EQ(told["facts"]["inspection"]["recordings"].size(), 2U);
+}
+
+}  // namespace
+}  // namespace hysteron
