@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "discover/rows.h"
 #include "discover/wiring.h"
@@ -159,83 +161,102 @@ void look_at_row_times(const DataSet& data, Circumstances& c) {
   }
 }
 
-}  // namespace
-
-std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
-                                            const std::vector<Place>& places,
-                                            const std::vector<std::string>& free_paths) {
-  const auto program = compile(diagram, registry);
-  Circumstances common;
-  common.from_data = true;
-  look_at_row_times(data, common);
-  for (const int b : program->memory_blocks) {
-    const auto& block = program->blocks[static_cast<std::size_t>(b)];
-    if (!block.kernel->declaration.memory_port.empty()) common.memory_blocks.push_back(block.path);
-  }
-  bool free_zero = false;
-  for (const auto& name : program->output_names)
-    if (const auto note = data.notes.find(name); note != data.notes.end() && note->second.zero_per_recording)
-      free_zero = true;
-
-  std::vector<int> signals;
-  for (const auto& p : places) {
-    const std::string wire = program_signal(diagram, registry, p.wire);
-    const int first = program->find_signal(wire + "[0]");  // of a vector the first element speaks for all
-    signals.push_back(first >= 0 ? first : program->signal(wire));
-  }
-  const std::size_t n = signals.size();
-  std::vector<int> side_signal;  // per place: its row among `signals`, -1 = none
-  for (const auto& p : places) {
-    const int signal = p.side.empty() ? -1 : program->find_signal(program_signal(diagram, registry, p.side));
-    side_signal.push_back(signal < 0 ? -1 : static_cast<int>(signals.size()));
-    if (signal >= 0) signals.push_back(signal);
-  }
-  std::vector<int> travel_signal;  // per place: the row of what a replaced block moves, -1 = none
-  for (const auto& p : places) {
-    int signal = -1;
-    for (const auto& block : program->blocks)
-      if (!p.by.empty() && block.path == p.at) signal = block.y_begin;
-    travel_signal.push_back(signal < 0 ? -1 : static_cast<int>(signals.size()));
-    if (signal >= 0) signals.push_back(signal);
-  }
-  const std::size_t drives = signals.size();
-  signals.insert(signals.end(), program->input_signals.begin(), program->input_signals.end());
-  std::vector<std::vector<std::vector<double>>> rows;  // [train recording][signal][row]
-  std::vector<const Recording*> trains;
-  for (const auto& r : data.recordings) {
-    if (r.role != Role::train || r.last < 2) continue;
-    trains.push_back(&r);
-    rows.push_back(traces(program, data, r, signals));
-    for (auto& s : rows.back()) s.resize(r.last);
+/// What passes on the wires of some places while the recordings drive the diagram.
+class Observer {
+ public:
+  Observer(const Diagram& diagram, const Registry& registry, const DataSet& data, const std::vector<Place>& places)
+      : places_(places), data_(data), program_(compile(diagram, registry)) {
+    find_signals(diagram, registry);
+    const bool reads_sides = std::any_of(side_signal_.begin(), side_signal_.end(), [](int s) { return s >= 0; });
+    for (const auto& r : data.recordings) {
+      if (r.role == Role::test || r.last < 2) continue;
+      Seen seen{&r, {}};
+      if (r.role == Role::train || reads_sides) seen.rows = traces(program_, data, r, signals_);
+      for (auto& s : seen.rows) s.resize(r.last);
+      (r.role == Role::train ? trains_ : others_).push_back(std::move(seen));
+    }
   }
 
-  // A side signal is a wire of the diagram, or a column that the diagram does not read yet.
-  const auto side_rows = [&](std::size_t r, std::size_t i) -> const std::vector<double>* {
-    if (side_signal[i] >= 0) return &rows[r][static_cast<std::size_t>(side_signal[i])];
-    const auto found = trains[r]->columns.find(places[i].side);
-    return found == trains[r]->columns.end() ? nullptr : &found->second;
+  std::vector<Circumstances> operator()(const std::vector<std::string>& free_paths) const {
+    const InSeries in_series(*program_, free_paths);
+    std::vector<Circumstances> result(places_.size(), common());
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      auto& c = result[i];
+      const int signal = signals_[i];
+      c.unit = program_->signals[static_cast<std::size_t>(signal)].unit;
+      in_series.look(signal, c);
+      c.weights = weights_behind(*program_, signal);
+      c.resolution = resolution_at(*program_, data_, signal);
+      c.by = places_[i].by;
+      span(i, c.lowest, c.highest);
+      if (travel_signal_[i] >= 0) span(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);
+      look_at_moves(i, c);
+      if (!places_[i].side.empty()) look_at_side(i, c);
+    }
+    return result;
+  }
+
+ private:
+  struct Seen {
+    const Recording* recording;
+    std::vector<std::vector<double>> rows;  // [signal][row]
   };
-  const InSeries in_series(*program, free_paths);
-  std::vector<Circumstances> result(n, common);
-  const auto span = [&](std::size_t s, double& low, double& high) {
+
+  /// Wires of the places, then their side signals, what replaced blocks move, and the inputs.
+  void find_signals(const Diagram& diagram, const Registry& registry) {
+    for (const auto& p : places_) {
+      const std::string wire = program_signal(diagram, registry, p.wire);
+      const int first = program_->find_signal(wire + "[0]");  // of a vector the first element speaks for all
+      signals_.push_back(first >= 0 ? first : program_->signal(wire));
+    }
+    const auto add = [&](int signal) {
+      if (signal < 0) return -1;
+      signals_.push_back(signal);
+      return static_cast<int>(signals_.size()) - 1;
+    };
+    for (const auto& p : places_)
+      side_signal_.push_back(
+          add(p.side.empty() ? -1 : program_->find_signal(program_signal(diagram, registry, p.side))));
+    for (const auto& p : places_) {
+      int signal = -1;
+      for (const auto& block : program_->blocks)
+        if (!p.by.empty() && block.path == p.at) signal = block.y_begin;
+      travel_signal_.push_back(add(signal));
+    }
+    drives_ = signals_.size();
+    signals_.insert(signals_.end(), program_->input_signals.begin(), program_->input_signals.end());
+  }
+
+  /// What all places share.
+  Circumstances common() const {
+    Circumstances c;
+    c.from_data = true;
+    look_at_row_times(data_, c);
+    for (const int b : program_->memory_blocks) {
+      const auto& block = program_->blocks[static_cast<std::size_t>(b)];
+      if (!block.kernel->declaration.memory_port.empty()) c.memory_blocks.push_back(block.path);
+    }
+    for (const auto& name : program_->output_names)
+      if (const auto note = data_.notes.find(name); note != data_.notes.end() && note->second.zero_per_recording)
+        c.offset_is_free = true;
+    look_at_holds(c);
+    return c;
+  }
+
+  void span(std::size_t signal, double& low, double& high) const {
     low = std::numeric_limits<double>::infinity();
     high = -low;
-    for (const auto& r : rows) {
-      const auto [a, b] = std::minmax_element(r[s].begin(), r[s].end());
+    for (const auto& seen : trains_) {
+      const auto [a, b] = std::minmax_element(seen.rows[signal].begin(), seen.rows[signal].end());
       low = std::min(low, *a);
       high = std::max(high, *b);
     }
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    auto& c = result[i];
-    c.unit = program->signals[static_cast<std::size_t>(signals[i])].unit;
-    c.offset_is_free = free_zero;
-    in_series.look(signals[i], c);
-    c.weights = weights_behind(*program, signals[i]);
-    span(i, c.lowest, c.highest);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const auto& v = rows[r][i];
-      const auto& t = trains[r]->t;
+  }
+
+  void look_at_moves(std::size_t place, Circumstances& c) const {
+    for (const auto& seen : trains_) {
+      const auto& v = seen.rows[place];
+      const auto& t = seen.recording->t;
       if (c.range() > 0) c.reversals += static_cast<int>(turning_points(v, 0.02 * c.range()).size());
       c.starts_away_from_zero = c.starts_away_from_zero || std::abs(v.front()) > 0.02 * c.range();
       for (std::size_t k = 1; k < v.size(); ++k) {
@@ -244,39 +265,48 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
           c.quickest = std::max(c.quickest, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / c.range());
       }
     }
-    c.resolution = resolution_at(*program, data, signals[i]);
-    c.by = places[i].by;
-    if (travel_signal[i] >= 0) span(static_cast<std::size_t>(travel_signal[i]), c.travel_lowest, c.travel_highest);
-    if (!places[i].side.empty()) {
-      c.side_unit = places[i].side_unit;
-      if (side_signal[i] >= 0)
-        c.side_unit =
-            program->signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(side_signal[i])])].unit;
-      std::vector<double> side, wire, first;
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        if (const auto* column = side_rows(r, i)) {
-          side.insert(side.end(), column->begin(), column->begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
-          wire.insert(wire.end(), rows[r][i].begin(), rows[r][i].end());
-          first.push_back(column->front());
-        }
-      if (!side.empty()) {
-        const auto [low, high] = std::minmax_element(side.begin(), side.end());
-        c.side_lowest = *low;
-        c.side_highest = *high;
-        c.side_at_start = median(first);
-        c.side_correlation = correlation(side, wire);
-      }
+  }
+
+  /// A side signal is a wire of the diagram, or a column that the diagram does not read yet.
+  std::span<const double> side_of(const Seen& seen, std::size_t place) const {
+    if (side_signal_[place] >= 0) return seen.rows[static_cast<std::size_t>(side_signal_[place])];
+    const auto found = seen.recording->columns.find(places_[place].side);
+    if (found == seen.recording->columns.end()) return {};
+    return std::span(found->second).first(seen.recording->last);
+  }
+
+  void look_at_side(std::size_t place, Circumstances& c) const {
+    c.side_unit = places_[place].side_unit;
+    if (const int row = side_signal_[place]; row >= 0)
+      c.side_unit = program_->signals[static_cast<std::size_t>(signals_[static_cast<std::size_t>(row)])].unit;
+    std::vector<double> side, wire, first;
+    for (const auto& seen : trains_) {
+      const auto column = side_of(seen, place);
+      if (column.empty()) continue;
+      side.insert(side.end(), column.begin(), column.end());
+      wire.insert(wire.end(), seen.rows[place].begin(), seen.rows[place].end());
+      first.push_back(column.front());
     }
-    // Holds are those of the drive: the signal behind a slow plant never stands still.
-    for (std::size_t s = drives; s < signals.size(); ++s) {
-      double low = 0;
-      double high = 0;
+    if (side.empty()) return;
+    const auto [low, high] = std::minmax_element(side.begin(), side.end());
+    c.side_lowest = *low;
+    c.side_highest = c.side_highest_of_all = *high;
+    c.side_at_start = median(first);
+    c.side_correlation = correlation(side, wire);
+    for (const auto& seen : others_)
+      for (const double v : side_of(seen, place)) c.side_highest_of_all = std::max(c.side_highest_of_all, v);
+  }
+
+  /// Holds are those of the drive: the signal behind a slow plant never stands still.
+  void look_at_holds(Circumstances& c) const {
+    for (std::size_t s = drives_; s < signals_.size(); ++s) {
+      double low = 0, high = 0;
       span(s, low, high);
-      for (std::size_t r = 0; r < rows.size() && high > low; ++r) {
-        const std::vector<double> t(trains[r]->t.begin(),
-                                    trains[r]->t.begin() + static_cast<std::ptrdiff_t>(trains[r]->last));
-        const double hold = longest_hold(t, rows[r][s], high - low).length;
-        const double step = median_step(t);
+      for (const auto& seen : trains_) {
+        if (high <= low) break;
+        const std::span t = std::span(seen.recording->t).first(seen.recording->last);
+        const double hold = longest_hold(t, seen.rows[s], high - low).length;
+        const double step = median_step(seen.recording->t);
         // The longest one that shows two decades of time; where none does, the one that shows most.
         const bool shows = hold >= 100 * step;
         const bool shown = c.longest_hold >= 100 * c.step_at_longest_hold;
@@ -289,7 +319,22 @@ std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Regist
       }
     }
   }
-  return result;
+
+  const std::vector<Place>& places_;
+  const DataSet& data_;
+  ProgramPointer program_;
+  std::vector<int> signals_;
+  std::vector<int> side_signal_, travel_signal_;  // per place: a row among `signals_`, -1 = none
+  std::size_t drives_ = 0;                        // first of the inputs among `signals_`
+  std::vector<Seen> trains_, others_;
+};
+
+}  // namespace
+
+std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                                            const std::vector<Place>& places,
+                                            const std::vector<std::string>& free_paths) {
+  return Observer(diagram, registry, data, places)(free_paths);
 }
 
 Circumstances circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,

@@ -67,7 +67,8 @@ struct Circumstances {
   double resolution = 0;  ///< step between the levels of the measured output that this wire is; 0 = none, or no output
   Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
-  double side_at_start = 0;  ///< median over the train recordings of the side signal's first value
+  double side_highest_of_all = 1;  ///< validation included: it is known, not predicted
+  double side_at_start = 0;        ///< median over the train recordings of the side signal's first value
   /// Correlation of the side signal with this wire over the train recordings, -1..1.
   double side_correlation = 0;
   double range() const { return highest - lowest; }

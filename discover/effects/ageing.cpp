@@ -15,10 +15,10 @@ bool by_hours(const Circumstances& at) { return at.side_unit.dimension == parse_
 /// Where the decades begin: a hundred cycles, or an hour [SI]. Before that a device is still settling.
 double first_use(const Circumstances& at) { return by_hours(at) ? 3600 : 100; }
 
-/// Decades of use between the recordings.
+/// Decades of use between the recordings, those that only judge among them.
 double decades_of_use(const Circumstances& at) {
   const double n0 = first_use(at);
-  return std::log10((1 + at.side_highest / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
+  return std::log10((1 + at.side_highest_of_all / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
 }
 
 Law logarithmic(const Circumstances& at, bool free_first) {
