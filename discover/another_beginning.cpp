@@ -1,5 +1,5 @@
 // Decides whether a discovery begins with another effect: greedy search takes the one that explains most alone, and the
-// pair that explains everything need not hold it.
+// pair that explains everything need not hold it; nor need either of the pair be more than a patch without the other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr int beginnings = 3;  // names that are tried in its place
 
 /// The best admitted effect on top of the present model, fitted together with it. `begun` is none: beside that one the
 /// present effect was refused.
-std::optional<Contender> with_one_more(Books& books, const std::string& begun) {
+std::optional<Tried> with_one_more(Books& books, const std::string& begun) {
   auto tried = list_candidates(books, 2);
   fit_candidates(books, tried, 2);
   join_twins(tried);
@@ -24,7 +24,22 @@ std::optional<Contender> with_one_more(Books& books, const std::string& begun) {
   enrich(books, tried, 2, As::further, 0.9);
   const int best = best_admitted(tried);
   if (best < 0) return std::nullopt;
-  return std::move(tried[static_cast<std::size_t>(best)].contender);
+  return std::move(tried[static_cast<std::size_t>(best)]);
+}
+
+/// Is `first` no patch beside the other one, as that one is none beside it?
+bool needs_both(Books& books, const Tried& first, const Tried& second, const std::vector<Tried>& alone) {
+  const auto other = std::find_if(alone.begin(), alone.end(), [&](const Tried& t) {
+    return t.effect == second.effect && t.place.at == second.place.at && t.contender.ok;
+  });
+  if (other == alone.end()) return false;
+  Contender without = other->contender;
+  without.error_of = books.evidence->error(without.prediction);
+  Tried t = first;
+  t.contender = second.contender;
+  t.contender.error_of = books.evidence->error(t.contender.prediction);
+  judge(t, without, left_by_laws_of(books, without));
+  return t.admitted;
 }
 
 }  // namespace
@@ -33,19 +48,20 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   if (books.stopped() || books.options.max_steps < 2) return false;
   if (books.evidence->over_usual_floor(books.current.prediction).all <= rules::floor_gate) return false;
   const Contender stands = books.current;
-  const std::string begun = books.d.steps.front().winner.effect;
+  const std::string begun = books.d.steps.empty() ? "" : books.d.steps.front().winner.effect;
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(first)) {
     if (tried == beginnings || books.stopped()) break;
     const Tried& t = first[i];
-    if (!t.admitted || t.effect->id == begun) continue;
+    if (!(begun.empty() ? t.patch : t.admitted) || t.effect->id == begun) continue;
     ++tried;
     books.progress("beginning with " + t.effect->id, 0.9);
     books.current = t.contender;
     books.settle(books.current);
-    auto pair = with_one_more(books, begun);
-    if (pair && (!best || pair->error_of.rms_validate < best->error_of.rms_validate)) best = std::move(pair);
+    const auto pair = with_one_more(books, begun);
+    if (!pair || (begun.empty() && !needs_both(books, t, *pair, first))) continue;
+    if (!best || pair->contender.error_of.rms_validate < best->error_of.rms_validate) best = pair->contender;
   }
   books.current = stands;
   if (!best) return false;

@@ -78,6 +78,8 @@ enum class As { first, further };
 /// what it describes where that acts: of chi2 in each of ModelError::recordings. Empty if judged as a first one, and
 /// where none stands.
 std::vector<double> left_by_laws(const Books& books, As as);
+/// The same for the laws of any model.
+std::vector<double> left_by_laws_of(const Books& books, const Contender& model);
 
 /// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried);
@@ -133,8 +135,9 @@ void take(Books& books, int step, Tried& w, FoundStep found);
 /// a look-alike does better beside the others is replaced. The steps are then told anew.
 void reconsider(Books& books, double bar);
 
-/// Where structure is left: begins with the next best of the first step instead, one more effect on each, and takes the
-/// pair that explains the recordings better than what stands. True if there is one.
+/// Where structure is left: begins with the next best of the first step instead (where nothing was claimed, with the
+/// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better
+/// than what stands. True if there is one.
 bool another_beginning(Books& books, const std::vector<Tried>& first);
 /// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had.
 bool tell_again(Books& books, const Contender& set);

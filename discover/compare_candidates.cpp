@@ -74,9 +74,11 @@ std::set<std::size_t> worth_a_fit(const std::vector<Tried>& tried) {
   return list;
 }
 
-/// The richer law starts where the simple one ended, for parameters of the same name.
+/// The richer law starts where the simple one ended, for parameters of the same name; one that is no refinement of it
+/// where it would anyway.
 Law started_from(const Tried& t, std::size_t law) {
   Law richer = t.laws[law];
+  if (richer.apart) return richer;
   for (const auto& p : parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1)) {
     if (p.estimate == nullptr || p.estimate->linear) continue;
     for (auto& q : richer.free)
@@ -90,14 +92,18 @@ Law started_from(const Tried& t, std::size_t law) {
 
 }  // namespace
 
-std::vector<double> left_by_laws(const Books& books, As as) {
-  if (as == As::first || books.current.standing.empty()) return {};
+std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
+  if (model.standing.empty()) return {};
   const auto base = books.evidence->error(books.base.prediction).recordings;
   std::vector<double> left;
   for (std::size_t i = 0; i < base.size(); ++i)
     left.push_back(rules::own_law_left * rules::own_law_left *
-                   std::max(0.0, base[i].chi2 - books.current.error_of.recordings[i].chi2));
+                   std::max(0.0, base[i].chi2 - model.error_of.recordings[i].chi2));
   return left;
+}
+
+std::vector<double> left_by_laws(const Books& books, As as) {
+  return as == As::first ? std::vector<double>{} : left_by_laws_of(books, books.current);
 }
 
 std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {

@@ -16,6 +16,17 @@ double removed_beyond_calibration(const Books& books, const Structure& s) {
   return s.beyond_calibration - left;
 }
 
+/// What a structure has to take away beyond the effects. A clamp is a kink at a level, too: where effects leave only
+/// noise a structure must be better by more than their laws may have left.
+double to_be_taken_beyond(const Books& books) {
+  if (books.d.steps.empty() || books.current.error_of.over_floor() > rules::floor_gate) return 0;
+  double left = rules::claim_fall;
+  const auto by_laws = left_by_laws_of(books, books.current);
+  for (std::size_t i = 0; i < by_laws.size(); ++i)
+    if (books.current.error_of.recordings[i].role == Role::validate) left += by_laws[i];
+  return left;
+}
+
 /// A line where a standing law looks for lines is that law's: it wanders a little, and its law does not.
 bool is_of_a_standing_law(const Books& books, const Structure& s) {
   if (s.kind != "line_in_time" || !(s.period > 0)) return false;
@@ -81,15 +92,18 @@ void conclude(Books& books) {
   books.settle(books.current);
   books.d.base = books.evidence->error(books.base.prediction);
   const double floor = books.current.error_of.over_floor();
-  const bool base_is_off = books.d.base.over_floor() > rules::floor_gate;
+  // Where all that is left is slow, as much 1/f noise as would explain it is read off it: more than sensors have is
+  // none.
+  const double base_over = books.d.base.over_floor();
+  const double base_over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
+  const bool base_is_off = base_over > rules::floor_gate || base_over_usual > rules::slow_noise;
   std::optional<Structure> structure;
   if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction);
-  // A clamp is a kink at a level too: what effects explain down to the noise needs no structure.
-  const bool effects_suffice = !books.d.steps.empty() && floor <= rules::floor_gate;
   const bool structure_wins =
-      structure && structure->explains() && !is_of_a_standing_law(books, *structure) && !effects_suffice &&
+      structure && structure->explains() && !is_of_a_standing_law(books, *structure) &&
       structure->share_removed > rules::structure_share &&
-      structure->fall_validate > std::max(removed_beyond_calibration(books, *structure), rules::claim_fall);
+      structure->fall_validate >
+          std::max(removed_beyond_calibration(books, *structure) + to_be_taken_beyond(books), rules::claim_fall);
   if (structure_wins) {
     books.d.verdict = Verdict::unexplained;
     books.d.structure = structure;
@@ -98,7 +112,7 @@ void conclude(Books& books) {
     // chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size lifts it too.
     const bool told = structure && structure->fall_validate > rules::claim_fall;
     const bool holds = told && structure->share_removed > rules::structure_share;
-    const bool unexplained = base_is_off && (holds || books.d.base.over_floor() > rules::slow_noise);
+    const bool unexplained = base_is_off && (holds || std::max(base_over, base_over_usual) > rules::slow_noise);
     books.d.verdict = unexplained ? Verdict::unexplained : Verdict::adequate;
     if (unexplained && told) books.d.structure = structure;
   } else {

@@ -149,8 +149,8 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   fit_base(books);
   std::vector<Tried> first;
   one_by_one(books, first);
-  // A look-alike that went first can bar the way to a pair that explains everything.
-  if (books.d.steps.size() > 0 && another_beginning(books, first)) one_by_one(books, first);
+  // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
+  if (another_beginning(books, first)) one_by_one(books, first);
   conclude(books);
   return std::move(books.d);
 }

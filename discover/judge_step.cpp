@@ -66,6 +66,12 @@ double fall_beyond(const ModelError& was, const ModelError& is, const std::vecto
   return beyond;
 }
 
+/// Another effect's law does not take what an imperfect law leaves down to the noise of other recordings, but one that
+/// imitates it does.
+bool takes_to_the_noise(const ModelError& was, const ModelError& is) {
+  return was.over_floor() > rules::floor_gate && is.over_floor() <= rules::floor_gate;
+}
+
 /// Share of what stands above the noise. By chi2; where that says noise, by plain squares too: a wrong zero is one
 /// coefficient in each recording, and what it takes away is lost among the thousands of the others.
 double share_of_excess(const ModelError& was, const ModelError& is, const std::vector<std::string>& outputs,
@@ -89,6 +95,12 @@ bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
   });
 }
 
+/// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
+/// the price of every number that was fitted.
+bool all_agree(const Tried& tried, const Contender& before) {
+  return tried.fall_validate > rules::agreed_fall && before.score() - tried.contender.score() > rules::claim_fall;
+}
+
 }  // namespace
 
 std::vector<double> own_values(const Tried& tried) {
@@ -101,6 +113,10 @@ std::string why_implausible(const Effect& effect, const Law& law, const Contende
   return values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
 }
 
+bool more_than_laws_leave(const ModelError& was, const ModelError& is, const std::vector<double>& left_by_laws) {
+  return left_by_laws.empty() || takes_to_the_noise(was, is) || fall_beyond(was, is, left_by_laws) >= rules::claim_fall;
+}
+
 bool look_alike(const Effect& a, const Effect& b) {
   const auto names = [](const Effect& x, const Effect& y) {
     return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),
@@ -111,7 +127,7 @@ bool look_alike(const Effect& a, const Effect& b) {
 
 void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   const Contender& c = tried.contender;
-  tried.admitted = false;
+  tried.admitted = tried.patch = false;
   if (!c.ok) {
     tried.reason = "could not be fitted: " + c.error;
     return;
@@ -127,7 +143,9 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   if (imitates)
     for (double& chi2 : left) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
   tried.share = share_of_excess(was, is, tried.outputs, left);
-  if (!(tried.fall_validate > rules::claim_fall)) {
+  const bool above_noise = was.over_floor() > rules::floor_gate;
+  if (!(tried.fall_validate > rules::claim_fall) &&
+      (above_noise || !left_by_laws.empty() || !all_agree(tried, before))) {
     tried.reason =
         fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
                     tried.fall_validate, rules::claim_fall);
@@ -142,21 +160,23 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     tried.reason = why;
     return;
   }
-  const bool above_noise = was.over_floor() > rules::floor_gate;
-  if (left_by_laws.empty() && above_noise && tried.share < rules::share_of_first && !owns_an_excitation(was, is)) {
+  const bool to_the_noise = takes_to_the_noise(was, is);
+  // Where only noise is left behind it, it need not take more than a structure would have to.
+  const double enough = to_the_noise ? rules::structure_share : rules::share_of_first;
+  if (left_by_laws.empty() && above_noise && tried.share < enough && !owns_an_excitation(was, is)) {
+    tried.patch = true;
     tried.reason =
         fmt::format("a patch: it takes away {} of what stands above the noise, and most of it in no kind of recording",
                     percent(tried.share));
     return;
   }
   if (!left_by_laws.empty()) {
-    // Another effect's law does not take what an imperfect law leaves down to the noise of other recordings.
-    const bool to_the_noise = above_noise && is.over_floor() <= rules::floor_gate && !imitates;
-    if (!to_the_noise && fall_beyond(was, is, left) < rules::claim_fall) {
+    if (!(to_the_noise && !imitates) && fall_beyond(was, is, left) < rules::claim_fall) {
       tried.reason = "no larger than what the laws that were found may have left of their own";
       return;
     }
     if (tried.share < rules::share_of_rest && !owns_an_excitation(was, is)) {
+      tried.patch = true;
       tried.reason = fmt::format("a patch: it takes away {} of what is left, and most of it in no kind of recording",
                                  percent(tried.share));
       return;

@@ -2,6 +2,7 @@
 // and stand in one room, and one that is looked for on each axis in turn uses up the steps that others need.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "discover/books.h"
 
@@ -14,10 +15,18 @@ const Effect* standing_effect(const Books& books, const std::string& id) {
   return nullptr;
 }
 
+/// Of the laws of a candidate: the one by which its effect stands elsewhere, else the first.
+std::size_t law_as_found(const Books& books, const Tried& t) {
+  for (const auto& s : books.current.standing)
+    for (std::size_t law = 0; s.effect == t.effect && law < t.laws.size(); ++law)
+      if (t.laws[law].name == s.law.name) return law;
+  return 0;
+}
+
 /// The law, begun where the effect stands: one room has one frequency of its mains.
-Law as_found(const Books& books, const Effect& effect, Law law) {
+Law as_found(const Books& books, const Tried& t, Law law) {
   for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
-    if (books.current.standing[i].effect != &effect) continue;
+    if (books.current.standing[i].effect != t.effect) continue;
     for (const auto& p : parameters_of(books.current, static_cast<int>(i)))
       for (auto& q : law.free)
         if (p.estimate != nullptr && !p.estimate->linear && q.path == p.law->path) q.scan = {p.estimate->used, q.start};
@@ -59,9 +68,14 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
   auto tried = list_candidates(books, step, outputs, effects);
   for (auto& t : tried) {
     books.progress(t.effect->id + " at " + t.place.at, bar);
-    t.contender = with_effect(books.shop, books.current, *t.effect, as_found(books, *t.effect, t.laws.front()), t.place,
-                              t.circumstances, Effort::full);
-    books.d.model_runs += t.contender.runs;
+    for (const std::size_t law : std::set<std::size_t>{0, law_as_found(books, t)}) {
+      Contender c = with_effect(books.shop, books.current, *t.effect, as_found(books, t, t.laws[law]), t.place,
+                                t.circumstances, Effort::full);
+      books.d.model_runs += c.runs;
+      if (law > 0 && (!c.ok || (t.contender.ok && c.score() >= t.contender.score()))) continue;
+      t.contender = std::move(c);
+      t.law = law;
+    }
   }
   join_twins(tried);
   compare_all(books, tried, As::first);

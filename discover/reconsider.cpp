@@ -89,12 +89,14 @@ Rests rests_of(Books& books, double bar) {
   return rests;
 }
 
-/// The set without one that the others have made needless: it gives back less than a claim has to take away.
+/// The set without one that the others have made needless: it gives back less than a claim has to take away, or no more
+/// than what the laws of the others may have left.
 const Contender* without_a_needless_one(const Books& books, const Rests& rests) {
   for (const auto& rest : rests) {
     if (!rest) continue;
     const double given_back = rest->error_of.evidence_validate - books.current.error_of.evidence_validate;
     if (given_back < rules::claim_fall && rest->score() < books.current.score()) return &*rest;
+    if (!more_than_laws_leave(rest->error_of, books.current.error_of, left_by_laws_of(books, *rest))) return &*rest;
   }
   return nullptr;
 }

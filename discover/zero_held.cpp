@@ -1,5 +1,6 @@
 // Decides whether the zero that a law found anew hides another effect: a wrong calibration, or what shifts the middle
 // likewise. A law in front of the sensor that is neutral at rest cannot move what the sensor reads there.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,6 +14,16 @@ namespace {
 /// anybody's.
 bool has_own_constant(const Standing& s) {
   return s.place.kind == "measured" || (s.effect->side != Side::none && !s.effect->own_zero);
+}
+
+/// A law that explains the recordings as well as one that stands has a constant of its own: a curve of the sensor.
+bool rival_has_own_constant(const Books& books) {
+  return std::any_of(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
+    return std::any_of(s.ties.begin(), s.ties.end(), [&](const Candidate& tie) {
+      const Effect* rival = books.effects.find(tie.effect);
+      return rival != nullptr && rival->moves_zero && rival->places == std::vector<std::string>{"measured"};
+    });
+  });
 }
 
 /// How far the laws may move the zero by themselves [SI].
@@ -30,6 +41,7 @@ double own_zero(const Contender& c) {
 /// The laws that stand, fitted with the zeros of the user's model; nullopt if none of them found one anew, or if it is
 /// not the sensor's alone.
 std::optional<Contender> with_the_users_zeros(Books& books) {
+  if (rival_has_own_constant(books)) return std::nullopt;
   Contender c = books.current;
   std::vector<ParameterValue> zeros;
   for (auto& s : c.standing) {

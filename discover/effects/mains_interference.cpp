@@ -9,8 +9,9 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double away = 0.2;    // [Hz] that the mains is off at most, mostly ...
-constexpr double widest = 0.5;  // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
+constexpr double away = 0.2;      // [Hz] that the mains is off at most, mostly ...
+constexpr double shortest = 0.2;  // [s] ten periods: what has a shape of its own has another one in each
+constexpr double widest = 0.5;    // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
 
 Law lines(const Circumstances& at, int harmonics) {
   Law law;
@@ -23,8 +24,8 @@ Law lines(const Circumstances& at, int harmonics) {
   LawParameter f;
   f.path = "frequency";
   f.start = 50;
-  f.lower = 50 - 5 * away;
-  f.upper = 60 + 5 * away;
+  f.lower = 50 - widest;
+  f.upper = 60 + widest;
   // A recording of length T tells frequencies 1/T apart; of longer ones the local search takes care.
   const double step = std::clamp(0.5 / at.longest_recording, 2 * away / 100, 2 * away / 8);
   for (const double mains : {50.0, 60.0}) {
@@ -53,7 +54,7 @@ Effect mains_interference() {
       "y = u + sum_k cosine_k*cos(2*pi*k*f*t) + sine_k*sin(2*pi*k*f*t), amplitudes of their own in each recording";
   e.source = "Ott, Electromagnetic Compatibility Engineering (2009), chapter 3; EN 50160 (frequency of the mains)";
   e.residual = "A line at 50 or 60 Hz that follows neither drive nor motion, there at rest too.";
-  e.needs = "A recording sampled above 120 Hz, a second long or more.";
+  e.needs = "A recording sampled above 120 Hz, 0.2 s long or more.";
   e.way = Way::insert;
   e.block_type = "mains_interference";
   e.places = {"measured"};
@@ -65,6 +66,10 @@ Effect mains_interference() {
     return fmt::format("{:.5g} Hz, {:.3g} {} in the last recording", values[0],
                        at.unit.difference_from_si(std::hypot(values[1], values[2])), at.unit.text);
   };
+  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
+    if (std::abs(values[0] - 50) <= widest || std::abs(values[0] - 60) <= widest) return "";
+    return fmt::format("no mains runs at {:.4g} Hz", values[0]);
+  };
   e.laws = [](const Circumstances& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
@@ -72,8 +77,9 @@ Effect mains_interference() {
       return fmt::format(
           "no recording is sampled above 120 Hz (the quickest: every {}), so 50 Hz looks like something else",
           time_text(at.shortest_step));
-    if (at.longest_recording < 1)
-      return fmt::format("the longest recording lasts {}, a line needs 1 s", time_text(at.longest_recording));
+    if (at.longest_recording < shortest)
+      return fmt::format("the longest recording lasts {}, a line needs {}", time_text(at.longest_recording),
+                         time_text(shortest));
     return "";
   };
   return e;

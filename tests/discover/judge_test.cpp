@@ -94,6 +94,33 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
   EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, "hysteresis", "friction").admitted) << "beyond a tenth";
 }
 
+TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
+  const ModelError before = error(1000, 1060, 1000, 1004), after = error(1000, 1020, 1000, 1000);
+  const Tried t = judged(before, after, {});
+  EXPECT_TRUE(t.admitted) << t.reason;
+  EXPECT_FALSE(judged(before, error(1000, 1020, 1000, 1003), {}).admitted) << "chance agrees by as much";
+  EXPECT_FALSE(judged(before, error(1000, 1055, 1000, 1000), {}).admitted) << "9 in all are too few";
+  EXPECT_FALSE(judged(before, after, {0, 1, 0, 1}).admitted) << "on top of laws each must prove it";
+  EXPECT_FALSE(judged(error(1000, 1900, 1000, 1900), error(1000, 1000, 1000, 1896), {}).admitted)
+      << "what stands above the noise can prove it there";
+}
+
+TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {
+  // How large the noise is nobody knows to some per cent, so of 250 above 1000 rows half may be noise.
+  EXPECT_TRUE(judged(error(1000, 1250, 1000, 1250), error(1000, 1150, 1000, 1150), {}).admitted);
+  const Tried little = judged(error(1000, 1250, 1000, 1250), error(1000, 1190, 1000, 1190), {});
+  EXPECT_FALSE(little.admitted) << "a structure would have to take more";
+  EXPECT_TRUE(little.patch);
+  EXPECT_FALSE(judged(error(1000, 1650, 1000, 1650), error(1000, 1390, 1000, 1390), {}).admitted);
+}
+
+TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
+  const ModelError before = error(1000, 1090, 1000, 1090), after = error(1000, 1050, 1000, 1050);
+  EXPECT_TRUE(more_than_laws_leave(before, after, {}));
+  EXPECT_TRUE(more_than_laws_leave(before, after, {0, 30, 0, 30}));
+  EXPECT_FALSE(more_than_laws_leave(before, after, {0, 50, 0, 50}));
+}
+
 TEST_F(Judging, ARecordingTakenDownToTheNoiseIsOwnedByHalfOfIt) {
   // What the noise of a recording is nobody knows to some per cent: of 1200 over 1000 rows 1070 may be all noise.
   const std::vector<double> of_the_fast{0, 900, 0, 900};

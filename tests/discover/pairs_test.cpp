@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "discover/parts.h"
@@ -362,6 +363,45 @@ TEST_F(Pairs, WhatShowsInOneKindOfRecordingAloneIsLookedFor) {
                             {"temperature_gain", "sensor_nonlinearity", "asymmetry", "calibration"});
   EXPECT_TRUE(names(d).contains("temperature_gain")) << tried(d);
   EXPECT_EQ(names(d).size(), 2u) << tried(d);
+}
+
+/// Warmth raises the gain, use lowers it, and recordings of both kinds hide one behind the other.
+DataSet warm_and_worn() {
+  std::vector<Recording> list;
+  for (int k = 0; k < 8; ++k) {
+    const double warmer = std::array{0.0, 10.0, 5.0, 0.0}.at(static_cast<std::size_t>(k % 4));
+    const double cycles = std::array{0.0, 9900.0, 0.0, 900.0}.at(static_cast<std::size_t>(k % 4));
+    const auto t = rows(600, 0.002);
+    const double hertz = 1.5 + 0.1 * k;
+    const auto u = several_sines(t, 1, {hertz});
+    auto y = noise(t.size(), white, 0.1 * white, static_cast<std::uint64_t>(410 + k));
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double n = cycles + std::floor(2 * hertz * t[i]) / 2;
+      y[i] += u[i] * (1 + 0.002 * warmer - 0.01 * std::log10(1 + n / 100));
+    }
+    Recording r = recording(std::to_string(k) + ".csv", k < 4 ? Role::train : Role::validate, t, u, std::move(y));
+    r.columns["T"].assign(t.size(), 295 + warmer);
+    r.units["T"] = parse_unit("K");
+    r.columns["cycles_before"].assign(t.size(), cycles);
+    r.units["cycles_before"] = parse_unit("");
+    list.push_back(std::move(r));
+  }
+  DataSet d = data_set(std::move(list), white);
+  d.notes["T"].to = "T";
+  d.notes["cycles_before"].to = "cycles_before";
+  return d;
+}
+
+TEST_F(Pairs, TwoThatAreEachAPatchAloneAreFoundTogether) {
+  const DataSet data = warm_and_worn();
+  const Names both{"temperature_gain", "ageing"};
+  for (const auto& alone : both) {
+    const auto d = discovered(with_sensor(), data, {alone});
+    EXPECT_TRUE(names(d).empty()) << alone << " takes a tenth away, by squares: " << tried(d);
+  }
+  const auto d = discovered(with_sensor(), data, {"temperature_gain", "ageing"});
+  EXPECT_EQ(names(d), both) << tried(d);
+  EXPECT_NEAR(d.final_error.rms_validate, white, 0.1 * white);
 }
 
 /// Both axes move alike: what the one cannot tell the other cannot tell either.

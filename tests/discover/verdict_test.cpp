@@ -240,6 +240,38 @@ TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
         << t << " s";
 }
 
+/// A gain of 1 m/V read by a sensor that nothing is known of but its white noise of 1e-3, and what is added to it.
+DataSet with_added(const std::function<double(double t, double u)>& added, double slow, std::uint64_t seed) {
+  std::vector<Recording> list;
+  for (const auto& [role, hertz] : {std::pair{Role::train, 0.9}, {Role::train, 2.3}, {Role::validate, 1.4}}) {
+    const auto t = rows(1200, 0.005);
+    const auto u = several_sines(t, 1, {hertz, 2.7 * hertz});
+    auto y = plus(u, noise(t.size(), 1e-3, slow, seed));
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += added(t[k], u[k]);
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  DataSet data = data_set(std::move(list), 1e-3);
+  data.notes["y"].noise.one_over_f.reset();
+  return data;
+}
+
+TEST_F(Verdicts, AStepAtALevelIsNoCurveThoughACurveLeavesOnlyNoise) {
+  const auto d = found(plain_gain(), with_added([](double, double u) { return u > 0.62 ? 1.4e-3 : 0.0; }, 0, 3300));
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.headline;
+  ASSERT_TRUE(d.structure.has_value());
+  EXPECT_NEAR(d.structure->threshold, 0.62, 0.02);
+  // A curve stays one: it leaves less than a kink would.
+  const auto curve = [](double, double u) { return 0.01 * u * (1 - u) * (0.6 - u); };
+  const auto bent = found(plain_gain(), with_added(curve, 0, 3400));
+  EXPECT_EQ(bent.verdict, Verdict::missing_effect) << bent.headline;
+}
+
+TEST_F(Verdicts, WhatIsSlowAndLargerThanTheNoiseOfSensorsIsNotAdequate) {
+  const auto nothing = [](double, double) { return 0.0; };
+  EXPECT_EQ(found(plain_gain(), with_added(nothing, 0.5e-3, 3500)).verdict, Verdict::adequate);
+  EXPECT_NE(found(plain_gain(), with_added(nothing, 3e-3, 3500)).verdict, Verdict::adequate);
+}
+
 TEST_F(Verdicts, AWrongGainIsACalibrationAndNothingElse) {
   std::vector<Recording> list;
   std::uint64_t seed = 5;
