@@ -54,6 +54,9 @@ bool taken_up(const Books& books, const Effect& effect);
 /// moves none but these, all if empty. `only`: these effects, all if empty.
 std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs = {},
                                    const std::vector<const Effect*>& only = {});
+/// Outputs of a model, measured or not, to which a wire leads: a coupling that reads it beside another axis does not
+/// put it on the way of that one. Empty where nobody knows.
+std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written);
 /// Outputs that no standing effect moves.
 std::vector<std::string> untouched_outputs(const Books& books);
 /// Outputs that nothing of this family that stands moves.

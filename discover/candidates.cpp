@@ -22,30 +22,9 @@ bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Outputs of the program, measured or not, to which a wire leads: a coupling that reads it beside another axis does
-/// not put it on the way of that one. Empty where nobody knows.
-Names moved_by(const Books& books, const std::string& written) {
-  const Program& p = *books.current.program;
-  Names list;
-  if (written.find('/') == std::string::npos) {
-    const Wiring w(books.current.diagram, *books.shop.registry);
-    for (const auto& output : w.outputs_on_the_way(w.signal(written)))
-      std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
-                   [&](const std::string& name) { return is_of_output(name, output); });
-    return list;
-  }
-  const std::string wire = program_signal(books.current.diagram, *books.shop.registry, written);
-  int signal = p.find_signal(wire);
-  if (signal < 0) signal = p.find_signal(wire + "[0]");
-  if (signal < 0) return {};
-  for (const int o : outputs_behind(p, p.signals[static_cast<std::size_t>(signal)].block))
-    list.push_back(p.output_names[static_cast<std::size_t>(o)]);
-  return list;
-}
-
 /// The place moves something that was measured, and of that none but these outputs; any will do where none is named.
 bool may_stand(const Books& books, const Place& place, const Names& outputs) {
-  auto moved = moved_by(books, place.wire);
+  auto moved = outputs_moved(books, books.current, place.wire);
   if (moved.empty()) return outputs.empty();
   std::erase_if(moved, [&](const std::string& o) { return !contains(books.base_model->outputs(), o); });
   return !moved.empty() && (outputs.empty() || std::all_of(moved.begin(), moved.end(),
@@ -55,10 +34,10 @@ bool may_stand(const Books& books, const Place& place, const Names& outputs) {
 /// The effect stands already on the way to an output that this place moves: each axis has its own.
 bool standing_before(const Books& books, const Effect& e, const Place& place) {
   if (e.side == Side::other_axis) return false;
-  const auto here = moved_by(books, place.wire);
+  const auto here = outputs_moved(books, books.current, place.wire);
   return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& s) {
     if (s.effect->family != e.family) return false;
-    const auto there = moved_by(books, s.place.wire);
+    const auto there = outputs_moved(books, books.current, s.place.wire);
     return there.empty() || here.empty() ||
            std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
   });
@@ -118,7 +97,7 @@ Names outputs_not_moved(const Books& books, const Chosen& chosen) {
   Names list = books.base_model->outputs();
   for (const auto& s : books.current.standing) {
     if (!chosen(s)) continue;
-    const auto by_it = moved_by(books, s.place.wire);
+    const auto by_it = outputs_moved(books, books.current, s.place.wire);
     if (by_it.empty()) return {};  // nobody knows which
     std::erase_if(list, [&](const std::string& o) { return contains(by_it, o); });
   }
@@ -181,6 +160,25 @@ void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
 
 }  // namespace
 
+std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written) {
+  const Program& p = *model.program;
+  std::vector<std::string> list;
+  if (written.find('/') == std::string::npos) {
+    const Wiring w(model.diagram, *books.shop.registry);
+    for (const auto& output : w.outputs_on_the_way(w.signal(written)))
+      std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
+                   [&](const std::string& name) { return is_of_output(name, output); });
+    return list;
+  }
+  const std::string wire = program_signal(model.diagram, *books.shop.registry, written);
+  int signal = p.find_signal(wire);
+  if (signal < 0) signal = p.find_signal(wire + "[0]");
+  if (signal < 0) return {};
+  for (const int o : outputs_behind(p, p.signals[static_cast<std::size_t>(signal)].block))
+    list.push_back(p.output_names[static_cast<std::size_t>(o)]);
+  return list;
+}
+
 std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs,
                                    const std::vector<const Effect*>& only) {
   books.hidden.clear();
@@ -200,7 +198,7 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   }
   for (auto* list_of : {&kept, &books.hidden})
     for (auto& t : *list_of) {
-      t.outputs = moved_by(books, t.place.wire);
+      t.outputs = outputs_moved(books, books.current, t.place.wire);
       begin_at_lines(books, t);
     }
   return kept;

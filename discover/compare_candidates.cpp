@@ -94,11 +94,11 @@ Law started_from(const Tried& t, std::size_t law) {
 
 std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
   if (model.standing.empty()) return {};
-  const auto base = books.evidence->error(books.base.prediction).recordings;
+  const auto base = books.evidence->chi2_beside_lines(books.base.prediction);
+  const auto now = books.evidence->chi2_beside_lines(model.prediction);
   std::vector<double> left;
   for (std::size_t i = 0; i < base.size(); ++i)
-    left.push_back(rules::own_law_left * rules::own_law_left *
-                   std::max(0.0, base[i].chi2 - model.error_of.recordings[i].chi2));
+    left.push_back(rules::own_law_left * rules::own_law_left * std::max(0.0, base[i] - now[i]));
   return left;
 }
 

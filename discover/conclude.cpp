@@ -1,5 +1,7 @@
 // Decides the verdict of a discovery: effects, a generic structure that explains more, or nothing; and what is told of
 // what is left.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "discover/books.h"
@@ -58,6 +60,19 @@ void test_recordings(Books& books) {
   if (const auto e = books.evidence->test_error(p)) {
     books.d.final_error.rms_test = e->first;
     books.d.final_error.nrmse_test = e->second;
+  }
+}
+
+/// What a steady line cannot follow stays in the error, and is no evidence of anything else.
+void tell_wandering(Books& books) {
+  const auto rms = books.evidence->wandering(books.current.prediction);
+  for (std::size_t o = 0; o < rms.size(); ++o) {
+    if (rms[o] < books.evidence->noise().outputs[o].white) continue;
+    const Unit& unit = books.base_model->output_unit(static_cast<int>(o));
+    books.d.warnings.push_back(fmt::format(
+        "the mains wanders: {} rms of the error of {} on recordings not used for the fit is how its amplitude "
+        "and phase move, which a steady line does not follow; nothing else was looked for there",
+        size_text(rms[o], unit), books.base_model->outputs()[o]));
   }
 }
 
@@ -137,6 +152,7 @@ void conclude(Books& books) {
   add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
   test_recordings(books);
   tell_noise(books);
+  tell_wandering(books);
   put_into_words(books.d, *books.data, output_unit(books));
   books.progress("done", 1);
 }

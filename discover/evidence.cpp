@@ -51,10 +51,35 @@ Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fi
     if (base_.recording(r).role != Role::test) recordings_.push_back(r);
 }
 
+void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines) { lines_ = std::move(lines); }
+
+void Evidence::leave_out(NoiseModel& noise, PartOfLine part) const {
+  for (std::size_t o = 0; o < lines_.size(); ++o) {
+    if (!lines_[o]) continue;
+    NoiseOfOutput& n = noise.outputs[o];
+    auto columns = std::make_shared<std::vector<Dense>>();
+    for (int r = 0; r < base_.n_recordings(); ++r) {
+      const bool measured = !base_.measured(r, static_cast<int>(o)).empty();
+      const Whitener whitener(base_.measured(r, static_cast<int>(o)).size(), n.white, n.one_over_f,
+                              base_.zero_per_recording(static_cast<int>(o)), Whitener::Order::any);
+      columns->push_back(measured ? line_columns(base_.times(r), *lines_[o], whitener, part) : Dense());
+    }
+    n.left_out = std::move(columns);
+  }
+}
+
 void Evidence::settle(const Prediction& best) {
   Prediction with_zeros = best;
   add_zeros(base_, *judge_, with_zeros);
-  judge_.emplace(base_, noise_from_residual(base_, before_, with_zeros, recordings_));
+  NoiseModel noise = noise_from_residual(base_, before_, with_zeros, recordings_);
+  beside_lines_.reset();
+  if (std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); })) {
+    NoiseModel without = noise;
+    leave_out(without, PartOfLine::all);
+    beside_lines_.emplace(base_, std::move(without));
+    leave_out(noise, PartOfLine::beside_a_steady_one);
+  }
+  judge_.emplace(base_, std::move(noise));
   double n = 0, squares = 0, fourth = 0;
   for (const int r : recordings_)
     for (const double w : residual(best, r)) {
@@ -149,6 +174,42 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   for (std::size_t o = 0; o < chi2.size(); ++o)
     if (n[o] > 0) over.all = std::max(over.all, chi2[o] / n[o]);
   return over;
+}
+
+std::vector<double> Evidence::chi2_beside_lines(const Prediction& prediction) const {
+  const Judge& judge = beside_lines_ ? *beside_lines_ : *judge_;
+  std::vector<double> list;
+  for (const int r : recordings_) {
+    if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
+    const auto w = judge.residual(base_, prediction, r);
+    for (const auto& slice : slices(r)) {
+      double sum = 0;
+      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k) sum += w[k] * w[k];
+      list.push_back(sum);
+    }
+  }
+  return list;
+}
+
+std::vector<double> Evidence::wandering(const Prediction& prediction) const {
+  NoiseModel all = noise();
+  for (auto& o : all.outputs) o.left_out.reset();
+  const Judge with_it(base_, all);
+  std::vector<double> squares(all.outputs.size(), 0.0), n(all.outputs.size(), 0.0);
+  for (const int r : recordings_) {
+    if (base_.recording(r).role != Role::validate || prediction.y[static_cast<std::size_t>(r)].empty()) continue;
+    const auto before = with_it.residual(base_, prediction, r), after = judge_->residual(base_, prediction, r);
+    for (const auto& slice : slices(r)) {
+      const auto o = static_cast<std::size_t>(slice.output);
+      n[o] += static_cast<double>(slice.size);
+      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k)
+        squares[o] += before[k] * before[k] - after[k] * after[k];
+    }
+  }
+  std::vector<double> rms;
+  for (std::size_t o = 0; o < squares.size(); ++o)
+    rms.push_back(n[o] > 0 ? all.outputs[o].white * std::sqrt(std::max(0.0, squares[o] / n[o])) : 0);
+  return rms;
 }
 
 double Evidence::plain_over_floor(const ModelError& error) const {

@@ -9,6 +9,7 @@
 #include "fit/model.h"
 #include "fit/noise.h"
 #include "fit/score.h"
+#include "fit/wander.h"
 
 namespace hysteron {
 
@@ -66,6 +67,9 @@ class Evidence {
   explicit Evidence(const DataModel& base);
   /// Corrects the noise by the residual of the best model so far (always from the data sheet or first guess).
   void settle(const Prediction& best);
+  /// Lines that a model has found and follows as steady ones, per output (as DataModel::outputs()): how they wander is
+  /// no evidence, from the next settle() on.
+  void known_lines(std::vector<std::optional<WanderingLine>> lines);
 
   ModelError error(const Prediction& prediction) const;
   /// Whitened residual of one recording, outputs one behind the other.
@@ -80,6 +84,10 @@ class Evidence {
   /// With as much 1/f noise as sensors usually have, or less where the residual says so: slow structure passes for
   /// noise until somebody tries an effect on it. Of several outputs the largest.
   OverFloor over_usual_floor(const Prediction& prediction) const;
+  /// chi2 in each of ModelError::recordings, without what known lines may be: no drive looks like one.
+  std::vector<double> chi2_beside_lines(const Prediction& prediction) const;
+  /// rms on validation of what known lines leave by wandering [SI of the output], per output; 0 where none is known.
+  std::vector<double> wandering(const Prediction& prediction) const;
   /// The plain mean square on validation over that of a sensor with much 1/f noise (RecordingError::plain), of several
   /// outputs the largest; 1 where nobody states the noise. A wrong zero is one coefficient in each recording, which the
   /// thousands of others hide in chi2.
@@ -103,14 +111,17 @@ class Evidence {
     bool zero_is_free = false;
   };
   std::vector<Slice> slices(int recording) const;
+  void leave_out(NoiseModel& noise, PartOfLine part) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 
   const DataModel& base_;
   NoiseModel before_;
   std::optional<Judge> judge_;
+  std::optional<Judge> beside_lines_;  ///< only where lines are known
   std::vector<int> recordings_;
   bool known_ = true;
+  std::vector<std::optional<WanderingLine>> lines_;
   double per_chi2_ = 1;   ///< evidence per unit of chi2
   double witnesses_ = 0;  ///< independent ones
 };

@@ -81,6 +81,8 @@ void Judge::whiten(int recording, const std::vector<Rows>& rows, double* out) co
   for (std::size_t o = 0; o < list.size(); ++o) {
     const std::size_t n = list[o].size();
     list[o].apply(rows[o], out);
+    if (const auto& left_out = noise_.outputs[o].left_out; left_out && n > 0)
+      clear_of((*left_out)[static_cast<std::size_t>(recording)], out);
     for (std::size_t i = 0; i < n && weight != 1; ++i) out[i] *= weight;
     out += n;
   }
