@@ -188,8 +188,9 @@ class Observer {
       c.weights = weights_behind(*program_, signal);
       c.resolution = resolution_at(*program_, data_, signal);
       c.by = places_[i].by;
-      span(i, c.lowest, c.highest);
-      if (travel_signal_[i] >= 0) span(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);
+      range_of(i, c.lowest, c.highest);
+      if (travel_signal_[i] >= 0)
+        range_of(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);
       look_at_moves(i, c);
       if (!places_[i].side.empty()) look_at_side(i, c);
     }
@@ -243,7 +244,7 @@ class Observer {
     return c;
   }
 
-  void span(std::size_t signal, double& low, double& high) const {
+  void range_of(std::size_t signal, double& low, double& high) const {
     low = std::numeric_limits<double>::infinity();
     high = -low;
     for (const auto& seen : trains_) {
@@ -301,7 +302,7 @@ class Observer {
   void look_at_holds(Circumstances& c) const {
     for (std::size_t s = drives_; s < signals_.size(); ++s) {
       double low = 0, high = 0;
-      span(s, low, high);
+      range_of(s, low, high);
       for (const auto& seen : trains_) {
         if (high <= low) break;
         const std::span t = std::span(seen.recording->t).first(seen.recording->last);

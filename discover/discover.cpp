@@ -10,6 +10,27 @@
 #include "discover/books.h"
 
 namespace hysteron {
+namespace {
+
+/// Lines of the mains that stand, by the output that they are on.
+std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Contender& model) {
+  const auto& outputs = books.base_model->outputs();
+  std::vector<std::optional<WanderingLine>> lines(outputs.size());
+  for (std::size_t i = 0; i < model.standing.size(); ++i)
+    for (const auto& p : parameters_of(model, static_cast<int>(i))) {
+      if (p.law->line_bands.empty() || p.estimate == nullptr) continue;
+      // A cosine and a sine of each harmonic are found anew in each recording.
+      const auto& free = model.standing[i].law.free;
+      const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
+      const auto moved = outputs_moved(books, model, model.standing[i].place.wire);
+      for (std::size_t o = 0; o < outputs.size(); ++o)
+        if (std::find(moved.begin(), moved.end(), outputs[o]) != moved.end())
+          lines[o] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2)};
+    }
+  return lines;
+}
+
+}  // namespace
 
 Books::Books(const Diagram& diagram, const DataSet& given, const Registry& all_blocks, const Effects& all_effects,
              const DiscoverOptions& wishes)
@@ -32,27 +53,6 @@ void Books::progress(const std::string& what, double done) const {
 bool Books::wanted(const Effect& effect) const {
   return options.only.empty() || std::find(options.only.begin(), options.only.end(), effect.id) != options.only.end();
 }
-
-namespace {
-
-/// Lines of the mains that stand, by the output that they are on.
-std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Contender& model) {
-  const auto& outputs = books.base_model->outputs();
-  std::vector<std::optional<WanderingLine>> lines(outputs.size());
-  for (std::size_t i = 0; i < model.standing.size(); ++i)
-    for (const auto& p : parameters_of(model, static_cast<int>(i))) {
-      if (p.law->line_bands.empty() || p.estimate == nullptr) continue;
-      const auto& free = model.standing[i].law.free;
-      const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
-      const auto moved = outputs_moved(books, model, model.standing[i].place.wire);
-      for (std::size_t o = 0; o < outputs.size(); ++o)
-        if (std::find(moved.begin(), moved.end(), outputs[o]) != moved.end())
-          lines[o] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2)};
-    }
-  return lines;
-}
-
-}  // namespace
 
 void Books::settle(Contender& best) {
   evidence->known_lines(lines_of(*this, best));

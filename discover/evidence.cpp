@@ -53,18 +53,21 @@ Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fi
 
 void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines) { lines_ = std::move(lines); }
 
-void Evidence::leave_out(NoiseModel& noise, PartOfLine part) const {
+void Evidence::leave_lines_out(NoiseModel& noise, NoiseModel& beside) const {
   for (std::size_t o = 0; o < lines_.size(); ++o) {
     if (!lines_[o]) continue;
-    NoiseOfOutput& n = noise.outputs[o];
-    auto columns = std::make_shared<std::vector<Dense>>();
+    const NoiseOfOutput& n = noise.outputs[o];
+    auto wandering = std::make_shared<std::vector<Dense>>(), all = std::make_shared<std::vector<Dense>>();
     for (int r = 0; r < base_.n_recordings(); ++r) {
-      const bool measured = !base_.measured(r, static_cast<int>(o)).empty();
-      const Whitener whitener(base_.measured(r, static_cast<int>(o)).size(), n.white, n.one_over_f,
-                              base_.zero_per_recording(static_cast<int>(o)), Whitener::Order::any);
-      columns->push_back(measured ? line_columns(base_.times(r), *lines_[o], whitener, part) : Dense());
+      const std::size_t rows = base_.measured(r, static_cast<int>(o)).size();
+      const Whitener whitener(rows, n.white, n.one_over_f, base_.zero_per_recording(static_cast<int>(o)),
+                              Whitener::Order::any);
+      auto columns = rows > 0 ? line_columns(base_.times(r), *lines_[o], whitener) : LineColumns();
+      all->push_back(side_by_side(columns.steady, columns.wandering));
+      wandering->push_back(std::move(columns.wandering));
     }
-    n.left_out = std::move(columns);
+    noise.outputs[o].left_out = std::move(wandering);
+    beside.outputs[o].left_out = std::move(all);
   }
 }
 
@@ -74,10 +77,9 @@ void Evidence::settle(const Prediction& best) {
   NoiseModel noise = noise_from_residual(base_, before_, with_zeros, recordings_);
   beside_lines_.reset();
   if (std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); })) {
-    NoiseModel without = noise;
-    leave_out(without, PartOfLine::all);
-    beside_lines_.emplace(base_, std::move(without));
-    leave_out(noise, PartOfLine::beside_a_steady_one);
+    NoiseModel beside = noise;
+    leave_lines_out(noise, beside);
+    beside_lines_.emplace(base_, std::move(beside));
   }
   judge_.emplace(base_, std::move(noise));
   double n = 0, squares = 0, fourth = 0;
@@ -128,7 +130,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       one.rms = rms(base_, with_zeros, std::span<const int>(&r, 1), o);
       const double dev = deviation(measured);
       one.nrmse = dev > 0 ? one.rms / dev : 0;
-      for (std::size_t k = begin; k < begin + size; ++k) one.chi2 += w[k] * w[k];
+      one.chi2 = dot(w.data() + begin, w.data() + begin, size);
       one.evidence = one.chi2 * per_chi2_;
       one.plain = one.rms * one.rms * static_cast<double>(one.rows) / noisy_variance(o);
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
@@ -161,8 +163,7 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
     for (const auto& slice : slices(r)) {
       const auto o = static_cast<std::size_t>(slice.output);
       const auto rows = static_cast<double>(slice.size);
-      double here = 0;
-      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k) here += w[k] * w[k];
+      const double here = dot(w.data() + slice.begin, w.data() + slice.begin, slice.size);
       // An effect may show in one kind of recording alone, where chance is larger, for the rows are fewer.
       const double chance = deviations_of_chance * std::sqrt(2 / rows);
       over.one = std::max(over.one, here / rows - chance);
@@ -182,16 +183,13 @@ std::vector<double> Evidence::chi2_beside_lines(const Prediction& prediction) co
   for (const int r : recordings_) {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
     const auto w = judge.residual(base_, prediction, r);
-    for (const auto& slice : slices(r)) {
-      double sum = 0;
-      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k) sum += w[k] * w[k];
-      list.push_back(sum);
-    }
+    for (const auto& slice : slices(r)) list.push_back(dot(w.data() + slice.begin, w.data() + slice.begin, slice.size));
   }
   return list;
 }
 
 std::vector<double> Evidence::wandering(const Prediction& prediction) const {
+  if (!beside_lines_) return std::vector<double>(base_.outputs().size(), 0.0);
   NoiseModel all = noise();
   for (auto& o : all.outputs) o.left_out.reset();
   const Judge with_it(base_, all);
@@ -202,8 +200,8 @@ std::vector<double> Evidence::wandering(const Prediction& prediction) const {
     for (const auto& slice : slices(r)) {
       const auto o = static_cast<std::size_t>(slice.output);
       n[o] += static_cast<double>(slice.size);
-      for (std::size_t k = slice.begin; k < slice.begin + slice.size; ++k)
-        squares[o] += before[k] * before[k] - after[k] * after[k];
+      squares[o] += dot(before.data() + slice.begin, before.data() + slice.begin, slice.size) -
+                    dot(after.data() + slice.begin, after.data() + slice.begin, slice.size);
     }
   }
   std::vector<double> rms;

@@ -86,7 +86,8 @@ class Evidence {
   OverFloor over_usual_floor(const Prediction& prediction) const;
   /// chi2 in each of ModelError::recordings, without what known lines may be: no drive looks like one.
   std::vector<double> chi2_beside_lines(const Prediction& prediction) const;
-  /// rms on validation of what known lines leave by wandering [SI of the output], per output; 0 where none is known.
+  /// rms on validation of what known lines leave by wandering, whitened rows times the white noise [SI of the output],
+  /// per output; 0 where none is known.
   std::vector<double> wandering(const Prediction& prediction) const;
   /// The plain mean square on validation over that of a sensor with much 1/f noise (RecordingError::plain), of several
   /// outputs the largest; 1 where nobody states the noise. A wrong zero is one coefficient in each recording, which the
@@ -111,7 +112,8 @@ class Evidence {
     bool zero_is_free = false;
   };
   std::vector<Slice> slices(int recording) const;
-  void leave_out(NoiseModel& noise, PartOfLine part) const;
+  /// Takes how known lines wander out of `noise`, and all that they may be out of `beside`.
+  void leave_lines_out(NoiseModel& noise, NoiseModel& beside) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 

@@ -20,9 +20,9 @@ int knots(std::span<const double> t, int harmonics) {
 
 }  // namespace
 
-Dense line_columns(std::span<const double> t, const WanderingLine& line, const Whitener& whitener, PartOfLine part) {
+LineColumns line_columns(std::span<const double> t, const WanderingLine& line, const Whitener& whitener) {
   const int n = t.empty() ? 0 : knots(t, line.harmonics);
-  if (n == 0) return {whitener.size(), 0};
+  if (n == 0) return {{whitener.size(), 0}, {whitener.size(), 0}};
   const auto columns = static_cast<std::size_t>(2 * line.harmonics);
   Dense steady(whitener.size(), columns), moving(whitener.size(), columns * static_cast<std::size_t>(n));
   const double every = (t.back() - t.front()) / (n - 1);
@@ -37,11 +37,10 @@ Dense line_columns(std::span<const double> t, const WanderingLine& line, const W
       whitener.apply(rows, moving.col(c * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)));
     }
   }
-  if (part == PartOfLine::beside_a_steady_one) {
-    const Dense line_itself = orthonormal_basis(steady, 1e-8);
-    for (std::size_t j = 0; j < moving.cols; ++j) clear_of(line_itself, moving.col(j));
-  }
-  return orthonormal_basis(moving, 1e-6);
+  LineColumns line_is{orthonormal_basis(steady, 1e-8), {}};
+  for (std::size_t j = 0; j < moving.cols; ++j) clear_of(line_is.steady, moving.col(j));
+  line_is.wandering = orthonormal_basis(moving, 1e-6);
+  return line_is;
 }
 
 }  // namespace hysteron

@@ -9,20 +9,21 @@
 
 namespace hysteron {
 
-/// A line and its harmonics, near this frequency [Hz]: amplitude and phase move in straight lines between knots.
+/// A line and its harmonics: amplitude and phase of each move in straight lines between knots.
 struct WanderingLine {
-  double frequency = 0;
-  int harmonics = 1;
-  bool operator==(const WanderingLine&) const = default;
+  double frequency = 0;  ///< [Hz]
+  int harmonics = 1;     ///< the line itself counts
 };
 
-/// What of a line is meant: all that it may be, or that less what a steady one of exactly its frequency is, which a
-/// model that has a line of its own keeps.
-enum class PartOfLine { all, beside_a_steady_one };
+/// Whitened, orthonormal columns; none where rows are too few for two knots.
+struct LineColumns {
+  Dense steady;     ///< a line of exactly this frequency, which a model that has one keeps
+  Dense wandering;  ///< what else it may be, orthogonal to that
+};
 
-/// Whitened, orthonormal columns of what such a line may be in rows at t [s]. A knot every two seconds (a mains that
-/// wanders by some millihertz turns by a tenth of a radian in that time at most, EN 50160), fewer where rows are few:
-/// at most a twentieth of the rows are given away. No columns where rows are too few for that.
-Dense line_columns(std::span<const double> t, const WanderingLine& line, const Whitener& whitener, PartOfLine part);
+/// What such a line may be in rows at t [s]. A knot every two seconds: a mains 8 mHz off its mean frequency turns by a
+/// tenth of a radian in that time, which straight lines follow to a few per mille. Fewer where rows are few: at most a
+/// twentieth of them are given away, and with them no more of what another effect takes away.
+LineColumns line_columns(std::span<const double> t, const WanderingLine& line, const Whitener& whitener);
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@ namespace hysteron::effects {
 namespace {
 
 constexpr double away = 0.2;      // [Hz] that the mains is off at most, mostly ...
-constexpr double shortest = 0.2;  // [s] ten periods: what has a shape of its own has another one in each
+constexpr double shortest = 0.2;  // [s] ten periods
 constexpr double widest = 0.5;    // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
 
 Law lines(const Circumstances& at, int harmonics) {
@@ -68,7 +68,7 @@ Effect mains_interference() {
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
     if (std::abs(values[0] - 50) <= widest || std::abs(values[0] - 60) <= widest) return "";
-    return fmt::format("no mains runs at {:.4g} Hz", values[0]);
+    return fmt::format("no mains runs at {:.4g} Hz: it keeps within {} Hz of 50 or 60", values[0], widest);
   };
   e.laws = [](const Circumstances& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
   e.unseen = [](const Circumstances& at) -> std::string {

@@ -15,7 +15,15 @@ using nlohmann::json;
 using process::hysteron;
 using process::Outcome;
 
-class DiscoverVerb : public LabTest {};
+class DiscoverVerb : public LabTest {
+ protected:
+  json looked_for_a_lag() const {
+    const Outcome out = hysteron(
+        folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"});
+    EXPECT_EQ(out.code, 0) << out.err;
+    return result("out");
+  }
+};
 
 /// What the lines of the waterfalls are.
 std::set<std::string> floor_labels(const json& all) {
@@ -28,18 +36,13 @@ std::set<std::string> floor_labels(const json& all) {
 }
 
 TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOneThatDoes) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
   const std::vector<std::string> words{"discover", "diagram.json", "--data", "dataset.json", "--check", "-o", "out"};
-  folder_.write("a.csv", lab::noisy_recording(1));
-  folder_.write("b.csv", lab::noisy_recording(2));
+  record(1);
   const Outcome adequate = hysteron(folder_.path(), words);
   EXPECT_EQ(adequate.code, 0) << adequate.out << adequate.err;
   EXPECT_TRUE(adequate.out.ends_with("adequate: out/report.html\n")) << adequate.out;
 
-  folder_.write("a.csv", lab::noisy_recording(3, 0.02));  // 20 ms at a period of 0.5 s: a hundred times the noise
-  folder_.write("b.csv", lab::noisy_recording(4, 0.02));
+  record(3, 0.02);  // 20 ms at a period of 0.5 s: a hundred times the noise
   const Outcome missing = hysteron(folder_.path(), words);
   EXPECT_EQ(missing.code, 1) << missing.out << missing.err;
   EXPECT_NE(missing.out.find("lag"), std::string::npos) << missing.out;
@@ -47,11 +50,7 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
 }
 
 TEST_F(DiscoverVerb, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(1));
-  folder_.write("b.csv", lab::noisy_recording(2));
+  record(1);
   // 5 % less than the recordings have, though free: a plain discovery fits it, a check does not.
   const std::vector<std::string> words{"discover", "diagram.json", "--data",          "dataset.json", "--check",
                                        "--json",   "--set",        "gain=1.425 um/V", "-o",           "out"};
@@ -64,16 +63,8 @@ TEST_F(DiscoverVerb, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
 }
 
 TEST_F(DiscoverVerb, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
-  folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
-  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
-  ASSERT_EQ(hysteron(folder_.path(),
-                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
-                .code,
-            0);
-  const json all = result("out");
+  record(5, 0.02);
+  const json all = looked_for_a_lag();
   const json& floor = all["facts"]["floor"][0];
   // Six periods of a law that repeats exactly: what differs is the noise of 5 nm. The least of two recordings with some
   // 400 rows each: a standard deviation is good to 1/sqrt(2 * 400) = 3.5 %, three of these.
@@ -83,18 +74,12 @@ TEST_F(DiscoverVerb, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
 }
 
 TEST_F(DiscoverVerb, DiscoverHoldsTheErrorAgainstTheNoiseWhereNothingWasRecordedTwice) {
-  std::string data = lab::dataset();
-  data.replace(data.find("1 nm"), 4, "5 nm");
+  record(5, 0.02);
+  std::string data = folder_.read("dataset.json");
   data.replace(data.find("\"train\""), 7, R"("train", "until": "0.48 s")");  // a period lasts 0.5 s
   data.replace(data.find("\"validate\""), 10, R"("validate", "until": "0.4 s")");
   folder_.write("dataset.json", data);
-  folder_.write("a.csv", lab::noisy_recording(5, 0.02));
-  folder_.write("b.csv", lab::noisy_recording(6, 0.02));
-  ASSERT_EQ(hysteron(folder_.path(),
-                     {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"})
-                .code,
-            0);
-  const json all = result("out");
+  const json all = looked_for_a_lag();
   EXPECT_EQ(floor_labels(all), std::set<std::string>{"noise of the sensor"});
   EXPECT_FALSE(all["facts"]["floor"][0].contains("repeatability_rms"));
   EXPECT_NE(folder_.read("out/report.html").find("Nothing was recorded twice"), std::string::npos);

@@ -34,28 +34,14 @@ Diagram in_its_own_field(double depolarizing) {
 }
 
 /// P at each t, for E = E_ext - N P: P' = F/(1 + N F) E_ext' as long as 1 + N F > 0, so that E moves as E_ext does.
-/// Classical Runge-Kutta; the reversals of 3 (1 - cos(2 pi 5 t)) V lie on multiples of 0.1 s, which t has.
+/// The reversals of 3 (1 - cos(2 pi 5 t)) V lie on multiples of 0.1 s, which t has.
 std::vector<double> polarisation_by_hand(double depolarizing, const std::vector<double>& t) {
-  std::vector<double> p{0};
-  const int substeps = 20;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    double now = p.back();
-    const double h = (t[i] - t[i - 1]) / substeps;
+  return integrated_by_hand(t, 20, [&](double time, double p, std::size_t i) {
     const int direction = std::sin(2 * pi * 5 * (t[i] + t[i - 1]) / 2) > 0 ? 1 : -1;
-    const auto slope = [&](double time, double at) {
-      const double applied = 3 - 3 * std::cos(2 * pi * 5 * time);
-      const double f = jiles_atherton::slope(table, applied - depolarizing * at, at, direction);
-      return f / (1 + depolarizing * f) * 3 * 2 * pi * 5 * std::sin(2 * pi * 5 * time);
-    };
-    for (int k = 0; k < substeps; ++k) {
-      const double s = t[i - 1] + k * h;
-      const double k1 = slope(s, now), k2 = slope(s + h / 2, now + h / 2 * k1), k3 = slope(s + h / 2, now + h / 2 * k2),
-                   k4 = slope(s + h, now + h * k3);
-      now += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-    p.push_back(now);
-  }
-  return p;
+    const double applied = 3 - 3 * std::cos(2 * pi * 5 * time);
+    const double f = jiles_atherton::slope(table, applied - depolarizing * p, p, direction);
+    return f / (1 + depolarizing * f) * 3 * 2 * pi * 5 * std::sin(2 * pi * 5 * time);
+  });
 }
 
 class OwnField : public testing::TestWithParam<double> {};

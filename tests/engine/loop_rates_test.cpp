@@ -14,29 +14,15 @@ using namespace tools;
 using std::numbers::pi;
 
 /// z of a Bouc-Wen law driven by u with u' = r' / (divisor - gain * A), A = dz/du of the active branch: the loop of
-/// rates solved by hand. Classical Runge-Kutta.
+/// rates solved by hand.
 std::vector<double> by_hand(const BoucWenNumbers& p, double divisor, double gain, const std::vector<double>& t,
                             double (*rate)(double)) {
-  const auto slope = [&](double time, double z) {
+  return integrated_by_hand(t, 40, [&](double time, double z, std::size_t) {
     const double r = rate(time);
     // The divisor is positive, so u' has the sign of r'.
     const double a = p.alpha - p.beta * (r >= 0 ? z : -z) - p.gamma * std::abs(z);
     return a * r / (divisor - gain * a);
-  };
-  std::vector<double> z{0};
-  const int substeps = 40;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    double now = z.back();
-    const double h = (t[i] - t[i - 1]) / substeps;
-    for (int k = 0; k < substeps; ++k) {
-      const double s = t[i - 1] + k * h;
-      const double k1 = slope(s, now), k2 = slope(s + h / 2, now + h / 2 * k1), k3 = slope(s + h / 2, now + h / 2 * k2),
-                   k4 = slope(s + h, now + h * k3);
-      now += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-    z.push_back(now);
-  }
-  return z;
+  });
 }
 
 double cosine_rate(double t) { return 3 * 2 * pi * 5 * std::sin(2 * pi * 5 * t); }  // of 3 (1 - cos(2 pi 5 t))

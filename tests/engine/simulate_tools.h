@@ -57,6 +57,25 @@ inline SeriesPointer series(std::vector<double> t, std::vector<double> v, Betwee
   return std::make_shared<const Series>(Series{std::move(t), std::move(v), between});
 }
 
+/// x at each t, for x' = rate(time, x, row that the step leads to) and x = 0 at the first: classical Runge-Kutta, so
+/// many steps from row to row.
+template <class Rate>
+std::vector<double> integrated_by_hand(const std::vector<double>& t, int substeps, Rate rate) {
+  std::vector<double> x{0};
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    double now = x.back();
+    const double h = (t[i] - t[i - 1]) / substeps;
+    for (int k = 0; k < substeps; ++k) {
+      const double s = t[i - 1] + k * h;
+      const double k1 = rate(s, now, i), k2 = rate(s + h / 2, now + h / 2 * k1, i),
+                   k3 = rate(s + h / 2, now + h / 2 * k2, i), k4 = rate(s + h, now + h * k3, i);
+      now += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+    x.push_back(now);
+  }
+  return x;
+}
+
 /// Trace number `i` of what was recorded.
 inline const std::vector<double>& trace(const Traces& traces, std::size_t i = 0) { return traces.values.at(i); }
 
