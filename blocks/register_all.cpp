@@ -23,6 +23,7 @@
 #include "blocks/lag.h"
 #include "blocks/late_prandtl_ishlinskii.h"
 #include "blocks/load_dependence.h"
+#include "blocks/logarithmic_creep.h"
 #include "blocks/mains.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
@@ -112,6 +113,7 @@ Registry all_blocks() {
   r.add(blocks::mode_block());
   r.add(blocks::lag_block());
   r.add(blocks::creep_block());
+  r.add(blocks::logarithmic_creep_block());
   r.add(blocks::dead_time_block());
   r.add(blocks::rate_limiter_block());
   r.add(blocks::slew_limit_block());

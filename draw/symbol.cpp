@@ -62,6 +62,7 @@ const Look* find_look(const std::string& type) {
       {"rate_limiter", {"rate_limiter", true}},
       {"calibration", {"calibration"}},
       {"creep", {"step_response", true}},
+      {"logarithmic_creep", {"step_response", true}},
       {"table", {"table"}},
       {"lookup_table", {"table", true}},
       {"sample_hold", {"sampled", true}},

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 
 namespace hysteron::creep {
@@ -13,6 +14,19 @@ namespace hysteron::creep {
 template <class T>
 T relaxation_rate(const T& time, const T& x, const T& u) {
   return (u - x) / time;
+}
+
+/// Amount of element k of a chain that creeps by the logarithm of time, log10(1 + t/first_time) per unit of per_decade
+/// after a step: with a spectrum exp(-first_time/tau) over ln tau, ln(1 + t/first_time) is the sum of all relaxations
+/// (Frullani's integral). Each element stands for the decades halfway to its neighbours; the ends reach out as far as
+/// they reach in. times [s]: two or more, increasing; per_decade [-], first_time [s].
+template <class T>
+T logarithmic_amount(const T& per_decade, const T& first_time, std::span<const T> times, std::size_t k) {
+  using std::exp;
+  using std::log;
+  const std::size_t last = times.size() - 1, low = k > 0 ? k - 1 : 0, high = k < last ? k + 1 : last;
+  const T decades = log(times[high] / times[low]) / (std::numbers::ln10 * static_cast<double>(high - low));
+  return per_decade * decades * exp(-(first_time / times[k]));
 }
 
 /// y = u + sum c_k x_k; c_k [-] is the share that element k adds in the end.

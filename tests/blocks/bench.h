@@ -360,6 +360,7 @@ inline std::vector<Sample> samples() {
       {"lag", {{"times", {0.3}}}},
       {"lag", {{"times", {0.3, 0.7}}}},
       {"creep", {{"amounts", {0.1, 0.3}}, {"times", {0.2, 2}}}},
+      {"logarithmic_creep", {{"per_decade", {0.2}}, {"first_time", {0.1}}, {"times", {0.05, 0.2, 2}}}},
       {"dead_time", {{"delay", {0.21}}}},
       {"play", {{"radius", {0.4}}, {"before", {2}}}},
       {"play", {{"radius", {0.4}}, {"sides", {1}}, {"before", {-2}}}},

@@ -130,6 +130,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "pi_controller",
                                        "lag",
                                        "creep",
+                                       "logarithmic_creep",
                                        "dead_time",
                                        "play",
                                        "prandtl_ishlinskii",

@@ -122,8 +122,8 @@ INSTANTIATE_TEST_SUITE_P(Blocks, Rest, testing::ValuesIn(bench::samples_where([]
                          bench::sample_name);
 
 TEST(LinearBlocks, AreThoseOfTheExactAdvance) {
-  for (const auto& type :
-       {"gain", "sum", "pass", "calibration", "integrator", "transfer_function", "pi_controller", "lag", "creep"})
+  for (const auto& type : {"gain", "sum", "pass", "calibration", "integrator", "transfer_function", "pi_controller",
+                           "lag", "creep", "logarithmic_creep"})
     EXPECT_TRUE(bench::kernel_of(type).declaration.is_linear) << type;
 }
 

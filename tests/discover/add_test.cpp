@@ -53,7 +53,7 @@ TEST_F(AddedEffect, StandsAsAChoiceRightBehindItsSourceAndEveryReaderReadsIt) {
   EXPECT_EQ(choice.effect, "creep");
   EXPECT_EQ(choice.in.front().from, "drive");
   EXPECT_EQ(choice.from.find("off")->type, "pass");
-  EXPECT_EQ(choice.from.find("on")->type, "creep");
+  EXPECT_EQ(choice.from.find("on")->type, "logarithmic_creep");
   EXPECT_EQ(a.diagram.blocks.find("actuator")->in.front().from, "drive_creep");
   EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, "drive_creep");
   EXPECT_EQ(a.diagram.record, stage().record) << "what is recorded stays what it was";

@@ -55,6 +55,38 @@ TEST(CreepModel, OneElementPerDecadeFollowsTheLogarithmicLaw) {
   EXPECT_GT(log_law_misfit({1, 10, 100}, 0.015), log_law_misfit({0.3, 3, 30, 300}, 0.015));
 }
 
+/// What a chain with the amounts of logarithmic_amount() misses of log10(1 + t/first_time) for t = from ... to [s].
+double missed_logarithm(const std::vector<double>& times, double first_time, double from, double to) {
+  std::vector<double> amounts;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    amounts.push_back(creep::logarithmic_amount<double>(1.0, first_time, times, k));
+  double worst = 0;
+  for (double t = from; t <= to; t *= 1.1) {
+    const double y = creep::step_response<double>(amounts, times, t) - 1;
+    worst = std::max(worst, std::abs(y - std::log10(1 + t / first_time)));
+  }
+  return worst;
+}
+
+TEST(CreepModel, TwoElementsPerDecadeAreTheLogarithm) {
+  std::vector<double> times;
+  for (int k = 0; k <= 12; ++k) times.push_back(1e-3 * std::pow(10, 0.5 * k));  // to 1000 s
+  for (const double first : {3e-3, 1e-2, 0.1}) {
+    // Half decades of a function that is as smooth as exp(-exp(x)): the ripple is |Gamma(2 pi i/1.15)| = 4e-4.
+    EXPECT_LT(missed_logarithm(times, first, 1e-4, 1), 1e-3) << first;
+    // What relaxes slower than 1000 s is missing: half a decade each of t/tau, 0.5 (0.32 + 0.1 + ...) 0.1 = 0.023.
+    EXPECT_NEAR(missed_logarithm(times, first, 99, 101), 0.023, 0.001) << first;
+  }
+}
+
+TEST(CreepModel, ElementsStandForTheDecadesBetweenTheirNeighbours) {
+  const std::array<double, 3> times{1, 10, 1000};
+  EXPECT_DOUBLE_EQ(creep::logarithmic_amount<double>(0.02, 0.0, times, 0), 0.02);
+  EXPECT_DOUBLE_EQ(creep::logarithmic_amount<double>(0.02, 0.0, times, 1), 0.03);
+  EXPECT_DOUBLE_EQ(creep::logarithmic_amount<double>(0.02, 0.0, times, 2), 0.04);
+  EXPECT_DOUBLE_EQ(creep::logarithmic_amount<double>(0.02, 5.0, times, 1), 0.03 * std::exp(-0.5));
+}
+
 TEST(CreepModel, NothingIsAddedWhereTheAmountsAreZero) {
   const std::array<double, 1> none{0}, x{5};
   EXPECT_EQ(creep::output<double>(none, x, 1.25), 1.25);
