@@ -57,6 +57,8 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
 /// Outputs of a model, measured or not, to which a wire leads: a coupling that reads it beside another axis does not
 /// put it on the way of that one. Empty where nobody knows.
 std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written);
+/// The measured ones of them, as indices of DataModel::outputs().
+std::vector<int> measured_moved(const Books& books, const Contender& model, const std::string& written);
 /// Outputs that no standing effect moves.
 std::vector<std::string> untouched_outputs(const Books& books);
 /// Outputs that nothing of this family that stands moves.

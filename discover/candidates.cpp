@@ -179,6 +179,15 @@ std::vector<std::string> outputs_moved(const Books& books, const Contender& mode
   return list;
 }
 
+std::vector<int> measured_moved(const Books& books, const Contender& model, const std::string& written) {
+  const auto moved = outputs_moved(books, model, written);
+  const auto& outputs = books.base_model->outputs();
+  std::vector<int> list;
+  for (int o = 0; o < static_cast<int>(outputs.size()); ++o)
+    if (contains(moved, outputs[static_cast<std::size_t>(o)])) list.push_back(o);
+  return list;
+}
+
 std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs,
                                    const std::vector<const Effect*>& only) {
   books.hidden.clear();

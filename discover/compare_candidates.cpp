@@ -94,7 +94,13 @@ Law started_from(const Tried& t, std::size_t law) {
 
 std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
   if (model.standing.empty()) return {};
-  const auto base = books.evidence->chi2_beside_lines(books.base.prediction);
+  // A gain and a zero are exact: what is left behind them is called a curve.
+  Prediction begun = books.base.prediction;
+  for (const auto& s : model.standing)
+    if (calibrates(s))
+      for (const int o : measured_moved(books, model, s.place.wire))
+        begun = books.evidence->calibrated(std::move(begun), o);
+  const auto base = books.evidence->chi2_beside_lines(begun);
   const auto now = books.evidence->chi2_beside_lines(model.prediction);
   std::vector<double> left;
   for (std::size_t i = 0; i < base.size(); ++i)

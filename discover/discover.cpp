@@ -14,18 +14,15 @@ namespace {
 
 /// Lines of the mains that stand, by the output that they are on.
 std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Contender& model) {
-  const auto& outputs = books.base_model->outputs();
-  std::vector<std::optional<WanderingLine>> lines(outputs.size());
+  std::vector<std::optional<WanderingLine>> lines(books.base_model->outputs().size());
   for (std::size_t i = 0; i < model.standing.size(); ++i)
     for (const auto& p : parameters_of(model, static_cast<int>(i))) {
       if (p.law->line_bands.empty() || p.estimate == nullptr) continue;
       // A cosine and a sine of each harmonic are found anew in each recording.
       const auto& free = model.standing[i].law.free;
       const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
-      const auto moved = outputs_moved(books, model, model.standing[i].place.wire);
-      for (std::size_t o = 0; o < outputs.size(); ++o)
-        if (std::find(moved.begin(), moved.end(), outputs[o]) != moved.end())
-          lines[o] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2)};
+      for (const int o : measured_moved(books, model, model.standing[i].place.wire))
+        lines[static_cast<std::size_t>(o)] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2)};
     }
   return lines;
 }
@@ -129,7 +126,8 @@ std::vector<const Effect*> straight_effects(const Books& books) {
 
 /// What is slow is a few coefficients in each recording, beside which all the others are noise: by plain squares too.
 bool more_than_noise(const Books& books) {
-  return structure_is_left(books) || books.evidence->plain_over_floor(books.current.error_of) > rules::floor_gate;
+  return structure_is_left(books) || books.evidence->plain_over_floor(books.current.error_of) > rules::floor_gate ||
+         books.evidence->over_usual_floor(books.current.prediction).octave > rules::octave_gate;
 }
 
 /// A wrong zero hides: a law that finds it anew swallows it, and without one it is a constant, a single coefficient in

@@ -2,6 +2,7 @@
 #include "discover/evidence.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -150,12 +151,43 @@ ModelError Evidence::error(const Prediction& prediction) const {
   return e;
 }
 
+namespace {
+
+/// chi2 and coefficients by the octave of half periods in a recording, of one output.
+class Octaves {
+ public:
+  /// Whitened cosines of one recording; the first is that of `first` half periods.
+  void add(std::span<const double> w, std::size_t first) {
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      const auto octave = static_cast<std::size_t>(std::bit_width(k + first));
+      if (octave >= chi2_.size()) {
+        chi2_.resize(octave + 1, 0.0);
+        n_.resize(octave + 1, 0.0);
+      }
+      chi2_[octave] += w[k] * w[k];
+      n_[octave] += 1;
+    }
+  }
+  double furthest() const {
+    double most = 0;
+    for (std::size_t i = 0; i < n_.size(); ++i)
+      if (n_[i] > 0) most = std::max(most, (chi2_[i] - n_[i]) / std::sqrt(2 * n_[i]));
+    return most;
+  }
+
+ private:
+  std::vector<double> chi2_, n_;
+};
+
+}  // namespace
+
 OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   NoiseModel usual = noise();
   for (std::size_t o = 0; o < usual.outputs.size(); ++o)
     usual.outputs[o].one_over_f = std::min(usual.outputs[o].one_over_f, before_.outputs[o].one_over_f);
   const Judge judge(base_, usual);
   std::vector<double> chi2(base_.outputs().size(), 0.0), n(base_.outputs().size(), 0.0);
+  std::vector<Octaves> octaves(base_.outputs().size());
   OverFloor over;
   for (const int r : recordings_) {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
@@ -164,6 +196,7 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
       const auto o = static_cast<std::size_t>(slice.output);
       const auto rows = static_cast<double>(slice.size);
       const double here = dot(w.data() + slice.begin, w.data() + slice.begin, slice.size);
+      octaves[o].add(std::span(w).subspan(slice.begin, slice.size), slice.zero_is_free ? 1 : 0);
       // An effect may show in one kind of recording alone, where chance is larger, for the rows are fewer.
       const double chance = deviations_of_chance * std::sqrt(2 / rows);
       over.one = std::max(over.one, here / rows - chance);
@@ -174,7 +207,34 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   }
   for (std::size_t o = 0; o < chi2.size(); ++o)
     if (n[o] > 0) over.all = std::max(over.all, chi2[o] / n[o]);
+  for (const auto& o : octaves) over.octave = std::max(over.octave, o.furthest());
   return over;
+}
+
+Prediction Evidence::calibrated(Prediction prediction, int output) const {
+  const auto o = static_cast<std::size_t>(output);
+  std::size_t size = 0;
+  for (const int r : recordings_) size += judge_->size(r);
+  Dense line(size, 2);  // of one, and of what is predicted
+  std::vector<double> left;
+  for (const int r : recordings_) {
+    const auto& predicted = prediction.y[static_cast<std::size_t>(r)];
+    if (predicted.empty()) continue;
+    std::vector<Rows> rows;
+    for (const auto& y : predicted) rows.emplace_back(y.size(), 0.0);
+    rows[o].assign(rows[o].size(), 1.0);
+    judge_->whiten(r, rows, line.col(0) + left.size());
+    rows[o] = predicted[o];
+    judge_->whiten(r, rows, line.col(1) + left.size());
+    const auto w = residual(prediction, r);
+    left.insert(left.end(), w.begin(), w.end());
+  }
+  left.resize(size);
+  const auto best = minimum_norm(line, left, 1e-10);
+  for (const int r : recordings_)
+    if (auto& y = prediction.y[static_cast<std::size_t>(r)]; !y.empty())
+      for (double& v : y[o]) v += best.x[0] + best.x[1] * v;
+  return prediction;
 }
 
 std::vector<double> Evidence::chi2_beside_lines(const Prediction& prediction) const {

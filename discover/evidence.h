@@ -53,6 +53,9 @@ struct ModelError {
 struct OverFloor {
   double all = 0;  ///< on validation recordings together
   double one = 0;  ///< in one recording, less what chance makes there: an effect may show in one kind alone
+  /// Of all recordings together the octave (of half periods in a recording) that is furthest above 1, in standard
+  /// deviations of chance: what is slow is in few coefficients, beside which all the others are noise.
+  double octave = 0;
 };
 
 /// The measure of a discovery. Residuals are whitened by one fixed filter (fit/whiten.h). Then
@@ -84,6 +87,8 @@ class Evidence {
   /// With as much 1/f noise as sensors usually have, or less where the residual says so: slow structure passes for
   /// noise until somebody tries an effect on it. Of several outputs the largest.
   OverFloor over_usual_floor(const Prediction& prediction) const;
+  /// What a sensor would read with the best gain and zero of one output, over all judged recordings.
+  Prediction calibrated(Prediction prediction, int output) const;
   /// chi2 in each of ModelError::recordings, without what known lines may be: no drive looks like one.
   std::vector<double> chi2_beside_lines(const Prediction& prediction) const;
   /// rms on validation of what known lines leave by wandering, whitened rows times the white noise [SI of the output],

@@ -44,6 +44,7 @@ constexpr double pieces_tell = 2;  ///< standard deviations: with structure left
 /// counted (a second pole of a lag beside a dead time).
 constexpr double alike = 1;
 constexpr double exchange = 6;       ///< fall of the score for which a look-alike is taken instead
+constexpr double octave_gate = 6;    ///< standard deviations of chance in one octave of all recordings together
 constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
 constexpr double slow_noise =
     2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white

@@ -32,11 +32,17 @@ std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at) {
   return laws;
 }
 
-std::optional<Tried> tried_at(Books& books, const Contender& model, const Member& m, const Place& place) {
+/// Whose is the straight line that a curve may take up: nobody's where a calibration was taken out to see what it gives
+/// back.
+enum class Line { of_a_curve, held };
+
+std::optional<Tried> tried_at(Books& books, const Contender& model, const Member& m, const Place& place, Line line) {
   Tried t;
   t.effect = m.effect;
   t.place = place;
   t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(books.shop, model));
+  if (line == Line::held && m.effect->places == std::vector<std::string>{"measured"})
+    t.circumstances.gain_is_free = t.circumstances.offset_is_free = true;
   t.laws = m.effect->laws(t.circumstances);
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
   if (law == t.laws.end()) return std::nullopt;
@@ -50,13 +56,13 @@ std::optional<Tried> tried_at(Books& books, const Contender& model, const Member
 
 /// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
 /// one; nullopt if it cannot be had.
-std::optional<Tried> tried_again(Books& books, const Contender& model, const Member& m) {
+std::optional<Tried> tried_again(Books& books, const Contender& model, const Member& m, Line line = Line::of_a_curve) {
   auto places = places_of(*m.effect, model.diagram, books.registry, books.data.get());
   const auto same = [&](const Place& p) { return p.at == m.place.at; };
   if (std::any_of(places.begin(), places.end(), same)) std::erase_if(places, [&](const Place& p) { return !same(p); });
   std::optional<Tried> best;
   for (const auto& place : places) {
-    auto t = tried_at(books, model, m, place);
+    auto t = tried_at(books, model, m, place, line);
     if (t && (!best || t->contender.score() < best->contender.score())) best = std::move(t);
   }
   return best;
@@ -67,11 +73,12 @@ std::optional<Tried> tried_again(Books& books, const Contender& model, const Mem
 std::optional<Contender> rest_of(Books& books, std::size_t i) {
   const auto members = members_of(books.current);
   Contender rest = books.base;
-  // Without the calibration, the zero is the user's again: who else would take it up is not asked here.
-  rest.zero_held = books.current.zero_held || calibrates(books.current.standing[i]);
+  // Without the calibration, gain and zero are the user's again: who else would take them up is not asked here.
+  const bool calibration = calibrates(books.current.standing[i]);
+  rest.zero_held = books.current.zero_held || calibration;
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
-    auto t = tried_again(books, rest, members[j]);
+    auto t = tried_again(books, rest, members[j], calibration ? Line::held : Line::of_a_curve);
     if (!t) return std::nullopt;
     rest = std::move(t->contender);
   }

@@ -188,6 +188,22 @@ TEST_F(Pairs, WhatIsSlowIsLookedForThoughItIsAFewCoefficientsOnly) {
   EXPECT_EQ(names(d), (Names{"calibration", "creep"})) << tried(d);
 }
 
+TEST_F(Pairs, WhatIsInOneOctaveOfAllRecordingsIsLookedFor) {
+  // A curve of half the noise behind a wrong gain, under a sine: a few cosines in each recording, where it is many
+  // times what chance makes there; chi2 per row and plain squares stay below the gate.
+  const Drive sine = [](const auto& t, double hertz) {
+    return sampled(t, [hertz](double x) { return 0.5 - 0.5 * std::cos(2 * pi * hertz * x); });
+  };
+  const Answer bent = [](const std::vector<double>& u) {
+    std::vector<double> y;
+    for (const double x : u) y.push_back(1.03 * x + 4 * white * x * (1 - x));
+    return y;
+  };
+  const auto data = one_device({{Role::train, 0.5}, {Role::train, 1.1}, {Role::validate, 0.8}}, 3000, sine, bent, 400);
+  const auto d = discovered(with_sensor(), data, {"calibration", "sensor_nonlinearity", "hysteresis"});
+  EXPECT_EQ(names(d), (Names{"calibration", "sensor_nonlinearity"})) << tried(d);
+}
+
 /// A guide with Coulomb friction holds `level` back, and takes `way` to slide: bristles by closed form between rows,
 /// the motion that balances them by halving. It holds `excess` more before it slides fast, by the speed of the motion,
 /// a row long, over `fast` per row.
