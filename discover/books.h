@@ -75,8 +75,6 @@ double blur(const Contender& contender);
 
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step);
 
-/// More than noise, on validation recordings of some output together, or in a recording of any role.
-bool structure_is_left(const Books& books);
 /// How a candidate is judged: as if it were the first effect, or on top of laws that may have left something.
 enum class As { first, further };
 /// What the laws that stand may have left of their own effects, by the recording, for an imperfect law leaves a part of

@@ -124,10 +124,12 @@ std::vector<const Effect*> straight_effects(const Books& books) {
   return list;
 }
 
-/// What is slow is a few coefficients in each recording, beside which all the others are noise: by plain squares too.
+/// Is more than the noise of sensors left in a recording or in all of them, or where an effect is a few coefficients
+/// beside which all the others are noise: by plain squares, or in one octave.
 bool more_than_noise(const Books& books) {
-  return structure_is_left(books) || books.evidence->plain_over_floor(books.current.error_of) > rules::floor_gate ||
-         books.evidence->over_usual_floor(books.current.prediction).octave > rules::octave_gate;
+  const OverFloor over = books.evidence->over_usual_floor(books.current.prediction);
+  const double plain = books.evidence->plain_over_floor(books.current.error_of);
+  return std::max({over.all, over.one, plain}) > rules::floor_gate || over.octave > rules::octave_gate;
 }
 
 /// A wrong zero hides: a law that finds it anew swallows it, and without one it is a constant, a single coefficient in
@@ -157,11 +159,6 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
 }
 
 }  // namespace
-
-bool structure_is_left(const Books& books) {
-  const OverFloor over = books.evidence->over_usual_floor(books.current.prediction);
-  return std::max(over.all, over.one) > rules::floor_gate;
-}
 
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options) {

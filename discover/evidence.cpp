@@ -2,8 +2,10 @@
 #include "discover/evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "fit/whiten.h"
@@ -43,6 +45,28 @@ bool one_dimension(const DataModel& model) {
   return true;
 }
 
+/// chi2 and coefficients by the octave of half periods in a recording, of one output.
+class Octaves {
+ public:
+  /// Whitened cosines of one recording; the first is that of `first` half periods.
+  void add(std::span<const double> w, std::size_t first) {
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      const auto octave = static_cast<std::size_t>(std::bit_width(k + first));
+      chi2_.at(octave) += w[k] * w[k];
+      n_.at(octave) += 1;
+    }
+  }
+  double furthest() const {
+    double most = 0;
+    for (std::size_t i = 0; i < n_.size(); ++i)
+      if (n_[i] > 0) most = std::max(most, (chi2_[i] - n_[i]) / std::sqrt(2 * n_[i]));
+    return most;
+  }
+
+ private:
+  std::array<double, std::numeric_limits<std::size_t>::digits + 1> chi2_{}, n_{};
+};
+
 }  // namespace
 
 Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fit(base)) {
@@ -61,8 +85,7 @@ void Evidence::leave_lines_out(NoiseModel& noise, NoiseModel& beside) const {
     auto wandering = std::make_shared<std::vector<Dense>>(), all = std::make_shared<std::vector<Dense>>();
     for (int r = 0; r < base_.n_recordings(); ++r) {
       const std::size_t rows = base_.measured(r, static_cast<int>(o)).size();
-      const Whitener whitener(rows, n.white, n.one_over_f, base_.zero_per_recording(static_cast<int>(o)),
-                              Whitener::Order::any);
+      const Whitener whitener(rows, n.white, n.one_over_f, base_.zero_per_recording(static_cast<int>(o)));
       auto columns = rows > 0 ? line_columns(base_.times(r), *lines_[o], whitener) : LineColumns();
       all->push_back(side_by_side(columns.steady, columns.wandering));
       wandering->push_back(std::move(columns.wandering));
@@ -151,41 +174,11 @@ ModelError Evidence::error(const Prediction& prediction) const {
   return e;
 }
 
-namespace {
-
-/// chi2 and coefficients by the octave of half periods in a recording, of one output.
-class Octaves {
- public:
-  /// Whitened cosines of one recording; the first is that of `first` half periods.
-  void add(std::span<const double> w, std::size_t first) {
-    for (std::size_t k = 0; k < w.size(); ++k) {
-      const auto octave = static_cast<std::size_t>(std::bit_width(k + first));
-      if (octave >= chi2_.size()) {
-        chi2_.resize(octave + 1, 0.0);
-        n_.resize(octave + 1, 0.0);
-      }
-      chi2_[octave] += w[k] * w[k];
-      n_[octave] += 1;
-    }
-  }
-  double furthest() const {
-    double most = 0;
-    for (std::size_t i = 0; i < n_.size(); ++i)
-      if (n_[i] > 0) most = std::max(most, (chi2_[i] - n_[i]) / std::sqrt(2 * n_[i]));
-    return most;
-  }
-
- private:
-  std::vector<double> chi2_, n_;
-};
-
-}  // namespace
-
 OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   NoiseModel usual = noise();
   for (std::size_t o = 0; o < usual.outputs.size(); ++o)
     usual.outputs[o].one_over_f = std::min(usual.outputs[o].one_over_f, before_.outputs[o].one_over_f);
-  const Judge judge(base_, usual);
+  const Judge judge(base_, usual, Whitener::Order::by_frequency);
   std::vector<double> chi2(base_.outputs().size(), 0.0), n(base_.outputs().size(), 0.0);
   std::vector<Octaves> octaves(base_.outputs().size());
   OverFloor over;
@@ -292,8 +285,9 @@ double Evidence::noisy_variance(int output) const {
 std::vector<double> Evidence::pieces(const Prediction& prediction) const {
   constexpr std::size_t count = 8;
   std::vector<double> list;
+  const Judge judge(base_, noise(), Whitener::Order::by_frequency);
   for (const int r : recordings_) {
-    const auto w = residual(prediction, r);
+    const auto w = judge.residual(base_, prediction, r);
     for (const auto& slice : slices(r)) {
       // Back from whitened cosines to whitened rows; a coefficient that is free per recording is zero.
       const std::size_t rows = slice.size + (slice.zero_is_free ? 1 : 0);

@@ -28,8 +28,8 @@ struct NoiseOfOutput {
   bool share_is_stated = false;  ///< by the data set
   bool share_estimated = false;  ///< from a residual (colour.h)
   std::string remark{};          ///< what the user must be told of it; "" = nothing
-  /// Per recording, whitened, each of orthonormal columns: what is no evidence of anything, such as the wandering of a
-  /// known line (wander.h). Taken out of all that is whitened; null: nothing.
+  /// Per recording, whitened by frequency, each of orthonormal columns: what is no evidence of anything, such as the
+  /// wandering of a known line (wander.h). Taken out of all that is whitened; null: nothing.
   std::shared_ptr<const std::vector<Dense>> left_out{};
   bool white_is_stated() const { return source == NoiseSource::data_sheet || source == NoiseSource::corrected; }
 };

@@ -56,13 +56,13 @@ const RecordingScore* Score::find(int recording) const {
   return nullptr;
 }
 
-Judge::Judge(const DataModel& model, const NoiseModel& noise) : noise_(noise) {
+Judge::Judge(const DataModel& model, const NoiseModel& noise, Whitener::Order order) : noise_(noise) {
   for (int r = 0; r < model.n_recordings(); ++r) {
     std::vector<Whitener> list;
     for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o) {
       const auto& n = noise.outputs[static_cast<std::size_t>(o)];
       list.emplace_back(model.measured(r, o).size(), n.white, n.one_over_f, model.zero_per_recording(o),
-                        Whitener::Order::any);
+                        n.left_out ? Whitener::Order::by_frequency : order);
     }
     whiteners_.push_back(std::move(list));
     root_weight_.push_back(std::sqrt(model.recording(r).weight));

@@ -36,7 +36,8 @@ struct Score {
 /// The whitening filters of a data model with one noise model. Made once per fit, used for every trial.
 class Judge {
  public:
-  Judge(const DataModel& model, const NoiseModel& noise);
+  /// `order` of what is whitened; an output of which something is left out (NoiseOfOutput) is by frequency anyway.
+  Judge(const DataModel& model, const NoiseModel& noise, Whitener::Order order = Whitener::Order::any);
 
   const NoiseModel& noise() const { return noise_; }
   /// Whitened, weighted rows of all outputs of a recording, one behind the other.
