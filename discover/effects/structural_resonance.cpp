@@ -9,7 +9,9 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double most_damping = 0.2;  // ratio; with more it is a phase shifter with four parameters
+// Ratios. Flexures have 0.002 .. 0.05 (EFFECTS, structural_resonance): with twice that it is a phase shifter with four
+// parameters, and what never dies out is a line of the drive.
+constexpr double least_damping = 5e-4, most_damping = 0.1, searched_damping = 0.2;
 
 }  // namespace
 
@@ -29,7 +31,7 @@ Effect structural_resonance() {
   e.behind_core = true;
   e.parameters = {
       {"frequency", "Hz", "undamped natural frequency", "100 Hz .. 10 kHz for piezo stages"},
-      {"damping", "", "damping ratio", "0.002 .. 0.05 for flexures; above 0.2 it would only shift the phase"},
+      {"damping", "", "damping ratio", "0.002 .. 0.05 for flexures; above 0.1 it would only shift the phase"},
       {"position, velocity", "", "residues: share of the motion that the mode adds", ""}};
   e.look_alikes = {{"amplifier_lag", "fast_steps", "a lag creeps to the level, a resonance rings about it"},
                    {"sensor_lag", "fast_steps", "a lag creeps to the level, a resonance rings about it"},
@@ -59,10 +61,10 @@ Effect structural_resonance() {
     LawParameter damping;
     damping.path = "damping";
     damping.start = 0.03;
-    damping.lower = 5e-4;
-    damping.upper = most_damping;
+    damping.lower = least_damping;
+    damping.upper = searched_damping;
     damping.log_scale = true;
-    damping.plausible_upper = 0.1;
+    damping.plausible_upper = 0.05;
     LawParameter position, velocity;
     position.path = "position";
     velocity.path = "velocity";
@@ -72,8 +74,12 @@ Effect structural_resonance() {
     return std::vector<Law>{law};
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
-    if (values[1] < 0.99 * most_damping) return "";
-    return fmt::format("at its damping of {:.2g}, the limit, it would shift the phase and not ring", values[1]);
+    if (values[1] > most_damping)
+      return fmt::format("with its damping of {:.2g}, more than {}, it would shift the phase and not ring", values[1],
+                         most_damping);
+    if (values[1] < 1.01 * least_damping)
+      return fmt::format("at its damping of {:.2g}, the limit, it would never stop ringing", values[1]);
+    return "";
   };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)

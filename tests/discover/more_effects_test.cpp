@@ -198,11 +198,21 @@ TEST_F(MoreEffects, AModeThatRingsIsNamedByItsFrequency) {
 }
 
 TEST_F(MoreEffects, WhatOnlyShiftsThePhaseIsNoResonance) {
-  const Discovery d = diagnosed(plain_gain(), with_a_mode(0.8), {"structural_resonance"});
-  EXPECT_TRUE(d.steps.empty()) << tried(d);
-  EXPECT_TRUE(std::any_of(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) {
-    return c.reason.find("would shift the phase and not ring") != std::string::npos;
-  })) << tried(d);
+  for (const double damping : {0.15, 0.8}) {
+    const Discovery d = diagnosed(plain_gain(), with_a_mode(damping), {"structural_resonance"});
+    EXPECT_TRUE(d.steps.empty()) << tried(d);
+    EXPECT_TRUE(std::any_of(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) {
+      return c.reason.find("would shift the phase and not ring") != std::string::npos;
+    })) << tried(d);
+  }
+}
+
+TEST_F(MoreEffects, WhatNeverStopsRingingIsNoResonance) {
+  const Effect& e = effects.get("structural_resonance");
+  const Circumstances at;
+  const Law law = e.laws(at).front();
+  EXPECT_NE(e.implausible(law, {40, 5e-4, 0.1, 0}, at).find("never stop"), std::string::npos);
+  EXPECT_EQ(e.implausible(law, {40, 2e-3, 0.1, 0}, at), "") << "a flexure of titanium";
 }
 
 TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
