@@ -108,10 +108,15 @@ const Contender* without_a_needless_one(const Books& books, const Rests& rests) 
   return nullptr;
 }
 
+/// A law that finds the zero anew, and with its weights the gain, may have stood for these alone.
+bool may_stand_for(const Effect& member, const Effect& e) {
+  return look_alike(member, e) || (member.moves_zero && e.family == "calibration");
+}
+
 /// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
 std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, const Effect& member, double bar) {
   for (const auto& e : books.effects.list()) {
-    if (!books.wanted(e) || !look_alike(member, e) || (e.family != member.family && standing(books, e))) continue;
+    if (!books.wanted(e) || !may_stand_for(member, e) || (e.family != member.family && standing(books, e))) continue;
     const auto places = places_of(e, rest.diagram, books.registry, books.data.get());
     if (places.empty()) continue;
     const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, free_anyway(books.shop, rest));

@@ -21,6 +21,16 @@ std::vector<double> across_a_gap(const std::vector<double>& u, double half) {
   return y;
 }
 
+/// A lag of `tau` rows behind straight lines between rows.
+std::vector<double> behind_a_lag(const std::vector<double>& u, double tau) {
+  std::vector<double> y{u.front()};
+  for (std::size_t k = 1; k < u.size(); ++k) {
+    const double late = (u[k] - u[k - 1]) * tau;  // in the end, on this line
+    y.push_back(u[k] - late + (y.back() - u[k - 1] + late) * std::exp(-1 / tau));
+  }
+  return y;
+}
+
 class Sets : public ::testing::Test {
  protected:
   /// Sines of several amplitudes through `law`; two recordings train, one judges.
@@ -75,6 +85,18 @@ TEST_F(Sets, WhatBeganWithALookAlikeBeginsAgain) {
   EXPECT_NEAR(d.steps[1].after.chi2_validate, d.final_error.chi2_validate, 1e-9 * d.final_error.chi2_validate);
   EXPECT_TRUE(std::none_of(d.candidates.begin(), d.candidates.end(),
                            [](const Candidate& c) { return c.effect == "hysteresis" && c.claimed; }));
+}
+
+TEST_F(Sets, WhatStoodForGainAndZeroAloneIsACalibration) {
+  // Plays are late by a part of the stroke and find gain and zero anew: alone they explain more than a calibration or a
+  // lag. Beside the lag only gain and zero are left for them.
+  const auto data = seen_through([](const std::vector<double>& u) {
+    auto y = behind_a_lag(u, 0.6);
+    for (auto& v : y) v = 1.01 * v + 2e-4;
+    return y;
+  });
+  const Discovery d = found(data, {"hysteresis", "amplifier_lag", "calibration"});
+  EXPECT_EQ(names(d), (std::set<std::string>{"amplifier_lag", "calibration"})) << d.headline;
 }
 
 }  // namespace
