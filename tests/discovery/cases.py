@@ -4,6 +4,7 @@ Decides the mixture of each kind (single, pair, triple, none, unknown, starved).
 Does not decide physics, drawing of effects, or file formats (laws, hidden, unlisted, case_files).
 """
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -143,12 +144,19 @@ def named(rng, names, strengths, group, attempt, campaign):
         verdict="missing_effect", effects=list(names), acceptable_alternatives=allowed), group)
 
 
+def go_together(names):
+    """No two look-alikes, and at least one plant that holds them all."""
+    alike = any(len(group & set(names)) > 1 for group in hidden.LOOK_ALIKE)
+    return not alike and bool(set.intersection(*(set(hidden.EFFECTS[n].plants) for n in names)))
+
+
 def draw_names(rng, count, offered):
-    """Names that go together: no two look-alikes, at least one plant that holds them all."""
+    if not any(go_together(names) for names in combinations(offered, count)):
+        raise ValueError("no %d of %s go together: they look alike, or no plant holds them all; offer more effects"
+                         % (count, ", ".join(offered)))
     while True:
         names = [str(x) for x in rng.choice(offered, count, replace=False)]
-        alike = any(len(group & set(names)) > 1 for group in hidden.LOOK_ALIKE)
-        if not alike and set.intersection(*(set(hidden.EFFECTS[n].plants) for n in names)):
+        if go_together(names):
             return names
 
 

@@ -132,13 +132,16 @@ def main():
     jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters, a.campaign)
             for seed in seeds_of(a.seeds) for kind in choice_of(a.kind, cases.KINDS, "the kind")
             for index, what in enumerate(cases.wanted(kind, offered, strengths, a.count))]
-    if a.jobs > 1:
-        with multiprocessing.Pool(a.jobs) as pool:
-            for line in pool.imap(make, jobs):
-                print(line, flush=True)
-    else:
-        for job in jobs:
-            print(make(job), flush=True)
+    try:
+        if a.jobs > 1:
+            with multiprocessing.Pool(a.jobs) as pool:
+                for line in pool.imap(make, jobs):
+                    print(line, flush=True)
+        else:
+            for job in jobs:
+                print(make(job), flush=True)
+    except ValueError as e:
+        raise SystemExit("make_cases.py: %s" % e)
 
 
 if __name__ == "__main__":

@@ -203,6 +203,12 @@ class Cases(unittest.TestCase):
             low, high = hidden.TARGETS[what[1]]  # the search stops within a per cent
             self.assertTrue(0.98 * low < most / case_files.total(case.sensor) < 1.02 * high, (what, most))
 
+    def test_effects_that_cannot_stand_together_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "calibration, ageing go together"):
+            cases.draw_names(np.random.default_rng(1), 2, ["calibration", "ageing"])
+        self.assertEqual(sorted(cases.draw_names(np.random.default_rng(1), 2, ["calibration", "creep"])),
+                         ["calibration", "creep"])
+
     def test_noise_is_as_stated(self):
         """White and 1/f add up to the stated rms: 2e5 samples give it to a per cent or so, 1/f to some ten."""
         rng = np.random.default_rng(2)
