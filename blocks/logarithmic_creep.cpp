@@ -12,8 +12,7 @@ void LogarithmicCreep::describe(Declaration& d) {
       .at("core");
   d.law(
        "after a step of 1: y = 1 + per_decade*log10(1 + t/first_time); y = u + sum c_k x_k, times[k] dx_k/dt = u - "
-       "x_k, "
-       "c_k = per_decade*d_k*exp(-first_time/times[k]), d_k: the decades for which times[k] stands")
+       "x_k, c_k = per_decade*d_k*exp(-first_time/times[k]), d_k: the decades for which times[k] stands")
       .from(
           "Jung, Gweon, Rev. Sci. Instrum. 71 (2000) 1896 (logarithm); Croft, Shed, Devasia, J. Dyn. Sys. Meas. "
           "Control 123 (2001) 35-43 (chain)");
@@ -25,8 +24,11 @@ void LogarithmicCreep::describe(Declaration& d) {
   d.output("y", "$a", "the signal with creep");
   d.state("x", "$a", "relaxed signal of each element");
   d.parameter("per_decade", "", "share of the move that each decade of time adds").linear().not_negative();
-  d.parameter("first_time", "s", "time after a move at which creep sets in").not_negative();
-  d.list("times", "s", "time constants of the elements, increasing, from first_time to the longest hold").positive();
+  d.parameter("first_time", "s", "time after a move at which creep sets in").positive();
+  d.list(
+       "times", "s",
+       "time constants of the elements, increasing: two per decade, from below first_time to ten times the longest run")
+      .positive();
 }
 
 Sizes LogarithmicCreep::sizes(const Shape& shape) {

@@ -2,12 +2,11 @@
 // models/creep.h.
 #pragma once
 
-#include "engine/block.h"
-#include "models/creep.h"
+#include "blocks/relaxations.h"
 
 namespace hysteron::blocks {
 
-struct LogarithmicCreep {
+struct LogarithmicCreep : Relaxations<LogarithmicCreep> {
   enum Parameter { per_decade, first_time, times };
 
   static void describe(Declaration& d);
@@ -19,14 +18,6 @@ struct LogarithmicCreep {
     v.out[0] = v.u[0];
     for (std::size_t k = 0; k < tau.size(); ++k)
       v.out[0] += creep::logarithmic_amount(v.parameter(per_decade), v.parameter(first_time), tau, k) * v.x[k];
-  }
-  template <class T>
-  static void derivative(const View<T>& v) {
-    const auto tau = v.list(times);
-    for (std::size_t k = 0; k < tau.size(); ++k) v.out[k] = creep::relaxation_rate(tau[k], v.x[k], v.u[0]);
-  }
-  static void rest(const View<double>& v) {
-    for (int k = 0; k < v.n_x; ++k) v.out[k] = v.u[0];
   }
 };
 

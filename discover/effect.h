@@ -137,6 +137,7 @@ struct Effect {
   /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is
   /// found anew.
   bool moves_zero = false;
+  bool of_the_sensor() const { return places == std::vector<std::string>{"measured"}; }  ///< it enters nowhere else
   /// How far its law may move the zero by itself [SI of the wire]: the model's zero belongs to another circumstance
   /// than the recordings'. Empty: not at all, for the law is neutral at rest.
   std::function<double(const Law&, const std::vector<double>&)> own_zero{};

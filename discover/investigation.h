@@ -43,8 +43,10 @@ constexpr double pieces_tell = 2;  ///< standard deviations: with structure left
 /// Of the score: who needs fewer numbers for the same goes first, also where a spare one is held at a bound and not
 /// counted (a second pole of a lag beside a dead time).
 constexpr double alike = 1;
-constexpr double exchange = 6;       ///< fall of the score for which a look-alike is taken instead
-constexpr double octave_gate = 6;    ///< standard deviations of chance in one octave of all recordings together
+constexpr double exchange = 6;  ///< fall of the score for which a look-alike is taken instead
+/// Standard deviations of chance in one octave of all recordings together, above which a further effect is looked for:
+/// 1/f noise of another shape than the whitener's reached 5 in cases with nothing left.
+constexpr double octave_gate = 6;
 constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
 constexpr double slow_noise =
     2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white

@@ -41,7 +41,7 @@ std::optional<Tried> tried_at(Books& books, const Contender& model, const Member
   t.effect = m.effect;
   t.place = place;
   t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(books.shop, model));
-  if (line == Line::held && m.effect->places == std::vector<std::string>{"measured"})
+  if (line == Line::held && m.effect->of_the_sensor())
     t.circumstances.gain_is_free = t.circumstances.offset_is_free = true;
   t.laws = m.effect->laws(t.circumstances);
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });

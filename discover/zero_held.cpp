@@ -21,7 +21,7 @@ bool rival_has_own_constant(const Books& books) {
   return std::any_of(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
     return std::any_of(s.ties.begin(), s.ties.end(), [&](const Candidate& tie) {
       const Effect* rival = books.effects.find(tie.effect);
-      return rival != nullptr && rival->moves_zero && rival->places == std::vector<std::string>{"measured"};
+      return rival != nullptr && rival->moves_zero && rival->of_the_sensor();
     });
   });
 }

@@ -140,7 +140,11 @@ Effect creep() {
       {"first_time", "s", "t0: when after a move creep sets in", "not within the last decade of the longest hold"},
       {"amounts", "", "final amount of each relaxation per unit of change; two relaxations make one decade",
        "0.01 .. 0.02 per decade (PI Ceramic catalogue, physikinstrumente.com tutorial); at most 0.1 for soft ceramics"},
-      {"times", "s", "fixed: two per decade from the sample step (not below 1 ms) to twice the longest recording", ""}};
+      {"times", "s",
+       "fixed: two per decade from the sample step (not below 1 ms) to twice the longest recording, for the logarithm "
+       "to "
+       "ten times",
+       ""}};
   e.look_alikes = {
       {"hysteresis", "sine_amplitudes", "phase of a loop grows with the amplitude, that of creep does not"},
       {"amplifier_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},

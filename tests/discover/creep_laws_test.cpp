@@ -41,7 +41,8 @@ TEST_F(CreepLaws, TheLogarithmOfTimeIsTwoNumbers) {
                             {"creep", "thermal_expansion", "hysteresis", "amplifier_lag"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps.front().winner.law, "logarithm of time") << tried(d);
-  // 4500 rows of noise 2e-4 tell 0.01 to some 1e-5; steps take one row of 20 ms, a tenth of t0.
+  // 4000 rows of noise 2e-4 tell 0.01 to some 1e-5 (1/f noise beside it: some times that); steps take one row of 20 ms,
+  // a tenth of t0.
   EXPECT_NEAR(value(d, "per_decade"), 0.01, 2e-4);
   EXPECT_NEAR(value(d, "first_time"), 0.2, 0.03);
   EXPECT_EQ(d.remainder, Remainder::noise);

@@ -40,8 +40,8 @@ class EvidenceOf : public ::testing::Test {
 };
 
 TEST_F(EvidenceOf, WhatIsInFewCosinesStandsOutInItsOctave) {
-  // A slow sine of 0.25 of the noise: 0.031 of chi2 in each of 12000 rows, 375 in all; three of them lie in the octave
-  // of 32 to 63 half periods of 40 s, where there are 96 coefficients: 375/sqrt(192) = 27 deviations, and one of
+  // A slow sine of 0.25 of the noise: 0.031 of chi2 in each of 12000 rows, 375 in all, in the octave
+  // of 32 to 63 half periods of 40 s, where there are 96 coefficients: 375/sqrt(192) = 27 deviations, with four of
   // chance.
   const auto slow = [](double t, double) { return 0.25 * white * std::sin(2 * std::numbers::pi * 0.55 * t); };
   const OverFloor with = over(measured(slow)), without = over(measured([](double, double) { return 0.0; }));
@@ -57,6 +57,7 @@ TEST_F(EvidenceOf, TheBestLineOfASensorIsFoundOverAllRecordings) {
   const Prediction read = evidence.calibrated(model.predict({}, evidence.recordings()), 0);
   for (const int r : evidence.recordings())
     for (std::size_t k = 0; k < read.y[static_cast<std::size_t>(r)][0].size(); ++k)
+      // Values are about one; the squares of a least-squares line round to 1e-12.
       ASSERT_NEAR(read.y[static_cast<std::size_t>(r)][0][k], model.measured(r, 0)[k], 1e-9);
 }
 

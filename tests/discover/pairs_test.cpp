@@ -189,8 +189,9 @@ TEST_F(Pairs, WhatIsSlowIsLookedForThoughItIsAFewCoefficientsOnly) {
 }
 
 TEST_F(Pairs, WhatIsInOneOctaveOfAllRecordingsIsLookedFor) {
-  // A curve of half the noise behind a wrong gain, under a sine: a few cosines in each recording, where it is many
-  // times what chance makes there; chi2 per row and plain squares stay below the gate.
+  // A curve that rises to one standard deviation of the noise in its middle behind a wrong gain, under a sine: a few
+  // cosines in each recording, where it is many times what chance makes there; chi2 per row and plain squares stay
+  // below the gate.
   const Drive sine = [](const auto& t, double hertz) {
     return sampled(t, [hertz](double x) { return 0.5 - 0.5 * std::cos(2 * pi * hertz * x); });
   };

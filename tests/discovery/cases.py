@@ -144,6 +144,10 @@ def named(rng, names, strengths, group, attempt, campaign):
         verdict="missing_effect", effects=list(names), acceptable_alternatives=allowed), group)
 
 
+class Impossible(ValueError):
+    """What was asked for cannot be made; says why and what to ask for."""
+
+
 def go_together(names):
     """No two look-alikes, and at least one plant that holds them all."""
     alike = any(len(group & set(names)) > 1 for group in hidden.LOOK_ALIKE)
@@ -152,7 +156,7 @@ def go_together(names):
 
 def draw_names(rng, count, offered):
     if not any(go_together(names) for names in combinations(offered, count)):
-        raise ValueError("no %d of %s go together: they look alike, or no plant holds them all; offer more effects"
+        raise Impossible("no %d of %s go together: they look alike, or no plant holds them all; offer more effects"
                          % (count, ", ".join(offered)))
     while True:
         names = [str(x) for x in rng.choice(offered, count, replace=False)]

@@ -140,7 +140,7 @@ def main():
         else:
             for job in jobs:
                 print(make(job), flush=True)
-    except ValueError as e:
+    except cases.Impossible as e:
         raise SystemExit("make_cases.py: %s" % e)
 
 

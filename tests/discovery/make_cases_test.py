@@ -204,7 +204,7 @@ class Cases(unittest.TestCase):
             self.assertTrue(0.98 * low < most / case_files.total(case.sensor) < 1.02 * high, (what, most))
 
     def test_effects_that_cannot_stand_together_are_refused(self):
-        with self.assertRaisesRegex(ValueError, "calibration, ageing go together"):
+        with self.assertRaisesRegex(cases.Impossible, "calibration, ageing go together"):
             cases.draw_names(np.random.default_rng(1), 2, ["calibration", "ageing"])
         self.assertEqual(sorted(cases.draw_names(np.random.default_rng(1), 2, ["calibration", "creep"])),
                          ["calibration", "creep"])
