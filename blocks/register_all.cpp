@@ -38,6 +38,7 @@
 #include "blocks/polynomial.h"
 #include "blocks/prandtl_ishlinskii.h"
 #include "blocks/prandtl_ishlinskii_inverse.h"
+#include "blocks/preisach.h"
 #include "blocks/product.h"
 #include "blocks/rate_limiter.h"
 #include "blocks/recorded.h"
@@ -125,6 +126,7 @@ Registry all_blocks() {
   r.add(blocks::prandtl_ishlinskii_block());
   r.add(blocks::generalized_prandtl_ishlinskii_block());
   r.add(blocks::late_prandtl_ishlinskii_block());
+  r.add(blocks::preisach_block());
   r.add(blocks::bouc_wen_block());
   r.add(blocks::jiles_atherton_block());
   r.add(blocks::asymmetric_prandtl_ishlinskii_block());

@@ -154,6 +154,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mains_interference",
                                        "generalized_prandtl_ishlinskii",
                                        "late_prandtl_ishlinskii",
+                                       "preisach",
                                        "ageing",
                                        "tank",
                                        "thermal_network",

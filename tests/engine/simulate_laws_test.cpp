@@ -86,8 +86,14 @@ TEST(SimulateLaws, AcceptingAPointChangesNoSignalThere) {
                          {"slope_at_lower", 0.3},
                          {"slope_at_upper", 1.7}},
                         {"u"})},
+       {"relays", block("preisach",
+                        {{"levels", list({-1, -0.2, 0.5, 2}, "V")},
+                         {"weights", list({0.3, 0.2, 0.5, 0.1, 0.4, 0.25}, "um")},
+                         {"gain", "1 um/V"}},
+                        {"u"})},
        {"late", block("dead_time", {{"delay", "0.3 s"}}, {"cascade"})}},
-      {"uneven", "two", "one", "joint", "tapi", "aged", "behind", "late", "bent", "coupled", "stack"}, {{"u", "V"}});
+      {"uneven", "relays", "two", "one", "joint", "tapi", "aged", "behind", "late", "bent", "coupled", "stack"},
+      {{"u", "V"}});
   for (const auto& type : registry().types()) {
     const auto* kernel = registry().find(type);
     if (kernel->advance == nullptr) continue;
