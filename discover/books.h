@@ -1,7 +1,7 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp,
-// zero_held.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
+// zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
 #pragma once
 
 #include <functional>
@@ -122,6 +122,10 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
 /// index of the calibration, or `winner`.
 int calibration_first(const std::vector<Tried>& tried, int winner);
 
+/// What an effect that the winner's law can hold besides its own takes nearly all of away alone is that one's first:
+/// its index, or `winner`.
+int held_one_first(const Books& books, const std::vector<Tried>& tried, int winner);
+
 /// The effect `id`, which stands, on the way to the outputs that it does not move yet: axes are built alike and stand
 /// in one room. Each is claimed as a first effect would be there, unless another of those that were `tried` in its step
 /// explains that output better, and told as a step of its own.
@@ -137,6 +141,10 @@ void take(Books& books, int step, Tried& w, FoundStep found);
 /// A set that was found one by one need not hold together: what another member has made needless is taken out, and what
 /// a look-alike does better beside the others is replaced. The steps are then told anew.
 void reconsider(Books& books, double bar);
+
+/// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
+/// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.
+bool in_two(Books& books, const Contender& before, double bar);
 
 /// Where structure is left: begins with the next best of the first step instead (where nothing was claimed, with the
 /// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better

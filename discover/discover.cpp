@@ -99,13 +99,15 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
     sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
     winner = best_admitted(tried);
   }
-  if (winner >= 0) winner = calibration_first(tried, winner);
+  if (winner >= 0) winner = held_one_first(books, tried, calibration_first(tried, winner));
   std::vector<int> ties;
   if (winner >= 0) {
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
+    const Contender before = books.current;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
+    in_two(books, before, bar(0.92));
     on_other_outputs(books, id, tried, bar(0.93));
     if (found_effects(books) > 1) reconsider(books, bar(0.95));
   }

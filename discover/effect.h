@@ -96,8 +96,9 @@ struct Law {
   std::string name;  ///< "one pole", "two poles": shown to people, unique within the effect
   Node block;        ///< type and parameters as they are written into the file (start values)
   std::vector<LawParameter> free;
-  bool apart = false;     ///< no refinement of the first law: tried whatever that one brought
-  bool reweighs = false;  ///< the weights of the operators behind the place are found anew with it
+  bool apart = false;                ///< no refinement of the first law: tried whatever that one brought
+  bool reweighs = false;             ///< the weights of the operators behind the place are found anew with it
+  std::vector<std::string> holds{};  ///< effects that it could describe besides its own
 };
 
 /// Path of a law's parameter in the program of a diagram in which the law stands as `choice`: "drive_lag.times[0]"; of
@@ -146,6 +147,7 @@ struct Effect {
   std::vector<LookAlike> look_alikes;
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
   std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
+  std::vector<std::string> leaves;    ///< effects that look like what its laws leave of their own, not being exact
   /// Laws, simplest first; those behind the first are tried where the first is among the best, or where they stand
   /// apart.
   std::function<std::vector<Law>(const Circumstances&)> laws;

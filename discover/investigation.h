@@ -60,6 +60,9 @@ constexpr double share_of_first =
 /// A straight line takes 97 % of the squares of a parabola over its range away, and less of other curves: who leaves
 /// less than a hundredth to a curve is no curve.
 constexpr double straight_share = 0.99;
+/// A law that can hold a curve besides its loops gets only what the curve alone leaves, where that takes this share:
+/// loops of less than a third of the curve, in rms.
+constexpr double held_share = 0.9;
 constexpr double share_of_rest = 0.6;  ///< a further effect removes this share of the excess ...
 /// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all:
 /// as much as a structure must take away to be told.

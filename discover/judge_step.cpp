@@ -87,11 +87,15 @@ double share_of_excess(const ModelError& was, const ModelError& is, const std::v
   return was.over_floor() > rules::floor_gate ? by_chi2 : std::max(by_chi2, share(true));
 }
 
-/// Its law can imitate one that stands (hysteresis a friction). A straight line leaves nothing to imitate.
+bool names(const std::vector<std::string>& ids, const Effect& effect) {
+  return std::find(ids.begin(), ids.end(), effect.id) != ids.end();
+}
+
+/// Its law can imitate one that stands (hysteresis a friction), or what that one leaves of its own. A straight line
+/// leaves nothing.
 bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
   return std::any_of(standing.standing.begin(), standing.standing.end(), [&](const Standing& s) {
-    return !calibrates(s) &&
-           std::find(effect.contains.begin(), effect.contains.end(), s.effect->id) != effect.contains.end();
+    return !calibrates(s) && (names(effect.contains, *s.effect) || names(s.effect->leaves, effect));
   });
 }
 

@@ -51,6 +51,7 @@ Law plays_of_a_bent_drive(const Circumstances& at) {
   law.block.type = "generalized_prandtl_ishlinskii";
   give(law.block, "lower", level(at.lowest, at.unit));
   give(law.block, "upper", level(at.highest, at.unit));
+  law.holds = {"asymmetry"};  // a narrow play of the bent drive is a curve
   for (const char* path : {"slope_at_lower", "slope_at_upper"}) {
     LawParameter slope;
     slope.path = path;
@@ -61,6 +62,37 @@ Law plays_of_a_bent_drive(const Circumstances& at) {
     law.free.push_back(slope);
     give(law.block, path, Number{1.0, {}});
   }
+  return law;
+}
+
+/// Relays that may lie anywhere: nothing is said of how they are spread, and many numbers are. They say nothing beyond
+/// the range that was driven.
+Law relays(const Circumstances& at, int cells) {
+  Law law;
+  law.name = fmt::format("relays that switch in {} cells", cells);
+  law.block.type = "preisach";
+  std::vector<double> levels;
+  for (int i = 0; i <= cells; ++i) levels.push_back(at.lowest + at.range() * i / cells);
+  give(law.block, "levels", with_unit(levels, at.unit));
+  NumberList weights;
+  for (int k = 0; k < cells * (cells + 1) / 2; ++k) {
+    LawParameter w;
+    w.path = element("weights", k);
+    w.start = 0.02 * at.range() / cells;
+    w.lower = 0;
+    weights.push_back(with_unit(w.start, at.unit));
+    law.free.push_back(w);
+  }
+  give(law.block, "weights", std::move(weights));
+  give(law.block, "gain", Number{1.0, {}});
+  if (!at.gain_is_free) {
+    LawParameter own;
+    own.path = "gain";
+    own.start = 1;
+    own.lower = 0;
+    law.free.push_back(own);
+  }
+  law.holds = {"asymmetry"};  // relays without a loop of their own are a curve
   return law;
 }
 
@@ -114,8 +146,22 @@ struct Loop {
   double stroke = 0, gap = 0;
   double narrow = 0;  ///< part of the gap by plays that a short way takes along
 };
+/// The same of relays: behind a rising branch lag those that switch up above half the range and down below it.
+Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  Loop loop;
+  loop.stroke = (law.free.back().path == "gain" ? values.back() : 1) * at.range();
+  const auto cells = std::get<NumberList>(law.block.parameters.find("levels")->content).size() - 1;
+  for (std::size_t i = 0, k = 0; i < cells; ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
+      loop.stroke += values[k];
+      if (2 * i >= cells && 2 * j < cells) loop.gap += values[k];
+    }
+  return loop;
+}
+
 std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const double range = at.range();
+  if (law.block.type == "preisach") return loop_of_relays(law, values, at);
   const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
   const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
   if (list == nullptr || sides == nullptr || !(range > 0)) return std::nullopt;
@@ -165,7 +211,7 @@ Effect hysteresis() {
       "w_i >= 0";
   e.source =
       "Kuhnen, Eur. J. Control 9 (2003) 407; thesis Eqs. 2.15-2.19; bent drive: Al Janaideh, Rakheja, Su, IEEE/ASME "
-      "Trans. Mechatronics 16 (2011) 734";
+      "Trans. Mechatronics 16 (2011) 734; relays: Banks, Kurdila, Webb, Math. Probl. Eng. 3 (1997) 287";
   e.residual =
       "A lens of the residual against the drive, closed at turning points, that shrinks with the amplitude; odd "
       "harmonics only.";
@@ -182,7 +228,11 @@ Effect hysteresis() {
       {"weights", "", "of the plays, relative to the wire's own gain",
        "each 0.01 .. 0.2; the loop is 2 % of the stroke at small and 10 .. 15 % at full drive (piceramic.com "
        "tutorial)"},
-      {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"}};
+      {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"},
+      {"weights (relays)", "unit of the wire",
+       "richest: of Preisach's relays that switch up in one cell of the range and down in another, 6 or 10 cells; "
+       "nothing is said of how they are spread, and nothing beyond the range that was driven",
+       ""}};
   e.look_alikes = {
       {"amplifier_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
       {"sensor_lag", "high_frequencies", "phase of a loop does not grow with frequency, that of a lag does"},
@@ -191,6 +241,8 @@ Effect hysteresis() {
       {"initial_remanence", "precycle", "everywhere against first cycle only"}};
   e.family = "hysteresis";
   e.contains = {"calibration", "friction"};
+  // Where domains switch is uneven in other ways than any few plays are: the middle line of the loops is bent.
+  e.leaves = {"asymmetry", "sensor_nonlinearity", "saturation", "stiffening"};
   e.variation = "hysteretic_spring";
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;
@@ -200,6 +252,8 @@ Effect hysteresis() {
                           plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
                           plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
     if (is_unipolar(at)) laws.push_back(plays_of_a_bent_drive(at));
+    if (at.range() > 0)
+      for (const int cells : {6, 10}) laws.push_back(relays(at, cells));
     return laws;
   };
   e.unseen = [](const Circumstances& at) -> std::string {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "models/play.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -13,11 +14,13 @@ using namespace testing;
 
 constexpr double white = 2e-4;
 
-/// Relays that switch up at a and down at b, 0 <= b <= a <= 1, of the density 1 + uneven (a + b): of the triangle from
-/// b to a they give (a - b)^2/2 (1 + uneven (a + b)), its centroid standing for the linear density. Mayergoyz, IEEE
-/// Trans. Magn. 22 (1986) 603-608: each turn that was not wiped out is a corner of a staircase.
-std::vector<double> relays(const std::vector<double>& u, double uneven) {
-  const auto triangle = [&](double a, double b) { return (a - b) * (a - b) / 2 * (1 + uneven * (a + b)); };
+/// Relays that switch up at a and down at b, 0 <= b <= a <= 1, of the density 1 + uneven (a + b) + apart (a - b) (a + b
+/// - 1): of the triangle from b to a they give (a - b)^2/2 (1 + uneven (a + b) + apart/3 (a - b) (a + b - 1)).
+/// Mayergoyz, IEEE Trans. Magn. 22 (1986) 603-608: each turn that was not wiped out is a corner of a staircase.
+std::vector<double> relays(const std::vector<double>& u, double uneven, double apart = 0) {
+  const auto triangle = [&](double a, double b) {
+    return (a - b) * (a - b) / 2 * (1 + uneven * (a + b) + apart / 3 * (a - b) * (a + b - 1));
+  };
   std::vector<double> turns{0.0}, y;  // from the lowest drive: minimum, maximum, minimum ...
   double last = 0;
   for (const double now : u) {
@@ -40,14 +43,14 @@ std::vector<double> relays(const std::vector<double>& u, double uneven) {
 
 class HysteresisLaws : public Discoveries {
  protected:
-  static DataSet recorded(double amount, double uneven) {
+  static DataSet recorded(double amount, double uneven, double apart = 0) {
     std::vector<Recording> list;
     std::uint64_t seed = 200;
     for (const auto& [role, top, periods] :
          {std::tuple{Role::train, 1.0, 5}, {Role::train, 0.6, 8}, {Role::validate, 0.9, 7}}) {
       const auto t = rows(1500, 0.005);
       const auto u = decaying_triangle(t, top, periods);
-      const auto loop = relays(u, uneven);
+      const auto loop = relays(u, uneven, apart);
       auto y = noise(t.size(), white, 0.1 * white, seed);
       for (std::size_t k = 0; k < y.size(); ++k) y[k] += u[k] + amount * (loop[k] - 0.8 * u[k]);
       list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
@@ -72,6 +75,42 @@ TEST_F(HysteresisLaws, AnUnevenDensityIsHysteresisAndNoCurveBesides) {
   EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
   // Loops are wider where relays are dense: the drive is bent upwards.
   EXPECT_LT(value(d, "slope_at_lower"), value(d, "slope_at_upper")) << tried(d);
+}
+
+TEST_F(HysteresisLaws, RelaysOfAnyDensityAreHysteresisAndNoCurveBesides) {
+  // Narrow ones at one end and wide ones at the other: what plays of a bent drive leave of that looks like a curve.
+  const auto d = discovered(plain_gain(), recorded(0.03, 0, 3.5),
+                            {"hysteresis", "asymmetry", "sensor_nonlinearity", "saturation", "friction", "backlash"});
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(winner(d), "hysteresis") << tried(d);
+  EXPECT_TRUE(d.steps.front().winner.law.starts_with("relays")) << tried(d);
+  EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
+}
+
+TEST_F(HysteresisLaws, ACurveBeforePlaysIsNotSwallowedByALawThatCouldHoldBoth) {
+  auto data = recorded(0, 0);
+  std::uint64_t seed = 300;
+  for (auto& r : data.recordings) {
+    const auto& u = r.columns.at("u");
+    auto y = noise(u.size(), white, 0.1 * white, seed++);
+    double narrow = 0, wide = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const double bent = u[k] + 0.04 * u[k] * (u[k] - 1);
+      narrow = play::follow_one_sided(0.162, narrow, bent);
+      wide = play::follow_one_sided(0.406, wide, bent);
+      y[k] += 0.98 * bent + 0.01 * narrow + 0.02 * wide;
+    }
+    r.columns.at("y") = std::move(y);
+  }
+  const auto d = discovered(plain_gain(), data, {"hysteresis", "asymmetry", "sensor_nonlinearity", "saturation"});
+  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
+  EXPECT_TRUE(std::any_of(d.steps.begin(), d.steps.end(), [](const FoundStep& s) {
+    return s.winner.effect == "asymmetry";
+  })) << tried(d);
+  EXPECT_TRUE(std::any_of(d.steps.begin(), d.steps.end(), [](const FoundStep& s) {
+    return s.winner.effect == "hysteresis";
+  })) << tried(d);
+  EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
 }
 
 TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {

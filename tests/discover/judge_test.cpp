@@ -94,6 +94,17 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
   EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, "hysteresis", "friction").admitted) << "beyond a tenth";
 }
 
+TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {
+  // Domains that switch unevenly bend the loops about their middle, as a curve does.
+  const std::vector<double> left{0, 450, 0, 450};
+  const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
+  for (const char* curve : {"asymmetry", "sensor_nonlinearity", "saturation", "stiffening"}) {
+    EXPECT_FALSE(judged(before, after, left, curve, "hysteresis").admitted) << curve;
+    EXPECT_TRUE(judged(before, after, left, curve, "creep").admitted) << curve;
+    EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, curve, "hysteresis").admitted) << curve << " beyond a tenth";
+  }
+}
+
 TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
   const ModelError before = error(1000, 1060, 1000, 1004), after = error(1000, 1020, 1000, 1000);
   const Tried t = judged(before, after, {});
