@@ -122,6 +122,8 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
 /// index of the calibration, or `winner`.
 int calibration_first(const std::vector<Tried>& tried, int winner);
 
+/// Could the law describe this effect, or what looks like it, besides its own (Law::holds)?
+bool could_hold(const Books& books, const Law& law, const Effect& e);
 /// What an effect that the winner's law can hold besides its own takes nearly all of away alone is that one's first:
 /// its index, or `winner`.
 int held_one_first(const Books& books, const std::vector<Tried>& tried, int winner);
@@ -144,7 +146,7 @@ void reconsider(Books& books, double bar);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.
-bool in_two(Books& books, const Contender& before, double bar);
+bool in_two(Books& books, Contender before, double bar);
 
 /// Where structure is left: begins with the next best of the first step instead (where nothing was claimed, with the
 /// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "discover/books.h"
 
@@ -105,9 +106,9 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
-    const Contender before = books.current;
+    Contender before = books.current;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
-    in_two(books, before, bar(0.92));
+    in_two(books, std::move(before), bar(0.92));
     on_other_outputs(books, id, tried, bar(0.93));
     if (found_effects(books) > 1) reconsider(books, bar(0.95));
   }

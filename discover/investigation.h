@@ -63,6 +63,8 @@ constexpr double straight_share = 0.99;
 /// A law that can hold a curve besides its loops gets only what the curve alone leaves, where that takes this share:
 /// loops of less than a third of the curve, in rms.
 constexpr double held_share = 0.9;
+/// Part of an uneven density (rms) that plays of a straight drive leave: a fifth of random ones, up to a half.
+constexpr double plain_left = 0.3;
 constexpr double share_of_rest = 0.6;  ///< a further effect removes this share of the excess ...
 /// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all:
 /// as much as a structure must take away to be told.
@@ -80,8 +82,10 @@ constexpr int enriched = 3;        ///< names whose richer laws are tried
 /// that stand may have left of their own effects; empty = judged as the first effect.
 void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
 
-/// Is what was taken away between two models more than what the laws of the first may have left of their own effects?
-bool more_than_laws_leave(const ModelError& was, const ModelError& is, const std::vector<double>& left_by_laws);
+/// Is what `effect` takes away of what `before` leaves more than the laws of that one may have left of their own
+/// effects?
+bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
+                          const std::vector<double>& left_by_laws);
 
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);

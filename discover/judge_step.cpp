@@ -99,6 +99,13 @@ bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
   });
 }
 
+/// What the laws that stand may have left, as much more as one has to take away that looks like that.
+std::vector<double> left_for(const Effect& effect, const Contender& standing, std::vector<double> left_by_laws) {
+  if (imitates_a_standing_law(effect, standing))
+    for (double& chi2 : left_by_laws) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
+  return left_by_laws;
+}
+
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
 /// the price of every number that was fitted.
 bool all_agree(const Tried& tried, const Contender& before) {
@@ -117,8 +124,11 @@ std::string why_implausible(const Effect& effect, const Law& law, const Contende
   return values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
 }
 
-bool more_than_laws_leave(const ModelError& was, const ModelError& is, const std::vector<double>& left_by_laws) {
-  return left_by_laws.empty() || takes_to_the_noise(was, is) || fall_beyond(was, is, left_by_laws) >= rules::claim_fall;
+bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
+                          const std::vector<double>& left_by_laws) {
+  if (left_by_laws.empty()) return true;
+  if (!imitates_a_standing_law(effect, before) && takes_to_the_noise(before.error_of, after)) return true;
+  return fall_beyond(before.error_of, after, left_for(effect, before, left_by_laws)) >= rules::claim_fall;
 }
 
 bool look_alike(const Effect& a, const Effect& b) {
@@ -142,11 +152,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
-  const bool imitates = imitates_a_standing_law(*tried.effect, before);
-  auto left = left_by_laws;
-  if (imitates)
-    for (double& chi2 : left) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
-  tried.share = share_of_excess(was, is, tried.outputs, left);
+  tried.share = share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, left_by_laws));
   const bool above_noise = was.over_floor() > rules::floor_gate;
   if (!(tried.fall_validate > rules::claim_fall) &&
       (above_noise || !left_by_laws.empty() || !all_agree(tried, before))) {
@@ -164,9 +170,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     tried.reason = why;
     return;
   }
-  const bool to_the_noise = takes_to_the_noise(was, is);
   // Where only noise is left behind it, it need not take more than a structure would have to.
-  const double enough = to_the_noise ? rules::structure_share : rules::share_of_first;
+  const double enough = takes_to_the_noise(was, is) ? rules::structure_share : rules::share_of_first;
   if (left_by_laws.empty() && above_noise && tried.share < enough && !owns_an_excitation(was, is)) {
     tried.patch = true;
     tried.reason =
@@ -175,7 +180,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     return;
   }
   if (!left_by_laws.empty()) {
-    if (!(to_the_noise && !imitates) && fall_beyond(was, is, left) < rules::claim_fall) {
+    if (!more_than_laws_leave(*tried.effect, before, is, left_by_laws)) {
       tried.reason = "no larger than what the laws that were found may have left of their own";
       return;
     }

@@ -46,39 +46,46 @@ void with_it(Books& books, const Contender& plain, const Effect& e, std::optiona
   }
 }
 
-/// It, or what looks like it.
-bool is_held(const Books& books, const Law& law, const Effect& e) {
+/// Is the other effect more than what the plainer law may have left of its own?
+bool is_no_rest(const Contender& before, const Contender& plain, const Contender& both) {
+  const double of_law = before.error_of.evidence() - plain.error_of.evidence();
+  return plain.error_of.evidence() - both.error_of.evidence() > rules::plain_left * rules::plain_left * of_law;
+}
+
+}  // namespace
+
+bool could_hold(const Books& books, const Law& law, const Effect& e) {
   return std::any_of(law.holds.begin(), law.holds.end(), [&](const std::string& id) {
     const Effect* held = books.effects.find(id);
     return held != nullptr && (held == &e || look_alike(*held, e));
   });
 }
 
-}  // namespace
-
 int held_one_first(const Books& books, const std::vector<Tried>& tried, int winner) {
   const Tried& w = tried[static_cast<std::size_t>(winner)];
   const Law& law = w.laws[w.law];
   for (const std::size_t i : ranking(tried)) {
     const Tried& t = tried[i];
-    if (t.effect == w.effect || !t.admitted || t.outputs != w.outputs || !is_held(books, law, *t.effect)) continue;
+    if (t.effect == w.effect || !t.admitted || t.outputs != w.outputs || !could_hold(books, law, *t.effect)) continue;
     if (t.fall_train > rules::held_share * w.fall_train && t.fall_validate > rules::held_share * w.fall_validate)
       return static_cast<int>(i);
   }
   return winner;
 }
 
-bool in_two(Books& books, const Contender& before, double bar) {
+bool in_two(Books& books, Contender before, double bar) {
   const Standing mixed = books.current.standing.back();
-  const auto stands = [&](const Standing& s) { return is_held(books, mixed.law, *s.effect); };
+  const auto stands = [&](const Standing& s) { return could_hold(books, mixed.law, *s.effect); };
   if (mixed.law.holds.empty() || std::any_of(before.standing.begin(), before.standing.end(), stands)) return false;
   books.progress(fmt::format("{} by itself", mixed.effect->id), bar);
+  before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
   const auto plain = by_a_plain_law(books, before, mixed);
   if (!plain) return false;
   std::optional<Contender> best;
   for (const auto& e : books.effects.list())
-    if (books.wanted(e) && is_held(books, mixed.law, e)) with_it(books, *plain, e, best);
-  return best && best->score() < books.current.score() - rules::exchange && tell_again(books, *best);
+    if (books.wanted(e) && could_hold(books, mixed.law, e)) with_it(books, *plain, e, best);
+  return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
+         tell_again(books, *best);
 }
 
 }  // namespace hysteron

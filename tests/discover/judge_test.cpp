@@ -98,7 +98,7 @@ TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {
   // Domains that switch unevenly bend the loops about their middle, as a curve does.
   const std::vector<double> left{0, 450, 0, 450};
   const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
-  for (const char* curve : {"asymmetry", "sensor_nonlinearity", "saturation", "stiffening"}) {
+  for (const char* curve : {"asymmetry", "sensor_nonlinearity", "saturation", "stiffening", "friction"}) {
     EXPECT_FALSE(judged(before, after, left, curve, "hysteresis").admitted) << curve;
     EXPECT_TRUE(judged(before, after, left, curve, "creep").admitted) << curve;
     EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, curve, "hysteresis").admitted) << curve << " beyond a tenth";
@@ -126,10 +126,20 @@ TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {
 }
 
 TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
-  const ModelError before = error(1000, 1090, 1000, 1090), after = error(1000, 1050, 1000, 1050);
-  EXPECT_TRUE(more_than_laws_leave(before, after, {}));
-  EXPECT_TRUE(more_than_laws_leave(before, after, {0, 30, 0, 30}));
-  EXPECT_FALSE(more_than_laws_leave(before, after, {0, 50, 0, 50}));
+  Contender before;
+  before.error_of = error(1000, 1090, 1000, 1090);
+  before.standing.emplace_back().effect = effects.find("hysteresis");
+  const ModelError after = error(1000, 1050, 1000, 1050);
+  const Effect &creep = effects.get("creep"), &friction = effects.get("friction");
+  EXPECT_TRUE(more_than_laws_leave(creep, before, after, {}));
+  EXPECT_TRUE(more_than_laws_leave(creep, before, after, {0, 30, 0, 30}));
+  EXPECT_FALSE(more_than_laws_leave(creep, before, after, {0, 50, 0, 50}));
+  EXPECT_TRUE(more_than_laws_leave(friction, before, after, {0, 0.5, 0, 0.5}));
+  EXPECT_FALSE(more_than_laws_leave(friction, before, after, {0, 2, 0, 2})) << "elements that slip leave such";
+  // Structure before and noise behind it is no rest of a law, but what looks like one may be.
+  before.error_of = error(1000, 1600, 1000, 1600);
+  EXPECT_TRUE(more_than_laws_leave(creep, before, error(1000, 1010, 1000, 1010), {0, 900, 0, 900}));
+  EXPECT_FALSE(more_than_laws_leave(friction, before, error(1000, 1010, 1000, 1010), {0, 900, 0, 900}));
 }
 
 TEST_F(Judging, ARecordingTakenDownToTheNoiseIsOwnedByHalfOfIt) {
