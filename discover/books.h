@@ -46,6 +46,8 @@ void fit_base(Books& books);
 
 /// One of its family stands in the present model.
 bool standing(const Books& books, const Effect& effect);
+/// One of its family stands in this model on the way to an output that the place moves: each axis has its own.
+bool standing_before(const Books& books, const Contender& model, const Effect& effect, const Place& place);
 /// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
 /// with these held it would not be seen.
 bool taken_up(const Books& books, const Effect& effect);

@@ -31,18 +31,6 @@ bool may_stand(const Books& books, const Place& place, const Names& outputs) {
                                                            [&](const std::string& o) { return contains(outputs, o); }));
 }
 
-/// The effect stands already on the way to an output that this place moves: each axis has its own.
-bool standing_before(const Books& books, const Effect& e, const Place& place) {
-  if (e.side == Side::other_axis) return false;
-  const auto here = outputs_moved(books, books.current, place.wire);
-  return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& s) {
-    if (s.effect->family != e.family) return false;
-    const auto there = outputs_moved(books, books.current, s.place.wire);
-    return there.empty() || here.empty() ||
-           std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
-  });
-}
-
 /// The two strongest lines of each output that the place moves [Hz].
 std::vector<double> lines_left(const Books& books, const Tried& t,
                                const std::vector<std::pair<double, double>>& bands) {
@@ -73,6 +61,17 @@ bool standing(const Books& books, const Effect& e) {
   if (e.side == Side::other_axis) return false;  // each axis has its own; a wire that has it is left out by places_of
   return std::any_of(books.current.standing.begin(), books.current.standing.end(),
                      [&](const Standing& s) { return s.effect->family == e.family; });
+}
+
+bool standing_before(const Books& books, const Contender& model, const Effect& e, const Place& place) {
+  if (e.side == Side::other_axis) return false;
+  const auto here = outputs_moved(books, model, place.wire);
+  return std::any_of(model.standing.begin(), model.standing.end(), [&](const Standing& s) {
+    if (s.effect->family != e.family) return false;
+    const auto there = outputs_moved(books, model, s.place.wire);
+    return there.empty() || here.empty() ||
+           std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
+  });
 }
 
 bool taken_up(const Books& books, const Effect& effect) {
@@ -129,7 +128,9 @@ std::vector<Tried> everywhere(Books& books, int step, const Names& outputs, cons
   for (const auto& e : books.effects.list()) {
     if (!books.wanted(e) || (!only.empty() && std::find(only.begin(), only.end(), &e) == only.end())) continue;
     auto where = places_of(e, books.current.diagram, books.registry, books.data.get());
-    std::erase_if(where, [&](const Place& p) { return standing_before(books, e, p) || !may_stand(books, p, outputs); });
+    std::erase_if(where, [&](const Place& p) {
+      return standing_before(books, books.current, e, p) || !may_stand(books, p, outputs);
+    });
     if (where.empty() && standing(books, e)) continue;
     if (where.empty() && step == 1) books.d.refused.push_back({e.id, "", why_no_place(e, books.registry)});
     for (const auto& p : where) {

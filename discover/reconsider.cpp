@@ -121,8 +121,9 @@ bool may_stand_for(const Effect& member, const Effect& e) {
 /// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
 std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, const Effect& member, double bar) {
   for (const auto& e : books.effects.list()) {
-    if (!books.wanted(e) || !may_stand_for(member, e) || (e.family != member.family && standing(books, e))) continue;
-    const auto places = places_of(e, rest.diagram, books.registry, books.data.get());
+    if (!books.wanted(e) || !may_stand_for(member, e)) continue;
+    auto places = places_of(e, rest.diagram, books.registry, books.data.get());
+    std::erase_if(places, [&](const Place& p) { return standing_before(books, rest, e, p); });
     if (places.empty()) continue;
     const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, free_anyway(books.shop, rest));
     for (std::size_t p = 0; p < places.size(); ++p) {

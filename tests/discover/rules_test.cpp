@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "discover/books.h"
+#include "discover/circumstances.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -109,6 +111,29 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
     return c.reason.find("a gain and a zero alone take away as much") != std::string::npos;
   });
   EXPECT_GE(left, 1) << "no law took the zero along: nothing was tested\n" << tried(d);
+}
+
+// --- axes ------------------------------------------------------------------------------------------------------------
+
+TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
+  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
+  const Diagram diagram = two_axes();
+  const DataSet data = of_two_axes(1e-3, same, same);
+  const DiscoverOptions options;
+  Books books(diagram, data, registry, effects, options);
+  fit_base(books);
+  const Effect& clamp = effects.get("saturation");
+  const auto places = places_of(clamp, diagram, registry, &data);
+  const auto on = [&](const std::string& wire) {
+    return *std::find_if(places.begin(), places.end(), [&](const Place& p) { return p.wire == wire; });
+  };
+  const auto at = circumstances_at(diagram, registry, data, on("u2"), {});
+  const Contender model =
+      with_effect(books.shop, books.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
+  ASSERT_TRUE(model.ok) << model.error;
+  EXPECT_TRUE(standing_before(books, model, clamp, on("u2")));
+  EXPECT_FALSE(standing_before(books, model, clamp, on("u")));
+  EXPECT_FALSE(standing_before(books, model, effects.get("asymmetry"), on("u2")));
 }
 
 // --- slow noise ------------------------------------------------------------------------------------------------------
