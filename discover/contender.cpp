@@ -33,13 +33,39 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
   return list;
 }
 
+bool has_line(const Law& law) {
+  return std::any_of(law.free.begin(), law.free.end(), [](const LawParameter& p) { return !p.line_bands.empty(); });
+}
+
+/// The frequency of a known line, while the others are fitted, or by itself.
+enum class KnownLines { held, tuned };
+
+/// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
+/// was found at: another one near by would cost nothing.
+bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, const LawParameter& p) {
+  if (p.line_bands.empty() || shop.evidence == nullptr) return false;
+  const ParameterInfo* info = c.program->find_parameter(parameter_path(s.name, s.law, p));
+  if (info == nullptr) return false;
+  const auto& judged = shop.evidence->model().outputs();
+  const auto outputs = outputs_behind(*c.program, info->block);
+  return std::any_of(outputs.begin(), outputs.end(), [&](int o) {
+    const auto here = std::find(judged.begin(), judged.end(), c.program->output_names[static_cast<std::size_t>(o)]);
+    return here != judged.end() &&
+           shop.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out != nullptr;
+  });
+}
+
 /// The free parameters: the user's own, and those of the chosen effects.
 std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, int fresh,
-                                   const std::vector<int>& recordings) {
+                                   const std::vector<int>& recordings, KnownLines lines = KnownLines::held) {
   auto free = free_parameters(*c.program, shop.free_paths);
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
     if (!chosen[i]) continue;
-    for (auto& f : free_of_law(*c.program, c.standing[i], static_cast<int>(i) == fresh, recordings)) {
+    const bool is_new = static_cast<int>(i) == fresh;
+    Standing standing = c.standing[i];
+    if (!is_new && lines == KnownLines::held)
+      std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(shop, c, standing, p); });
+    for (auto& f : free_of_law(*c.program, standing, is_new, recordings)) {
       std::erase_if(free, [&](const FreeParameter& have) {
         return have.parameter == f.parameter && have.recording == f.recording;
       });
@@ -201,12 +227,12 @@ void predict(Contender& c, DataModel& model, const Trial& values) {
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
 double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-                  const std::vector<std::string>& outputs) {
+                  const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held) {
   c.program = compile(c.diagram, *shop.registry);
   const bool some = outputs.size() < c.program->output_names.size();
   const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
   DataModel model(seen, shop.data, accuracy(shop, effort));
-  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data));
+  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines);
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
@@ -225,7 +251,11 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
   FitResult before = std::move(c.fit);
-  c.fit = fit(model, noise_of(shop, model), free, options);
+  NoiseModel noise = noise_of(shop, model);
+  const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
+  if (sought || lines == KnownLines::tuned)
+    for (auto& o : noise.outputs) o.left_out.reset();
+  c.fit = fit(model, noise, free, options);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
@@ -288,6 +318,19 @@ void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, cons
   }
 }
 
+/// Known lines once more by themselves: beside an effect that came later their frequency may be another one by a
+/// little, and in a long recording that is many turns.
+void tune_known_lines(const Workshop& shop, Contender& c, Effort effort, const std::vector<bool>& chosen,
+                      const std::vector<std::string>& outputs) {
+  std::vector<bool> lines(chosen.size(), false);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    lines[i] =
+        chosen[i] && std::any_of(c.standing[i].law.free.begin(), c.standing[i].law.free.end(),
+                                 [&](const LawParameter& p) { return is_known_line(shop, c, c.standing[i], p); });
+  if (std::find(lines.begin(), lines.end(), true) != lines.end())
+    fit_chosen(shop, c, effort, -1, lines, outputs, KnownLines::tuned);
+}
+
 /// Does any recording measure one of these outputs: what nobody measured, nothing can fit.
 bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) {
   return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& name) {
@@ -306,6 +349,7 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
       for (std::size_t i = 0; i < chosen.size(); ++i)
         chosen[i] = chosen[i] && (static_cast<int>(i) == fresh || calibrates(c.standing[i]));
     fit_part(shop, c, effort, fresh, chosen, part.outputs);
+    if (c.ok && effort != Effort::screen) tune_known_lines(shop, c, effort, chosen, part.outputs);
     if (!c.ok) return;
   }
 }
@@ -409,6 +453,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   c.of_recordings = contender.of_recordings;
   c.change = contender.change;
   c.zero_held = contender.zero_held;
+  c.fit.estimates = contender.fit.estimates;  // of what is held
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 

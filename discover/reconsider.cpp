@@ -179,6 +179,9 @@ bool tell_again(Books& books, const Contender& set) {
   const Prediction before = books.before_prediction;
   books.current = books.base;
   books.current.zero_held = set.zero_held;
+  // Told from the start, a line is not known before its step.
+  books.evidence->known_lines({});
+  books.evidence->settle(set.prediction);
   books.before_prediction = {};
   books.d.steps.clear();
   auto left = members_of(set);

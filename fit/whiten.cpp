@@ -13,6 +13,13 @@ namespace {
 /// array.
 struct Plans {
   fftw_plan forward = nullptr, backward = nullptr;
+  Plans() = default;
+  Plans(const Plans&) = delete;
+  Plans& operator=(const Plans&) = delete;
+  ~Plans() {
+    fftw_destroy_plan(forward);
+    fftw_destroy_plan(backward);
+  }
 };
 
 const Plans& plans_for(std::size_t n) {

@@ -16,7 +16,7 @@ struct Relaxation {
 };
 std::vector<Relaxation> relaxations(const Law& law, const std::vector<double>& values) {
   std::vector<double> times;
-  if (const auto* list = std::get_if<NumberList>(&law.block.parameters.find("times")->content))
+  if (const auto* list = written<NumberList>(law, "times"))
     for (const auto& t : *list) times.push_back(t.value);
   std::vector<Relaxation> all;
   for (std::size_t k = 0; k < times.size(); ++k) {

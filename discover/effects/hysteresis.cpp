@@ -132,7 +132,7 @@ Law slip_elements(const Circumstances& at) {
 
 /// Force by which the elements hold the mass back, over that of the drive.
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  const auto* list = std::get_if<NumberList>(&law.block.parameters.find("slip_distance")->content);
+  const auto* list = written<NumberList>(law, "slip_distance");
   const double range = at.travel_highest - at.travel_lowest;
   if (list == nullptr || list->size() > values.size() || !(range > 0) || !(at.range() > 0)) return "";
   double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
@@ -150,7 +150,8 @@ struct Loop {
 Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   Loop loop;
   loop.stroke = (law.free.back().path == "gain" ? values.back() : 1) * at.range();
-  const auto cells = std::get<NumberList>(law.block.parameters.find("levels")->content).size() - 1;
+  const auto* levels = written<NumberList>(law, "levels");
+  const std::size_t cells = levels != nullptr ? levels->size() - 1 : 0;
   for (std::size_t i = 0, k = 0; i < cells; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k) {
       loop.stroke += values[k];
@@ -162,8 +163,8 @@ Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Cir
 std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const double range = at.range();
   if (law.block.type == "preisach") return loop_of_relays(law, values, at);
-  const auto* list = std::get_if<NumberList>(&law.block.parameters.find("thresholds")->content);
-  const auto* sides = std::get_if<std::string>(&law.block.parameters.find("sides")->content);
+  const auto* list = written<NumberList>(law, "thresholds");
+  const auto* sides = written<std::string>(law, "sides");
   if (list == nullptr || sides == nullptr || !(range > 0)) return std::nullopt;
   // The weight of threshold 0 may be fixed at one.
   const std::size_t own = law.free.front().path == element("weights", 0) ? 0 : 1;

@@ -49,6 +49,12 @@ double rounded(double value);
 Number per_second(double si, const Unit& unit);
 /// "0.2 ms", "16 s": a time for people.
 std::string time_text(double seconds);
+/// What the law's block has written; nullptr if nothing, or something else.
+template <class T>
+const T* written(const Law& law, const char* parameter) {
+  const Value* value = law.block.parameters.find(parameter);
+  return value != nullptr ? std::get_if<T>(&value->content) : nullptr;
+}
 /// A unit as it is written into a file: as people wrote it, else its dimension.
 std::string unit_text(const Unit& unit);
 /// A level [SI], not a difference, as a parameter in `unit`: 20 degC stays 20 degC.

@@ -136,6 +136,43 @@ TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   EXPECT_FALSE(standing_before(books, model, effects.get("asymmetry"), on("u2")));
 }
 
+TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
+  // What a known line does beside being steady is left out, about its frequency: a line near by would cost nothing.
+  constexpr double hertz = 59.95;
+  constexpr double white = 1e-3;
+  std::vector<Recording> list;
+  std::uint64_t seed = 710;  // noise by which it would move
+  for (const auto& [role, n] : {std::pair{Role::train, 1600}, {Role::train, 2000}, {Role::validate, 1800}}) {
+    const auto t = rows(n, 0.0045);
+    const auto line = [&, of = static_cast<double>(seed)](double part) {
+      return sampled(t, [=](double x) { return part * white * std::cos(2 * pi * hertz * x + of); });
+    };
+    const auto u = several_sines(t, 1, {0.4, 0.9});
+    Recording r = recording(std::to_string(seed) + ".csv", role, t, u,
+                            plus(plus(u, line(0.4)), noise(t.size(), white, 0.6 * white, seed)));
+    r.columns["u2"] = u;
+    r.units["u2"] = parse_unit("V");
+    r.columns["y2"] = plus(plus(u, line(0.4)), noise(t.size(), white, 0.6 * white, seed + 50));
+    r.units["y2"] = parse_unit("m");
+    list.push_back(std::move(r));
+    ++seed;
+  }
+  DataSet data = data_set(std::move(list), white);
+  data.notes["u2"].to = "u2";
+  data.notes["y2"].to = "y2";
+  data.notes["y2"].noise = data.notes["y"].noise;
+  const Discovery d = discovered(two_axes(), data, {"mains_interference", "saturation", "slew_limit"});
+  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
+  for (const auto& s : d.steps) {
+    EXPECT_EQ(s.winner.effect, "mains_interference") << tried(d);
+    for (const auto& f : s.winner.found) {
+      if (!f.estimate.path.ends_with(".frequency")) continue;
+      EXPECT_NEAR(f.estimate.used, hertz, 0.01) << f.estimate.path;
+    }
+    EXPECT_GT(s.winner.fall_validate, 50) << tried(d);
+  }
+}
+
 // --- slow noise ------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
