@@ -84,11 +84,23 @@ std::string kind_column(const ParameterDeclaration& p) {
   return kind + ", default " + (p.default_text->empty() ? "\"\"" : *p.default_text);
 }
 
-std::string example_value(const ParameterDeclaration& p) {
+/// A list that rises, and one as long as that, shows two numbers; where a matrix has a row for each, one.
+bool shows_two(const ParameterDeclaration& p, const Declaration& d) {
+  const auto rises = [&](const ParameterDeclaration& q) {
+    return q.is_increasing && (&q == &p || q.name == p.same_length_as);
+  };
+  return std::any_of(d.parameters.begin(), d.parameters.end(), rises) &&
+         std::none_of(d.parameters.begin(), d.parameters.end(),
+                      [](const ParameterDeclaration& q) { return q.kind == ParameterKind::matrix; });
+}
+
+std::string example_value(const ParameterDeclaration& p, const Declaration& d) {
   const bool plain = p.unit.empty() || p.unit.find('$') != std::string::npos;
-  const std::string one = plain ? "1" : fmt::format("\"1 {}\"", p.unit);
+  const auto number = [&](int n) { return plain ? std::to_string(n) : fmt::format("\"{} {}\"", n, p.unit); };
+  const std::string one = number(1);
   if (p.kind == ParameterKind::matrix) return "[[1, 0], [0, 1]]";
-  if (p.kind == ParameterKind::list) return plain ? "[1]" : fmt::format("[{}]", one);
+  if (p.kind == ParameterKind::list)
+    return shows_two(p, d) ? fmt::format("[{}, {}]", one, number(p.is_increasing ? 2 : 1)) : fmt::format("[{}]", one);
   return p.kind == ParameterKind::text ? fmt::format("\"{}\"", p.choices.empty() ? "..." : p.choices.front()) : one;
 }
 
@@ -96,7 +108,7 @@ std::string example_value(const ParameterDeclaration& p) {
 std::string example(const Declaration& d) {
   std::string text = fmt::format("\"name\": {{\"type\": \"{}\"", d.type);
   for (const auto& p : d.parameters)
-    if (!p.default_text) text += fmt::format(", \"{}\": {}", p.name, example_value(p));
+    if (!p.default_text) text += fmt::format(", \"{}\": {}", p.name, example_value(p, d));
   if (d.inputs.size() == 1) {
     text += d.inputs[0].variadic ? ", \"in\": [\"one_signal\", \"another\"]" : ", \"in\": \"some_signal\"";
   } else if (!d.inputs.empty()) {

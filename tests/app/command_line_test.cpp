@@ -75,6 +75,16 @@ TEST(Blocks, EveryTypeIsListedAndShownWithinAHundredColumns) {
   }
 }
 
+TEST(Blocks, ShowListsOfALengthThatTheTypeTakes) {
+  const Folder folder;
+  for (const auto& [type, part] : {std::pair{"preisach", "\"levels\": [1, 2], \"weights\": [1], \"gain\": 1"},
+                                   {"prandtl_ishlinskii", "\"thresholds\": [1, 2], \"weights\": [1, 1]"},
+                                   {"coupled_tapi", "\"thresholds\": [1], \"weights\": [[1, 0], [0, 1]]"}}) {
+    const Outcome shown = process::hysteron(folder.path(), {"blocks", type});
+    EXPECT_NE(shown.out.find(part), std::string::npos) << shown.out;
+  }
+}
+
 TEST(Blocks, TellVariationsAndMemoryToPeopleAndToPrograms) {
   const Folder folder;
   const Outcome shown = process::hysteron(folder.path(), {"blocks", "mass_spring_damper"});
