@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
 
 namespace hysteron::blocks {
 namespace {
@@ -39,9 +41,8 @@ void Preisach::describe(Declaration& d) {
           "Krasnosel'skii, Pokrovskii, Systems with Hysteresis (1989); Banks, Kurdila, Webb, Math. Probl. Eng. 3 "
           "(1997) 287-328; Preisach, Z. Phys. 94 (1935) 277-302");
   d.remark(
-      "weights[k] is the share of the relays that switch up between levels i and i+1 and down between levels j and "
-      "j+1, "
-      "in the order (0, 0), (1, 0), (1, 1), (2, 0) ...: one for every pair of cells with j not above i, 55 for 11 "
+      "weights[k] belongs to the relays that switch up between levels i and i+1 and down between levels j and j+1, in "
+      "the order (0, 0), (1, 0), (1, 1), (2, 0) ...: one for every pair of cells with j not above i, 55 for 11 "
       "levels.");
   d.remark(
       "The relays of i = j have no loop of their own: they make a curve. All relays stand still beyond the levels.");
@@ -80,7 +81,7 @@ std::string Preisach::check_memory(const View<double>& v) {
   return preisach::can_stand(v.list(levels), v.memory(), slack)
              ? ""
              : "no drive leaves relays so: each must lie within the cell in which it switches up, and who switches at "
-               "lower levels is up before the others";
+               "lower levels is up before the others; take \"memory\" out, or give what a run has left behind";
 }
 
 void Preisach::rows_of(const RowsView& r, int lane) {

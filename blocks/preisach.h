@@ -2,10 +2,7 @@
 // its law: models/preisach.h.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "engine/block.h"
 #include "models/preisach.h"

@@ -33,6 +33,7 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
   return list;
 }
 
+/// Does it look for a line: is one of its parameters the frequency of one.
 bool has_line(const Law& law) {
   return std::any_of(law.free.begin(), law.free.end(), [](const LawParameter& p) { return !p.line_bands.empty(); });
 }
@@ -253,7 +254,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   FitResult before = std::move(c.fit);
   NoiseModel noise = noise_of(shop, model);
   const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
-  if (sought || lines == KnownLines::tuned)
+  if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
     for (auto& o : noise.outputs) o.left_out.reset();
   c.fit = fit(model, noise, free, options);
   c.ok = c.fit.ok;

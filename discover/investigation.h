@@ -63,7 +63,8 @@ constexpr double straight_share = 0.99;
 /// A law that can hold a curve besides its loops gets only what the curve alone leaves, where that takes this share:
 /// loops of less than a third of the curve, in rms.
 constexpr double held_share = 0.9;
-/// Part of an uneven density (rms) that plays of a straight drive leave: a fifth of random ones, up to a half.
+/// Part of an uneven density (rms) that plays of a straight drive leave: 14 % of random ones, up to 40 %
+/// (benchmarks/hysteresis_laws.py).
 constexpr double plain_left = 0.3;
 constexpr double share_of_rest = 0.6;  ///< a further effect removes this share of the excess ...
 /// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all:

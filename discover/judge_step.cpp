@@ -87,7 +87,7 @@ double share_of_excess(const ModelError& was, const ModelError& is, const std::v
   return was.over_floor() > rules::floor_gate ? by_chi2 : std::max(by_chi2, share(true));
 }
 
-bool names(const std::vector<std::string>& ids, const Effect& effect) {
+bool lists(const std::vector<std::string>& ids, const Effect& effect) {
   return std::find(ids.begin(), ids.end(), effect.id) != ids.end();
 }
 
@@ -95,7 +95,7 @@ bool names(const std::vector<std::string>& ids, const Effect& effect) {
 /// leaves nothing.
 bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
   return std::any_of(standing.standing.begin(), standing.standing.end(), [&](const Standing& s) {
-    return !calibrates(s) && (names(effect.contains, *s.effect) || names(s.effect->leaves, effect));
+    return !calibrates(s) && (lists(effect.contains, *s.effect) || lists(s.effect->leaves, effect));
   });
 }
 

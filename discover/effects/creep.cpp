@@ -141,9 +141,8 @@ Effect creep() {
       {"amounts", "", "final amount of each relaxation per unit of change; two relaxations make one decade",
        "0.01 .. 0.02 per decade (PI Ceramic catalogue, physikinstrumente.com tutorial); at most 0.1 for soft ceramics"},
       {"times", "s",
-       "fixed: two per decade from the sample step (not below 1 ms) to twice the longest recording, for the logarithm "
-       "to "
-       "ten times",
+       "fixed: two per decade from the sample step (not below 1 ms) to twice the longest recording (to ten times for "
+       "the logarithm)",
        ""}};
   e.look_alikes = {
       {"hysteresis", "sine_amplitudes", "phase of a loop grows with the amplitude, that of creep does not"},

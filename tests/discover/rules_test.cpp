@@ -173,6 +173,35 @@ TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
   }
 }
 
+// --- laws that could hold another effect -----------------------------------------------------------------------------
+
+TEST_F(Rules, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
+  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
+  const Diagram diagram = two_axes();
+  const DataSet data = of_two_axes(1e-3, same, same);
+  const DiscoverOptions options;
+  const Books books(diagram, data, registry, effects, options);
+  std::vector<Tried> tried(2);
+  for (auto& t : tried) {
+    t.contender.ok = t.admitted = true;
+    t.laws.resize(1);
+  }
+  tried[0].effect = &effects.get("hysteresis");
+  tried[0].fall_train = tried[0].fall_validate = 1000;
+  tried[1].effect = &effects.get("asymmetry");
+  tried[1].fall_train = tried[1].fall_validate = 950;
+  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "plays of a straight drive hold no curve";
+  tried[0].laws[0].holds = {"asymmetry"};
+  EXPECT_EQ(held_one_first(books, tried, 0), 1);
+  tried[1].effect = &effects.get("saturation");
+  EXPECT_EQ(held_one_first(books, tried, 0), 1) << "it looks like an asymmetry";
+  tried[1].effect = &effects.get("creep");
+  EXPECT_EQ(held_one_first(books, tried, 0), 0);
+  tried[1].effect = &effects.get("asymmetry");
+  tried[1].fall_validate = 850;
+  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "less than nine tenths on recordings not used for the fit";
+}
+
 // --- slow noise ------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
