@@ -191,7 +191,9 @@ void LinearPart::bind(const Program& program, const Run& run) {
   }
   feeds_through_ = !d_.leftCols(m - 1).isZero(0);
   find_seen();
-  padded_ = seen_.size() + seen_.size() % 2;
+  find_mixing();
+  const std::size_t together = seen_.size() > most_in_registers ? 8 : 2;
+  padded_ = (seen_.size() + together - 1) / together * together;
   c_rows_.assign(outputs_.size() * padded_, 0.0);
   d_rows_.clear();
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
@@ -257,6 +259,13 @@ void LinearPart::find_seen() {
   seen_ = std::move(seen);
   packed_.clear();
   packed_count_ = 0;
+}
+
+void LinearPart::find_mixing() {
+  mixing_.clear();
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    if (std::any_of(seen_.begin(), seen_.end(), [&](int j) { return j != seen_[i] && a_(j, seen_[i]) != 0; }))
+      mixing_.push_back(static_cast<int>(i));
 }
 
 LinearPart::Step LinearPart::make_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h) {

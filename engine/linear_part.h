@@ -70,6 +70,7 @@ class LinearPart {
   static constexpr std::size_t most_steps_kept = 1024;  // irregular times: do not grow without bound
   static Step make_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h);
   void find_seen();
+  void find_mixing();
   void take_inputs(const std::vector<double>& y);
   void write_outputs(std::vector<double>& y) const;
   bool is_bound_to(const Program& program, const Run& run) const;
@@ -96,17 +97,19 @@ class LinearPart {
   /// States that some output can see; the others are not advanced by pass(). Of parts whose weights are zero (a fit
   /// asks for the response to one weight after the other) few are left.
   std::vector<int> seen_;
+  std::vector<int> mixing_;  ///< places in seen_ of those that move others than themselves
   /// The matrices of a step as pass() reads them, columns of padded_ numbers: what constants add, per input what its
-  /// value before and its value now add, per state seen what it adds.
+  /// value before and its value now add, per state seen what it adds; of more states than registers hold first the
+  /// diagonal of those that mix with none, and columns of the states that do only.
   struct Packed {
     double h = 0;
     std::vector<double> numbers;
   };
   std::vector<Packed> packed_;  ///< per kind; empty where not made
   std::size_t packed_count_ = 0;
-  std::size_t padded_ = 0;               ///< number of states seen, made even
+  std::size_t padded_ = 0;               ///< number of states seen, made even; of many a multiple of eight
   std::vector<double> c_rows_, d_rows_;  ///< C and D row by row
-  std::vector<double> row_scratch_;
+  std::vector<double> row_scratch_, factors_;
 };
 
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 
 #include "engine/linear_part.h"
 
@@ -21,6 +22,33 @@ inline Pair pair_at(const double* from) {
 }
 inline Pair twice(double a) { return Pair{a, a}; }
 
+/// next = diagonal x + sum of the columns times their factors; eight rows at a time, whose sums stay in registers.
+/// `columns`: the diagonal, behind it the columns, all of n numbers, a multiple of eight.
+void sum_columns(std::size_t n, const double* columns, std::span<const double> factors, const double* x, double* next) {
+  constexpr std::size_t pairs = 4;
+  for (std::size_t row = 0; row < n; row += 2 * pairs) {
+    const double* column = columns + row;
+    std::array<Pair, pairs> sum;
+    for (std::size_t j = 0; j < pairs; ++j) sum[j] = pair_at(column + 2 * j) * pair_at(x + row + 2 * j);
+    for (const double f : factors) {
+      column += n;
+      const Pair factor = twice(f);
+      for (std::size_t j = 0; j < pairs; ++j) sum[j] += pair_at(column + 2 * j) * factor;
+    }
+    std::memcpy(next + row, sum.data(), sizeof sum);
+  }
+}
+
+double product(std::size_t n, const double* a, const double* b) {
+  Pair even{}, odd{};
+  for (std::size_t i = 0; i < n; i += 4) {
+    even += pair_at(a + i) * pair_at(b + i);
+    odd += pair_at(a + i + 2) * pair_at(b + i + 2);
+  }
+  even += odd;
+  return even[0] + even[1];
+}
+
 }  // namespace
 
 void LinearPart::make_packed(int kind, double h) {
@@ -30,19 +58,28 @@ void LinearPart::make_packed(int kind, double h) {
   if (p.numbers.empty()) ++packed_count_;
   const Step s = make_step(a_(seen_, seen_), b_(seen_, Eigen::all), h);
   p.h = h;
-  p.numbers.assign(padded_ * (1 + 2 * inputs_.size() + seen_.size()), 0.0);
+  const bool apart = seen_.size() > most_in_registers;
+  p.numbers.assign(padded_ * (1 + 2 * inputs_.size() + (apart ? 1 + mixing_.size() : seen_.size())), 0.0);
   std::size_t column = 0;
   const auto add = [&](const auto& numbers) {
     for (Eigen::Index i = 0; i < numbers.size(); ++i)
       p.numbers[column * padded_ + static_cast<std::size_t>(i)] = numbers(i);
     ++column;
   };
+  if (apart) {
+    Eigen::VectorXd own = s.state.diagonal();
+    for (const int i : mixing_) own(i) = 0;
+    add(own);
+  }
   add(s.input.col(s.input.cols() - 1));
   for (Eigen::Index i = 0; i + 1 < s.input.cols(); ++i) {
     add(s.input.col(i) - s.ramp.col(i));
     add(s.ramp.col(i));
   }
-  for (Eigen::Index i = 0; i < s.state.cols(); ++i) add(s.state.col(i));
+  if (apart)
+    for (const int i : mixing_) add(s.state.col(i));
+  else
+    for (Eigen::Index i = 0; i < s.state.cols(); ++i) add(s.state.col(i));
 }
 
 template <int size>
@@ -85,33 +122,32 @@ void LinearPart::pass_of(const RowsOfPart& rows) {
   for (int i = 0; i < size; ++i) x_[seen_[at(i)]] = x[at(i / 2)][i % 2];
 }
 
-/// Any number of states, none included.
+/// Any number of states, none included. Of many most move none but themselves (each element of a creep): of these the
+/// diagonal is enough.
 void LinearPart::pass_large(const RowsOfPart& rows) {
   const std::size_t n = seen_.size(), inputs = inputs_.size(), outputs = outputs_.size();
   double* x = row_scratch_.data();
   double* next = x + padded_;
+  factors_.assign(1 + 2 * inputs + mixing_.size(), 1.0);
   for (std::size_t i = 0; i < n; ++i) x[i] = x_[seen_[i]];
   for (int k = 0; k < rows.count; ++k) {
     const std::ptrdiff_t place = k * rows.stride;
     if (const int kind = rows.kind[k]; kind >= 0 && n > 0) {
-      const double* column = packed_[at(kind)].numbers.data();
-      std::copy_n(column, padded_, next);
-      column += padded_;
-      for (std::size_t i = 0; i < inputs; ++i, column += 2 * padded_) {
-        const double before = rows.w[i][place - rows.stride], now = rows.w[i][place];
-        for (std::size_t j = 0; j < padded_; ++j) next[j] += column[j] * before + column[padded_ + j] * now;
+      double* factor = factors_.data() + 1;
+      for (std::size_t i = 0; i < inputs; ++i) {
+        *factor++ = rows.w[i][place - rows.stride];
+        *factor++ = rows.w[i][place];
       }
-      for (std::size_t i = 0; i < n; ++i, column += padded_)
-        for (std::size_t j = 0; j < padded_; ++j) next[j] += column[j] * x[i];
+      for (const int i : mixing_) *factor++ = x[i];
+      sum_columns(padded_, packed_[at(kind)].numbers.data(), factors_, x, next);
       std::swap(x, next);
     }
     for (std::size_t o = 0; o < outputs; ++o) {
       const double* d = d_rows_.data() + o * (inputs + 1);
       const double* c = c_rows_.data() + o * padded_;
-      double sum = d[inputs];
-      for (std::size_t i = 0; i < inputs; ++i) sum += d[i] * rows.w[i][place];
-      for (std::size_t i = 0; i < n; ++i) sum += c[i] * x[i];
-      rows.y[o][place] = sum;
+      double direct = d[inputs];
+      for (std::size_t i = 0; i < inputs; ++i) direct += d[i] * rows.w[i][place];
+      rows.y[o][place] = n > 0 ? direct + product(padded_, c, x) : direct;
     }
   }
   for (std::size_t i = 0; i < n; ++i) x_[seen_[i]] = x[i];
