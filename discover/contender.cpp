@@ -154,10 +154,12 @@ void thin_scans(std::vector<FreeParameter>& free, double most) {
 }
 
 /// Steps of one simulation of the train recordings from the start values: rows times substeps.
-double steps_from(DataModel& model, const Trial& fixed, const std::vector<FreeParameter>& free) {
-  Trial start = fixed;
+double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
+                  const std::vector<FreeParameter>& free) {
+  Trial start;  // as the fit begins: substeps are chosen once
   for (const auto& f : free) start.push_back({f.parameter, f.start, f.recording});
-  model.choose_substeps(start);
+  start.insert(start.end(), fixed.begin(), fixed.end());
+  model.choose_substeps(start, noise);
   double steps = 0;
   int most = 1;
   for (const int r : model.recordings(Role::train)) {
@@ -242,9 +244,10 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
     predict(c, whole, fixed);
     return 0;
   }
+  NoiseModel noise = noise_of(shop, model);
   FitOptions options;
   options.max_iterations = effort == Effort::full ? 15 : 30;
-  const double steps = effort == Effort::final ? 0 : steps_from(model, fixed, free);
+  const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), fixed, free);
   if (effort == Effort::screen) spend_less(c, steps, free, options);
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
   options.intervals = effort == Effort::final;
@@ -252,7 +255,6 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
   FitResult before = std::move(c.fit);
-  NoiseModel noise = noise_of(shop, model);
   const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
   if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
     for (auto& o : noise.outputs) o.left_out.reset();

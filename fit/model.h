@@ -18,6 +18,8 @@ struct ParameterValue {
   int parameter = -1;  ///< index into Program::parameters
   double value = 0;    ///< [SI]
   int recording = -1;  ///< in this recording only; -1: in all
+
+  bool operator==(const ParameterValue&) const = default;
 };
 /// What one simulation uses; of two values for the same number the later one counts.
 using Trial = std::vector<ParameterValue>;

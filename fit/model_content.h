@@ -42,6 +42,13 @@ struct SubstepsFound {
   bool ran_away = false;   ///< some simulation was not finite
 };
 
+/// For what substeps were chosen, and what was said of it.
+struct SubstepsChosen {
+  Trial values;
+  std::vector<double> noise;
+  std::vector<std::string> remarks;
+};
+
 struct DataModel::Content {
   ProgramPointer program;
   std::shared_ptr<const DataSet> data;
@@ -52,7 +59,8 @@ struct DataModel::Content {
   std::vector<BoundRecording> bound;
   std::string not_exact;
   bool substeps_chosen = false;
-  int failed_choices = 0;  ///< of substeps, at values where a recording cannot be simulated
+  std::optional<SubstepsChosen> substeps_chosen_at;  ///< by the last choice that began at one
+  int failed_choices = 0;                            ///< of substeps, at values where a recording cannot be simulated
   bool needs_substeps = false;
   std::vector<std::string> free_states, remarks;
   std::vector<std::size_t> free_state_index;

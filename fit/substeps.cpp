@@ -63,17 +63,6 @@ std::vector<int> with_more_pieces(const BoundRecording& b, const std::vector<boo
   return more > 0 && 2 * more < into.size() ? into : std::vector<int>{};
 }
 
-/// As fine as now or as before, in each row.
-void take_finer(BoundRecording& b, const std::vector<int>& before) {
-  auto all = b.substeps_of_rows();
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::max(all[i], before[i]);
-  const auto [least, most] = std::minmax_element(all.begin(), all.end());
-  b.substeps = *least;
-  if (*least == *most) return b.cut({});
-  for (int& n : all) n = (n + b.substeps - 1) / b.substeps;  // powers of two but for max_substeps
-  b.cut(std::move(all));
-}
-
 }  // namespace
 
 /// The way to instant i in into[i] parts of one length; nothing is cut where it is empty.
@@ -109,6 +98,7 @@ void BoundRecording::keep_instants(std::vector<std::vector<double>>& computed) c
   }
 }
 
+/// From the substeps that it has upwards.
 SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const ParameterValue> values,
                                                   std::span<const double> tolerance) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
@@ -124,9 +114,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     }
     return rows;
   };
-  b.cut({});
-  b.substeps = 1;
-  auto coarse = rows_with(1);
+  auto coarse = rows_with(b.substeps);
   double worst_before = std::numeric_limits<double>::infinity();
   const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
   while (static_cast<std::size_t>(b.substeps) * b.rows->size() < most) {
@@ -161,13 +149,20 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
     c.substeps_chosen = true;
     return remarks;
   }
+  auto& last = c.substeps_chosen_at;
+  if (!only_finer && last && std::ranges::equal(last->values, values) && std::ranges::equal(last->noise, noise))
+    return last->remarks;
+  last.reset();
   std::vector<double> tolerance(c.outputs.size());
   for (std::size_t o = 0; o < tolerance.size(); ++o)
     tolerance[o] = std::max(c.options.substep_tolerance * c.spans[o], noise.empty() ? 0.0 : noise[o] / 1000);
   bool all = true;
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
-    const auto before = b.substeps_of_rows();
+    if (!only_finer) {
+      b.cut({});
+      b.substeps = 1;
+    }
     const auto found = c.choose_substeps(r, values, tolerance);
     if (c.options.bdf_otherwise && !found.suffice && b.advance->integrates() && (found.simulated || found.ran_away)) {
       c.not_exact = fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name,
@@ -182,13 +177,13 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
       b.substeps = c.options.max_substeps;
       continue;
     }
-    if (only_finer) take_finer(b, before);
     if (!found.suffice)
       remarks.push_back(fmt::format("{}: {} substeps per row do not suffice for the tolerance asked for",
                                     recording(r).name, c.options.max_substeps));
   }
   // Each time costs more than a hundred simulations; what runs away at three points is searched with what was found.
   c.substeps_chosen = all || ++c.failed_choices >= 3;
+  if (!only_finer && all) last = {{values.begin(), values.end()}, {noise.begin(), noise.end()}, remarks};
   return remarks;
 }
 
