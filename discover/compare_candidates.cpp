@@ -90,6 +90,14 @@ Law started_from(const Tried& t, std::size_t law) {
   return richer;
 }
 
+/// Where another effect leaves noise only, each further number takes about one away and costs two: a law with many more
+/// of them explains nothing that is not explained.
+bool has_too_many_numbers(const Tried& t, std::size_t law, const std::vector<Tried>& tried) {
+  const Tried& best = tried[ranking(tried).front()];
+  if (best.effect == t.effect || best.contender.error_of.over_floor() > rules::floor_gate) return false;
+  return t.laws[law].free.size() > best.laws[best.law].free.size() + rules::too_many_numbers;
+}
+
 }  // namespace
 
 std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
@@ -183,7 +191,7 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
     const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
                            (step == 1 || within_reach(books, t, left));
     for (std::size_t law = 1; law < t.laws.size(); ++law) {
-      if (!promising && !t.laws[law].apart) continue;
+      if ((!promising && !t.laws[law].apart) || has_too_many_numbers(t, law, tried)) continue;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
       Contender richer = with_effect(books.shop, books.current, *t.effect, started_from(t, law), t.place,
                                      t.circumstances, step == 1 ? Effort::full : Effort::screen);

@@ -77,6 +77,9 @@ constexpr double experiment_tells = 1;   ///< rms difference over noise above wh
 constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
 constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
 constexpr int enriched = 3;        ///< names whose richer laws are tried
+/// By so many more numbers a law cannot surpass another effect's that leaves noise only: what they cost is then above a
+/// tie and two standard deviations of what they take away by chance.
+constexpr std::size_t too_many_numbers = 15;
 }  // namespace rules
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
