@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocks/mass_spring_damper.h"
+#include "blocks/step_under_memory.h"
 #include "engine/block.h"
 #include "models/mass_spring_damper.h"
 #include "models/presliding.h"
@@ -26,6 +27,25 @@ struct SlipElement {
     return presliding::slip_rate(distance, z, velocity);
   }
   using OnItsWay = presliding::YieldingElement;
+};
+
+/// What elements pull a mass with in a row (step_under_memory.h).
+template <class Element>
+class HeldByElements {
+ public:
+  HeldByElements(std::span<const double> stiffness, std::span<const double> distance, double excess,
+                 double stribeck_velocity);
+
+  double pull_at(const double* x) const;
+  void place(const double* x, double speed);
+  double pull(double way) const;
+  mass_motion::Force force(double way) const;
+  void move(double way, double* x);
+
+ private:
+  std::span<const double> stiffness_, distance_;
+  double excess_, stribeck_velocity_;
+  std::vector<typename Element::OnItsWay> elements_;
 };
 
 template <class Element>
@@ -63,31 +83,8 @@ struct MassWithElements {
     v.out[0] = velocity;
     v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
   }
-  /// The linear motion of the mass exactly, its elements along its way: mass_motion::step_under, and in the longest
-  /// rows step_to_balance. Runge-Kutta for the mass alone where rows are too short for that, or nothing drives it back.
-  class OwnStep {
-   public:
+  struct OwnStep : StepUnderMemory<HeldByElements<Element>> {
     explicit OwnStep(const View<double>& v);
-    bool takes(double) const { return true; }
-    void operator()(double* x, const double* from, const double* to, double h);
-
-   private:
-    double level(double velocity) const {
-      return excess_ > 0 ? presliding::stribeck_level(excess_, stribeck_velocity_, velocity) : 1.0;
-    }
-    void long_row(double* x, double from, double to, double h);
-    double held(const double* x) const;
-    void short_row(double* x, double from, double to, double h);
-    mass_motion::Motion leg(const double* x, double from, double to, double h);
-    double pull(double way) const;
-    void place_elements(const double* z, double share);
-    void move_elements(double* z, double way);
-
-    mass_spring_damper::Params<double> law_;
-    std::span<const double> stiffness_, distance_;
-    double excess_, stribeck_velocity_;
-    std::vector<typename Element::OnItsWay> elements_;
-    RowStep row_, half_row_;
   };
 
   /// The elements at rest hold nothing: as after a long decaying motion.

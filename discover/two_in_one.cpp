@@ -57,7 +57,8 @@ bool is_no_rest(const Contender& before, const Contender& plain, const Contender
 bool could_hold(const Books& books, const Law& law, const Effect& e) {
   return std::any_of(law.holds.begin(), law.holds.end(), [&](const std::string& id) {
     const Effect* held = books.effects.find(id);
-    return held != nullptr && (held == &e || look_alike(*held, e));
+    // A curve has no memory, whatever else looks like it.
+    return held != nullptr && (held == &e || (look_alike(*held, e) && held->is_memory == e.is_memory));
   });
 }
 

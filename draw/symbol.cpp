@@ -72,6 +72,7 @@ const Look* find_look(const std::string& type) {
       {"mass_on_stiffening_spring", {"mass", true}},
       {"mass_with_friction", {"mass", true}},
       {"mass_with_stops", {"mass", true}},
+      {"mass_on_spring_of_plays", {"mass", true}},
       {"tank", {"tank", true}},
   };
   const auto found = all.find(type);

@@ -99,6 +99,15 @@ Law relays(const Circumstances& at, int cells) {
 /// Is the drive to one side of zero: a tenth of its range may lie beyond.
 bool is_unipolar(const Circumstances& at) { return at.lowest > -0.1 * at.range() || at.highest < 0.1 * at.range(); }
 
+/// Elements that have not slipped add to the spring, and whoever measured that over a stroke has them in it already.
+LawParameter own_stiffness() {
+  LawParameter spring;
+  spring.path = "stiffness";
+  spring.start = std::numeric_limits<double>::quiet_NaN();
+  spring.lower = 0;
+  return spring;
+}
+
 /// Elements that yield beside the spring of a mass. They follow the motion, as the loss in a flexure or a piezo stack
 /// does; plays on the drive would ring along with the mass.
 Law slip_elements(const Circumstances& at) {
@@ -121,20 +130,63 @@ Law slip_elements(const Circumstances& at) {
   }
   give(law.block, "contact_stiffness", std::move(stiffness));
   give(law.block, "slip_distance", std::move(distance));
-  // Elements that have not slipped add to the spring, and whoever measured that over a stroke has them in it already.
-  LawParameter spring;
-  spring.path = "stiffness";
-  spring.start = std::numeric_limits<double>::quiet_NaN();
-  spring.lower = 0;
-  law.free.push_back(spring);
+  law.free.push_back(own_stiffness());
   return law;
+}
+
+/// The same where the spring gives way unevenly over the travel: grains and domains yield at one place more than at
+/// another, as a Preisach's density says that is even along no line.
+Law uneven_plays_in_the_spring(const Circumstances& at) {
+  const double half = 0.5 * (at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6);
+  const double softer = 0.01 * (at.range() > 0 ? at.range() : 1) / half;
+  Law law;
+  law.name = "6 uneven plays in the spring";
+  law.block.type = "mass_on_spring_of_plays";
+  law.holds = {"stiffening"};  // a narrow play is a curve
+  NumberList thresholds;
+  for (const double part : {0.02, 0.08, 0.2, 0.4, 0.6, 0.8})
+    thresholds.push_back(with_unit(part * half, parse_unit("um")));
+  for (const char* list : {"at_lower", "in_middle", "at_upper"}) {
+    NumberList strengths;
+    for (int i = 0; i < static_cast<int>(thresholds.size()); ++i) {
+      strengths.push_back(with_unit(softer, parse_unit("N/m")));
+      LawParameter k;
+      k.path = element(list, i);
+      k.start = softer;
+      k.lower = 0;
+      k.upper = 1e4 * softer;
+      law.free.push_back(k);
+    }
+    give(law.block, list, std::move(strengths));
+  }
+  give(law.block, "thresholds", std::move(thresholds));
+  give(law.block, "lower", with_unit(at.travel_lowest, parse_unit("um")));
+  give(law.block, "upper", with_unit(at.travel_highest, parse_unit("um")));
+  law.free.push_back(own_stiffness());
+  return law;
+}
+
+/// How far the force is apart there, where the motion passes the middle on its way up and down.
+std::string uneven_summary(const NumberList& plays, const std::vector<double>& values, const Circumstances& at) {
+  const std::size_t n = plays.size();
+  if (values.size() < 3 * n) return "";
+  double force = 0;  // a play stands its half width to either side, and is there about as strong as in the middle
+  for (std::size_t i = 0; i < n; ++i) {
+    const double strength = (values[i] + 2 * values[n + i] + values[2 * n + i]) / 4;
+    force += 2 * strength *
+             std::min(plays[i].value * 1e-6, (at.travel_highest - at.travel_lowest) / 2 - plays[i].value * 1e-6);
+  }
+  return fmt::format("a loop of about {:.2g} % of the force at full travel", 100 * force / at.range());
 }
 
 /// Force by which the elements hold the mass back, over that of the drive.
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const auto* list = written<NumberList>(law, "slip_distance");
   const double range = at.travel_highest - at.travel_lowest;
-  if (list == nullptr || list->size() > values.size() || !(range > 0) || !(at.range() > 0)) return "";
+  if (!(range > 0) || !(at.range() > 0)) return "";
+  if (const auto* plays = written<NumberList>(law, "thresholds"); plays != nullptr)
+    return uneven_summary(*plays, values, at);
+  if (list == nullptr || list->size() > values.size()) return "";
   double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
   for (std::size_t i = 0; i < list->size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);
   return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
@@ -249,7 +301,7 @@ Effect hysteresis() {
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;
   e.laws = [](const Circumstances& at) {
-    if (!at.by.empty()) return std::vector<Law>{slip_elements(at)};
+    if (!at.by.empty()) return std::vector<Law>{slip_elements(at), uneven_plays_in_the_spring(at)};
     std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
                           plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
                           plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};

@@ -181,6 +181,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mass_with_mode",
                                        "mass_with_presliding",
                                        "mass_on_hysteretic_spring",
+                                       "mass_on_spring_of_plays",
                                        "sliding_friction",
                                        "guide_friction",
                                        "tapi",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "models/play.h"
 #include "tests/discover/discoveries.h"
@@ -111,6 +112,57 @@ TEST_F(HysteresisLaws, ACurveBeforePlaysIsNotSwallowedByALawThatCouldHoldBoth) {
     return s.winner.effect == "hysteresis";
   })) << tried(d);
   EXPECT_EQ(d.remainder, Remainder::noise) << tried(d);
+}
+
+/// What forty plays pass on that are strong where the sine of their place is, and the less the wider they are: of no
+/// parabola over the travel, and of no few widths.
+std::vector<double> passed_on(const std::vector<double>& x) {
+  std::vector<double> places(40, 0.0), sums;
+  for (const double now : x) {
+    double sum = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double radius = 0.01 * (static_cast<double>(i) + 0.5);
+      places[i] = play::follow(radius, places[i], now);
+      // The integral of 1 + 0.9 sin(5 w + 1).
+      sum += std::exp(-4 * radius) * (places[i] - 0.18 * (std::cos(5 * places[i] + 1) - std::cos(1)));
+    }
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+TEST_F(HysteresisLaws, ASpringThatYieldsUnevenlyIsHysteresisAndNoCurveBesides) {
+  // The force that leads along a given motion, 10 N/V; the motion is measured.
+  std::vector<Recording> list;
+  std::uint64_t seed = 400;
+  for (const auto& [role, top, hertz] : {std::tuple{Role::train, 0.4, 0.5},
+                                         {Role::train, 0.2, 0.7},
+                                         {Role::validate, 0.36, 0.6},
+                                         {Role::validate, 0.28, 0.4}}) {
+    const auto t = rows(1600, 0.01);
+    const double w = 2 * std::numbers::pi * hertz, end = t.back();
+    std::vector<double> x, inertia;
+    for (const double s : t) {  // from rest, larger and smaller: size(s) sin(w s)
+      const double part = s / end, most = 6.75 * top, sine = std::sin(w * s), cosine = std::cos(w * s);
+      const double size = most * part * part * (1 - part), grows = most * part * (2 - 3 * part) / end;
+      const double bends = most * (2 - 6 * part) / (end * end);
+      x.push_back(size * sine);
+      inertia.push_back(bends * sine + 2 * grows * w * cosine - size * w * w * sine +
+                        4 * (grows * sine + size * w * cosine));
+    }
+    const auto soft = passed_on(x);
+    std::vector<double> u;
+    for (std::size_t k = 0; k < t.size(); ++k) u.push_back((inertia[k] + 420 * x[k] - 1.5 * soft[k]) / 10);
+    auto y = noise(t.size(), white, 0.1 * white, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += x[k];
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  const auto d = discovered(mass_on_spring(), data_set(std::move(list), white),
+                            {"hysteresis", "friction", "stiffening", "asymmetry", "sensor_nonlinearity", "backlash"});
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(winner(d), "hysteresis") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "6 uneven plays in the spring") << tried(d);
+  EXPECT_LT(d.final_error.rms_validate, 0.1 * d.base.rms_validate) << tried(d);
 }
 
 TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {

@@ -150,6 +150,39 @@ TEST(DataModel, ElementsThatHoldLessWhileTheySlideFastAgreeWithTheIntegrator) {
     }
 }
 
+/// The same guide on a spring that remembers, unevenly over its travel of 1 um.
+ProgramPointer stage_on_a_spring_of_plays() {
+  Diagram d = lab::diagram("y");
+  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
+  auto& mass = lab::add(d, "mass", "mass_on_spring_of_plays", "force");
+  mass.parameters["mass"] = "1 kg";
+  mass.parameters["damping"] = "1000 N*s/m";
+  mass.parameters["stiffness"] = "6.3e6 N/m";
+  mass.parameters["thresholds"] = NumberList{{0.03, "um"}, {0.2, "um"}};
+  mass.parameters["at_lower"] = NumberList{{1e5, "N/m"}, {9e5, "N/m"}};
+  mass.parameters["in_middle"] = NumberList{{8e5, "N/m"}, {1e5, "N/m"}};
+  mass.parameters["at_upper"] = NumberList{{2e5, "N/m"}, {0, "N/m"}};
+  mass.parameters["lower"] = "-0.5 um";
+  mass.parameters["upper"] = "0.5 um";
+  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
+  return compile(d, lab::registry());
+}
+
+TEST(DataModel, ASpringOfPlaysAgreesWithTheIntegrator) {
+  for (const double step : {1 / 40.0, 1e-3, 1e-4}) {
+    const auto program = stage_on_a_spring_of_plays();
+    DataSet data = recordings(step, 800);
+    lab::measure(data, program, 0, 25);
+    DataModelOptions options;
+    options.relative_tolerance = 1e-9;
+    DataModel model(program, lab::shared(data), options);
+    const std::vector<int> both{0, 1};
+    ASSERT_TRUE(model.predict({}, both).ok) << step;
+    EXPECT_EQ(model.why_not_exact(), "") << step;
+    EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << step;  // 1e-6 of the span was asked for
+  }
+}
+
 TEST(DataModel, SlowRowsOfAGuideNeedNoStepsOfItsResonance) {
   for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"}) {
     const auto program = stage_beside_elements(type);

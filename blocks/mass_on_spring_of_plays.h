@@ -1,0 +1,91 @@
+// Decides the block "mass_on_spring_of_plays": a mass on a spring that remembers turning points, unevenly over its
+// travel. Does not decide the law of the plays: models/uneven_plays.h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "blocks/step_under_memory.h"
+#include "engine/block.h"
+#include "models/uneven_plays.h"
+
+namespace hysteron::blocks {
+
+/// What the plays give way to in a row (step_under_memory.h).
+class HeldByPlays {
+ public:
+  HeldByPlays(uneven_plays::Range<double> range, std::span<const double> radius, std::span<const double> at_lower,
+              std::span<const double> in_middle, std::span<const double> at_upper);
+
+  double pull_at(const double* x) const;
+  void place(const double* x, double speed);
+  double pull(double way) const;
+  mass_motion::Force force(double way) const;
+  void move(double way, double* x) const;
+
+ private:
+  double stands(std::size_t i, double way) const {
+    return uneven_plays::after(radius_[i], places_[i], from_, from_ + way);
+  }
+
+  uneven_plays::Range<double> range_;
+  std::span<const double> radius_;
+  std::vector<uneven_plays::Strength<double>> strength_;
+  double from_ = 0;             ///< [m] the mass
+  std::vector<double> places_;  ///< [m] the plays
+};
+
+struct MassOnSpringOfPlays {
+  enum Parameter {
+    mass,
+    damping,
+    stiffness,
+    thresholds,
+    at_lower,
+    in_middle,
+    at_upper,
+    lower,
+    upper,
+    initial_position,
+    initial_velocity
+  };
+
+  static void describe(Declaration& d);
+  static Sizes sizes(const Shape& shape);
+  static std::string check(const View<double>& v);
+
+  template <class T>
+  static void output(const View<T>& v) {
+    v.out[0] = v.x[0];
+    v.out[1] = v.x[1];
+  }
+  template <class T>
+  static uneven_plays::Range<T> range(const View<T>& v) {
+    return {v.parameter(lower), v.parameter(upper)};
+  }
+  template <class T>
+  static uneven_plays::Strength<T> strength(const View<T>& v, std::size_t i) {
+    return {v.list(at_lower)[i], v.list(in_middle)[i], v.list(at_upper)[i]};
+  }
+  template <class T>
+  static void derivative(const View<T>& v) {
+    const auto radius = v.list(thresholds);
+    T force = v.u[0];
+    for (std::size_t i = 0; i < radius.size(); ++i) {
+      force += uneven_plays::passed_on(range(v), strength(v, i), T(v.x[i + 2]));
+      v.out[i + 2] = uneven_plays::rate(T(radius[i]), T(v.x[i + 2]), T(v.x[0]), T(v.x[1]));
+    }
+    const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
+    v.out[0] = v.x[1];
+    v.out[1] = mass_spring_damper::acceleration(law, T(v.x[0]), T(v.x[1]), force);
+  }
+  struct OwnStep : StepUnderMemory<HeldByPlays> {
+    explicit OwnStep(const View<double>& v);
+  };
+  static void rest(const View<double>& v);
+  static void initial_states(const View<double>& v);
+};
+
+Kernel mass_on_spring_of_plays_block();
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,74 @@
+// Decides plays that are not equally strong everywhere: how much each passes on where it stands. Does not decide how a
+// play moves (play.h) nor what it moves.
+#pragma once
+
+#include <cmath>
+
+namespace hysteron::uneven_plays {
+
+/// The range over which the strength of a play varies; beyond, it stays as it is at the ends. lower < upper, in the
+/// unit of the input [u].
+template <class T>
+struct Range {
+  T lower{-1}, upper{1};
+};
+
+/// What a play passes on per step of its own, at the ends of the range and in its middle: Bernstein's parabola, which
+/// is negative nowhere where these are not. [y/u]
+template <class T>
+struct Strength {
+  T at_lower{0}, in_middle{0}, at_upper{0};
+};
+
+/// Strength where the play stands at w.
+template <class T>
+T strength(const Range<T>& range, const Strength<T>& s, const T& w) {
+  const T part = (w - range.lower) / (range.upper - range.lower);
+  if (!(part > 0.0)) return s.at_lower;
+  if (!(part < 1.0)) return s.at_upper;
+  const T rest = 1.0 - part;
+  return rest * rest * s.at_lower + 2.0 * part * rest * s.in_middle + part * part * s.at_upper;
+}
+
+/// What it has passed on since it stood at 0: the integral of the strength. [y]
+/// One play of each width, and a strength along its place, is a density of Preisach's over width and middle of the
+/// relays' loops; a play of even strength is the operator of Prandtl and Ishlinskii. Source: Brokate, Sprekels,
+/// Hysteresis and Phase Transitions (1996), chapter 2 (Preisach's operator as a superposition of plays).
+template <class T>
+T passed_on(const Range<T>& range, const Strength<T>& s, const T& w) {
+  const T width = range.upper - range.lower;
+  const auto from_lower = [&](const T& place) {
+    const T part = (place - range.lower) / width;
+    if (!(part > 0.0)) return T(s.at_lower * part);
+    const T third = (s.at_lower + s.in_middle + s.at_upper) / 3.0;
+    if (!(part < 1.0)) return T(third + s.at_upper * (part - 1.0));
+    return T(part * (s.at_lower +
+                     part * (s.in_middle - s.at_lower + part * (s.at_lower - 2.0 * s.in_middle + s.at_upper) / 3.0)));
+  };
+  return width * (from_lower(w) - from_lower(T{0}));
+}
+
+/// Over this part of its half width a play comes to be carried along: a sharp corner would be a jump of its rate, which
+/// no integrator passes quickly. What it lags more by is gone after a few times that.
+inline constexpr double corner = 0.05;
+
+/// Rate of the place w of a play of half width r [u] that an input u of this rate carries along.
+template <class T>
+T rate(const T& radius, const T& w, const T& u, const T& rate_of_u) {
+  const T gap = rate_of_u > 0.0 ? u - w : w - u;
+  const T touching = (gap - radius) / (corner * radius) + 1.0;
+  if (!(touching > 0.0)) return T{0};
+  return touching < 1.0 ? T(touching * rate_of_u) : rate_of_u;
+}
+
+/// The same law behind a move of the input in one direction, from `before` to u: where the play stands that was at w.
+inline double after(double radius, double w, double before, double u) {
+  const double side = u < before ? -1 : 1, round = corner * radius;
+  const double gap = side * (before - w), beyond = std::fabs(u - before) - std::fmax(radius - round - gap, 0);
+  if (!(beyond > 0)) return w;
+  // What is left of the corner falls by 1/e with every `round` of the way.
+  const double left = std::fmin(radius - gap, round);
+  return u - side * (radius - (left > 0 ? left * std::exp(-beyond / round) : left));
+}
+
+}  // namespace hysteron::uneven_plays
