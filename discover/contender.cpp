@@ -1,6 +1,8 @@
 // Decides how one model of a discovery is fitted. See contender.h.
 #include "discover/contender.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -226,6 +228,16 @@ void predict(Contender& c, DataModel& model, const Trial& values) {
   c.error = c.prediction.error;
 }
 
+/// What is fitted, and what is seen of it.
+std::string name_of_fit(const Program& program, const std::vector<FreeParameter>& free,
+                        const std::vector<std::string>& outputs) {
+  std::string name;
+  for (const auto& o : outputs) name += o + ";";
+  for (const auto& f : free)
+    name += fmt::format("{}@{};", program.parameters[static_cast<std::size_t>(f.parameter)].path, f.recording);
+  return name;
+}
+
 /// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
@@ -251,6 +263,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (effort == Effort::screen) spend_less(c, steps, free, options);
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
   options.intervals = effort == Effort::final;
+  options.scores = false;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;
   if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
@@ -258,7 +271,11 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
   if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
     for (auto& o : noise.outputs) o.left_out.reset();
+  const bool again = effort == Effort::full && fresh < 0;
+  const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
+  if (again) options.known_derivatives = (*shop.known)[name];
   c.fit = fit(model, noise, free, options);
+  if (again && c.fit.derivatives) (*shop.known)[name] = c.fit.derivatives;
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();

@@ -2,6 +2,7 @@
 // recordings. Does not choose between models. Internal to discover.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,9 @@ struct Contender {
   double tie_score() const;  ///< evidence + 2 p
 };
 
+/// Derivatives of what was fitted last, by what was fitted: a further effect beside the others hardly changes them.
+using KnownDerivatives = std::map<std::string, std::shared_ptr<const Dense>>;
+
 /// What every fit of a discovery shares.
 struct Workshop {
   const Registry* registry = nullptr;
@@ -62,6 +66,7 @@ struct Workshop {
   double row_tolerance = 1e-6;
   double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
   std::function<bool()> stop;
+  std::shared_ptr<KnownDerivatives> known = std::make_shared<KnownDerivatives>();
 };
 
 /// `part` of the noise of the output that is measured best, as a share of its span.

@@ -29,6 +29,7 @@ Fitting::Fitting(DataModel& model, const NoiseModel& noise, const std::vector<Fr
   check();
   affine_ = affine_of(free_);
   projection_ = std::make_unique<Projection>(model_, judge_, free_, affine_, fitted_, options.fixed);
+  projection_->know(options.known_derivatives);
 }
 
 FitResult Fitting::run() {
@@ -41,6 +42,7 @@ FitResult Fitting::run() {
   if (!starts.empty()) {
     search(starts);
     refine_substeps();
+    result_.derivatives = projection_->derivatives();
     finish();
   } else {
     result_.error = first_error_.empty() ? "no start can be simulated" : first_error_;
@@ -125,7 +127,7 @@ void Fitting::prepare_result() {
   const auto start = start_values();
   const auto white = judge_.noise().white();
   model_.choose_substeps(start, white);
-  result_.before = judge_.score(model_, model_.predict(start, judged_), judged_);
+  if (options_.scores) result_.before = judge_.score(model_, model_.predict(start, judged_), judged_);
   for (const auto& f : free_) result_.estimates.push_back(estimate_at_start(model_, f));
   for (const int i : projection_->linear()) result_.estimates[static_cast<std::size_t>(i)].linear = true;
   for (const int i : projection_->nonlinear())

@@ -34,8 +34,11 @@ struct FitProgress {
 struct FitOptions {
   int max_iterations = 40;  ///< of the local search, per start
   double matters = 0;       ///< a fall of chi2 for which no further step of the local search is taken
-  int refine = 2;           ///< scan points that are searched from; a start from which nothing moves is none of them
-  int max_scan = 64;        ///< points of a grid over several scanned parameters; beyond, one parameter after the other
+  /// Derivatives of the whitened residual by the parameters searched that another fit of them has found on the same
+  /// recordings (FitResult::derivatives), beside a model that differs a little: steps begin with these.
+  std::shared_ptr<const Dense> known_derivatives{};
+  int refine = 2;     ///< scan points that are searched from; a start from which nothing moves is none of them
+  int max_scan = 64;  ///< points of a grid over several scanned parameters; beyond, one parameter after the other
   /// Covariance, intervals, undetermined combinations: one more Jacobian and two points per parameter searched; where
   /// the model bends over an interval and is advanced exactly, profiles besides.
   bool intervals = true;
@@ -50,6 +53,7 @@ struct FitOptions {
   std::vector<ParameterValue> fixed{};   ///< held at these values
   /// What the residual is like, where that is not what the weights say: the intervals follow it.
   std::optional<NoiseModel> residual_noise{};
+  bool scores = true;  ///< FitResult::before and after; false where the caller judges by a measure of its own
   bool keep_neighbourhood = false;  ///< for noise_from_likelihood()
   std::vector<int> recordings{};    ///< fitted; empty = all train recordings
   std::vector<int> judged{};        ///< scored afterwards; empty = all train and validate recordings (never test)
@@ -104,12 +108,13 @@ struct FitResult {
   std::vector<Profile> profiles{};
   std::vector<ParameterValue> values{};  ///< what to pass to DataModel::predict
   std::shared_ptr<const Neighbourhood> neighbourhood{};
-  Score before{}, after{};         ///< at the starts, at the result; all judged recordings
-  double chi2 = 0, n = 0;          ///< after, fitted recordings, without priors
-  double prior_chi2 = 0;           ///< sum over the priors of ((mean - value) / sigma)^2
-  int n_parameters = 0;            ///< determined and not held at a bound
-  double s2 = 0;                   ///< chi2 / (n - n_parameters): intervals are scaled by it
-  long runs = 0, failed_runs = 0;  ///< simulations of one recording
+  std::shared_ptr<const Dense> derivatives{};  ///< of the last linearization of the search; null: none was needed
+  Score before{}, after{};                     ///< at the starts, at the result; all judged recordings
+  double chi2 = 0, n = 0;                      ///< after, fitted recordings, without priors
+  double prior_chi2 = 0;                       ///< sum over the priors of ((mean - value) / sigma)^2
+  int n_parameters = 0;                        ///< determined and not held at a bound
+  double s2 = 0;                               ///< chi2 / (n - n_parameters): intervals are scaled by it
+  long runs = 0, failed_runs = 0;              ///< simulations of one recording
   int starts = 0, iterations = 0;
   bool converged = false, stopped = false;
   std::vector<std::pair<long, double>> global_history{};  ///< points tried so far, chi2 reached; of a global method

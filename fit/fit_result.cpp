@@ -323,9 +323,11 @@ void Fitting::finish() {
   find_profiles();
   fit_the_waiting();
   put_in_order();
-  Trial after = result_.values;
-  after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
-  result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
+  if (options_.scores) {
+    Trial after = result_.values;
+    after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
+    result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
+  }
   if (result_.stopped) result_.convergence = "stopped; the best so far";
   if (result_.chi2 > 3 * result_.n)
     result_.remarks.push_back(

@@ -13,6 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double first_damping = 1e-2;
 constexpr double least_damping = 1e-12, most_damping = 1e14;  // beyond, a step changes nothing any more
 constexpr int most_failures = 30;                             // trials in a row that cannot be evaluated
+constexpr double as_foreseen = 0.5;                           // of the gain, by derivatives from elsewhere
 
 double squared(const std::vector<double>& v) { return dot(v.data(), v.data(), v.size()); }
 
@@ -29,7 +30,8 @@ class Search {
         max_iterations_(max_iterations),
         tolerance_(tolerance),
         z_(std::move(start)),
-        longest_(n_, 0.0) {
+        longest_(n_, 0.0),
+        known_(problem.known_model != nullptr) {
     for (std::size_t k = 0; k < n_; ++k) z_[k] = std::clamp(z_[k], problem.lower[k], problem.upper[k]);
   }
 
@@ -48,7 +50,10 @@ class Search {
         case Step::converged:
           return end(true, "converged: the error no longer falls");
         case Step::stuck:
-          return end(false, "stopped: no trial lowers the error further");
+          if (!known_) return end(false, "stopped: no trial lowers the error further");
+          known_ = false;
+          damping_ = first_damping;
+          break;
         case Step::stopped:
           return end(false, "stopped on request");
         case Step::used_up:
@@ -72,8 +77,13 @@ class Search {
   /// Triangular factor of [J r], and what the undamped step inside the bounds would gain.
   bool linearize() {
     LinearModel model;
-    if (!(problem_.linear_model ? problem_.linear_model(z_, model) : plain_model(model)) || !all_finite(model.form.r))
-      return false;
+    known_ = known_ && problem_.known_model(z_, model) && all_finite(model.form.r);
+    if (!known_) {
+      model.low.clear();
+      model.high.clear();
+      if (!(problem_.linear_model ? problem_.linear_model(z_, model) : plain_model(model)) || !all_finite(model.form.r))
+        return false;
+    }
     linear_ = std::move(model.form);
     low_ = std::move(model.low);
     high_ = std::move(model.high);
@@ -168,6 +178,8 @@ class Search {
         growth *= 2;
       }
       if (problem_.go_on && !problem_.go_on()) return Step::stopped;
+      if (known_ && !accepted) return Step::stuck;
+      known_ = known_ && ratio > as_foreseen;
       if (accepted) {
         // Where hardly anything was left to gain, another Jacobian would only say so again.
         return before - error <= tolerance_ * before && near_minimum(before) ? Step::converged : Step::accepted;
@@ -186,6 +198,7 @@ class Search {
   std::vector<double> z_, residual_, longest_, low_, high_;
   NormalForm linear_;
   std::size_t inner_ = 0;
+  bool known_ = false;  ///< the derivatives are from elsewhere
   double error_ = infinity, to_gain_ = 0, to_go_ = infinity, damping_ = first_damping;
   LeastSquaresResult result_;
 };

@@ -36,6 +36,9 @@ struct LeastSquares {
   /// wherever a residual is asked for: |r + C s + J p|^2 over [s, p], and how far each s may go. Which of them a bound
   /// holds back changes along a step, and the step knows.
   std::function<bool(std::span<const double> z, LinearModel& model)> linear_model{};
+  /// The same by derivatives that were found for much the same residual. They cost nothing, and are used as long as
+  /// steps by them go as foreseen; where they foresee no gain there is none.
+  std::function<bool(std::span<const double> z, LinearModel& model)> known_model{};
   double matters = 0;             ///< a fall of the squared error that is worth no further step
   std::function<bool()> go_on{};  ///< asked after each trial; false = stop with what was reached
 };

@@ -134,6 +134,10 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
   problem.linear_model = [&](std::span<const double> at, LinearModel& model) {
     return projection.linear_model(*projection.at(at), false, model);
   };
+  if (projection.knows())
+    problem.known_model = [&](std::span<const double> at, LinearModel& model) {
+      return projection.known_linear_model(*projection.at(at), model);
+    };
   problem.go_on = go_on;
   problem.matters = matters;
   const auto found = minimize(problem, std::move(z), max_iterations, tolerance);

@@ -445,9 +445,7 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, Dense& colu
 
 /// r + C s + J p with s = -(change of theta): C = Q R, J = C X + J', r = C x + r', J' and r' orthogonal to C. In rows
 /// of Q: R (s + X p + x), behind them J' p + r'.
-bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearModel& model) {
-  Dense jacobian_columns;
-  if (!jacobian(point, central, jacobian_columns)) return false;
+void Projection::linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearModel& model) const {
   const bool exact = model_.why_not_exact().empty();
   const std::size_t m = linear_.size(), k = nonlinear_.size(), n = m + k;
   auto residual = point.residual;
@@ -487,6 +485,24 @@ bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearM
     model.low.push_back(point.theta[j] - f.upper);
     model.high.push_back(point.theta[j] - f.lower);
   }
+}
+
+bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearModel& model) {
+  auto columns = std::make_shared<Dense>();
+  if (!jacobian(point, central, *columns)) return false;
+  found_ = columns;
+  linear_model_by(point, *columns, model);
+  return true;
+}
+
+void Projection::know(std::shared_ptr<const Dense> derivatives) {
+  const bool fits = derivatives && derivatives->rows == rows_ && derivatives->cols == nonlinear_.size();
+  known_ = fits ? std::move(derivatives) : nullptr;
+}
+
+bool Projection::known_linear_model(const ProjectedPoint& point, LinearModel& model) const {
+  if (!known_) return false;
+  linear_model_by(point, *known_, model);
   return true;
 }
 

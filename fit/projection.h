@@ -78,6 +78,13 @@ class Projection {
   bool jacobian(const ProjectedPoint& point, bool central, Dense& columns);
   /// The residual near a point, linear in theta and z: which bounds hold theta back may change on the way.
   bool linear_model(const ProjectedPoint& point, bool central, LinearModel& model);
+  /// The same by the derivatives of another projection of these rows and nonlinear parameters, which it is given first;
+  /// what is of another size is none.
+  void know(std::shared_ptr<const Dense> derivatives);
+  bool knows() const { return known_ != nullptr; }
+  bool known_linear_model(const ProjectedPoint& point, LinearModel& model) const;
+  /// What linear_model() found last; null before.
+  std::shared_ptr<const Dense> derivatives() const { return found_; }
 
   /// All free parameters at a point, then the fixed ones, for DataModel::predict.
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
@@ -94,6 +101,7 @@ class Projection {
   void simulate_on(std::size_t begin, std::size_t end, int recording, std::span<const Wanted> wanted, const Use& use);
   bool touches_any(int recording) const;
 
+  void linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearModel& model) const;
   void evaluate(std::span<ProjectedPoint> points);
   void make_room(ProjectedPoint& point, std::vector<double>& residual);
   void remember(std::shared_ptr<ProjectedPoint> point);
@@ -124,6 +132,7 @@ class Projection {
   };
   std::vector<PriorRow> priors_;
   std::vector<std::shared_ptr<ProjectedPoint>> recent_;
+  std::shared_ptr<const Dense> known_, found_;
   // Of a point that nobody holds any more: its memory, which is tens of megabytes, is used again.
   std::vector<double> spare_columns_, spare_residual_;
 };

@@ -281,6 +281,8 @@ Effect hysteresis() {
       {"weights", "", "of the plays, relative to the wire's own gain",
        "each 0.01 .. 0.2; the loop is 2 % of the stroke at small and 10 .. 15 % at full drive (piceramic.com "
        "tutorial)"},
+      {"at_lower, in_middle, at_upper", "N/m",
+       "of a mass, richer than slip elements: by how much plays soften its spring over the travel", ""},
       {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"},
       {"weights (relays)", "unit of the wire",
        "richest: of Preisach's relays that switch up in one cell of the range and down in another, 6 or 10 cells; "

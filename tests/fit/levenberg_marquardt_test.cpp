@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "tests/fit/lab.h"
 
@@ -48,6 +49,69 @@ TEST(LevenbergMarquardt, FollowsTheValleyOfRosenbrockToItsEnd) {
   EXPECT_NEAR(found.z[0], 1, 1e-8);  // the minimum is zero at (1, 1); slopes are good to 1e-9
   EXPECT_NEAR(found.z[1], 1, 1e-8);
   EXPECT_LT(found.trials, 40);  // MINPACK's lmder needs 21 evaluations (Moré, Garbow, Hillstrom 1981)
+}
+
+/// The residual near any point by these derivatives, wherever they were found.
+void knows(LeastSquares& p, const Dense& columns) {
+  p.known_model = [residual = p.residual, columns](std::span<const double> z, LinearModel& model) {
+    std::vector<double> r;
+    if (!residual(z, r)) return false;
+    for (double& x : r) x = -x;
+    model.form = NormalForm(static_cast<int>(z.size()));
+    model.form.add(columns.a, r);
+    return true;
+  };
+}
+
+/// How often the problem was asked for derivatives of its own.
+std::shared_ptr<int> counted(LeastSquares& p) {
+  auto count = std::make_shared<int>(0);
+  p.jacobian = [own = p.jacobian, count](std::span<const double> z, Dense& columns) {
+    ++*count;
+    return own(z, columns);
+  };
+  return count;
+}
+
+TEST(LevenbergMarquardt, DerivativesThatAreKnownSaveItsOwn) {
+  // 2 z0 + z1 = 4, z0 - z1 = -1, z0 + z1 = 3, nearly: derivatives from elsewhere are a fifth too large, as where the
+  // noise was taken for smaller.
+  const auto lines = [](std::span<const double> z, std::vector<double>& r) {
+    r = {2 * z[0] + z[1] - 4, z[0] - z[1] + 1, z[0] + z[1] - 3 + 0.01 * z[0] * z[0]};
+    return true;
+  };
+  auto p = problem(lines, 2);
+  p.matters = 1e-4;  // as where somebody says what is worth a step: to the last digit only its own derivatives lead
+  const auto own = counted(p);
+  const auto alone = minimize(p, {0, 0}, 50, 1e-12);
+  EXPECT_GT(*own, 0);
+  *own = 0;
+  Dense columns(3, 2);
+  columns.a = {2.4, 1.2, 1.2, 1.2, -1.2, 1.2};
+  knows(p, columns);
+  const auto found = minimize(p, {0, 0}, 50, 1e-12);
+  EXPECT_EQ(*own, 0);
+  EXPECT_TRUE(found.converged) << found.message;
+  EXPECT_NEAR(found.squared_error, alone.squared_error, 2 * p.matters);
+}
+
+TEST(LevenbergMarquardt, DerivativesThatLeadNowhereAreLeft) {
+  auto p = problem(rosenbrock, 2);
+  const auto own = counted(p);
+  Dense columns(2, 2);  // of (-1.2, 1), which are wrong everywhere else, with one sign turned
+  columns.a = {24, 1, 10, 0};
+  knows(p, columns);
+  const auto found = minimize(p, {-1.2, 1}, 100, 1e-12);
+  EXPECT_GT(*own, 0);
+  EXPECT_TRUE(found.converged) << found.message;
+  EXPECT_NEAR(found.z[0], 1, 1e-8);
+  EXPECT_NEAR(found.z[1], 1, 1e-8);
+}
+
+TEST(LevenbergMarquardt, KnownDerivativesThatCannotBeUsedAreNone) {
+  auto p = problem(rosenbrock, 2);
+  p.known_model = [](std::span<const double>, LinearModel&) { return false; };
+  EXPECT_NEAR(minimize(p, {-1.2, 1}, 100, 1e-12).z[0], 1, 1e-8);
 }
 
 TEST(LevenbergMarquardt, ComesDownWhereTheJacobianIsSingularAtTheMinimum) {
