@@ -160,8 +160,9 @@ Law uneven_plays_in_the_spring(const Circumstances& at) {
     give(law.block, list, std::move(strengths));
   }
   give(law.block, "thresholds", std::move(thresholds));
-  give(law.block, "lower", with_unit(at.travel_lowest, parse_unit("um")));
-  give(law.block, "upper", with_unit(at.travel_highest, parse_unit("um")));
+  const double middle = 0.5 * (at.travel_lowest + at.travel_highest);
+  give(law.block, "lower", with_unit(middle - half, parse_unit("um")));
+  give(law.block, "upper", with_unit(middle + half, parse_unit("um")));
   law.free.push_back(own_stiffness());
   return law;
 }

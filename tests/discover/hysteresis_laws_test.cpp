@@ -165,6 +165,20 @@ TEST_F(HysteresisLaws, ASpringThatYieldsUnevenlyIsHysteresisAndNoCurveBesides) {
   EXPECT_LT(d.final_error.rms_validate, 0.1 * d.base.rms_validate) << tried(d);
 }
 
+TEST_F(HysteresisLaws, ASpringHasATravelWhereNobodyLookedHowFarItMoves) {
+  Circumstances at;
+  at.by = "mass_on_hysteretic_spring";
+  for (const Law& law : effects.get("hysteresis").laws(at)) {
+    Diagram d = mass_on_spring();
+    Node& stage = d.blocks["stage"];
+    const Node mass = stage;
+    stage = law.block;
+    stage.in = mass.in;
+    for (const char* name : {"mass", "stiffness", "damping"}) stage.parameters[name] = *mass.parameters.find(name);
+    EXPECT_NO_THROW(compile(d, registry)) << law.name;
+  }
+}
+
 TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {
   const Effect& hysteresis = effects.get("hysteresis");
   const auto bends = [&](double lowest, double highest) {
