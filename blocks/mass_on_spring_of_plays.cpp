@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hysteron::blocks {
@@ -20,6 +21,7 @@ void MassOnSpringOfPlays::describe(Declaration& d) {
   d.remark(
       "Of elements that are equally strong everywhere mass_on_hysteretic_spring needs fewer numbers; domains and "
       "grains are not.");
+  d.remark("Plays come to be carried along over a twentieth of their half width: corners that an integrator can pass.");
   d.remark("Strengths of 0 give mass_spring_damper.");
   describe_motion(d);
   d.state("plays", "m", "where each play stands");

@@ -273,9 +273,9 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
     for (auto& o : noise.outputs) o.left_out.reset();
   const bool again = effort == Effort::full && fresh < 0;
   const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
-  if (again) options.known_derivatives = (*shop.known)[name];
+  if (again) options.known_derivatives = shop.known->of(name);
   c.fit = fit(model, noise, free, options);
-  if (again && c.fit.derivatives) (*shop.known)[name] = c.fit.derivatives;
+  if (again && c.fit.derivatives) shop.known->keep(name, c.fit.derivatives);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
@@ -414,6 +414,22 @@ double row_tolerance(const DataModel& model, const NoiseModel& noise, double par
   for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o)
     if (model.span(o) > 0) least = std::min(least, noise.outputs[static_cast<std::size_t>(o)].white / model.span(o));
   return std::clamp(part * least, 1e-7, 1e-3);
+}
+
+std::shared_ptr<const Dense> KnownDerivatives::of(const std::string& name) const {
+  const auto found = list_.find(name);
+  return found == list_.end() ? nullptr : found->second;
+}
+
+void KnownDerivatives::keep(const std::string& name, std::shared_ptr<const Dense> derivatives) {
+  constexpr std::size_t most_numbers = 10'000'000;  // 80 MB: of a step's candidates, of some 1e5 rows
+  if (numbers_ + derivatives->a.size() > most_numbers) {
+    list_.clear();
+    numbers_ = 0;
+  }
+  auto& here = list_[name];
+  numbers_ += derivatives->a.size() - (here ? here->a.size() : 0);
+  here = std::move(derivatives);
 }
 
 double Contender::score() const {

@@ -52,8 +52,18 @@ struct Contender {
   double tie_score() const;  ///< evidence + 2 p
 };
 
-/// Derivatives of what was fitted last, by what was fitted: a further effect beside the others hardly changes them.
-using KnownDerivatives = std::map<std::string, std::shared_ptr<const Dense>>;
+/// Derivatives that fits have found last, by the names of these: a further effect beside the others hardly changes
+/// them.
+class KnownDerivatives {
+ public:
+  /// Null where that was not fitted, or long ago.
+  std::shared_ptr<const Dense> of(const std::string& name) const;
+  void keep(const std::string& name, std::shared_ptr<const Dense> derivatives);
+
+ private:
+  std::map<std::string, std::shared_ptr<const Dense>> list_;
+  std::size_t numbers_ = 0;
+};
 
 /// What every fit of a discovery shares.
 struct Workshop {

@@ -77,8 +77,8 @@ constexpr double experiment_tells = 1;   ///< rms difference over noise above wh
 constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
 constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
 constexpr int enriched = 3;        ///< names whose richer laws are tried
-/// By so many more numbers a law cannot surpass another effect's that leaves noise only: what they cost is then above a
-/// tie and two standard deviations of what they take away by chance.
+/// By so many more numbers a law does not come near another effect's that leaves noise only: n of them cost 2n and take
+/// away n by chance, sqrt(2n) up or down; to come within a tie of 7 they would need one and a half times that.
 constexpr std::size_t too_many_numbers = 15;
 }  // namespace rules
 

@@ -159,11 +159,12 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
   bool all = true;
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
-    if (!only_finer) {
+    if (!only_finer || !b.simulated) {
       b.cut({});
       b.substeps = 1;
     }
     const auto found = c.choose_substeps(r, values, tolerance);
+    b.simulated = found.simulated;
     if (c.options.bdf_otherwise && !found.suffice && b.advance->integrates() && (found.simulated || found.ran_away)) {
       c.not_exact = fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name,
                                 c.options.max_substeps);

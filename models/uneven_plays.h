@@ -1,5 +1,5 @@
-// Decides plays that are not equally strong everywhere: how much each passes on where it stands. Does not decide how a
-// play moves (play.h) nor what it moves.
+// Decides plays that are not equally strong everywhere, and whose corners are round: where each stands, and how much it
+// passes on there. Does not decide what they move. Sharp and even ones: play.h.
 #pragma once
 
 #include <cmath>
@@ -48,8 +48,8 @@ T passed_on(const Range<T>& range, const Strength<T>& s, const T& w) {
   return width * (from_lower(w) - from_lower(T{0}));
 }
 
-/// Over this part of its half width a play comes to be carried along: a sharp corner would be a jump of its rate, which
-/// no integrator passes quickly. What it lags more by is gone after a few times that.
+/// [-] Over this part of its half width a play comes to be carried along: a sharp corner would be a jump of its rate,
+/// which no integrator passes quickly. What it lags more by is gone after a few times that.
 inline constexpr double corner = 0.05;
 
 /// Rate of the place w of a play of half width r [u] that an input u of this rate carries along.

@@ -173,20 +173,19 @@ std::string uneven_summary(const NumberList& plays, const std::vector<double>& v
   if (values.size() < 3 * n) return "";
   double force = 0;  // a play stands its half width to either side, and is there about as strong as in the middle
   for (std::size_t i = 0; i < n; ++i) {
-    const double strength = (values[i] + 2 * values[n + i] + values[2 * n + i]) / 4;
-    force += 2 * strength *
-             std::min(plays[i].value * 1e-6, (at.travel_highest - at.travel_lowest) / 2 - plays[i].value * 1e-6);
+    const double strength = (values[i] + 2 * values[n + i] + values[2 * n + i]) / 4, radius = plays[i].value * 1e-6;
+    force += 2 * strength * std::min(radius, (at.travel_highest - at.travel_lowest) / 2 - radius);
   }
   return fmt::format("a loop of about {:.2g} % of the force at full travel", 100 * force / at.range());
 }
 
 /// Force by which the elements hold the mass back, over that of the drive.
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  const auto* list = written<NumberList>(law, "slip_distance");
   const double range = at.travel_highest - at.travel_lowest;
   if (!(range > 0) || !(at.range() > 0)) return "";
   if (const auto* plays = written<NumberList>(law, "thresholds"); plays != nullptr)
     return uneven_summary(*plays, values, at);
+  const auto* list = written<NumberList>(law, "slip_distance");
   if (list == nullptr || list->size() > values.size()) return "";
   double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
   for (std::size_t i = 0; i < list->size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);

@@ -165,6 +165,26 @@ TEST_F(HysteresisLaws, ASpringThatYieldsUnevenlyIsHysteresisAndNoCurveBesides) {
   EXPECT_LT(d.final_error.rms_validate, 0.1 * d.base.rms_validate) << tried(d);
 }
 
+TEST_F(HysteresisLaws, NoLawOfManyMoreNumbersIsTriedWhereAnotherEffectLeavesNoiseOnly) {
+  const auto tries = [&](DataSet data) {
+    DiscoverOptions options;
+    options.only = {"asymmetry", "hysteresis"};
+    std::vector<std::string> laws;
+    options.progress = [&](const std::string& what, double) { laws.push_back(what); };
+    discover(plain_gain(), data, registry, effects, options);
+    return std::count_if(laws.begin(), laws.end(),
+                         [](const std::string& what) { return what.starts_with("hysteresis: relays"); });
+  };
+  EXPECT_GT(tries(recorded(0.06, 1.5)), 0) << "a curve alone leaves more";
+  auto curved = recorded(0, 0);
+  for (auto& r : curved.recordings)
+    for (std::size_t k = 0; k < r.t.size(); ++k) {
+      const double u = r.columns.at("u")[k];
+      r.columns.at("y")[k] += 0.02 * u * (1 - u);
+    }
+  EXPECT_EQ(tries(curved), 0);
+}
+
 TEST_F(HysteresisLaws, ASpringHasATravelWhereNobodyLookedHowFarItMoves) {
   Circumstances at;
   at.by = "mass_on_hysteretic_spring";

@@ -197,6 +197,10 @@ TEST_F(Rules, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
   EXPECT_EQ(held_one_first(books, tried, 0), 1) << "it looks like an asymmetry";
   tried[1].effect = &effects.get("creep");
   EXPECT_EQ(held_one_first(books, tried, 0), 0);
+  tried[0].laws[0].holds = {"stiffening"};
+  tried[1].effect = &effects.get("friction");
+  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "it looks like a stiffening spring, and remembers, as none does";
+  tried[0].laws[0].holds = {"asymmetry"};
   tried[1].effect = &effects.get("asymmetry");
   tried[1].fall_validate = 850;
   EXPECT_EQ(held_one_first(books, tried, 0), 0) << "less than nine tenths on recordings not used for the fit";

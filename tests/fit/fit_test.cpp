@@ -111,6 +111,36 @@ TEST(Fit, FindsATimeConstantFromAPoorStartOnALogScale) {
   }
 }
 
+TEST(Fit, DerivativesOfAnotherFitSaveSimulationsAndChangeNoResult) {
+  DataSet data = two_recordings();
+  const auto program = compile(lag_and_gain(), lab::registry());
+  const int tau = parameter_index(*program, "amplifier.times[0]");
+  lab::measure(data, program, 10e-9, 6, {{tau, 0.02}});
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"amplifier.times", "g.gain"});
+  FitOptions options;
+  options.matters = 0.2;
+  options.intervals = false;
+  options.scores = false;
+  free[0].start = 0.019;
+  const auto first = fit(model, noise_before_fit(model), free, options);
+  ASSERT_TRUE(first.ok && first.derivatives);
+  EXPECT_TRUE(first.before.recordings.empty() && first.after.recordings.empty()) << "nobody asked for scores";
+  free[0].start = 0.021;
+  const auto alone = fit(model, noise_before_fit(model), free, options);
+  options.known_derivatives = first.derivatives;
+  const auto again = fit(model, noise_before_fit(model), free, options);
+  ASSERT_TRUE(alone.ok && again.ok);
+  EXPECT_LT(again.runs, alone.runs);
+  EXPECT_FALSE(again.derivatives) << "it needed none of its own";
+  EXPECT_NEAR(again.chi2, alone.chi2, 2 * options.matters);
+  // Of another size they are of something else.
+  options.known_derivatives = std::make_shared<Dense>(3, 1);
+  const auto other = fit(model, noise_before_fit(model), free, options);
+  EXPECT_EQ(other.runs, alone.runs);
+  EXPECT_EQ(other.chi2, alone.chi2);
+}
+
 TEST(Fit, TimeConstantsOfTwoRelaxationsAreFoundFromThirtyPerCentAway) {
   // Sums of relaxations are badly conditioned: an unbounded step of a logarithm would leave for times of 1e-15 s or
   // 1e+293 s, where no slope leads back.

@@ -134,20 +134,24 @@ ProgramPointer stage_beside_elements(const std::string& type, double excess = 0)
   return compile(d, lab::registry());
 }
 
+/// Rows of `step` seconds are advanced exactly, and as BDF does. Steps of one simulation of the second recording.
+long expect_the_integrator(const ProgramPointer& program, double step, std::size_t rows) {
+  DataSet data = recordings(step, rows);
+  lab::measure(data, program, 0, 22);
+  DataModelOptions options;
+  options.relative_tolerance = 1e-9;
+  DataModel model(program, lab::shared(data), options);
+  const std::vector<int> both{0, 1};
+  EXPECT_TRUE(model.predict({}, both).ok) << step;
+  EXPECT_EQ(model.why_not_exact(), "") << step;
+  EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << step;  // 1e-6 of the span was asked for
+  return model.steps(1);
+}
+
 TEST(DataModel, ElementsThatHoldLessWhileTheySlideFastAgreeWithTheIntegrator) {
   // Two and a half radians in a row, and a quarter of one.
   for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"})
-    for (const double step : {1e-3, 1e-4}) {
-      const auto program = stage_beside_elements(type, 0.5);
-      DataSet data = recordings(step, 1500);
-      lab::measure(data, program, 0, 24);
-      DataModelOptions options;
-      options.relative_tolerance = 1e-9;
-      DataModel model(program, lab::shared(data), options);
-      ASSERT_TRUE(model.predict({}, std::vector<int>{0, 1}).ok) << type;
-      EXPECT_EQ(model.why_not_exact(), "") << type;
-      EXPECT_LT(model.cross_check({}, std::vector<int>{0, 1})[0], 5e-6) << type;  // 1e-6 of the span was asked for
-    }
+    for (const double step : {1e-3, 1e-4}) expect_the_integrator(stage_beside_elements(type, 0.5), step, 1500);
 }
 
 /// The same guide on a spring that remembers, unevenly over its travel of 1 um.
@@ -169,34 +173,28 @@ ProgramPointer stage_on_a_spring_of_plays() {
 }
 
 TEST(DataModel, ASpringOfPlaysAgreesWithTheIntegrator) {
-  for (const double step : {1 / 40.0, 1e-3, 1e-4}) {
-    const auto program = stage_on_a_spring_of_plays();
-    DataSet data = recordings(step, 800);
-    lab::measure(data, program, 0, 25);
-    DataModelOptions options;
-    options.relative_tolerance = 1e-9;
-    DataModel model(program, lab::shared(data), options);
-    const std::vector<int> both{0, 1};
-    ASSERT_TRUE(model.predict({}, both).ok) << step;
-    EXPECT_EQ(model.why_not_exact(), "") << step;
-    EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << step;  // 1e-6 of the span was asked for
-  }
+  for (const double step : {1 / 40.0, 1e-3, 1e-4}) expect_the_integrator(stage_on_a_spring_of_plays(), step, 800);
 }
 
 TEST(DataModel, SlowRowsOfAGuideNeedNoStepsOfItsResonance) {
   for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"}) {
-    const auto program = stage_beside_elements(type);
-    DataSet data = recordings(1 / 40.0, 400);
-    lab::measure(data, program, 0, 22);
-    DataModelOptions options;
-    options.relative_tolerance = 1e-9;
-    DataModel model(program, lab::shared(data), options);
-    const std::vector<int> both{0, 1};
-    ASSERT_TRUE(model.predict({}, both).ok) << type;
-    EXPECT_EQ(model.why_not_exact(), "") << type;
-    EXPECT_LT(model.steps(1), 20 * 400) << type << ": Runge-Kutta alone has no answer from less than 22 steps a row";
-    EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << type;  // 1e-6 of the span was asked for
+    const long steps = expect_the_integrator(stage_beside_elements(type), 1 / 40.0, 400);
+    EXPECT_LT(steps, 20 * 400) << type << ": Runge-Kutta alone has no answer from less than 22 steps a row";
   }
+}
+
+TEST(DataModel, SubstepsThatCouldNotBeFoundAreSoughtFromOne) {
+  // With no number for a mass nothing is simulated, and the most substeps that there may be are no beginning.
+  const auto program = stage_on_a_stiffening_spring("1e8 N/m^3");
+  DataSet data = recordings(0.05, 100);
+  lab::measure(data, program, 0, 26);
+  DataModel model(program, lab::shared(data));
+  model.choose_substeps(Trial{{parameter_index(*program, "mass.mass"), std::nan("")}});
+  model.choose_substeps({}, {}, true);
+  EXPECT_EQ(model.why_not_exact(), "") << "what could be simulated was left to BDF";
+  DataModel alone(program, lab::shared(data));
+  alone.choose_substeps({});
+  EXPECT_EQ(model.steps(0), alone.steps(0));
 }
 
 TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
