@@ -22,13 +22,6 @@ std::vector<std::string> wanted_effects(const Arguments& arguments, const Effect
   return arguments.list("--only");
 }
 
-int max_steps(const Arguments& arguments) {
-  const double steps = arguments.number("--steps", DiscoverOptions{}.max_steps);
-  if (steps < 1 || steps > 20 || steps != static_cast<int>(steps))
-    fail("bad_command_line", "--steps", "the number of steps is not a whole number from 1 to 20", "write --steps 2");
-  return static_cast<int>(steps);
-}
-
 /// What --json prints: the answer; all its numbers stand in result.json.
 Facts short_answer(const Document& document, const Discovery& found, const Check* answer, const std::string& folder) {
   std::vector<std::string> effects;
@@ -49,7 +42,8 @@ int look(const std::string& verb, const Arguments& arguments) {
   DiscoverOptions settings;
   settings.only = wanted_effects(arguments, effects);
   settings.free_paths = arguments.list("--free");
-  settings.max_steps = max_steps(arguments);
+  settings.max_steps = arguments.whole_number("--steps", settings.max_steps, 20);
+  settings.threads = arguments.threads();
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
   const bool is_check = arguments.has("--check");
@@ -98,6 +92,7 @@ std::vector<OptionSpec> look_options() {
           {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           options::effects(),
+          options::threads("candidates"),
           options::output_folder(),
           options::set(),
           options::choose(),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <thread>
 
 #include "app/load.h"
 #include "app/numbers.h"
@@ -35,14 +34,6 @@ constexpr char help[] =
     "again, it gives the same bytes as without. docs/study.md says how jobs are written.\n"
     "Writes into the folder: shards/*.h5, study.h5 (and study.csv), result.json, report.html; with --slurm: slurm/.\n"
     "Exit codes: 0 done, 2 the job or the diagram is wrong, shards are missing, 130 interrupted.";
-
-int whole_number(const Arguments& arguments, const std::string& option, int otherwise) {
-  const double value = arguments.number(option, otherwise);
-  if (value < 1 || value > 100'000 || value != static_cast<int>(value))
-    fail("bad_command_line", option, fmt::format("\"{}\" is no whole number from 1 to 100000", arguments.text(option)),
-         fmt::format("write it as in {}=4", option));
-  return static_cast<int>(value);
-}
 
 struct ShardChoice {
   int shard = 0, shards = 0;  ///< from 1
@@ -94,7 +85,7 @@ Asked read(const Arguments& arguments) {
   const ProgramPointer program = compile_file(diagram);
   with_lines_of_job(asked.job, [&] { asked.problem = study_of(asked.job, program); });
   asked.folder = arguments.text("-o", stem_of(arguments.text("job")) + ".study");
-  asked.shards = whole_number(arguments, "--shards", asked.problem.study.shards);
+  asked.shards = arguments.whole_number("--shards", asked.problem.study.shards);
   return asked;
 }
 
@@ -134,8 +125,7 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
   if (missing.size() < wanted.size())
     said.push_back(fmt::format("{} of {} shards were there already", wanted.size() - missing.size(), wanted.size()));
   if (missing.empty()) return said;
-  const int threads =
-      whole_number(arguments, "--threads", std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  const int threads = arguments.threads();
   const auto begin = std::chrono::steady_clock::now();
   const double part = static_cast<double>(missing.size()) / folder.shards();
   const double all = part * static_cast<double>(study.draws > 0 ? study.draws : study.accepted);
@@ -228,7 +218,7 @@ Verb study_verb() {
        {"--shard", "K/N", "compute shard K of N alone, and merge nothing", false, false},
        {"--merge", "", "compute nothing, join the shards that are there", false, false},
        {"--shards", "N", "cut it into so many; default: as the job says, else 16", false, false},
-       {"--threads", "N", "shards at once; default: one per core", false, false},
+       options::threads("shards"),
        {"--csv", "", "write the samples as study.csv, too", false, false},
        options::allow()},
       study};

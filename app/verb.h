@@ -35,8 +35,11 @@ class Arguments {
   std::vector<std::string> list(const std::string& name) const;
   /// The value of an option as a plain number. Throws Error "bad_command_line".
   double number(const std::string& name, double otherwise) const;
+  /// A whole number from 1 to `most`.
+  int whole_number(const std::string& name, int otherwise, int most = 100'000) const;
   /// The value of an option as a time in s ("2 s", "5 ms", "3"). Throws Error "bad_command_line".
   double seconds(const std::string& name, double otherwise) const;
+  int threads() const;  ///< of --threads; one per core if it is not given
   bool quiet() const { return has("--quiet"); }
   void set(const std::string& name, std::vector<std::string> values) { given_[name] = std::move(values); }
 
@@ -62,6 +65,7 @@ OptionSpec set();
 OptionSpec choose();
 OptionSpec allow();
 OptionSpec effects();
+OptionSpec threads(const std::string& things);  ///< so many of these at once
 }  // namespace options
 
 Verb new_verb();

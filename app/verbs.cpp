@@ -1,7 +1,11 @@
 // Decides which verbs there are, and what the options mean that several of them take.
 // Does not parse the command line.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <thread>
 
 #include "app/verb.h"
 #include "engine/error.h"
@@ -33,6 +37,18 @@ double Arguments::number(const std::string& name, double otherwise) const {
   if (code != std::errc{} || end != written.data() + written.size() || !std::isfinite(value))
     fail("bad_command_line", name, "\"" + written + "\" is no number", "write it as in " + name + "=0.05");
   return value;
+}
+
+int Arguments::whole_number(const std::string& name, int otherwise, int most) const {
+  const double value = number(name, otherwise);
+  if (value < 1 || value > most || value != static_cast<int>(value))
+    fail("bad_command_line", name, fmt::format("\"{}\" is no whole number from 1 to {}", text(name), most),
+         fmt::format("write it as in {}=4", name));
+  return static_cast<int>(value);
+}
+
+int Arguments::threads() const {
+  return whole_number("--threads", std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
 
 double Arguments::seconds(const std::string& name, double otherwise) const {
@@ -69,6 +85,9 @@ OptionSpec choose() {
 }
 OptionSpec allow() {
   return {"--allow", "FOLDER", "also read files of this folder (else only those inside the project)", false, true};
+}
+OptionSpec threads(const std::string& things) {
+  return {"--threads", "N", things + " at once; default: one per core", false, false};
 }
 OptionSpec effects() {
   return {"--effects", "FILE", "effects of your own: an effect file (docs/adding-an-effect.md), or a folder of them",

@@ -1,7 +1,7 @@
 // Answers a folder of cases with hidden effects (layout: README of the set; no answers needed): builds each base
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
-//   discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--seconds 28] [--tell]
+//   discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--threads 1] [--seconds 28] [--tell]
 //
 // Each case runs in a process of its own: one that fails costs that case only.
 #include <fmt/format.h>
@@ -35,7 +35,8 @@ using Clock = std::chrono::steady_clock;
 struct Wish {
   std::string folder, results;
   std::set<std::string> only;
-  int jobs = 2;
+  int jobs = 2;         ///< cases at once
+  int threads = 1;      ///< of one case
   double seconds = 28;  ///< of CPU, so that a busy machine gives the same answers: then a case ends; 0 = never
   bool tell = false;    ///< everything that was tried
 };
@@ -77,6 +78,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
   for (const auto& name : hidden_effect_names())
     if (effects.find(name) != nullptr) options.only.push_back(name);
   if (wish.seconds > 0) options.stop = [&] { return cpu_seconds() > wish.seconds; };
+  options.threads = wish.threads;
   const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
   write_hidden_answer(hidden, data, found, wish.results);
   const std::string late = wish.seconds > 0 && cpu_seconds() > wish.seconds ? ", stopped by its time limit" : "";
@@ -174,6 +176,8 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       for (std::string id; std::getline(list, id, ',');) wish.only.insert(id);
     } else if (word == "--jobs") {
       wish.jobs = std::atoi(next().c_str());
+    } else if (word == "--threads") {
+      wish.threads = std::atoi(next().c_str());
     } else if (word == "--seconds") {
       wish.seconds = std::atof(next().c_str());
     } else if (word == "--tell") {
@@ -194,7 +198,7 @@ int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
     fmt::print(stderr,
-               "discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--seconds 28] [--tell]\n"
+               "discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--threads 1] [--seconds 28] [--tell]\n"
                "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }

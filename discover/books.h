@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,11 @@ struct Books {
         const DiscoverOptions& options);
 
   bool stopped() const { return options.stop && options.stop(); }
-  void progress(const std::string& what, double done) const;
+  void progress(const std::string& what, double done) const;  ///< by any thread
+  /// Fits that do not need each other, several at a time: job(i, shop) for each i in [0, n), begun in this order, until
+  /// one answers true or the user stops. Returns the first that did, n if none; what later ones left does not count.
+  /// What fits write down others find only after the last: then nothing depends on the number of threads.
+  std::size_t side_by_side(std::size_t n, const std::function<bool(std::size_t i, const Workshop& shop)>& job) const;
   bool wanted(const Effect& effect) const;
   /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units.
   void settle(Contender& best);
@@ -39,6 +44,9 @@ struct Books {
   std::vector<Tried> hidden;     ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction;  ///< of the model before the present step; empty = the base
   Discovery d;
+
+ private:
+  mutable std::mutex telling_;
 };
 
 /// Fits the user's model and settles the noise. Throws Error where a role is missing or the model cannot be simulated.
@@ -56,6 +64,18 @@ bool taken_up(const Books& books, const Effect& effect);
 /// moves none but these, all if empty. `only`: these effects, all if empty.
 std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs = {},
                                    const std::vector<const Effect*>& only = {});
+/// An effect by one of its laws at one of its places.
+struct Choice {
+  const Effect* effect = nullptr;
+  Law law;
+  Place place;
+  Circumstances at;
+};
+/// Every effect that `may` be taken and could be seen on `model`, at each place where none of its family stands, by
+/// each of its `laws`.
+std::vector<Choice> choices_on(const Books& books, const Contender& model,
+                               const std::function<bool(const Effect&)>& may,
+                               const std::function<std::vector<Law>(const Effect&, const Circumstances&)>& laws);
 /// Outputs of a model, measured or not, to which a wire leads: a coupling that reads it beside another axis does not
 /// put it on the way of that one. Empty where nobody knows.
 std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written);

@@ -214,6 +214,25 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   return kept;
 }
 
+std::vector<Choice> choices_on(const Books& books, const Contender& model,
+                               const std::function<bool(const Effect&)>& may,
+                               const std::function<std::vector<Law>(const Effect&, const Circumstances&)>& laws) {
+  std::vector<Choice> list;
+  for (const auto& e : books.effects.list()) {
+    if (!books.wanted(e) || !may(e)) continue;
+    auto places = places_of(e, model.diagram, books.registry, books.data.get());
+    std::erase_if(places, [&](const Place& p) { return standing_before(books, model, e, p); });
+    if (places.empty()) continue;
+    const auto at =
+        circumstances_at(model.diagram, books.registry, *books.data, places, free_anyway(books.shop, model));
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (!e.unseen(at[p]).empty()) continue;
+      for (auto& law : laws(e, at[p])) list.push_back({&e, std::move(law), places[p], at[p]});
+    }
+  }
+  return list;
+}
+
 double blur(const Contender& c) {
   const double n = c.error_of.n();
   return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));

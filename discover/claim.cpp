@@ -26,7 +26,6 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
   found.before = books.current.error_of;
   if (!w.sharp) {
     Contender final = refit(books.shop, w.contender, Effort::final);
-    books.d.model_runs += final.runs;
     if (final.ok && final.error_of.evidence() <= w.contender.error_of.evidence() + 1) w.contender = std::move(final);
   }
   for (const int t : ties) {

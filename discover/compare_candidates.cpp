@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 
 #include "discover/books.h"
@@ -98,6 +99,38 @@ bool has_too_many_numbers(const Tried& t, std::size_t law, const std::vector<Tri
   return t.laws[law].free.size() > best.laws[best.law].free.size() + rules::too_many_numbers;
 }
 
+/// Indices of the laws, beside the first, that are tried of each candidate, given as indices of `tried`.
+std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, const std::vector<Tried>& tried,
+                                                        const std::vector<std::size_t>& order, int step, As as) {
+  const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
+  const auto left = left_by_laws(books, as);
+  std::vector<std::vector<std::size_t>> lists;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Tried& t = tried[order[k]];
+    auto& list = lists.emplace_back();
+    // A law that brings nothing in its simple form has nothing to enrich.
+    const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
+                           (step == 1 || within_reach(books, t, left));
+    for (std::size_t law = 1; law < t.laws.size(); ++law)
+      if ((promising || t.laws[law].apart) && !has_too_many_numbers(t, law, tried)) list.push_back(law);
+  }
+  return lists;
+}
+
+/// The candidate by this law, if that is better.
+bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
+  Contender richer = with_effect(shop, books.current, *t.effect, started_from(t, law), t.place, t.circumstances,
+                                 step == 1 ? Effort::full : Effort::screen);
+  if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
+    Contender together = refit(shop, richer, Effort::full);
+    if (together.ok) richer = std::move(together);
+  }
+  if (!richer.ok || !(richer.score() < t.contender.score())) return false;
+  t.contender = std::move(richer);
+  t.law = law;
+  return true;
+}
+
 }  // namespace
 
 std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
@@ -162,19 +195,16 @@ void compare_all(Books& books, std::vector<Tried>& tried, As as) {
 void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
   const auto worth = worth_a_fit(tried);
   const auto left = left_by_laws(books, as);
-  std::vector<std::size_t> screened_out;
-  for (const std::size_t i : ranking(tried)) {
-    if (books.stopped()) break;
-    Tried& t = tried[i];
-    if (!worth.contains(i) || !within_reach(books, t, left)) {
-      screened_out.push_back(i);
-      continue;
-    }
+  std::vector<std::size_t> together, screened_out;
+  for (const std::size_t i : ranking(tried))
+    (worth.contains(i) && within_reach(books, tried[i], left) ? together : screened_out).push_back(i);
+  books.side_by_side(together.size(), [&](std::size_t k, const Workshop& shop) {
+    Tried& t = tried[together[k]];
     books.progress("together with what was found: " + t.effect->id, bar);
-    Contender better = refit(books.shop, t.contender, Effort::full);
-    books.d.model_runs += better.runs;
+    Contender better = refit(shop, t.contender, Effort::full);
     if (better.ok) t.contender = std::move(better);
-  }
+    return false;
+  });
   compare_all(books, tried, as);
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }
@@ -182,31 +212,17 @@ void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
 void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar) {
   const auto order = ranking(tried);
   if (order.empty()) return;
-  const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
-  const auto left = left_by_laws(books, as);
-  bool any = false;
-  for (std::size_t k = 0; k < order.size() && !books.stopped(); ++k) {
+  const auto laws = laws_to_enrich_by(books, tried, order, step, as);
+  std::atomic<bool> any = false;
+  books.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
     Tried& t = tried[order[k]];
-    // A law that brings nothing in its simple form has nothing to enrich.
-    const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
-                           (step == 1 || within_reach(books, t, left));
-    for (std::size_t law = 1; law < t.laws.size(); ++law) {
-      if ((!promising && !t.laws[law].apart) || has_too_many_numbers(t, law, tried)) continue;
+    for (const std::size_t law : laws[k]) {
+      if (books.stopped()) break;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
-      Contender richer = with_effect(books.shop, books.current, *t.effect, started_from(t, law), t.place,
-                                     t.circumstances, step == 1 ? Effort::full : Effort::screen);
-      books.d.model_runs += richer.runs;
-      if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
-        Contender together = refit(books.shop, richer, Effort::full);
-        books.d.model_runs += together.runs;
-        if (together.ok) richer = std::move(together);
-      }
-      if (!richer.ok || !(richer.score() < t.contender.score())) continue;
-      t.contender = std::move(richer);
-      t.law = law;
-      any = true;
+      if (enriched(books, shop, t, law, step)) any = true;
     }
-  }
+    return false;
+  });
   if (any) compare_all(books, tried, as);
 }
 
@@ -218,7 +234,6 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, A
     if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
     t.contender =
         with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
-    books.d.model_runs += t.contender.runs;
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
     judge(t, books.current, left);
     t.hidden = true;

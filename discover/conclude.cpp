@@ -113,7 +113,7 @@ void conclude(Books& books) {
   const double base_over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
   const bool base_is_off = base_over > rules::floor_gate || base_over_usual > rules::slow_noise;
   std::optional<Structure> structure;
-  if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction);
+  if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction, books.shop.threads);
   const bool structure_wins =
       structure && structure->explains() && !is_of_a_standing_law(books, *structure) &&
       structure->share_removed > rules::structure_share &&
@@ -135,7 +135,7 @@ void conclude(Books& books) {
                                      [](const FoundStep& s) { return s.ties.empty() || !s.experiment_would_tell; });
     books.d.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
     if (floor > rules::floor_gate && !books.stopped()) {
-      auto left = find_structure(*books.evidence, books.current.prediction);
+      auto left = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
       if (left && left->share_removed > rules::structure_share && left->fall_validate > rules::claim_fall)
         books.d.structure = left;
     }

@@ -92,6 +92,7 @@ constexpr double simulation_steps = 4e6;
 /// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
 DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   DataModelOptions options;
+  options.threads = shop.threads;
   options.max_substeps = 1024;
   double rows = 1;
   for (const auto& r : shop.data->recordings)
@@ -273,9 +274,9 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
     for (auto& o : noise.outputs) o.left_out.reset();
   const bool again = effort == Effort::full && fresh < 0;
   const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
-  if (again) options.known_derivatives = shop.known->of(name);
+  if (again) options.known_derivatives = shop.notes->derivatives_of(name);
   c.fit = fit(model, noise, free, options);
-  if (again && c.fit.derivatives) shop.known->keep(name, c.fit.derivatives);
+  if (again && c.fit.derivatives) shop.notes->keep(name, c.fit.derivatives);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
@@ -404,6 +405,7 @@ Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, i
     c.ok = false;
     c.error = e.what();
   }
+  shop.notes->count(c.runs);
   return c;
 }
 
@@ -416,22 +418,6 @@ double row_tolerance(const DataModel& model, const NoiseModel& noise, double par
   return std::clamp(part * least, 1e-7, 1e-3);
 }
 
-std::shared_ptr<const Dense> KnownDerivatives::of(const std::string& name) const {
-  const auto found = list_.find(name);
-  return found == list_.end() ? nullptr : found->second;
-}
-
-void KnownDerivatives::keep(const std::string& name, std::shared_ptr<const Dense> derivatives) {
-  constexpr std::size_t most_numbers = 10'000'000;  // 80 MB: of a step's candidates, of some 1e5 rows
-  if (numbers_ + derivatives->a.size() > most_numbers) {
-    list_.clear();
-    numbers_ = 0;
-  }
-  auto& here = list_[name];
-  numbers_ += derivatives->a.size() - (here ? here->a.size() : 0);
-  here = std::move(derivatives);
-}
-
 double Contender::score() const {
   return error_of.evidence() + parameters * std::log(std::max(error_of.witnesses, 2.0));
 }
@@ -441,6 +427,7 @@ Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort ef
   Contender c;
   c.diagram = diagram;
   fit_contender(shop, c, effort, -1);  // the user's own question: what is wrong with it is told, not swallowed
+  shop.notes->count(c.runs);
   if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
   return c;
 }

@@ -2,7 +2,6 @@
 // recordings. Does not choose between models. Internal to discover.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "discover/add.h"
 #include "discover/effect.h"
 #include "discover/evidence.h"
+#include "discover/notebook.h"
 #include "fit/fit.h"
 
 namespace hysteron {
@@ -52,19 +52,6 @@ struct Contender {
   double tie_score() const;  ///< evidence + 2 p
 };
 
-/// Derivatives that fits have found last, by the names of these: a further effect beside the others hardly changes
-/// them.
-class KnownDerivatives {
- public:
-  /// Null where that was not fitted, or long ago.
-  std::shared_ptr<const Dense> of(const std::string& name) const;
-  void keep(const std::string& name, std::shared_ptr<const Dense> derivatives);
-
- private:
-  std::map<std::string, std::shared_ptr<const Dense>> list_;
-  std::size_t numbers_ = 0;
-};
-
 /// What every fit of a discovery shares.
 struct Workshop {
   const Registry* registry = nullptr;
@@ -76,7 +63,8 @@ struct Workshop {
   double row_tolerance = 1e-6;
   double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
   std::function<bool()> stop;
-  std::shared_ptr<KnownDerivatives> known = std::make_shared<KnownDerivatives>();
+  Threads threads{};  ///< recordings side by side
+  std::shared_ptr<Notebook> notes = std::make_shared<Notebook>();
 };
 
 /// `part` of the noise of the output that is measured best, as a share of its span.

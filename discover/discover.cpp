@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "discover/books.h"
@@ -42,10 +43,28 @@ Books::Books(const Diagram& diagram, const DataSet& given, const Registry& all_b
   shop.free_paths = options.free_paths;
   shop.stop = options.stop;
   shop.looser = options.looser;
+  shop.threads = options.threads;
 }
 
 void Books::progress(const std::string& what, double done) const {
-  if (options.progress) options.progress(what, std::min(done, 1.0));
+  if (!options.progress) return;
+  const std::lock_guard one_at_a_time(telling_);
+  options.progress(what, std::min(done, 1.0));
+}
+
+std::size_t Books::side_by_side(std::size_t n, const std::function<bool(std::size_t, const Workshop&)>& job) const {
+  std::vector<std::shared_ptr<Notebook>> notes(n);
+  std::atomic<std::size_t> first{n};
+  shop.threads.each(n, [&](std::size_t i) {
+    if (i > first || stopped()) return;
+    Workshop own = shop;
+    own.notes = notes[i] = std::make_shared<Notebook>(shop.notes);
+    if (!job(i, own)) return;
+    for (std::size_t was = first; i < was && !first.compare_exchange_weak(was, i);) continue;
+  });
+  for (std::size_t i = 0; i < n && i <= first; ++i)
+    if (notes[i]) shop.notes->add(*notes[i]);
+  return first;
 }
 
 bool Books::wanted(const Effect& effect) const {
@@ -59,15 +78,15 @@ void Books::settle(Contender& best) {
 }
 
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
-  for (std::size_t i = 0; i < tried.size() && !books.stopped(); ++i) {
+  books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
     const double part = 0.6 * static_cast<double>(i) / static_cast<double>(tried.size());
     books.progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.at),
                    (step - 1 + part) / books.options.max_steps);
-    t.contender = with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances,
+    t.contender = with_effect(shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances,
                               step == 1 || taken_up(books, *t.effect) ? Effort::full : Effort::screen);
-    books.d.model_runs += t.contender.runs;
-  }
+    return false;
+  });
 }
 
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner,
@@ -172,6 +191,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
   if (another_beginning(books, first)) one_by_one(books, first);
   conclude(books);
+  books.d.model_runs = books.shop.notes->runs();
   return std::move(books.d);
 }
 

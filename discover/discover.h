@@ -116,7 +116,9 @@ struct DiscoverOptions {
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
-  std::function<bool()> stop;  ///< asked between candidates; true = end with what was found so far
+  /// Asked between candidates, by any thread; true = end with what was found so far.
+  std::function<bool()> stop;
+  Threads threads{};  ///< candidates side by side; no answer depends on it
 };
 
 /// The whole loop. Throws Error where diagram and data do not fit together; a candidate that fails costs only itself.

@@ -21,7 +21,6 @@ void tell_between_samples(Books& books) {
     Workshop shop = books.shop;
     shop.data = std::make_shared<const DataSet>(std::move(other));
     const Contender c = base_contender(shop, books.user, Effort::full);
-    books.d.model_runs += c.runs;
     if (!c.ok) continue;
     const ModelError& was = books.base.error_of;
     const bool better = was.evidence_train - c.error_of.evidence_train > rules::claim_fall &&
@@ -58,7 +57,6 @@ void fit_base(Books& books) {
     fail_numerics("base_failed", books.user.title,
                   "the diagram cannot be simulated on these recordings: " + books.current.error,
                   "run `hysteron compare` or `hysteron run` on it and look at the first recording");
-  books.d.model_runs += books.current.runs;
   books.settle(books.current);
   books.base = books.current;
   if (as_given.ok) books.d.as_given = books.evidence->error(as_given);

@@ -66,17 +66,18 @@ std::vector<const Effect*> with_rivals(const Books& books, const Effect& effect)
 std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& outputs,
                             const std::vector<const Effect*>& effects, int step, double bar) {
   auto tried = list_candidates(books, step, outputs, effects);
-  for (auto& t : tried) {
+  books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
+    Tried& t = tried[i];
     books.progress(t.effect->id + " at " + t.place.at, bar);
     for (const std::size_t law : std::set<std::size_t>{0, law_as_found(books, t)}) {
-      Contender c = with_effect(books.shop, books.current, *t.effect, as_found(books, t, t.laws[law]), t.place,
+      Contender c = with_effect(shop, books.current, *t.effect, as_found(books, t, t.laws[law]), t.place,
                                 t.circumstances, Effort::full);
-      books.d.model_runs += c.runs;
       if (law > 0 && (!c.ok || (t.contender.ok && c.score() >= t.contender.score()))) continue;
       t.contender = std::move(c);
       t.law = law;
     }
-  }
+    return false;
+  });
   join_twins(tried);
   compare_all(books, tried, As::first);
   enrich(books, tried, step, As::first, bar);

@@ -36,19 +36,19 @@ std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at) {
 /// back.
 enum class Line { of_a_curve, held };
 
-std::optional<Tried> tried_at(Books& books, const Contender& model, const Member& m, const Place& place, Line line) {
+std::optional<Tried> tried_at(const Books& books, const Workshop& shop, const Contender& model, const Member& m,
+                              const Place& place, Line line) {
   Tried t;
   t.effect = m.effect;
   t.place = place;
-  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(books.shop, model));
+  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(shop, model));
   if (line == Line::held && m.effect->of_the_sensor())
     t.circumstances.gain_is_free = t.circumstances.offset_is_free = true;
   t.laws = m.effect->laws(t.circumstances);
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
   if (law == t.laws.end()) return std::nullopt;
   t.law = static_cast<std::size_t>(law - t.laws.begin());
-  t.contender = with_effect(books.shop, model, *t.effect, *law, t.place, t.circumstances, Effort::full);
-  books.d.model_runs += t.contender.runs;
+  t.contender = with_effect(shop, model, *t.effect, *law, t.place, t.circumstances, Effort::full);
   if (!t.contender.ok) return std::nullopt;
   t.admitted = true;
   return t;
@@ -56,13 +56,14 @@ std::optional<Tried> tried_at(Books& books, const Contender& model, const Member
 
 /// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
 /// one; nullopt if it cannot be had.
-std::optional<Tried> tried_again(Books& books, const Contender& model, const Member& m, Line line = Line::of_a_curve) {
+std::optional<Tried> tried_again(const Books& books, const Workshop& shop, const Contender& model, const Member& m,
+                                 Line line = Line::of_a_curve) {
   auto places = places_of(*m.effect, model.diagram, books.registry, books.data.get());
   const auto same = [&](const Place& p) { return p.at == m.place.at; };
   if (std::any_of(places.begin(), places.end(), same)) std::erase_if(places, [&](const Place& p) { return !same(p); });
   std::optional<Tried> best;
   for (const auto& place : places) {
-    auto t = tried_at(books, model, m, place, line);
+    auto t = tried_at(books, shop, model, m, place, line);
     if (t && (!best || t->contender.score() < best->contender.score())) best = std::move(t);
   }
   return best;
@@ -70,7 +71,7 @@ std::optional<Tried> tried_again(Books& books, const Contender& model, const Mem
 
 /// The set without member `i`, the others from the user's own model on: a law may have found the user's weights and
 /// zeros anew, and these hold only beside it.
-std::optional<Contender> rest_of(Books& books, std::size_t i) {
+std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::size_t i) {
   const auto members = members_of(books.current);
   Contender rest = books.base;
   // Without the calibration, gain and zero are the user's again: who else would take them up is not asked here.
@@ -78,7 +79,7 @@ std::optional<Contender> rest_of(Books& books, std::size_t i) {
   rest.zero_held = books.current.zero_held || calibration;
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
-    auto t = tried_again(books, rest, members[j], calibration ? Line::held : Line::of_a_curve);
+    auto t = tried_again(books, shop, rest, members[j], calibration ? Line::held : Line::of_a_curve);
     if (!t) return std::nullopt;
     rest = std::move(t->contender);
   }
@@ -87,12 +88,13 @@ std::optional<Contender> rest_of(Books& books, std::size_t i) {
 
 /// What is left without each member but the last, which was taken beside all the others.
 using Rests = std::vector<std::optional<Contender>>;
-Rests rests_of(Books& books, double bar) {
-  Rests rests;
-  for (std::size_t i = 0; i + 1 < books.current.standing.size() && !books.stopped(); ++i) {
+Rests rests_of(const Books& books, double bar) {
+  Rests rests(books.current.standing.size() - 1);
+  books.side_by_side(rests.size(), [&](std::size_t i, const Workshop& shop) {
     books.progress("without " + books.current.standing[i].effect->id, bar);
-    rests.push_back(rest_of(books, i));
-  }
+    rests[i] = rest_of(books, shop, i);
+    return false;
+  });
   return rests;
 }
 
@@ -119,36 +121,35 @@ bool may_stand_for(const Effect& member, const Effect& e) {
 }
 
 /// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
-std::optional<Contender> with_a_look_alike(Books& books, const Contender& rest, const Effect& member, double bar) {
-  for (const auto& e : books.effects.list()) {
-    if (!books.wanted(e) || !may_stand_for(member, e)) continue;
-    auto places = places_of(e, rest.diagram, books.registry, books.data.get());
-    std::erase_if(places, [&](const Place& p) { return standing_before(books, rest, e, p); });
-    if (places.empty()) continue;
-    const auto at = circumstances_at(rest.diagram, books.registry, *books.data, places, free_anyway(books.shop, rest));
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      if (!e.unseen(at[p]).empty()) continue;
-      for (const auto& law : laws_to_try(e, at[p])) {
-        if (books.stopped()) return std::nullopt;
-        books.progress(fmt::format("{} in place of {}", e.id, member.id), bar);
-        Contender other = with_effect(books.shop, rest, e, law, places[p], at[p], Effort::full);
-        books.d.model_runs += other.runs;
-        if (other.ok && other.score() < books.current.score() - rules::exchange &&
-            why_implausible(e, law, other, at[p]).empty())
-          return other;
-      }
-    }
-  }
-  return std::nullopt;
+std::optional<Contender> with_a_look_alike(const Books& books, const Contender& rest, const Effect& member,
+                                           double bar) {
+  const auto list = choices_on(
+      books, rest, [&](const Effect& e) { return may_stand_for(member, e); }, laws_to_try);
+  std::vector<Contender> fitted(list.size());
+  const std::size_t first = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[i];
+    books.progress(fmt::format("{} in place of {}", effect->id, member.id), bar);
+    Contender other = with_effect(shop, rest, *effect, law, place, at, Effort::full);
+    const bool better = other.ok && other.score() < books.current.score() - rules::exchange &&
+                        why_implausible(*effect, law, other, at).empty();
+    if (better) fitted[i] = std::move(other);
+    return better;
+  });
+  if (first == list.size()) return std::nullopt;
+  return std::move(fitted[first]);
 }
 
 /// Which of the members takes most away from the present model, and its index.
-std::pair<std::optional<Tried>, std::size_t> largest_of(Books& books, const std::vector<Member>& members) {
+std::pair<std::optional<Tried>, std::size_t> largest_of(const Books& books, const std::vector<Member>& members) {
+  std::vector<std::optional<Tried>> all(members.size());
+  books.side_by_side(members.size(), [&](std::size_t i, const Workshop& shop) {
+    all[i] = tried_again(books, shop, books.current, members[i]);
+    return false;
+  });
   std::pair<std::optional<Tried>, std::size_t> best;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    auto t = tried_again(books, books.current, members[i]);
-    if (t && (!best.first || t->contender.score() < best.first->contender.score())) best = {std::move(t), i};
-  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (auto& t = all[i]; t && (!best.first || t->contender.score() < best.first->contender.score()))
+      best = {std::move(t), i};
   return best;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "discover/investigation.h"
 #include "discover/residual_parts.h"
@@ -46,7 +47,8 @@ void weigh(Structure& s, const ResidualParts& parts) {
   s.share_removed = excess > 0 ? std::min(1.0, s.fall_validate / excess) : 0;
 }
 
-std::optional<Structure> best_of(const Evidence& evidence, const Prediction& prediction, int output) {
+std::optional<Structure> best_of(const Evidence& evidence, const Prediction& prediction, int output,
+                                 const Threads& threads) {
   const ResidualParts parts(evidence, prediction, output);
   std::optional<Structure> best;
   const auto offer = [&](std::optional<Structure> s) {
@@ -55,12 +57,15 @@ std::optional<Structure> best_of(const Evidence& evidence, const Prediction& pre
     weigh(*best, parts);
   };
   if (parts.list().empty() || parts.beyond() <= 0) return best;
-  offer(line_in_time(parts));
+  std::vector<std::function<std::optional<Structure>()>> kinds{[&] { return line_in_time(parts); }};
   for (std::size_t level = 0; level < parts.levels().size(); ++level) {
-    offer(line_in_level(parts, level));
-    offer(kink_at_level(parts, level));
+    kinds.emplace_back([&parts, level] { return line_in_level(parts, level); });
+    kinds.emplace_back([&parts, level] { return kink_at_level(parts, level); });
   }
-  offer(jumps(parts));
+  kinds.emplace_back([&] { return jumps(parts); });
+  std::vector<std::optional<Structure>> found(kinds.size());
+  threads.each(kinds.size(), [&](std::size_t i) { found[i] = kinds[i](); });
+  for (auto& s : found) offer(std::move(s));
   // Bursts are told where nothing else holds: they say when, and explain nothing.
   if (!best || best->share_removed <= rules::structure_share) offer(bursts(parts));
   if (!best) return best;
@@ -71,10 +76,11 @@ std::optional<Structure> best_of(const Evidence& evidence, const Prediction& pre
 
 }  // namespace
 
-std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction) {
+std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction,
+                                        const Threads& threads) {
   std::optional<Structure> best;
   for (int o = 0; o < static_cast<int>(evidence.model().outputs().size()); ++o)
-    if (auto s = best_of(evidence, prediction, o); s && (!best || s->fall_validate > best->fall_validate))
+    if (auto s = best_of(evidence, prediction, o, threads); s && (!best || s->fall_validate > best->fall_validate))
       best = std::move(s);
   return best;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "discover/evidence.h"
+#include "fit/threads.h"
 
 namespace hysteron {
 
@@ -31,6 +32,7 @@ struct Structure {
 };
 
 /// The structure that removes most of the validation chi2 of this model; nothing if none removes any.
-std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction);
+std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction,
+                                        const Threads& threads = 1);
 
 }  // namespace hysteron

@@ -22,7 +22,6 @@ double tie_score(Books& books, const Tried& t, bool few) {
   if (!calibration->unseen(at).empty()) return t.contender.tie_score();
   const Contender free = with_effect(books.shop, t.contender, *calibration, calibration->laws(at).front(),
                                      places.front(), at, Effort::full);
-  books.d.model_runs += free.runs;
   return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
 }
 
@@ -41,7 +40,6 @@ void sharpen(Books& books, Tried& t) {
   if (t.sharp) return;
   t.sharp = true;
   Contender finer = refit(books.shop, t.contender, Effort::final);
-  books.d.model_runs += finer.runs;
   if (!finer.ok) return;
   finer.error_of = books.evidence->error(finer.prediction);
   t.contender = std::move(finer);

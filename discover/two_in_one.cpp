@@ -11,39 +11,41 @@
 namespace hysteron {
 namespace {
 
-/// `better` in place of `best`, if it is.
-void keep_better(std::optional<Contender>& best, Contender better) {
-  if (better.ok && (!best || better.score() < best->score())) best = std::move(better);
-}
-
-/// The effect of `mixed` on `before`, by its best law that holds no other one's.
-std::optional<Contender> by_a_plain_law(Books& books, const Contender& before, const Standing& mixed) {
-  const auto at =
-      circumstances_at(before.diagram, books.registry, *books.data, mixed.place, free_anyway(books.shop, before));
+/// Of those that could be fitted.
+std::optional<Contender> best_of(std::vector<Contender> fitted) {
   std::optional<Contender> best;
-  for (const auto& law : mixed.effect->laws(at)) {
-    if (!law.holds.empty() || books.stopped()) continue;
-    Contender plain = with_effect(books.shop, before, *mixed.effect, law, mixed.place, at, Effort::full);
-    books.d.model_runs += plain.runs;
-    keep_better(best, std::move(plain));
-  }
+  for (auto& c : fitted)
+    if (c.ok && (!best || c.score() < best->score())) best = std::move(c);
   return best;
 }
 
-/// `plain` with this effect by the best of its laws at the best of its places.
-void with_it(Books& books, const Contender& plain, const Effect& e, std::optional<Contender>& best) {
-  const auto places = places_of(e, plain.diagram, books.registry, books.data.get());
-  if (places.empty()) return;
-  const auto at = circumstances_at(plain.diagram, books.registry, *books.data, places, free_anyway(books.shop, plain));
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    if (!e.unseen(at[p]).empty()) continue;
-    for (const auto& law : e.laws(at[p])) {
-      if (books.stopped()) return;
-      Contender both = with_effect(books.shop, plain, e, law, places[p], at[p], Effort::full);
-      books.d.model_runs += both.runs;
-      if (both.ok && why_implausible(e, law, both, at[p]).empty()) keep_better(best, std::move(both));
-    }
-  }
+/// The effect of `mixed` on `before`, by its best law that holds no other one's.
+std::optional<Contender> by_a_plain_law(const Books& books, const Contender& before, const Standing& mixed) {
+  const auto at =
+      circumstances_at(before.diagram, books.registry, *books.data, mixed.place, free_anyway(books.shop, before));
+  auto laws = mixed.effect->laws(at);
+  std::erase_if(laws, [](const Law& law) { return !law.holds.empty(); });
+  std::vector<Contender> plain(laws.size());
+  books.side_by_side(laws.size(), [&](std::size_t i, const Workshop& shop) {
+    plain[i] = with_effect(shop, before, *mixed.effect, laws[i], mixed.place, at, Effort::full);
+    return false;
+  });
+  return best_of(std::move(plain));
+}
+
+/// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places.
+std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed) {
+  const auto list = choices_on(
+      books, plain, [&](const Effect& e) { return could_hold(books, mixed, e); },
+      [](const Effect& e, const Circumstances& at) { return e.laws(at); });
+  std::vector<Contender> fitted(list.size());
+  books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[i];
+    Contender both = with_effect(shop, plain, *effect, law, place, at, Effort::full);
+    if (both.ok && why_implausible(*effect, law, both, at).empty()) fitted[i] = std::move(both);
+    return false;
+  });
+  return best_of(std::move(fitted));
 }
 
 /// Is the other effect more than what the plainer law may have left of its own?
@@ -82,9 +84,7 @@ bool in_two(Books& books, Contender before, double bar) {
   before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
   const auto plain = by_a_plain_law(books, before, mixed);
   if (!plain) return false;
-  std::optional<Contender> best;
-  for (const auto& e : books.effects.list())
-    if (books.wanted(e) && could_hold(books, mixed.law, e)) with_it(books, *plain, e, best);
+  const auto best = with_a_held_one(books, *plain, mixed.law);
   return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
          tell_again(books, *best);
 }

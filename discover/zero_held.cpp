@@ -56,7 +56,6 @@ std::optional<Contender> with_the_users_zeros(Books& books) {
   c.diagram = with_parameters(c.diagram, *c.program, zeros);
   c.zero_held = true;
   c = refit(books.shop, c, Effort::full);
-  books.d.model_runs += c.runs;
   if (!c.ok) return std::nullopt;
   c.error_of = books.evidence->error(c.prediction);
   return c;

@@ -5,26 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "fit/model_content.h"
+#include "fit/threads.h"
 
 namespace hysteron {
 
+/// Each recording has its own workspaces, so who computes it cannot change its numbers.
 template <class Job>
 void DataModel::Content::side_by_side(std::span<const int> recordings, const Job& job) const {
-  const auto n = std::min<std::size_t>(static_cast<std::size_t>(std::max(1, options.threads)), recordings.size());
-  if (n <= 1) {
-    for (const int r : recordings) job(r);
-    return;
-  }
-  // Each recording has its own workspaces, so who computes it cannot change its numbers.
-  std::atomic<std::size_t> next{0};
-  std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < n; ++i)
-    threads.emplace_back([&] {
-      for (std::size_t k = next++; k < recordings.size(); k = next++) job(recordings[k]);
-    });
+  options.threads.each(recordings.size(), [&](std::size_t i) { job(recordings[i]); });
 }
 
 DataModel::DataModel(ProgramPointer program, std::shared_ptr<const DataSet> data, DataModelOptions options)
@@ -57,7 +47,7 @@ DataModel& DataModel::operator=(DataModel&&) noexcept = default;
 const Program& DataModel::program() const { return *content_->program; }
 ProgramPointer DataModel::program_pointer() const { return content_->program; }
 const DataSet& DataModel::data() const { return *content_->data; }
-int DataModel::threads() const { return content_->options.threads; }
+int DataModel::threads() const { return content_->options.threads.count(); }
 int DataModel::n_recordings() const { return static_cast<int>(content_->data->recordings.size()); }
 const Recording& DataModel::recording(int r) const { return content_->data->recordings[static_cast<std::size_t>(r)]; }
 

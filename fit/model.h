@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/program.h"
+#include "fit/threads.h"
 #include "io/dataset.h"
 
 namespace hysteron {
@@ -37,7 +38,7 @@ struct Prediction {
 };
 
 struct DataModelOptions {
-  int threads = 1;                   ///< recordings side by side; the numbers do not depend on it
+  Threads threads{};                 ///< recordings side by side; the numbers do not depend on it
   int max_substeps = 64;             ///< per row, in the mean, where rows have to be split at all
   double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)

@@ -1,15 +1,12 @@
 #include "fit/study.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "fit/study_runs.h"
+#include "fit/threads.h"
 
 namespace hysteron {
 namespace {
@@ -261,22 +258,8 @@ StudyTable compute_study(const Study& study, int threads, std::vector<std::size_
   }
   const int shards = std::max(1, study.shards);
   std::vector<StudyTable> parts(static_cast<std::size_t>(shards));
-  std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (int k = next++; k < shards; k = next++) try {
-        parts[static_cast<std::size_t>(k)] = table_of_shard(study, k, shards, wanted);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-  };
-  std::vector<std::thread> others;
-  for (int i = 1; i < std::min(threads, shards); ++i) others.emplace_back(work);
-  work();
-  for (auto& thread : others) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  Threads(threads).each(parts.size(),
+                        [&](std::size_t k) { parts[k] = table_of_shard(study, static_cast<int>(k), shards, wanted); });
 
   StudyTable all;
   all.columns.resize(wanted.size());

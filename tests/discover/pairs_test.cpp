@@ -138,6 +138,21 @@ TEST_F(Pairs, WhatActsOnBothAxesIsOneFindingAndLeavesRoomForAnother) {
   EXPECT_EQ(d.remainder, Remainder::noise);
 }
 
+TEST_F(Pairs, NothingDependsOnTheNumberOfThreads) {
+  const Law law = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer) + 0.004 * u * (1 - u); };
+  const DataSet data = measured(law, law);
+  const std::vector<std::string> only{"temperature_gain", "sensor_nonlinearity", "thermal_expansion", "ageing",
+                                      "calibration"};
+  DiscoverOptions alone, together;
+  together.threads = 3;
+  const auto one = discovered(two_axes(), data, only, alone), three = discovered(two_axes(), data, only, together);
+  EXPECT_EQ(tried(one), tried(three));
+  EXPECT_EQ(one.model_runs, three.model_runs);
+  ASSERT_EQ(one.candidates.size(), three.candidates.size());
+  for (std::size_t i = 0; i < one.candidates.size(); ++i)
+    EXPECT_EQ(one.candidates[i].score, three.candidates[i].score) << one.candidates[i].effect;
+}
+
 TEST_F(Pairs, AnEffectOfOneAxisIsNotTakenToTheOther) {
   const Law warm = [](double, double u, double warmer) { return u * (1 + 0.002 * warmer); };
   const Law curved = [](double, double u, double) { return u + 0.02 * u * (1 - u); };
