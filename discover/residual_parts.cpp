@@ -107,12 +107,18 @@ bool ResidualParts::has_train() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const ResidualPart& p) { return p.train; });
 }
 
-Vector ResidualParts::solve_on_train(const Columns& columns) const {
+ResidualParts::WhitenedColumns ResidualParts::whitened(const Columns& columns) const {
+  WhitenedColumns all;
+  for (const auto& p : parts_) all.push_back(column_matrix(p, columns));
+  return all;
+}
+
+Vector ResidualParts::solve_on_train(const WhitenedColumns& columns) const {
   Matrix normal;
   Vector right;
   for (const auto& p : parts_) {
     if (!p.train) continue;
-    const Matrix a = column_matrix(p, columns);
+    const Matrix& a = columns[index(p)];
     if (normal.size() == 0) {
       normal = Matrix::Zero(a.cols(), a.cols());
       right = Vector::Zero(a.cols());
@@ -126,12 +132,18 @@ Vector ResidualParts::solve_on_train(const Columns& columns) const {
   return scale.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(Vector(scale.asDiagonal() * right));
 }
 
-double ResidualParts::judged(const Columns& columns) const {
+double ResidualParts::judged(const Columns& columns, const WhitenedColumns& fixed) const {
   if (!has_train()) return 0;
-  const Vector c = solve_on_train(columns);
+  WhitenedColumns all = whitened(columns);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    Matrix both(all[i].rows(), fixed[i].cols() + all[i].cols());
+    both << fixed[i], all[i];
+    all[i] = std::move(both);
+  }
+  const Vector c = solve_on_train(all);
   double fall = 0;
   for (const auto& p : parts_)
-    if (!p.train) fall += p.w.squaredNorm() - (p.w - column_matrix(p, columns) * c).squaredNorm();
+    if (!p.train) fall += p.w.squaredNorm() - (p.w - all[index(p)] * c).squaredNorm();
   return fall;
 }
 
@@ -144,9 +156,9 @@ double ResidualParts::own_fall(const ResidualPart& part, const Columns& columns)
 /// A wrong gain or zero is a known effect, and would let every structure look good.
 void ResidualParts::take_off_gain_and_offset() {
   if (!has_train() || levels_.empty()) return;
-  const Vector c = solve_on_train([](const ResidualPart& p) {
+  const Vector c = solve_on_train(whitened([](const ResidualPart& p) {
     return std::vector<Rows>{Rows(p.e.size(), 1.0), p.levels.front()};
-  });
+  }));
   for (auto& p : parts_) {
     for (std::size_t k = 0; k < p.e.size(); ++k) p.e[k] -= c[0] + c[1] * p.levels.front()[k];
     p.w = whitened(p, p.e);

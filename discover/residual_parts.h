@@ -54,14 +54,18 @@ class ResidualParts {
   Rows whitened_in_time(const ResidualPart& part) const;
   /// Fall of chi2 in this part by columns with weights of its own.
   double own_fall(const ResidualPart& part, const Columns& columns) const;
-  /// Fall of chi2 on validation by columns with common weights, found on train. 0 without train recordings.
-  double judged(const Columns& columns) const;
+  /// The columns of every part, whitened.
+  using WhitenedColumns = std::vector<Eigen::MatrixXd>;
+  WhitenedColumns whitened(const Columns& columns) const;
+  /// Fall of chi2 on validation by columns with common weights, found on train; beside those of `fixed`, which are
+  /// the same in many trials, if it is not empty. 0 without train recordings.
+  double judged(const Columns& columns, const WhitenedColumns& fixed = {}) const;
 
  private:
   void read_levels(const std::vector<int>& recordings, const Prediction& with_zeros);
   void take_off_gain_and_offset();
   bool has_train() const;
-  Eigen::VectorXd solve_on_train(const Columns& columns) const;
+  Eigen::VectorXd solve_on_train(const WhitenedColumns& columns) const;
   Eigen::MatrixXd column_matrix(const ResidualPart& part, const Columns& columns) const;
   std::size_t index(const ResidualPart& p) const { return static_cast<std::size_t>(&p - parts_.data()); }
 

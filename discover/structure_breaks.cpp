@@ -104,16 +104,20 @@ std::vector<std::pair<std::size_t, std::size_t>> shaken(const Rows& z) {
 
 std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t level) {
   const Level& over = parts.levels()[level];
+  const auto line = parts.whitened([&](const Part& p) {
+    return std::vector<Rows>{Rows(p.levels[level].size(), 1.0), p.levels[level]};
+  });
   const auto fall_at = [&](double at) {
-    return parts.judged([&](const Part& p) {
+    const auto kink = [&](const Part& p) {
       const Rows& x = p.levels[level];
       Rows step(x.size()), slope(x.size());
       for (std::size_t k = 0; k < x.size(); ++k) {
         step[k] = x[k] > at ? 1.0 : 0.0;
         slope[k] = std::max(x[k] - at, 0.0);
       }
-      return std::vector<Rows>{Rows(x.size(), 1.0), x, step, slope};
-    });
+      return std::vector<Rows>{std::move(step), std::move(slope)};
+    };
+    return parts.judged(kink, line);
   };
   const double width = over.span() / 40;
   double best = 0, fall = 0;
