@@ -1,7 +1,7 @@
 // Answers a folder of cases with hidden effects (layout: README of the set; no answers needed): builds each base
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
-//   discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--threads 1] [--seconds 28] [--tell]
+//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--tell]
 //
 // Each case runs in a process of its own: one that fails costs that case only.
 #include <fmt/format.h>
@@ -35,9 +35,11 @@ using Clock = std::chrono::steady_clock;
 struct Wish {
   std::string folder, results;
   std::set<std::string> only;
-  int jobs = 2;         ///< cases at once
-  int threads = 1;      ///< of one case
-  double seconds = 28;  ///< of CPU, so that a busy machine gives the same answers: then a case ends; 0 = never
+  int jobs = 1;     ///< cases at once
+  int threads = 2;  ///< of one case
+  /// Of CPU, so that a busy machine gives the same answers: then a case ends, on two cores within thirty seconds of
+  /// the clock; 0 = never.
+  double seconds = 45;
   bool tell = false;    ///< everything that was tried
 };
 
@@ -198,7 +200,7 @@ int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
     fmt::print(stderr,
-               "discovery FOLDER RESULTS [--only 003,004] [--jobs 2] [--threads 1] [--seconds 28] [--tell]\n"
+               "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--tell]\n"
                "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }

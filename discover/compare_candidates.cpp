@@ -33,13 +33,14 @@ Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tri
   return best;
 }
 
-/// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name.
-void leave_to_calibration(std::vector<Tried>& tried) {
+/// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name; so is one
+/// that is not beyond what the laws that stand may have left.
+void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& left) {
   for (const auto& plain : tried) {
     if (plain.effect->id != "calibration" || !plain.admitted) continue;
     for (auto& t : tried) {
       if (!t.admitted || !t.effect->moves_zero) continue;
-      if (plain.contender.error_of.evidence() - t.contender.error_of.evidence() > rules::claim_fall) continue;
+      if (more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left)) continue;
       t.admitted = false;
       t.reason = "a gain and a zero alone take away as much";
     }
@@ -189,7 +190,7 @@ void compare_all(Books& books, std::vector<Tried>& tried, As as) {
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
     judge(t, books.current, left);
   }
-  leave_to_calibration(tried);
+  leave_to_calibration(tried, left);
 }
 
 void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {

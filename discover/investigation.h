@@ -91,6 +91,11 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
 bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
                           const std::vector<double>& left_by_laws);
 
+/// Does an effect whose law holds a gain and a zero besides its own take more away than these alone, which leave
+/// `straight`, and more than the laws that stand may have left?
+bool more_than_a_line(const Effect& effect, const Contender& straight, const ModelError& after,
+                      const std::vector<double>& left_by_laws);
+
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);
 

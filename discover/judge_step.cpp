@@ -131,6 +131,12 @@ bool more_than_laws_leave(const Effect& effect, const Contender& before, const M
   return fall_beyond(before.error_of, after, left_for(effect, before, left_by_laws)) >= rules::claim_fall;
 }
 
+bool more_than_a_line(const Effect& effect, const Contender& straight, const ModelError& after,
+                      const std::vector<double>& left_by_laws) {
+  return straight.error_of.evidence() - after.evidence() > rules::claim_fall &&
+         more_than_laws_leave(effect, straight, after, left_by_laws);
+}
+
 bool look_alike(const Effect& a, const Effect& b) {
   const auto names = [](const Effect& x, const Effect& y) {
     return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),

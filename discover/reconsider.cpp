@@ -120,6 +120,14 @@ bool may_stand_for(const Effect& member, const Effect& e) {
   return look_alike(member, e) || (member.moves_zero && e.family == "calibration");
 }
 
+/// `other` has a gain and a zero alone in place of the member, which holds these besides its own and takes no more.
+bool is_all_of_it(const Books& books, const Contender& rest, const Effect& member, const Effect& e,
+                  const Contender& other) {
+  return member.moves_zero && e.family == "calibration" &&
+         rest.error_of.evidence_validate - other.error_of.evidence_validate > rules::claim_fall &&
+         !more_than_a_line(member, other, books.current.error_of, left_by_laws_of(books, other));
+}
+
 /// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
 std::optional<Contender> with_a_look_alike(const Books& books, const Contender& rest, const Effect& member,
                                            double bar) {
@@ -130,8 +138,9 @@ std::optional<Contender> with_a_look_alike(const Books& books, const Contender& 
     const auto& [effect, law, place, at] = list[i];
     books.progress(fmt::format("{} in place of {}", effect->id, member.id), bar);
     Contender other = with_effect(shop, rest, *effect, law, place, at, Effort::full);
-    const bool better = other.ok && other.score() < books.current.score() - rules::exchange &&
-                        why_implausible(*effect, law, other, at).empty();
+    const bool better =
+        other.ok && why_implausible(*effect, law, other, at).empty() &&
+        (other.score() < books.current.score() - rules::exchange || is_all_of_it(books, rest, member, *effect, other));
     if (better) fitted[i] = std::move(other);
     return better;
   });

@@ -142,6 +142,18 @@ TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
   EXPECT_FALSE(more_than_laws_leave(friction, before, error(1000, 1010, 1000, 1010), {0, 900, 0, 900}));
 }
 
+TEST_F(Judging, ACurveIsWhatItTakesBeyondALine) {
+  const Effect& curve = effects.get("sensor_nonlinearity");
+  Contender straight;
+  straight.error_of = error(1000, 1090, 1000, 1090);
+  straight.standing.emplace_back().effect = effects.find("creep");
+  const ModelError after = error(1000, 1050, 1000, 1050);
+  EXPECT_TRUE(more_than_a_line(curve, straight, after, {}));
+  EXPECT_FALSE(more_than_a_line(curve, straight, error(1000, 1086, 1000, 1086), {})) << "no more than chance";
+  EXPECT_TRUE(more_than_a_line(curve, straight, after, {0, 30, 0, 30}));
+  EXPECT_FALSE(more_than_a_line(curve, straight, after, {0, 50, 0, 50})) << "no more than the creep may have left";
+}
+
 TEST_F(Judging, ARecordingTakenDownToTheNoiseIsOwnedByHalfOfIt) {
   // What the noise of a recording is nobody knows to some per cent: of 1200 over 1000 rows 1070 may be all noise.
   const std::vector<double> of_the_fast{0, 900, 0, 900};
