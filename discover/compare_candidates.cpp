@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <set>
 
 #include "discover/books.h"
@@ -118,10 +119,13 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
   return lists;
 }
 
-/// The candidate by this law, if that is better.
+/// The candidate by this law, if that is better. On top of others these are held where the simple law had them: there
+/// it was fitted together with them, and nowhere else does its refinement fit better.
 bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
-  Contender richer = with_effect(shop, books.current, *t.effect, started_from(t, law), t.place, t.circumstances,
-                                 step == 1 ? Effort::full : Effort::screen);
+  std::optional<Contender> as_found;
+  if (step > 1 && t.contender.standing.back().weights.empty()) as_found = before_last(shop, t.contender);
+  Contender richer = with_effect(shop, as_found ? *as_found : books.current, *t.effect, started_from(t, law), t.place,
+                                 t.circumstances, step == 1 ? Effort::full : Effort::screen);
   if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
     Contender together = refit(shop, richer, Effort::full);
     if (together.ok) richer = std::move(together);

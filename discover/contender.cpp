@@ -480,14 +480,19 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 
-Contender without(const Workshop& shop, const Contender& contender, std::size_t index) {
+Contender before_last(const Workshop& shop, const Contender& contender) {
+  const std::string& name = contender.standing.back().name;
   Contender c;
-  c.diagram = remove_effect(contender.diagram, contender.standing[index].name);
-  c.standing = contender.standing;
-  c.of_recordings = contender.of_recordings;
-  c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(index));
-  (void)shop;
   c.ok = true;
+  c.diagram = remove_effect(contender.diagram, name);
+  c.program = compile(c.diagram, *shop.registry);
+  c.standing = contender.standing;
+  c.standing.pop_back();
+  c.of_recordings = contender.of_recordings;
+  c.fit.estimates = contender.fit.estimates;
+  std::erase_if(c.fit.estimates, [&](const ParameterEstimate& e) { return e.path.starts_with(name + "."); });
+  c.zero_held = contender.zero_held;
+  c.parameters = contender.parameters - spent(contender, static_cast<int>(c.standing.size()));
   return c;
 }
 

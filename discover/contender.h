@@ -84,8 +84,8 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
                       const Place& place, const Circumstances& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
-/// Without the effect `index`; the others keep their values.
-Contender without(const Workshop& shop, const Contender& contender, std::size_t index);
+/// What stood before the last effect, with the values that were found together with it.
+Contender before_last(const Workshop& shop, const Contender& contender);
 
 /// The effect is a calibration: its gain and zero are free whatever else is fitted.
 bool calibrates(const Standing& standing);

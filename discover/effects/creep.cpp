@@ -149,6 +149,9 @@ Effect creep() {
       {"amplifier_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"sensor_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"dead_time", "low_frequencies", "a delay has no gain that falls with frequency"}};
+  // A creep over many decades lags by the same angle at every rate, as a loop does that knows no rate: what a chain of
+  // few relaxations leaves of it looks like that.
+  e.leaves = {"hysteresis"};
   e.family = "creep";
   e.implausible = why_no_creep;
   e.summary = creep_summary;

@@ -136,6 +136,9 @@ TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
   EXPECT_FALSE(more_than_laws_leave(creep, before, after, {0, 50, 0, 50}));
   EXPECT_TRUE(more_than_laws_leave(friction, before, after, {0, 0.5, 0, 0.5}));
   EXPECT_FALSE(more_than_laws_leave(friction, before, after, {0, 2, 0, 2})) << "elements that slip leave such";
+  // Nor need it lie where the law acts most.
+  EXPECT_TRUE(more_than_laws_leave(creep, before, after, {0, 0, 900, 0}));
+  EXPECT_FALSE(more_than_laws_leave(friction, before, after, {0, 0, 2, 0}));
   // Structure before and noise behind it is no rest of a law, but what looks like one may be.
   before.error_of = error(1000, 1600, 1000, 1600);
   EXPECT_TRUE(more_than_laws_leave(creep, before, error(1000, 1010, 1000, 1010), {0, 900, 0, 900}));
