@@ -119,6 +119,22 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
   return lists;
 }
 
+/// A fit that was broken off, or goes on in turn, is gone on with until it brings nothing: beside one that has not
+/// ended any other law looks better.
+bool fitted_to_its_end(const Workshop& shop, Tried& t) {
+  constexpr int most = 4;
+  bool better = false;
+  for (int i = 0; i < most && !(shop.stop && shop.stop()); ++i) {
+    Contender further = refit(shop, t.contender, Effort::full);
+    const double gain = further.ok ? t.contender.score() - further.score() : 0;
+    if (!(gain > 0)) break;
+    t.contender = std::move(further);
+    better = true;
+    if (gain < rules::alike) break;
+  }
+  return better;
+}
+
 /// The candidate by this law, if that is better. On top of others these are held where the simple law had them: there
 /// it was fitted together with them, and nowhere else does its refinement fit better.
 bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
@@ -130,7 +146,9 @@ bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t la
     Contender together = refit(shop, richer, Effort::full);
     if (together.ok) richer = std::move(together);
   }
-  if (!richer.ok || !(richer.score() < t.contender.score())) return false;
+  // For the same, fewer numbers are taken: a spare pole stands where a lag is not, and is in everybody's way there.
+  const double gain = t.laws[law].free.size() > t.laws[t.law].free.size() ? rules::alike : 0;
+  if (!richer.ok || !(richer.score() < t.contender.score() - gain)) return false;
   t.contender = std::move(richer);
   t.law = law;
   return true;
@@ -221,6 +239,7 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
   std::atomic<bool> any = false;
   books.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
     Tried& t = tried[order[k]];
+    if (step > 1 && !laws[k].empty() && fitted_to_its_end(shop, t)) any = true;
     for (const std::size_t law : laws[k]) {
       if (books.stopped()) break;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
