@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/advance.h"
+#include "engine/error.h"
 #include "engine/simulate.h"
 
 namespace hysteron {
@@ -15,21 +16,27 @@ std::vector<std::vector<double>> simulate_rows(const ProgramPointer& program, co
   for (std::size_t i = 0; i < inputs.size(); ++i) bind_input(*program, run, program->input_names[i], inputs[i]);
   std::optional<Advance> advance;
   if (why_not_exact(*program).empty()) advance.emplace(program, signals);
-  if (advance && !advance->integrates()) {  // states that are not linear need steps that suit them
+  const auto in_steps = [&](int substeps) {
     std::vector<std::vector<double>> values;
     AdvanceOptions options;
     options.at_rest = at_rest;
-    options.substeps = 2;  // range, holds and differences of two models need no last digit
+    options.substeps = substeps;
     (*advance)(run, t, options, values);
     return values;
-  }
+  };
+  if (advance && !advance->integrates()) return in_steps(2);  // ranges, holds and differences need no last digit
   SimulateOptions options;
   options.begin = t.front();
   options.until = t.back();
   options.instants = t;
   options.signals = signals;
   options.at_rest = at_rest;
-  return simulate(*program, run, options).values;
+  try {
+    return simulate(*program, run, options).values;  // states that are not linear need steps that suit them
+  } catch (const Error&) {
+    if (!advance) throw;
+    return in_steps(64);  // where the integrator cannot go on: a slew limit that turns within a rounding error
+  }
 }
 
 }  // namespace hysteron
