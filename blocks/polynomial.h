@@ -9,15 +9,15 @@
 namespace hysteron::blocks {
 
 struct Polynomial {
-  enum Parameter { coefficients, reference, lower, upper };
+  enum Parameter { coefficients, reference, lower, upper, about };
 
   static void describe(Declaration& d);
   static Sizes sizes(const Shape& shape);
   static std::string check(const View<double>& v);
   template <class T>
   static void output(const View<T>& v) {
-    v.out[0] = polynomial::continued(v.list(coefficients), v.parameter(reference), v.parameter(lower),
-                                     v.parameter(upper), v.u[0]);
+    v.out[0] = polynomial::continued(v.list(coefficients), v.parameter(about), v.parameter(reference),
+                                     v.parameter(lower), v.parameter(upper), v.u[0]);
   }
 };
 

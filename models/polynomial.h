@@ -22,14 +22,15 @@ Curve<T> at(std::span<const T> coefficients, const T& x) {
   return y;
 }
 
-/// The polynomial of u/reference for lower <= u <= upper, its tangents at the limits beyond: value and slope are
-/// continuous. u, reference, lower and upper in one unit; limits may be infinite.
+/// The polynomial of (u - about)/reference for lower <= u <= upper, its tangents at the limits beyond: value and slope
+/// are continuous. u, about, reference, lower and upper in one unit; limits may be infinite.
 template <class T>
-T continued(std::span<const T> coefficients, const T& reference, const T& lower, const T& upper, const T& u) {
+T continued(std::span<const T> coefficients, const T& about, const T& reference, const T& lower, const T& upper,
+            const T& u) {
   using std::max;
   using std::min;
   const T inside = max(min(u, upper), lower);
-  const Curve<T> y = at(coefficients, T{inside / reference});
+  const Curve<T> y = at(coefficients, T{(inside - about) / reference});
   return y.value + y.slope * ((u - inside) / reference);
 }
 

@@ -9,17 +9,27 @@
 namespace hysteron::effects {
 namespace {
 
-/// y = c_1 u/range + c_2 (u/range)^2 + ... of the given order, straight on beyond twice the range. What a curve is bent
-/// about is its best straight line (Fleming, section 2), whose slope the user's gain stands for: from the rest
-/// position, c_1 is free with it unless a gain behind it is; its constant is the user's zero (moves_zero).
+/// [SI] What the powers of a curve are about: zero, the rest position, where it is near what the signal does, else the
+/// middle of that. A few degrees about 300 K are no powers of a temperature: each would undo what the others do.
+double middle_of_curve(const Circumstances& at) {
+  const bool zero_is_near = at.lowest - at.range() <= 0 && at.highest + at.range() >= 0;
+  return zero_is_near ? 0 : at.unit.to_si(rounded(at.unit.from_si(0.5 * (at.lowest + at.highest))));
+}
+
+/// y = c_0 + c_1 x + c_2 x^2 + ... of the given order, x = (u - about)/range, straight on beyond twice the range. What
+/// a curve is bent about is its best straight line (Fleming, section 2), whose slope the user's gain stands for: from
+/// the rest position, c_1 is free with it unless a gain behind it is; its constant is the user's zero (moves_zero).
 Law curve(const Circumstances& at, int order) {
   Law law;
   law.name = order == 2 ? "quadratic" : order == 3 ? "cubic" : fmt::format("of order {}", order);
   law.block.type = "polynomial";
   const double range = at.range() > 0 ? at.range() : 1;
-  // The linear coefficient is the reference, rounded alike: the neutral curve is exactly u.
+  // The constant is what the powers are about and the linear coefficient is the reference, rounded alike: the neutral
+  // curve is u.
   const Number reference = with_unit(range, at.unit), zero = with_unit(0.0, at.unit);
-  NumberList coefficients{zero, reference};
+  const double about = middle_of_curve(at);
+  NumberList coefficients{about == 0 ? zero : Number{about, to_text(at.unit.dimension)}, reference};
+  if (about != 0) give(law.block, "about", level(about, at.unit));
   for (int k = 2; k <= order; ++k) coefficients.push_back(zero);
   give(law.block, "coefficients", std::move(coefficients));
   give(law.block, "reference", reference);
@@ -58,8 +68,9 @@ std::vector<Law> curves_of_sensor(const Circumstances& at) {
     if (!at.offset_is_free && at.zeros.empty()) {
       LawParameter zero;
       zero.path = element("coefficients", 0);
-      zero.lower = -0.5 * at.range();
-      zero.upper = 0.5 * at.range();
+      zero.start = middle_of_curve(at);
+      zero.lower = zero.start - 0.5 * at.range();
+      zero.upper = zero.start + 0.5 * at.range();
       law.free.push_back(zero);
     }
     laws.push_back(std::move(law));

@@ -8,6 +8,7 @@
 #include "blocks/register_all.h"
 #include "discover/discover.h"
 #include "discover/places.h"
+#include "io/diagram_file.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -73,6 +74,30 @@ TEST_F(Curves, ACurveThatIsSteepAtTheEndsTakesMoreThanACubic) {
   const Discovery d = found(seen_through(curve), {"sensor_nonlinearity"});
   ASSERT_EQ(d.steps.size(), 1u) << d.headline;
   EXPECT_EQ(d.remainder, Remainder::noise);
+}
+
+TEST_F(Curves, OfATemperatureIsAboutTheMiddleOfWhatWasMeasured) {
+  // The same bend over one kelvin about 20.5 degC: powers of 293 K could not follow it.
+  DataSet data = seen_through([](double u) {
+    const double z = 2 * u - 1;
+    return u + 0.03 * (std::sinh(2.5 * z) / std::sinh(2.5) - z);
+  });
+  for (Recording& r : data.recordings)
+    for (const char* column : {"u", "y"}) {
+      for (double& v : r.columns[column]) v += 293.15;
+      r.units[column] = parse_unit("degC");
+    }
+  Diagram bath = plain_gain();
+  bath.inputs["u"].unit = "degC";
+  bath.blocks["stage"].parameters["gain"] = Value("1 K/K");
+  DiscoverOptions options;
+  options.only = {"sensor_nonlinearity"};
+  const Discovery d = discover(bath, data, registry, effects, options);
+  ASSERT_EQ(d.steps.size(), 1u) << d.headline;
+  EXPECT_EQ(d.remainder, Remainder::noise);
+  EXPECT_NE(diagram_text(d.final_diagram).find("\"about\": \"20.5 degC\""), std::string::npos)
+      << "the middle of 20 .. 21 degC in\n"
+      << diagram_text(d.final_diagram);
 }
 
 TEST_F(Curves, OnAMeasuredWireACurveIsTheSensors) {

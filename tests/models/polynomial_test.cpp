@@ -14,8 +14,8 @@ namespace {
 constexpr double inf = std::numeric_limits<double>::infinity();
 const std::vector<double> cubic{0.5, -1, 0.25, 2};
 
-double at(double u, double lower = -inf, double upper = inf, double reference = 1) {
-  return polynomial::continued<double>(cubic, reference, lower, upper, u);
+double at(double u, double lower = -inf, double upper = inf, double reference = 1, double about = 0) {
+  return polynomial::continued<double>(cubic, about, reference, lower, upper, u);
 }
 
 TEST(PolynomialModel, IsItsSumOfPowers) {
@@ -35,9 +35,14 @@ TEST(PolynomialModel, ReferenceIsTheInputThatCountsAsOne) {
   EXPECT_NEAR(at(7, -4, 4, 2), at(3.5, -2, 2), 1e-14);
 }
 
+TEST(PolynomialModel, PowersAreAboutTheInputThatCountsAsZero) {
+  EXPECT_NEAR(at(295, -inf, inf, 2, 292), at(1.5), 1e-14);
+  EXPECT_NEAR(at(299, 288, 296, 2, 292), at(3.5, -2, 2), 1e-14);
+}
+
 TEST(PolynomialModel, SlopesAreThoseOfTheBranchInUse) {
   const std::vector<Dual> c(cubic.begin(), cubic.end());
-  const auto slope = [&](double u) { return polynomial::continued<Dual>(c, 1.0, -1.0, 1.0, Dual{u, 1}).rate; };
+  const auto slope = [&](double u) { return polynomial::continued<Dual>(c, 0.0, 1.0, -1.0, 1.0, Dual{u, 1}).rate; };
   EXPECT_NEAR(slope(0.5), -1 + 0.25 + 1.5, 1e-15);
   EXPECT_NEAR(slope(2), 5.5, 1e-15);
   EXPECT_NEAR(slope(-2), 4.5, 1e-15);
