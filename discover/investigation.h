@@ -40,6 +40,7 @@ constexpr double claim_fall =
 constexpr double agreed_fall = 2;
 constexpr double tie = 7;          ///< in evidence + 2p
 constexpr double pieces_tell = 2;  ///< standard deviations: with structure left, less is a tie (Vuong)
+constexpr double far_more = 4;     ///< times the squared error above the noise: twice the error is no tie
 /// Of the score: who needs fewer numbers for the same goes first, also where a spare one is held at a bound and not
 /// counted (a second pole of a lag beside a dead time).
 constexpr double alike = 1;

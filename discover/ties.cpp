@@ -45,9 +45,19 @@ void sharpen(Books& books, Tried& t) {
   t.contender = std::move(finer);
 }
 
+/// Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks, or
+/// if the rival leaves far more.
+bool as_imperfect(const Books& books, const Tried& rival, const Tried& winner) {
+  const double left = winner.contender.error_of.over_floor() - 1, by_rival = rival.contender.error_of.over_floor() - 1;
+  if (left + 1 <= rules::floor_gate || by_rival > rules::far_more * left) return false;
+  return std::abs(vuong(books.evidence->pieces(rival.contender.prediction),
+                        books.evidence->pieces(winner.contender.prediction))) < rules::pieces_tell;
+}
+
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner) {
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
   const Tried& w = tried[winner];
+  const bool spare_gain = few && w.effect->id != "calibration";  // beside that one the spare gain is the winner itself
   std::vector<int> ties;
   double own = w.contender.tie_score();
   bool freed = false;
@@ -57,15 +67,12 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
     if (std::find(t.effect->contains.begin(), t.effect->contains.end(), w.effect->id) != t.effect->contains.end())
       continue;
     bool tied = t.contender.tie_score() - w.contender.tie_score() < rules::tie;
-    if (!tied && few && look_alike(*t.effect, *w.effect)) {
+    if (!tied && spare_gain && look_alike(*t.effect, *w.effect)) {
       if (!freed) own = tie_score(books, w, true);
       freed = true;
       tied = tie_score(books, t, true) - own < rules::tie;
     }
-    // Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks.
-    if (!tied && w.contender.error_of.over_floor() > rules::floor_gate && look_alike(*t.effect, *w.effect))
-      tied = std::abs(vuong(books.evidence->pieces(t.contender.prediction),
-                            books.evidence->pieces(w.contender.prediction))) < rules::pieces_tell;
+    tied = tied || (look_alike(*t.effect, *w.effect) && as_imperfect(books, t, w));
     if (tied) ties.push_back(static_cast<int>(i));
   }
   return ties;

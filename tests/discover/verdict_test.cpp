@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "blocks/register_all.h"
 #include "discover/discover.h"
@@ -164,11 +165,12 @@ TEST_F(Verdicts, ALagSeenAtOneFrequencyAloneCannotBeToldFromADelayAndAnExperimen
   EXPECT_FALSE(d.experiment->text.empty());
 }
 
-/// A gain that is 2 % low, recorded in a room of one temperature throughout.
-DataSet low_gain_in_a_room_of(double kelvin) {
+/// A gain that is 2 % low, in three recordings of which each has its room.
+DataSet low_gain_in_rooms_of(const std::array<double, 3>& kelvins) {
   std::vector<Recording> list;
   std::uint64_t seed = 21;
-  for (const Role role : {Role::train, Role::train, Role::validate}) {
+  for (const double kelvin : kelvins) {
+    const Role role = list.size() < 2 ? Role::train : Role::validate;
     const auto t = rows(500, 0.02);
     const auto u = several_sines(t, 1, {0.3, 0.7 + 0.1 * static_cast<double>(list.size())});
     auto y = u;
@@ -183,6 +185,8 @@ DataSet low_gain_in_a_room_of(double kelvin) {
   d.notes["T"].to = "T";
   return d;
 }
+
+DataSet low_gain_in_a_room_of(double kelvin) { return low_gain_in_rooms_of({kelvin, kelvin, kelvin}); }
 
 TEST_F(Verdicts, AGainFoundInAHotRoomMayBeTheTemperatures) {
   // 40 degC in all recordings: nothing shows what the gain would be at another temperature.
@@ -201,6 +205,45 @@ TEST_F(Verdicts, AGainFoundInAUsualRoomIsACalibration) {
   EXPECT_EQ(to_text(usual.verdict), "missing_effect") << usual.headline;
   ASSERT_EQ(names(usual), std::vector<std::string>{"calibration"});
   EXPECT_TRUE(usual.steps.front().ties.empty());
+}
+
+TEST_F(Verdicts, AGainThatIsTheSameAtTwoTemperaturesIsACalibration) {
+  // One recording is cooler than the others and as low. After so few, look-alikes are compared with a spare gain each:
+  // beside it a gain by temperature would be the calibration again.
+  const Discovery both = found(plain_gain(), low_gain_in_rooms_of({305.15, 313.15, 313.15}));
+  EXPECT_EQ(to_text(both.verdict), "missing_effect") << both.headline;
+  ASSERT_EQ(names(both), std::vector<std::string>{"calibration"});
+  const auto other = std::find_if(both.candidates.begin(), both.candidates.end(),
+                                  [](const Candidate& c) { return c.effect == "temperature_gain"; });
+  ASSERT_NE(other, both.candidates.end());
+  EXPECT_GT(other->share_removed, 0.5) << "a rival that would be taken if there were no calibration";
+  EXPECT_TRUE(both.steps.front().ties.empty());
+}
+
+TEST_F(Verdicts, WhatLeavesTwiceTheErrorIsNoTieThoughNeitherIsRight) {
+  // A bend, and ripples over the level that no effect explains, in short strokes: the evidence lies in one piece of
+  // eight, so that no difference is steady. A knee follows the bend, not as well as a polynomial.
+  const auto stroke = [](double x) { return x < 1.25 ? 0.5 * (1 - std::cos(2 * pi * x / 1.25)) : 0.0; };
+  std::vector<Recording> list;
+  std::uint64_t seed = 41;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(1000, 0.01);
+    const auto u = sampled(t, stroke);
+    auto y = noise(t.size(), 1e-4, 0, seed);
+    for (std::size_t k = 0; k < y.size(); ++k)
+      y[k] += u[k] + 0.02 * u[k] - 0.15 * std::pow(u[k], 3) + 5e-4 * std::sin(30 * u[k]);
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
+  }
+  DiscoverOptions options;
+  options.only = {"asymmetry", "saturation"};
+  options.max_steps = 1;
+  const Discovery d = discover(plain_gain(), data_set(list, 1e-4), registry, effects, options);
+  ASSERT_EQ(names(d), std::vector<std::string>{"asymmetry"}) << d.headline;
+  const auto knee = std::find_if(d.candidates.begin(), d.candidates.end(),
+                                 [](const Candidate& c) { return c.effect == "saturation"; });
+  ASSERT_NE(knee, d.candidates.end());
+  EXPECT_GT(knee->share_removed, 0.9);
+  EXPECT_TRUE(d.steps.front().ties.empty()) << d.headline;
 }
 
 TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
