@@ -1,5 +1,6 @@
-// Decides whether a discovery begins with another effect: greedy search takes the one that explains most alone, and the
-// pair that explains everything need not hold it; nor need either of the pair be more than a patch without the other.
+// Decides whether a discovery begins with another effect, or goes on with two at once: greedy search takes the one that
+// explains most alone, and the pair that explains everything need not hold it; nor need either of the pair be more than
+// a patch without the other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,6 +43,11 @@ bool needs_both(Books& books, const Tried& first, const Tried& second, const std
   return t.admitted;
 }
 
+/// On top of a patch nobody else was: the pair is told only if nothing but noise is left.
+bool leaves_only_noise(const Books& books, const Contender& c) {
+  return books.evidence->over_usual_floor(c.prediction).all <= rules::floor_gate;
+}
+
 }  // namespace
 
 bool another_beginning(Books& books, const std::vector<Tried>& first) {
@@ -70,6 +76,31 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   if (best->score() < books.current.score() - rules::exchange && tell_again(books, *best)) return true;
   books.settle(books.current);
   return false;
+}
+
+bool two_more(Books& books, const std::vector<Tried>& last) {
+  if (books.stopped() || found_effects(books) + 2 > books.options.max_steps) return false;
+  if (leaves_only_noise(books, books.current)) return false;
+  const Contender stands = books.current;
+  std::optional<Contender> best;
+  int tried = 0;
+  for (const std::size_t i : ranking(last)) {
+    if (tried == beginnings || books.stopped()) break;
+    const Tried& t = last[i];
+    if (!t.patch) continue;
+    ++tried;
+    books.progress("two at once: " + t.effect->id, 0.9);
+    books.current = refit(books.shop, t.contender, Effort::full);
+    if (!books.current.ok) continue;
+    books.settle(books.current);
+    const auto pair = with_one_more(books, t.effect->id);
+    books.settle(books.current);
+    if (!pair || !leaves_only_noise(books, pair->contender) || !needs_both(books, t, *pair, last)) continue;
+    if (!best || pair->contender.score() < best->score()) best = pair->contender;
+  }
+  books.current = stands;
+  books.settle(books.current);
+  return best && tell_again(books, *best);
 }
 
 }  // namespace hysteron

@@ -133,6 +133,8 @@ std::optional<Experiment> experiment_between(Books& books, const Tried& a, const
 /// they were. One that no recording could show needs only to be seen.
 bool would_tell(const Experiment& experiment, bool hidden);
 
+/// A rival of the step's winner, and the experiment that would tell the two apart. Both stand last in their models.
+void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival);
 /// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
            double bar);
@@ -163,8 +165,9 @@ bool with_the_zero_held(Books& books, const std::function<bool()>& one_more);
 /// The fitted candidate becomes the present model, told as a step.
 void take(Books& books, int step, Tried& w, FoundStep found);
 /// A set that was found one by one need not hold together: what another member has made needless is taken out, and what
-/// a look-alike does better beside the others is replaced. The steps are then told anew.
-void reconsider(Books& books, double bar);
+/// a look-alike does better beside the others is replaced. The steps are then told anew. `all_at_once`: members had no
+/// steps of their own; each is asked, and look-alikes that explain the recordings as well in its place are ties.
+void reconsider(Books& books, double bar, bool all_at_once = false);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.
@@ -174,6 +177,9 @@ bool in_two(Books& books, Contender before, double bar);
 /// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better
 /// than what stands. True if there is one.
 bool another_beginning(Books& books, const std::vector<Tried>& first);
+/// Where structure is left and nobody was admitted in the `last` step: one of its patches and one more effect on it, if
+/// both together leave only noise and neither would without the other. True if there are two.
+bool two_more(Books& books, const std::vector<Tried>& last);
 /// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had.
 bool tell_again(Books& books, const Contender& set);
 

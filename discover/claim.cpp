@@ -18,6 +18,16 @@ void judge_again(Tried& w, const ModelError& before) {
 
 }  // namespace
 
+void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival) {
+  found.ties.push_back(candidate_of(rival, step));
+  auto e = experiment_between(books, winner, rival);
+  // The nearest rival first: what separates a third one best may leave the second.
+  if (!e || found.experiment_would_tell) return;
+  found.experiment_would_tell = would_tell(*e, rival.hidden);
+  if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
+    found.experiment = e;
+}
+
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
            double bar) {
   Tried& w = tried[winner];
@@ -28,16 +38,7 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
     Contender final = refit(books.shop, w.contender, Effort::final);
     if (final.ok && final.error_of.evidence() <= w.contender.error_of.evidence() + 1) w.contender = std::move(final);
   }
-  for (const int t : ties) {
-    found.ties.push_back(candidate_of(tried[static_cast<std::size_t>(t)], step));
-    const Tried& rival = tried[static_cast<std::size_t>(t)];
-    auto e = experiment_between(books, w, rival);
-    // The nearest rival first: what separates a third one best may leave the second.
-    if (!e || found.experiment_would_tell) continue;
-    found.experiment_would_tell = would_tell(*e, rival.hidden);
-    if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
-      found.experiment = e;
-  }
+  for (const int t : ties) add_tie(books, step, found, w, tried[static_cast<std::size_t>(t)]);
   take(books, step, w, std::move(found));
 }
 

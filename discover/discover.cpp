@@ -168,10 +168,15 @@ void a_wrong_zero(Books& books) {
 
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
 void one_by_one(Books& books, std::vector<Tried>& first) {
+  std::vector<Tried> last;
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     const bool go_on = step == 1 || more_than_noise(books);
-    if (go_on && one_step(books, step, As::further, step == 1 ? &first : nullptr)) continue;
+    if (go_on && one_step(books, step, As::further, step == 1 ? &first : &last)) continue;
+    if (go_on && step > 1 && two_more(books, last)) {
+      reconsider(books, 0.95, true);
+      continue;
+    }
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.
     const auto alone = untouched_outputs(books);
@@ -189,7 +194,10 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   std::vector<Tried> first;
   one_by_one(books, first);
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
-  if (another_beginning(books, first)) one_by_one(books, first);
+  if (another_beginning(books, first)) {
+    reconsider(books, 0.95, true);
+    one_by_one(books, first);
+  }
   conclude(books);
   books.d.model_runs = books.shop.notes->runs();
   return std::move(books.d);

@@ -155,11 +155,12 @@ class Finder {
       add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
   }
 
-  /// Before and behind each block with memory; where there is none, before and behind the whole chain.
+  /// Before and behind each block with memory; where the model had none before effects were added, before and behind
+  /// the whole chain: what was found says nothing about where else something may enter.
   void cores() {
     bool any = false;
     for (const auto& [name, node] : w_.diagram().blocks) {
-      if (!w_.has_memory(name) || node.in.empty() || w_.outputs_of(name).empty() ||
+      if (!node.effect.empty() || !w_.has_memory(name) || node.in.empty() || w_.outputs_of(name).empty() ||
           !w_.reaches_output(w_.outputs_of(name).front()))
         continue;
       any = true;

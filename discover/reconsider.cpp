@@ -24,11 +24,13 @@ std::vector<Member> members_of(const Contender& contender) {
   return list;
 }
 
-/// Laws by which a look-alike is tried beside others: the simplest, and those that refine none.
-std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at) {
+/// Laws by which a look-alike is tried in place of a member: the simplest, those that refine none, and the one that is
+/// called as the member's is (two curves of order 5).
+std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at, const std::string& like) {
   auto laws = effect.laws(at);
   if (!laws.empty())
-    laws.erase(std::remove_if(laws.begin() + 1, laws.end(), [](const Law& l) { return !l.apart; }), laws.end());
+    laws.erase(std::remove_if(laws.begin() + 1, laws.end(), [&](const Law& l) { return !l.apart && l.name != like; }),
+               laws.end());
   return laws;
 }
 
@@ -86,10 +88,10 @@ std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::
   return rest;
 }
 
-/// What is left without each member but the last, which was taken beside all the others.
+/// What is left without each member; without the last only if `all`, for it was taken beside the others.
 using Rests = std::vector<std::optional<Contender>>;
-Rests rests_of(const Books& books, double bar) {
-  Rests rests(books.current.standing.size() - 1);
+Rests rests_of(const Books& books, double bar, bool all) {
+  Rests rests(books.current.standing.size() - (all ? 0 : 1));
   books.side_by_side(rests.size(), [&](std::size_t i, const Workshop& shop) {
     books.progress("without " + books.current.standing[i].effect->id, bar);
     rests[i] = rest_of(books, shop, i);
@@ -128,24 +130,43 @@ bool is_all_of_it(const Books& books, const Contender& rest, const Effect& membe
          !more_than_a_line(member, other, books.current.error_of, left_by_laws_of(books, other));
 }
 
-/// `rest` with a look-alike of `member` in its place, if the recordings speak for it.
-std::optional<Contender> with_a_look_alike(const Books& books, const Contender& rest, const Effect& member,
-                                           double bar) {
+/// `rest` with a look-alike of a member in its place: one for which the recordings speak, or those that are as good.
+struct InPlace {
+  std::optional<Contender> better;
+  std::vector<Tried> as_good;
+};
+
+bool is_as_good(const Books& books, const Tried& t) {
+  return t.contender.tie_score() - books.current.tie_score() < rules::tie;
+}
+
+InPlace look_alikes_of(const Books& books, const Contender& rest, const Member& m, double bar) {
+  const Effect& member = *m.effect;
   const auto list = choices_on(
-      books, rest, [&](const Effect& e) { return may_stand_for(member, e); }, laws_to_try);
-  std::vector<Contender> fitted(list.size());
+      books, rest, [&](const Effect& e) { return may_stand_for(member, e); },
+      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law); });
+  std::vector<Tried> fitted(list.size());
   const std::size_t first = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
     books.progress(fmt::format("{} in place of {}", effect->id, member.id), bar);
-    Contender other = with_effect(shop, rest, *effect, law, place, at, Effort::full);
-    const bool better =
-        other.ok && why_implausible(*effect, law, other, at).empty() &&
-        (other.score() < books.current.score() - rules::exchange || is_all_of_it(books, rest, member, *effect, other));
-    if (better) fitted[i] = std::move(other);
-    return better;
+    Tried& t = fitted[i];
+    t.effect = effect;
+    t.place = place;
+    t.circumstances = at;
+    t.laws = {law};
+    t.contender = with_effect(shop, rest, *effect, law, place, at, Effort::full);
+    t.admitted = t.contender.ok && why_implausible(*effect, law, t.contender, at).empty();
+    return t.admitted && (t.contender.score() < books.current.score() - rules::exchange ||
+                          is_all_of_it(books, rest, member, *effect, t.contender));
   });
-  if (first == list.size()) return std::nullopt;
-  return std::move(fitted[first]);
+  InPlace found;
+  if (first < list.size()) {
+    found.better = std::move(fitted[first].contender);
+    return found;
+  }
+  std::erase_if(fitted, [&](const Tried& t) { return !t.admitted || !is_as_good(books, t); });
+  found.as_good = std::move(fitted);
+  return found;
 }
 
 /// Which of the members takes most away from the present model, and its index.
@@ -224,15 +245,39 @@ bool tell_again(Books& books, const Contender& set) {
   return false;
 }
 
-void reconsider(Books& books, double bar) {
-  Rests rests = rests_of(books, bar);
+namespace {
+
+/// What is as good in place of a member becomes a tie of its step, by name once.
+void tell_ties(Books& books, const Contender& rest, const Member& member, std::vector<Tried>& as_good) {
+  const auto step = std::find_if(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
+    return s.winner.effect == member.effect->id && s.winner.place == member.place.at;
+  });
+  if (as_good.empty() || step == books.d.steps.end() || !step->ties.empty()) return;
+  auto winner = tried_again(books, books.shop, rest, member);
+  if (!winner) return;
+  std::sort(as_good.begin(), as_good.end(),
+            [](const Tried& a, const Tried& b) { return a.contender.tie_score() < b.contender.tie_score(); });
+  for (auto& t : as_good) {
+    const auto same = [&](const Candidate& c) { return c.effect == t.effect->id; };
+    if (same(step->winner) || std::any_of(step->ties.begin(), step->ties.end(), same)) continue;
+    judge(t, rest, left_by_laws_of(books, rest));
+    add_tie(books, step->winner.step, *step, *winner, t);
+  }
+  step->sentence = step_sentence(*winner, step->ties, step->before, step->after, output_unit(books));
+}
+
+}  // namespace
+
+void reconsider(Books& books, double bar, bool all_at_once) {
+  Rests rests = rests_of(books, bar, all_at_once);
   if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
-    rests = rests_of(books, bar);
+    rests = rests_of(books, bar, all_at_once);
   const auto members = members_of(books.current);
   for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
     if (!rests[i]) continue;
-    const auto other = with_a_look_alike(books, *rests[i], *members[i].effect, bar);
-    if (other && tell_again(books, *other)) return;  // the members stand in another order now
+    auto in_place = look_alikes_of(books, *rests[i], members[i], bar);
+    if (in_place.better && tell_again(books, *in_place.better)) return;  // the members stand in another order now
+    if (all_at_once) tell_ties(books, *rests[i], members[i], in_place.as_good);
   }
 }
 

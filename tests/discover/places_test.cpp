@@ -111,6 +111,20 @@ TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
     EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
 }
 
+TEST_F(Places, WhatWasFoundDoesNotMoveWhereElseSomethingMayEnter) {
+  // Both bring a memory; the model had none, so that its core is the whole way from the drive to what is measured.
+  const auto with = [&](const char* effect, const char* at) {
+    Circumstances c;
+    c.unit = parse_unit(std::string(at) == "u" ? "V" : "um");
+    const auto& e = effects.get(effect);
+    return add_effect(linear_stage(), registry, e, e.laws(c).front(), place_at(linear_stage(), registry, at)).diagram;
+  };
+  for (const char* effect : {"asymmetry", "creep", "amplifier_lag", "sensor_nonlinearity", "backlash"}) {
+    EXPECT_EQ(where(effect, with("friction", "stage")).size(), where(effect, linear_stage()).size()) << effect;
+    EXPECT_EQ(where(effect, with("hysteresis", "u")).size(), where(effect, linear_stage()).size()) << effect;
+  }
+}
+
 /// Ageing and a gain by temperature read a second signal: that one is no place for anything.
 TEST_F(Places, BesideAnEffectThatReadsASecondSignalStayThoseOfTheSignalItself) {
   Diagram d = linear_stage();

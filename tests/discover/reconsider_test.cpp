@@ -5,6 +5,7 @@
 #include <set>
 
 #include "blocks/register_all.h"
+#include "discover/books.h"
 #include "discover/discover.h"
 #include "tests/discover/synthetic.h"
 
@@ -97,6 +98,30 @@ TEST_F(Sets, WhatStoodForGainAndZeroAloneIsACalibration) {
   });
   const Discovery d = found(data, {"hysteresis", "amplifier_lag", "calibration"});
   EXPECT_EQ(names(d), (std::set<std::string>{"amplifier_lag", "calibration"})) << d.headline;
+}
+
+TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
+  // A lag of a twentieth of a row: a delay of the same time differs from it by less than the noise. As a member of a
+  // set that was found at once it had no step in which the two were compared.
+  const DataSet data = seen_through([](const auto& u) { return behind_a_lag(u, 0.3); });
+  DiscoverOptions options;
+  options.only = {"amplifier_lag", "dead_time", "saturation"};
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, options);
+  fit_base(books);
+  auto lags = list_candidates(books, 1);
+  std::erase_if(lags, [](const Tried& t) { return t.effect->id != "amplifier_lag"; });
+  ASSERT_FALSE(lags.empty());
+  fit_candidates(books, lags, 1);
+  ASSERT_TRUE(lags.front().contender.ok);
+  ASSERT_TRUE(tell_again(books, lags.front().contender));
+  EXPECT_TRUE(books.d.steps.front().ties.empty());
+  reconsider(books, 0, true);
+  ASSERT_EQ(books.d.steps.size(), 1u);
+  ASSERT_EQ(books.d.steps.front().ties.size(), 1u) << books.d.steps.front().sentence;
+  EXPECT_EQ(books.d.steps.front().ties.front().effect, "dead_time");
+  EXPECT_TRUE(books.d.steps.front().experiment.has_value());
+  EXPECT_NE(books.d.steps.front().sentence.find("explained as well by dead_time"), std::string::npos);
 }
 
 }  // namespace
