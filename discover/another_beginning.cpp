@@ -12,6 +12,7 @@ namespace hysteron {
 namespace {
 
 constexpr int beginnings = 3;  // names that are tried in its place
+constexpr int patches = 2;     // on which another one is tried: what takes least seldom holds one of the pair
 
 /// The best admitted effect on top of the present model, fitted together with it. `begun` is none: beside that one the
 /// present effect was refused.
@@ -73,7 +74,10 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   if (!best) return false;
   books.settle(*best);
   books.current.error_of = books.evidence->error(books.current.prediction);
-  if (best->score() < books.current.score() - rules::exchange && tell_again(books, *best)) return true;
+  if (best->score() < books.current.score() - rules::exchange && tell_again(books, *best)) {
+    reconsider(books, 0.95, true);
+    return true;
+  }
   books.settle(books.current);
   return false;
 }
@@ -85,7 +89,7 @@ bool two_more(Books& books, const std::vector<Tried>& last) {
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(last)) {
-    if (tried == beginnings || books.stopped()) break;
+    if (tried == patches || books.stopped()) break;
     const Tried& t = last[i];
     if (!t.patch) continue;
     ++tried;
@@ -100,7 +104,9 @@ bool two_more(Books& books, const std::vector<Tried>& last) {
   }
   books.current = stands;
   books.settle(books.current);
-  return best && tell_again(books, *best);
+  if (!best || !tell_again(books, *best)) return false;
+  reconsider(books, 0.95, true);
+  return true;
 }
 
 }  // namespace hysteron

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <utility>
 
 #include "discover/books.h"
+#include "engine/error.h"
 
 namespace hysteron {
 namespace {
@@ -104,6 +106,24 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
 
 namespace {
 
+/// What was found stays found where the search for more fails: a model that was fitted may be one that cannot be
+/// simulated where the next effect asks for it. The answer is then false, and the failure is told.
+bool unless_it_fails(Books& books, const std::function<bool()>& search) {
+  const Contender current = books.current;
+  const Prediction before = books.before_prediction;
+  const auto steps = books.d.steps;
+  try {
+    return search();
+  } catch (const Error& e) {
+    books.current = current;
+    books.before_prediction = before;
+    books.d.steps = steps;
+    books.settle(books.current);
+    books.d.warnings.push_back(fmt::format("the search for further effects ended early: {}", e.what()));
+    return false;
+  }
+}
+
 /// False if nothing was claimed. `kept`: what was tried; `outputs`: only what moves none but these, all if empty.
 bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std::vector<std::string>& outputs = {},
               const std::vector<const Effect*>& only = {}) {
@@ -127,9 +147,12 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
     Contender before = books.current;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
-    in_two(books, std::move(before), bar(0.92));
-    on_other_outputs(books, id, tried, bar(0.93));
-    if (found_effects(books) > 1) reconsider(books, bar(0.95));
+    unless_it_fails(books, [&] {
+      in_two(books, std::move(before), bar(0.92));
+      on_other_outputs(books, id, tried, bar(0.93));
+      if (found_effects(books) > 1) reconsider(books, bar(0.95));
+      return true;
+    });
   }
   keep_candidates(books, tried, step, winner, ties);
   if (kept != nullptr) *kept = std::move(tried);
@@ -171,18 +194,21 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
   std::vector<Tried> last;
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
-    const bool go_on = step == 1 || more_than_noise(books);
-    if (go_on && one_step(books, step, As::further, step == 1 ? &first : &last)) continue;
-    if (go_on && step > 1 && two_more(books, last)) {
-      reconsider(books, 0.95, true);
+    if (step == 1) {
+      if (!one_step(books, step, As::further, &first)) break;
       continue;
     }
+    const bool more = more_than_noise(books) && unless_it_fails(books, [&] {
+                        return one_step(books, step, As::further, &last) || two_more(books, last);
+                      });
+    if (more) continue;
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.
     const auto alone = untouched_outputs(books);
-    if (step == 1 || alone.empty() || !one_step(books, step, As::first, nullptr, alone)) break;
+    if (alone.empty() || !unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); }))
+      break;
   }
-  a_wrong_zero(books);
+  unless_it_fails(books, [&] { return a_wrong_zero(books), true; });
 }
 
 }  // namespace
@@ -194,10 +220,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   std::vector<Tried> first;
   one_by_one(books, first);
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
-  if (another_beginning(books, first)) {
-    reconsider(books, 0.95, true);
-    one_by_one(books, first);
-  }
+  if (unless_it_fails(books, [&] { return another_beginning(books, first); })) one_by_one(books, first);
   conclude(books);
   books.d.model_runs = books.shop.notes->runs();
   return std::move(books.d);

@@ -7,6 +7,7 @@
 #include "blocks/register_all.h"
 #include "discover/books.h"
 #include "discover/discover.h"
+#include "engine/error.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -122,6 +123,29 @@ TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
   EXPECT_EQ(books.d.steps.front().ties.front().effect, "dead_time");
   EXPECT_TRUE(books.d.steps.front().experiment.has_value());
   EXPECT_NE(books.d.steps.front().sentence.find("explained as well by dead_time"), std::string::npos);
+}
+
+TEST_F(Sets, WhatWasFoundStaysFoundWhereTheSearchForMoreFails) {
+  const DataSet data = seen_through([](const auto& u) {
+    auto y = across_a_gap(u, 0.02);
+    for (double& v : y) v += 0.004 * v * (1 - v);
+    return y;
+  });
+  DiscoverOptions options;
+  options.only = {"backlash", "sensor_nonlinearity"};
+  ASSERT_EQ(found(data, options.only).steps.size(), 2u);
+  options.progress = [](const std::string& what, double) {
+    if (what.starts_with("step 2")) fail_numerics("numerics.step", "stage.y", "no step is small enough", "none");
+  };
+  const Discovery d = discover(plain_gain(), data, registry, effects, options);
+  ASSERT_EQ(d.steps.size(), 1u);
+  EXPECT_EQ(d.steps.front().winner.effect, "backlash");
+  EXPECT_EQ(to_text(d.verdict), "missing_effect");
+  EXPECT_NEAR(d.final_error.rms_validate, d.steps.front().after.rms_validate, 1e-12);
+  ASSERT_FALSE(d.warnings.empty());
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
+    return w.find("ended early") != std::string::npos && w.find("no step is small enough") != std::string::npos;
+  })) << d.warnings.front();
 }
 
 }  // namespace
