@@ -95,6 +95,11 @@ std::string unit_text(const Unit& unit) { return unit.text.empty() ? to_text(uni
 
 Number level(double si, const Unit& unit) { return {rounded(unit.from_si(si)), unit_text(unit)}; }
 
+Number level_within(double range, double si, const Unit& unit) {
+  const double per_unit = std::pow(10, 1 - std::floor(std::log10(std::abs(unit.difference_from_si(range)))));
+  return {std::round(unit.from_si(si) * per_unit) / per_unit + 0.0, unit_text(unit)};  // no "-0"
+}
+
 std::string stands_still(const Circumstances& at) {
   return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
 }

@@ -155,8 +155,8 @@ class Finder {
       add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
   }
 
-  /// Before and behind each block with memory; where the model had none before effects were added, before and behind
-  /// the whole chain: what was found says nothing about where else something may enter.
+  /// Before and behind each block with memory; where there is none, before and behind the whole chain. Effects that
+  /// were added do not count: what was found says nothing about where else something may enter.
   void cores() {
     bool any = false;
     for (const auto& [name, node] : w_.diagram().blocks) {

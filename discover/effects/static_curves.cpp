@@ -3,17 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
 namespace {
 
-/// [SI] What the powers of a curve are about: zero, the rest position, where it is near what the signal does, else the
-/// middle of that. A few degrees about 300 K are no powers of a temperature: each would undo what the others do.
-double middle_of_curve(const Circumstances& at) {
-  const bool zero_is_near = at.lowest - at.range() <= 0 && at.highest + at.range() >= 0;
-  return zero_is_near ? 0 : at.unit.to_si(rounded(at.unit.from_si(0.5 * (at.lowest + at.highest))));
+/// What the powers of a curve are about: the middle of what the signal does where zero, the rest position, is far from
+/// it. A few degrees about 300 K are no powers of a temperature: each would undo what the others do.
+std::optional<Number> far_from_zero(const Circumstances& at) {
+  if (at.lowest - at.range() <= 0 && at.highest + at.range() >= 0) return std::nullopt;
+  return level_within(at.range(), 0.5 * (at.lowest + at.highest), at.unit);
+}
+
+/// [SI] The constant of the neutral curve.
+double neutral_constant(const Circumstances& at) {
+  const auto middle = far_from_zero(at);
+  return middle ? at.unit.to_si(middle->value) : 0;
 }
 
 /// y = c_0 + c_1 x + c_2 x^2 + ... of the given order, x = (u - about)/range, straight on beyond twice the range. What
@@ -27,14 +34,16 @@ Law curve(const Circumstances& at, int order) {
   // The constant is what the powers are about and the linear coefficient is the reference, rounded alike: the neutral
   // curve is u.
   const Number reference = with_unit(range, at.unit), zero = with_unit(0.0, at.unit);
-  const double about = middle_of_curve(at);
-  NumberList coefficients{about == 0 ? zero : Number{about, to_text(at.unit.dimension)}, reference};
-  if (about != 0) give(law.block, "about", level(about, at.unit));
+  NumberList coefficients{zero, reference};
+  if (const auto middle = far_from_zero(at)) {
+    coefficients.front() = {neutral_constant(at), to_text(at.unit.dimension)};
+    give(law.block, "about", *middle);
+  }
   for (int k = 2; k <= order; ++k) coefficients.push_back(zero);
   give(law.block, "coefficients", std::move(coefficients));
   give(law.block, "reference", reference);
-  give(law.block, "lower", level(at.lowest - range, at.unit));
-  give(law.block, "upper", level(at.highest + range, at.unit));
+  give(law.block, "lower", level_within(range, at.lowest - range, at.unit));
+  give(law.block, "upper", level_within(range, at.highest + range, at.unit));
   for (int k = 2; k <= order; ++k) {
     LawParameter c;
     c.path = element("coefficients", k);
@@ -68,7 +77,7 @@ std::vector<Law> curves_of_sensor(const Circumstances& at) {
     if (!at.offset_is_free && at.zeros.empty()) {
       LawParameter zero;
       zero.path = element("coefficients", 0);
-      zero.start = middle_of_curve(at);
+      zero.start = neutral_constant(at);
       zero.lower = zero.start - 0.5 * at.range();
       zero.upper = zero.start + 0.5 * at.range();
       law.free.push_back(zero);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "blocks/register_all.h"
 #include "discover/discover.h"
@@ -76,28 +77,31 @@ TEST_F(Curves, ACurveThatIsSteepAtTheEndsTakesMoreThanACubic) {
   EXPECT_EQ(d.remainder, Remainder::noise);
 }
 
-TEST_F(Curves, OfATemperatureIsAboutTheMiddleOfWhatWasMeasured) {
-  // The same bend over one kelvin about 20.5 degC: powers of 293 K could not follow it.
-  DataSet data = seen_through([](double u) {
-    const double z = 2 * u - 1;
-    return u + 0.03 * (std::sinh(2.5 * z) / std::sinh(2.5) - z);
-  });
-  for (Recording& r : data.recordings)
-    for (const char* column : {"u", "y"}) {
-      for (double& v : r.columns[column]) v += 293.15;
-      r.units[column] = parse_unit("degC");
-    }
-  Diagram bath = plain_gain();
-  bath.inputs["u"].unit = "degC";
-  bath.blocks["stage"].parameters["gain"] = Value("1 K/K");
-  DiscoverOptions options;
-  options.only = {"sensor_nonlinearity"};
-  const Discovery d = discover(bath, data, registry, effects, options);
-  ASSERT_EQ(d.steps.size(), 1u) << d.headline;
-  EXPECT_EQ(d.remainder, Remainder::noise);
-  EXPECT_NE(diagram_text(d.final_diagram).find("\"about\": \"20.5 degC\""), std::string::npos)
-      << "the middle of 20 .. 21 degC in\n"
-      << diagram_text(d.final_diagram);
+TEST_F(Curves, FarFromZeroIsAboutTheMiddleOfWhatWasMeasured) {
+  // The same bend over one kelvin about 20.5 degC and 0 degC, and over one metre ten kilometres away: powers of 293 K
+  // or of 10 km could not follow it, nor could three digits say where it lies.
+  for (const auto& [offset, unit, middle] : {std::tuple{293.15, "degC", "\"about\": \"20.5 degC\""},
+                                             {272.65, "degC", "\"about\": \"0 degC\""},
+                                             {10000.0, "m", "\"about\": \"10000.5 m\""}}) {
+    DataSet data = seen_through([](double u) {
+      const double z = 2 * u - 1;
+      return u + 0.03 * (std::sinh(2.5 * z) / std::sinh(2.5) - z);
+    });
+    for (Recording& r : data.recordings)
+      for (const char* column : {"u", "y"}) {
+        for (double& v : r.columns[column]) v += offset;
+        r.units[column] = parse_unit(unit);
+      }
+    Diagram bath = plain_gain();
+    bath.inputs["u"].unit = unit;
+    bath.blocks["stage"].parameters["gain"] = Value("1");
+    DiscoverOptions options;
+    options.only = {"sensor_nonlinearity"};
+    const Discovery d = discover(bath, data, registry, effects, options);
+    ASSERT_EQ(d.steps.size(), 1u) << d.headline;
+    EXPECT_EQ(d.remainder, Remainder::noise);
+    EXPECT_NE(diagram_text(d.final_diagram).find(middle), std::string::npos) << diagram_text(d.final_diagram);
+  }
 }
 
 TEST_F(Curves, OnAMeasuredWireACurveIsTheSensors) {
