@@ -226,15 +226,15 @@ std::string diagram_schema(const Registry& registry) {
   add_head_members(properties);
   properties["parameters"] = named("numbers to which blocks refer by \"$name\"", diagram_parameter());
   properties["inputs"] =
-      named("signals from outside; they bind by name to measured columns",
-            object("an input", {{"unit", text("its unit")},
-                                {"length",
-                                 {{"type", "integer"},
-                                  {"minimum", 1},
-                                  {"description", "how many numbers it carries; they bind as u[0], u[1], ..."}}},
-                                {"remark", text("what a reader should know")}}));
+      signals("signals from outside; they bind by name to measured columns",
+              object("an input", {{"unit", text("its unit")},
+                                  {"length",
+                                   {{"type", "integer"},
+                                    {"minimum", 1},
+                                    {"description", "how many numbers it carries; they bind as u[0], u[1], ..."}}},
+                                  {"remark", text("what a reader should know")}}));
   properties["blocks"] = named("the blocks, in reading order", {{"$ref", "#/definitions/block"}});
-  properties["outputs"] = named("signals that are compared with measured columns of the same name", text("a signal"));
+  properties["outputs"] = signals("signals that are compared with measured columns of the same name", text("a signal"));
   properties["record"] = {
       {"anyOf", Json::array({text("a signal"), list_of("signals that a run writes", text("a signal"))})}};
   properties["places"] = places();

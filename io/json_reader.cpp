@@ -229,4 +229,15 @@ bool check_name(const JsonPlace& place, const std::string& name, const std::stri
   return false;
 }
 
+bool check_signal_name(const JsonPlace& place, const std::string& name, const std::string& kind) {
+  std::string small = name;
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (is_name(small)) return true;
+  place.add("bad_name",
+            fmt::format("\"{}\" cannot be the name of {}: names are letters, digits and _, a letter first", name, kind),
+            fmt::format("call it \"{}\"", tidy_name(name)));
+  return false;
+}
+
 }  // namespace hysteron

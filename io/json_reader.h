@@ -91,7 +91,9 @@ std::optional<double> number_member(const JsonPlace& object, const std::string& 
 /// Checks "format": 1. Throws at once for a newer one, since nothing else in such a file can be judged.
 void check_format(const JsonPlace& root, const std::string& kind);
 
-/// Names of blocks, parameters, inputs ... match [a-z][a-z0-9_]* (DESIGN 4.1); notes "bad_name".
+/// Names of blocks, parameters, runs ... match [a-z][a-z0-9_]* (DESIGN 4.1); notes "bad_name".
 bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind);
+/// Names of inputs and outputs may hold capital letters besides: they are those of measured columns (T, F1).
+bool check_signal_name(const JsonPlace& place, const std::string& name, const std::string& kind);
 
 }  // namespace hysteron

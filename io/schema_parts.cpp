@@ -72,6 +72,12 @@ Json named(const std::string& description, Json member) {
           {"additionalProperties", std::move(member)}};
 }
 
+Json signals(const std::string& description, Json member) {
+  Json json = named(description, std::move(member));
+  json["propertyNames"]["pattern"] = "^[A-Za-z][A-Za-z0-9_]*$";
+  return json;
+}
+
 Json head(const std::string& title, const std::string& description) {
   Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}, {"description", description}};
   Json with_unit =

@@ -22,6 +22,8 @@ Json list_of(const std::string& description, Json items);
 Json object(const std::string& description, Json properties, const std::vector<std::string>& required = {});
 /// An object whose member names match [a-z][a-z0-9_]* and whose members all look like `member`.
 Json named(const std::string& description, Json member);
+/// The same for inputs and outputs, which are called as measured columns are.
+Json signals(const std::string& description, Json member);
 
 /// The head of a schema: draft, title, and the definitions that quantity() refers to.
 Json head(const std::string& title, const std::string& description);

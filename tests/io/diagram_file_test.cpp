@@ -268,6 +268,20 @@ TEST(DiagramFile, AParameterCalledFromIsNoChoice) {
   EXPECT_TRUE(d.blocks.find("a")->from.empty());
 }
 
+TEST(DiagramFile, InputsAndOutputsMayBeCalledAsColumnsAre) {
+  // A discovery that finds an effect of the recorded column T gives the diagram an input T: it must be read again.
+  const TemporaryFolder folder;
+  folder.write("d.json",
+               R"({"format": 1, "inputs": {"T": {"unit": "degC"}}, "blocks": {"a": {"type": "pass", "in": "T"}},
+"outputs": {"F1": "a"}})");
+  const Diagram d = read_diagram(folder.path("d.json"));
+  EXPECT_EQ(d.inputs.names(), std::vector<std::string>{"T"});
+  EXPECT_EQ(*d.outputs.find("F1"), "a");
+  folder.write("again.json", diagram_text(d));
+  EXPECT_EQ(diagram_text(read_diagram(folder.path("again.json"))), diagram_text(d));
+  EXPECT_EQ(compile(d, all_blocks())->input_names, std::vector<std::string>{"T"});
+}
+
 TEST(DiagramFile, NumbersSurviveToTheLastBitWhateverTheirUnit) {
   const TemporaryFolder folder;
   Diagram d;
