@@ -75,7 +75,7 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   books.settle(*best);
   books.current.error_of = books.evidence->error(books.current.prediction);
   if (best->score() < books.current.score() - rules::exchange && tell_again(books, *best)) {
-    reconsider(books, 0.95, true);
+    reconsider(books, 0.95, Came::at_once);
     return true;
   }
   books.settle(books.current);
@@ -105,7 +105,7 @@ bool two_more(Books& books, const std::vector<Tried>& last) {
   books.current = stands;
   books.settle(books.current);
   if (!best || !tell_again(books, *best)) return false;
-  reconsider(books, 0.95, true);
+  reconsider(books, 0.95, Came::at_once);
   return true;
 }
 

@@ -49,6 +49,19 @@ struct Books {
   mutable std::mutex telling_;
 };
 
+/// What was found so far, to go back to.
+class Found {
+ public:
+  explicit Found(const Books& books);
+  void restore(Books& books) const;
+
+ private:
+  Contender current_;
+  Prediction before_prediction_;
+  std::vector<FoundStep> steps_;
+  std::vector<Candidate> candidates_;
+};
+
 /// Fits the user's model and settles the noise. Throws Error where a role is missing or the model cannot be simulated.
 void fit_base(Books& books);
 
@@ -164,10 +177,12 @@ bool with_the_zero_held(Books& books, const std::function<bool()>& one_more);
 
 /// The fitted candidate becomes the present model, told as a step.
 void take(Books& books, int step, Tried& w, FoundStep found);
+/// How the members of a set were found: each in a step of its own, or together.
+enum class Came { one_by_one, at_once };
 /// A set that was found one by one need not hold together: what another member has made needless is taken out, and what
-/// a look-alike does better beside the others is replaced. The steps are then told anew. `all_at_once`: members had no
-/// steps of their own; each is asked, and look-alikes that explain the recordings as well in its place are ties.
-void reconsider(Books& books, double bar, bool all_at_once = false);
+/// a look-alike does better beside the others is replaced. The steps are then told anew. Members that came at once were
+/// compared with nobody: each is asked, and look-alikes that explain the recordings as well in its place are ties.
+void reconsider(Books& books, double bar, Came came = Came::one_by_one);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.

@@ -79,6 +79,20 @@ void Books::settle(Contender& best) {
   best.error_of = evidence->error(best.prediction);
 }
 
+Found::Found(const Books& books)
+    : current_(books.current),
+      before_prediction_(books.before_prediction),
+      steps_(books.d.steps),
+      candidates_(books.d.candidates) {}
+
+void Found::restore(Books& books) const {
+  books.current = current_;
+  books.before_prediction = before_prediction_;
+  books.d.steps = steps_;
+  books.d.candidates = candidates_;
+  books.settle(books.current);
+}
+
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
   books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
@@ -109,17 +123,14 @@ namespace {
 /// What was found stays found where the search for more fails: a model that was fitted may be one that cannot be
 /// simulated where the next effect asks for it. The answer is then false, and the failure is told.
 bool unless_it_fails(Books& books, const std::function<bool()>& search) {
-  const Contender current = books.current;
-  const Prediction before = books.before_prediction;
-  const auto steps = books.d.steps;
+  const Found found(books);
   try {
     return search();
   } catch (const Error& e) {
-    books.current = current;
-    books.before_prediction = before;
-    books.d.steps = steps;
-    books.settle(books.current);
-    books.d.warnings.push_back(fmt::format("the search for further effects ended early: {}", e.what()));
+    found.restore(books);
+    auto& told = books.d.warnings;
+    const std::string early = fmt::format("the search for further effects ended early: {}", e.what());
+    if (std::find(told.begin(), told.end(), early) == told.end()) told.push_back(early);
     return false;
   }
 }

@@ -268,7 +268,8 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
 
 }  // namespace
 
-void reconsider(Books& books, double bar, bool all_at_once) {
+void reconsider(Books& books, double bar, Came came) {
+  const bool all_at_once = came == Came::at_once;
   Rests rests = rests_of(books, bar, all_at_once);
   if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
     rests = rests_of(books, bar, all_at_once);

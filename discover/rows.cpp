@@ -6,6 +6,7 @@
 #include "engine/advance.h"
 #include "engine/error.h"
 #include "engine/simulate.h"
+#include "fit/model.h"
 
 namespace hysteron {
 
@@ -33,9 +34,11 @@ std::vector<std::vector<double>> simulate_rows(const ProgramPointer& program, co
   options.at_rest = at_rest;
   try {
     return simulate(*program, run, options).values;  // states that are not linear need steps that suit them
-  } catch (const Error&) {
-    if (!advance) throw;
-    return in_steps(64);  // where the integrator cannot go on: a slew limit that turns within a rounding error
+  } catch (const Error& e) {
+    // The integrator cannot go on: a slew limit that turns within a rounding error. Steps as fine as a fit takes at
+    // most.
+    if (!advance || e.fault != Fault::numerics) throw;
+    return in_steps(DataModelOptions().max_substeps);
   }
 }
 

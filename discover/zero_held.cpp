@@ -89,16 +89,9 @@ int calibration_first(const std::vector<Tried>& tried, int winner) {
 bool with_the_zero_held(Books& books, const std::function<bool()>& one_more) {
   const auto laws = with_the_users_zeros(books);
   if (!laws) return false;
-  const Contender current = books.current;
-  const auto steps = books.d.steps;
-  const auto candidates = books.d.candidates;
-  const Prediction before = books.before_prediction;
+  const Found found(books);
   if (tell_again(books, *laws) && one_more() && !owes_its_zero(books.current)) return true;
-  books.current = current;
-  books.d.steps = steps;
-  books.d.candidates = candidates;
-  books.before_prediction = before;
-  books.settle(books.current);
+  found.restore(books);
   return false;
 }
 

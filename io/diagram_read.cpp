@@ -66,7 +66,7 @@ class DiagramReader {
                 });
     for_members(root, "outputs", "{\"y\": \"stage.displacement\"}",
                 [&](const std::string& name, const JsonPlace& place) {
-                  if (!check_signal_name(place, name, "an output")) return;
+                  if (!check_name(place, name, "an output", Capitals::allowed)) return;
                   if (auto signal = place.text()) diagram_.outputs[name] = *signal;
                 });
     if (const auto list = root.find("record")) diagram_.record = texts(*list, "[\"drive\", \"stage.displacement\"]");
@@ -121,7 +121,7 @@ class DiagramReader {
   }
 
   void input(const std::string& name, const JsonPlace& place) {
-    if (!check_signal_name(place, name, "an input") || !place.expect_object("{\"unit\": \"V\"}")) return;
+    if (!check_name(place, name, "an input", Capitals::allowed) || !place.expect_object("{\"unit\": \"V\"}")) return;
     place.only({"unit", "length", "remark"});
     diagram_.inputs[name] = {text_member(place, "unit"), text_member(place, "remark"), length_member(place)};
   }

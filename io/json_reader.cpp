@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -57,11 +58,12 @@ Json parse(const std::string& file, const std::string& text) {
   }
 }
 
-bool is_name(const std::string& name) {
-  if (name.empty() || name[0] < 'a' || name[0] > 'z') return false;
-  for (const char c : name)
-    if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_')) return false;
-  return true;
+bool is_letter(char c, bool capitals) { return (c >= 'a' && c <= 'z') || (capitals && c >= 'A' && c <= 'Z'); }
+
+bool is_name(const std::string& name, bool capitals) {
+  return !name.empty() && is_letter(name[0], capitals) && std::all_of(name.begin(), name.end(), [&](char c) {
+    return is_letter(c, capitals) || (c >= '0' && c <= '9') || c == '_';
+  });
 }
 
 /// The nearest allowed name: lower case, everything else an underscore.
@@ -220,22 +222,11 @@ void check_format(const JsonPlace& root, const std::string& kind) {
                fmt::format("write \"format\": {}", newest_format));
 }
 
-bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind) {
-  if (is_name(name)) return true;
+bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind, Capitals capitals) {
+  if (is_name(name, capitals == Capitals::allowed)) return true;
   place.add("bad_name",
-            fmt::format("\"{}\" cannot be the name of {}: names are lower-case letters, digits and _, a letter first",
-                        name, kind),
-            fmt::format("call it \"{}\"", tidy_name(name)));
-  return false;
-}
-
-bool check_signal_name(const JsonPlace& place, const std::string& name, const std::string& kind) {
-  std::string small = name;
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  if (is_name(small)) return true;
-  place.add("bad_name",
-            fmt::format("\"{}\" cannot be the name of {}: names are letters, digits and _, a letter first", name, kind),
+            fmt::format("\"{}\" cannot be the name of {}: names are {}letters, digits and _, a letter first", name,
+                        kind, capitals == Capitals::allowed ? "" : "lower-case "),
             fmt::format("call it \"{}\"", tidy_name(name)));
   return false;
 }

@@ -91,9 +91,10 @@ std::optional<double> number_member(const JsonPlace& object, const std::string& 
 /// Checks "format": 1. Throws at once for a newer one, since nothing else in such a file can be judged.
 void check_format(const JsonPlace& root, const std::string& kind);
 
+/// Names of inputs and outputs may hold capital letters: they are those of measured columns (T, F1).
+enum class Capitals { none, allowed };
 /// Names of blocks, parameters, runs ... match [a-z][a-z0-9_]* (DESIGN 4.1); notes "bad_name".
-bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind);
-/// Names of inputs and outputs may hold capital letters besides: they are those of measured columns (T, F1).
-bool check_signal_name(const JsonPlace& place, const std::string& name, const std::string& kind);
+bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind,
+                Capitals capitals = Capitals::none);
 
 }  // namespace hysteron

@@ -59,7 +59,7 @@ const T* written(const Law& law, const char* parameter) {
 std::string unit_text(const Unit& unit);
 /// A level [SI], not a difference, as a parameter in `unit`: 20 degC stays 20 degC.
 Number level(double si, const Unit& unit);
-/// The same, rounded to a few hundredths of the `range` [SI] that the signal has, however far that is from zero.
+/// The same, rounded to a few hundredths of the `range` [SI, > 0] that the signal has, however far that is from zero.
 Number level_within(double range, double si, const Unit& unit);
 /// [K] A room in which a device is usually calibrated, 20 .. 25 degC: of it what is nearest to `temperature`.
 double usual_room(double temperature);

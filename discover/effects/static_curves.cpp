@@ -13,7 +13,7 @@ namespace {
 /// What the powers of a curve are about: the middle of what the signal does where zero, the rest position, is far from
 /// it. A few degrees about 300 K are no powers of a temperature: each would undo what the others do.
 std::optional<Number> far_from_zero(const Circumstances& at) {
-  if (at.lowest - at.range() <= 0 && at.highest + at.range() >= 0) return std::nullopt;
+  if (at.range() <= 0 || (at.lowest - at.range() <= 0 && at.highest + at.range() >= 0)) return std::nullopt;
   return level_within(at.range(), 0.5 * (at.lowest + at.highest), at.unit);
 }
 

@@ -104,6 +104,20 @@ TEST_F(Curves, FarFromZeroIsAboutTheMiddleOfWhatWasMeasured) {
   }
 }
 
+TEST_F(Curves, OfASignalThatDoesNotMoveHasNumbersAllTheSame) {
+  Circumstances still;
+  still.lowest = still.highest = 5;
+  for (const auto& law : effects.get("asymmetry").laws(still)) {
+    for (const char* limit : {"lower", "upper"}) {
+      const Value* value = law.block.parameters.find(limit);
+      ASSERT_NE(value, nullptr) << law.name;
+      EXPECT_TRUE(std::isfinite(std::get<Number>(value->content).value)) << law.name << " " << limit;
+    }
+    const Value* about = law.block.parameters.find("about");
+    EXPECT_TRUE(about == nullptr || std::isfinite(std::get<Number>(about->content).value)) << law.name;
+  }
+}
+
 TEST_F(Curves, OnAMeasuredWireACurveIsTheSensors) {
   const auto at = [&](const char* effect) {
     std::vector<std::string> list;

@@ -117,7 +117,7 @@ TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
   ASSERT_TRUE(lags.front().contender.ok);
   ASSERT_TRUE(tell_again(books, lags.front().contender));
   EXPECT_TRUE(books.d.steps.front().ties.empty());
-  reconsider(books, 0, true);
+  reconsider(books, 0, Came::at_once);
   ASSERT_EQ(books.d.steps.size(), 1u);
   ASSERT_EQ(books.d.steps.front().ties.size(), 1u) << books.d.steps.front().sentence;
   EXPECT_EQ(books.d.steps.front().ties.front().effect, "dead_time");
