@@ -54,7 +54,7 @@ bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, 
   return std::any_of(outputs.begin(), outputs.end(), [&](int o) {
     const auto here = std::find(judged.begin(), judged.end(), c.program->output_names[static_cast<std::size_t>(o)]);
     return here != judged.end() &&
-           shop.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out != nullptr;
+           shop.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out.any();
   });
 }
 
@@ -271,7 +271,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   FitResult before = std::move(c.fit);
   const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
   if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
-    for (auto& o : noise.outputs) o.left_out.reset();
+    for (auto& o : noise.outputs) o.left_out = {};
   const bool again = effort == Effort::full && fresh < 0;
   const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
   if (again) options.known_derivatives = shop.notes->derivatives_of(name);

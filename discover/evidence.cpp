@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "fit/dense.h"
 #include "fit/whiten.h"
 
 namespace hysteron {
@@ -76,23 +77,22 @@ Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fi
     if (base_.recording(r).role != Role::test) recordings_.push_back(r);
 }
 
-void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines) { lines_ = std::move(lines); }
-
-void Evidence::leave_lines_out(NoiseModel& noise, NoiseModel& beside) const {
-  for (std::size_t o = 0; o < lines_.size(); ++o) {
-    if (!lines_[o]) continue;
-    const NoiseOfOutput& n = noise.outputs[o];
-    auto wandering = std::make_shared<std::vector<Dense>>(), all = std::make_shared<std::vector<Dense>>();
+void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines) {
+  lines.resize(base_.outputs().size());
+  lines_.resize(lines.size());
+  spans_.resize(lines.size());
+  for (std::size_t o = 0; o < lines.size(); ++o) {
+    if (lines[o] == lines_[o]) continue;
+    spans_[o].reset();
+    if (!lines[o]) continue;
+    auto of_recordings = std::make_shared<std::vector<LineSpan>>();
     for (int r = 0; r < base_.n_recordings(); ++r) {
-      const std::size_t rows = base_.measured(r, static_cast<int>(o)).size();
-      const Whitener whitener(rows, n.white, n.one_over_f, base_.zero_per_recording(static_cast<int>(o)));
-      auto columns = rows > 0 ? line_columns(base_.times(r), *lines_[o], whitener) : LineColumns();
-      all->push_back(side_by_side(columns.steady, columns.wandering));
-      wandering->push_back(std::move(columns.wandering));
+      const bool measured = !base_.measured(r, static_cast<int>(o)).empty();
+      of_recordings->push_back(measured ? LineSpan(base_.times(r), *lines[o]) : LineSpan());
     }
-    noise.outputs[o].left_out = std::move(wandering);
-    beside.outputs[o].left_out = std::move(all);
+    spans_[o] = std::move(of_recordings);
   }
+  lines_ = std::move(lines);
 }
 
 void Evidence::settle(const Prediction& best) {
@@ -102,7 +102,10 @@ void Evidence::settle(const Prediction& best) {
   beside_lines_.reset();
   if (std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); })) {
     NoiseModel beside = noise;
-    leave_lines_out(noise, beside);
+    for (std::size_t o = 0; o < spans_.size(); ++o) {
+      noise.outputs[o].left_out = {spans_[o], LineSpan::Part::wandering};
+      beside.outputs[o].left_out = {spans_[o], LineSpan::Part::all};
+    }
     beside_lines_.emplace(base_, std::move(beside));
   }
   judge_.emplace(base_, std::move(noise));
@@ -244,7 +247,7 @@ std::vector<double> Evidence::chi2_beside_lines(const Prediction& prediction) co
 std::vector<double> Evidence::wandering(const Prediction& prediction) const {
   if (!beside_lines_) return std::vector<double>(base_.outputs().size(), 0.0);
   NoiseModel all = noise();
-  for (auto& o : all.outputs) o.left_out.reset();
+  for (auto& o : all.outputs) o.left_out = {};
   const Judge with_it(base_, all);
   std::vector<double> squares(all.outputs.size(), 0.0), n(all.outputs.size(), 0.0);
   for (const int r : recordings_) {

@@ -2,6 +2,7 @@
 // means. Does not fit and does not choose.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -117,8 +118,6 @@ class Evidence {
     bool zero_is_free = false;
   };
   std::vector<Slice> slices(int recording) const;
-  /// Takes how known lines wander out of `noise`, and all that they may be out of `beside`.
-  void leave_lines_out(NoiseModel& noise, NoiseModel& beside) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 
@@ -129,8 +128,9 @@ class Evidence {
   std::vector<int> recordings_;
   bool known_ = true;
   std::vector<std::optional<WanderingLine>> lines_;
-  double per_chi2_ = 1;   ///< evidence per unit of chi2
-  double witnesses_ = 0;  ///< independent ones
+  std::vector<std::shared_ptr<const std::vector<LineSpan>>> spans_;  ///< of these, by the recording
+  double per_chi2_ = 1;                                              ///< evidence per unit of chi2
+  double witnesses_ = 0;                                             ///< independent ones
 };
 
 /// Vuong's test of two models that need not be right (Econometrica 57 (1989) 307): how many standard deviations the

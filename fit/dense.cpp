@@ -81,13 +81,6 @@ Dense orthonormal_basis(const Dense& a, double tolerance) {
   }
 }
 
-Dense side_by_side(Dense a, const Dense& b) {
-  if (a.cols == 0) return b;
-  a.a.insert(a.a.end(), b.a.begin(), b.a.end());
-  a.cols += b.cols;
-  return a;
-}
-
 void clear_of(const Dense& q, double* x) {
   // The columns are orthonormal, so taking them out one after the other is the same and keeps rounding smaller.
   for (std::size_t j = 0; j < q.cols; ++j) {

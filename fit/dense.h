@@ -39,9 +39,6 @@ MinimumNorm minimum_norm(const Dense& a, std::span<const double> b, double toler
 /// Orthonormal basis of the columns of `a`, each first scaled to length one; dependent ones are left out.
 Dense orthonormal_basis(const Dense& a, double tolerance);
 
-/// The columns of `a`, then those of `b`, of as many rows; one without columns may have any number of them.
-Dense side_by_side(Dense a, const Dense& b);
-
 /// x - Q Q' x for orthonormal columns Q; x has q.rows numbers.
 void clear_of(const Dense& q, double* x);
 

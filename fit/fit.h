@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/diagram.h"
+#include "fit/dense.h"
 #include "fit/free_parameter.h"
 #include "fit/global.h"
 #include "fit/model.h"

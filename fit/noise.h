@@ -2,13 +2,12 @@
 // alone. Does not whiten (whiten.h).
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fit/dense.h"
 #include "fit/model.h"
+#include "fit/wander.h"
 
 namespace hysteron {
 
@@ -28,9 +27,7 @@ struct NoiseOfOutput {
   bool share_is_stated = false;  ///< by the data set
   bool share_estimated = false;  ///< from a residual (colour.h)
   std::string remark{};          ///< what the user must be told of it; "" = nothing
-  /// Per recording, whitened by frequency, each of orthonormal columns: what is no evidence of anything, such as the
-  /// wandering of a known line (wander.h). Taken out of all that is whitened; null: nothing.
-  std::shared_ptr<const std::vector<Dense>> left_out{};
+  LeftOut left_out{};            ///< how a known line wanders: taken out of all that is whitened
   bool white_is_stated() const { return source == NoiseSource::data_sheet || source == NoiseSource::corrected; }
 };
 

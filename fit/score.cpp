@@ -61,8 +61,7 @@ Judge::Judge(const DataModel& model, const NoiseModel& noise, Whitener::Order or
     std::vector<Whitener> list;
     for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o) {
       const auto& n = noise.outputs[static_cast<std::size_t>(o)];
-      list.emplace_back(model.measured(r, o).size(), n.white, n.one_over_f, model.zero_per_recording(o),
-                        n.left_out ? Whitener::Order::by_frequency : order);
+      list.emplace_back(model.measured(r, o).size(), n.white, n.one_over_f, model.zero_per_recording(o), order);
     }
     whiteners_.push_back(std::move(list));
     root_weight_.push_back(std::sqrt(model.recording(r).weight));
@@ -80,9 +79,13 @@ void Judge::whiten(int recording, const std::vector<Rows>& rows, double* out) co
   const double weight = root_weight_[static_cast<std::size_t>(recording)];
   for (std::size_t o = 0; o < list.size(); ++o) {
     const std::size_t n = list[o].size();
-    list[o].apply(rows[o], out);
-    if (const auto& left_out = noise_.outputs[o].left_out; left_out && n > 0)
-      clear_of((*left_out)[static_cast<std::size_t>(recording)], out);
+    if (const LeftOut& left_out = noise_.outputs[o].left_out; left_out.any()) {
+      Rows cleared = rows[o];
+      left_out.take_out(static_cast<std::size_t>(recording), cleared);
+      list[o].apply(cleared, out);
+    } else {
+      list[o].apply(rows[o], out);
+    }
     for (std::size_t i = 0; i < n && weight != 1; ++i) out[i] *= weight;
     out += n;
   }

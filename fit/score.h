@@ -36,7 +36,6 @@ struct Score {
 /// The whitening filters of a data model with one noise model. Made once per fit, used for every trial.
 class Judge {
  public:
-  /// `order` of what is whitened; an output of which something is left out (NoiseOfOutput) is by frequency anyway.
   Judge(const DataModel& model, const NoiseModel& noise, Whitener::Order order = Whitener::Order::any);
 
   const NoiseModel& noise() const { return noise_; }

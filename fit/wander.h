@@ -2,10 +2,11 @@
 // slowly. Does not find lines (interference.h) and does not decide whose they are. Internal to fit/ and discover/.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
-
-#include "fit/dense.h"
-#include "fit/whiten.h"
+#include <vector>
 
 namespace hysteron {
 
@@ -13,17 +14,54 @@ namespace hysteron {
 struct WanderingLine {
   double frequency = 0;  ///< [Hz]
   int harmonics = 1;     ///< the line itself counts
+  bool operator==(const WanderingLine&) const = default;
 };
 
-/// Whitened, orthonormal columns; none where rows are too few for two knots.
-struct LineColumns {
-  Dense steady;     ///< a line of exactly this frequency, which a model that has one keeps
-  Dense wandering;  ///< what else it may be, orthogonal to that
+/// All that one such line may be in the rows of one recording, and how it is taken out of them. A knot every two
+/// seconds: a mains 8 mHz off its mean frequency turns by a tenth of a radian in that time, which straight lines follow
+/// to a few per mille. Fewer where rows are few: at most a twentieth of them are given away, and with them no more of
+/// what another effect takes away; none where there are too few for two knots.
+/// Rows are cleared before they are whitened: noise is as white as can be about a line, and between knots each row
+/// belongs to two of them only, so that hours of a recording cost what its rows cost.
+class LineSpan {
+ public:
+  enum class Part {
+    wandering,  ///< what the line may be beside a steady one, which a model that has one keeps
+    all
+  };
+  LineSpan() = default;
+  /// `t`: times of the rows [s], rising.
+  LineSpan(std::span<const double> t, const WanderingLine& line);
+
+  std::size_t knots() const { return knots_; }  ///< 0: nothing is taken out
+  /// Least squares, in place; as many rows as the recording has.
+  void take_out(std::span<double> rows, Part part) const;
+
+ private:
+  struct Factor;
+  void make_factors();
+
+  std::size_t waves_ = 0, knots_ = 0;  ///< waves: a cosine and a sine of each harmonic
+  std::vector<double> wave_;           ///< [row][wave]
+  std::vector<std::size_t> knot_;      ///< of each row, the one before it
+  std::vector<double> beyond_;         ///< of each row, the part of the way to the next one
+  std::shared_ptr<const Factor> moving_, steady_;
 };
 
-/// What such a line may be in rows at t [s]. A knot every two seconds: a mains 8 mHz off its mean frequency turns by a
-/// tenth of a radian in that time, which straight lines follow to a few per mille. Fewer where rows are few: at most a
-/// twentieth of them are given away, and with them no more of what another effect takes away.
-LineColumns line_columns(std::span<const double> t, const WanderingLine& line, const Whitener& whitener);
+/// What is no evidence of anything in the rows of one output.
+class LeftOut {
+ public:
+  LeftOut() = default;
+  LeftOut(std::shared_ptr<const std::vector<LineSpan>> of_recordings, LineSpan::Part part)
+      : lines_(std::move(of_recordings)), part_(part) {}
+  bool any() const { return lines_ != nullptr; }
+  void take_out(std::size_t recording, std::span<double> rows) const {
+    if (any()) (*lines_)[recording].take_out(rows, part_);
+  }
+
+ private:
+  std::shared_ptr<const std::vector<LineSpan>> lines_;
+  LineSpan::Part part_ = LineSpan::Part::wandering;
+};
 
 }  // namespace hysteron

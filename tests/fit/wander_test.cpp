@@ -21,20 +21,23 @@ std::vector<double> times() {
   return t;
 }
 
-enum class Part { wandering, all };
+using Part = LineSpan::Part;
 
-/// Share of the squares of a signal that is left, whitened against white and a little 1/f noise.
+double squares_of(const std::vector<double>& rows) {
+  double sum = 0;
+  for (const double x : rows) sum += x * x;
+  return sum;
+}
+
+/// Share of the squares of a signal that is left.
 double left_of(const std::function<double(double)>& signal, int harmonics = 1, Part part = Part::wandering) {
-  const Whitener whitener(n, 0.1, 0.3, false);
   const auto t = times();
-  const LineColumns columns = line_columns(t, {hertz, harmonics}, whitener);
-  std::vector<double> rows, w(whitener.size());
+  const LineSpan span(t, {hertz, harmonics});
+  std::vector<double> rows;
   for (const double x : t) rows.push_back(signal(x));
-  whitener.apply(rows, w.data());
-  const double before = dot(w.data(), w.data(), w.size());
-  clear_of(columns.wandering, w.data());
-  if (part == Part::all) clear_of(columns.steady, w.data());
-  return dot(w.data(), w.data(), w.size()) / before;
+  const double before = squares_of(rows);
+  span.take_out(rows, part);
+  return squares_of(rows) / before;
 }
 
 double line(double t, double phase) { return std::sin(2 * pi * hertz * t + phase); }
@@ -74,13 +77,61 @@ TEST(Wander, OtherSignalsStay) {
 
 TEST(Wander, FewRowsAreNotGivenAway) {
   const auto t = times();
-  const std::span<const double> few = std::span(t).first(70);
-  const auto of_few = line_columns(few, {hertz, 1}, Whitener(70, 1, 0.3, false));
-  EXPECT_EQ(of_few.steady.cols + of_few.wandering.cols, 0u);
-  const Whitener all(n, 1, 0, true, Whitener::Order::any);
-  EXPECT_EQ(line_columns(t, {hertz, 1}, all).wandering.cols, 2 * (6 - 1))
-      << "six knots of two waves, less the steady line";
-  EXPECT_EQ(line_columns({}, {hertz, 1}, Whitener()).wandering.cols, 0u);
+  EXPECT_EQ(LineSpan(std::span(t).first(70), {hertz, 1}).knots(), 0u);
+  EXPECT_EQ(LineSpan({}, {hertz, 1}).knots(), 0u);
+  EXPECT_EQ(LineSpan(std::span(t).first(1), {hertz, 1}).knots(), 0u);
+  std::vector<double> rows(70, 1.0);
+  LineSpan(std::span(t).first(70), {hertz, 1}).take_out(rows, Part::all);
+  EXPECT_EQ(rows, std::vector<double>(70, 1.0));
+}
+
+TEST(Wander, ItTakesAsManyNumbersAsItHas) {
+  // The squares that a projection takes from all unit rows together are the number of its dimensions.
+  const auto t = times();
+  const LineSpan span(t, {hertz, 1});
+  EXPECT_EQ(span.knots(), 6u);
+  double of_all = 0, of_wandering = 0;
+  std::vector<double> rows(n);
+  for (std::size_t i = 0; i < n; i += 1)
+    for (const Part part : {Part::all, Part::wandering}) {
+      std::fill(rows.begin(), rows.end(), 0.0);
+      rows[i] = 1;
+      span.take_out(rows, part);
+      (part == Part::all ? of_all : of_wandering) += 1 - squares_of(rows);
+    }
+  EXPECT_NEAR(of_all, 12, 1e-6) << "two waves at six knots";
+  EXPECT_NEAR(of_wandering, 10, 1e-6) << "less the steady line";
+}
+
+TEST(Wander, WhatWasTakenOutIsGone) {
+  const auto t = times();
+  const LineSpan span(t, {hertz, 2});
+  std::vector<double> rows;
+  for (const double x : t) rows.push_back(line(x, 0.1) * std::cos(x) + std::sin(7 * x));
+  span.take_out(rows, Part::all);
+  auto again = rows;
+  span.take_out(again, Part::all);
+  for (std::size_t i = 0; i < n; ++i) ASSERT_NEAR(again[i], rows[i], 1e-9);
+}
+
+TEST(Wander, ALineAtHalfTheSamplingHasNoSine) {
+  std::vector<double> t, rows;
+  for (int i = 0; i < 2000; ++i) {
+    t.push_back(0.01 * i);
+    rows.push_back(i % 2 == 0 ? 1 + 0.01 * i : -1 - 0.01 * i);
+  }
+  const double before = squares_of(rows);
+  LineSpan(t, {50, 1}).take_out(rows, Part::all);
+  EXPECT_LT(squares_of(rows), 1e-12 * before);
+}
+
+TEST(Wander, RowsNeedNotBeEven) {
+  std::vector<double> t, rows;
+  for (int i = 0; i < 4000; ++i) t.push_back(0.002 * i + 0.0007 * std::sin(i));
+  for (const double x : t) rows.push_back((x - 4) * line(x, 0.4));
+  const double before = squares_of(rows);
+  LineSpan(t, {hertz, 1}).take_out(rows, Part::all);
+  EXPECT_LT(squares_of(rows), 1e-12 * before) << "a straight line between all knots";
 }
 
 }  // namespace
