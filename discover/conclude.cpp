@@ -63,15 +63,16 @@ void test_recordings(Books& books) {
   }
 }
 
-/// What a steady line cannot follow stays in the error, and is no evidence of anything else.
+/// What a steady line cannot follow is found anew in each recording, and is no evidence of anything else.
 void tell_wandering(Books& books) {
   const auto rms = books.evidence->wandering(books.current.prediction);
   for (std::size_t o = 0; o < rms.size(); ++o) {
     if (rms[o] < books.evidence->noise().outputs[o].white) continue;
     const Unit& unit = books.base_model->output_unit(static_cast<int>(o));
     books.d.warnings.push_back(fmt::format(
-        "the mains wanders: {} rms of the error of {} on recordings not used for the fit is how its amplitude "
-        "and phase move, which a steady line does not follow; nothing else was looked for there",
+        "the mains wanders: its amplitude and phase were followed every two seconds of each recording, {} rms of {} on "
+        "recordings not used for the fit. A diagram holds a steady line only: from its file alone the error is that "
+        "much larger, and nothing else was looked for there",
         size_text(rms[o], unit), books.base_model->outputs()[o]));
   }
 }

@@ -22,6 +22,20 @@ std::vector<Rows> differences(const DataModel& model, const Prediction& predicti
   return rows;
 }
 
+/// How known lines wander in this recording, as they do beside what is predicted.
+void add_wandering(const DataModel& model, const NoiseModel& noise, int recording, std::vector<Rows>& y) {
+  Rows rows;
+  for (std::size_t o = 0; o < y.size(); ++o) {
+    const LeftOut& line = noise.outputs[o].left_out;
+    const Rows& measured = model.measured(recording, static_cast<int>(o));
+    if (!line.any() || measured.empty()) continue;
+    rows.resize(measured.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = measured[i] - y[o][i];
+    line.take_out(static_cast<std::size_t>(recording), rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) y[o][i] = measured[i] - rows[i];
+  }
+}
+
 double mean(const Rows& rows) {
   double sum = 0;
   for (const double x : rows) sum += x;
@@ -142,6 +156,7 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
       zeros[r][o] = mean(residual_rows(model, prediction, recording, static_cast<int>(o)));
       for (double& value : y[o]) value += zeros[r][o];
     }
+    add_wandering(model, judge.noise(), recording, y);
   }
   return zeros;
 }

@@ -53,7 +53,8 @@ class Judge {
   std::vector<double> root_weight_;
 };
 
-/// Adds what may be estimated per recording (zero of a sensor, initial states) to the prediction, in closed form.
+/// Adds what may be estimated per recording (zero of a sensor, initial states, how the amplitude and phase of a known
+/// line move: NoiseOfOutput::left_out) to the prediction, in closed form.
 /// Returns the zeros [recording][output] [SI]. Afterwards measured - y is the residual that people see.
 std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& judge, Prediction& prediction);
 

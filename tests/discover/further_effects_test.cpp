@@ -218,12 +218,20 @@ TEST_F(FurtherEffects, AMainsThatWandersIsTheMainsAndNotOutsideTheList) {
 
 TEST_F(FurtherEffects, HowAMainsWandersHidesNothingElse) {
   // Fifty times the noise, by a fiftieth of a turn to and fro: a steady line leaves four times the noise.
-  const auto d =
-      discovered(plain_gain(), humming(0.05, 2e-3, 5000, 0.02, 49.93, 0.012), {"mains_interference", "asymmetry"});
+  const DataSet data = humming(0.05, 2e-3, 5000, 0.02, 49.93, 0.012);
+  const auto d = discovered(plain_gain(), data, {"mains_interference", "asymmetry"});
   ASSERT_EQ(d.steps.size(), 2u) << tried(d);
   EXPECT_EQ(winner(d), "mains_interference") << tried(d);
   EXPECT_EQ(d.steps.back().winner.effect, "asymmetry") << tried(d);
   EXPECT_LT(d.final_error.over_floor(), 2) << "nineteen of a steady line; knots every two seconds leave a little";
+  EXPECT_LT(d.final_error.rms_validate, 1.5e-3) << "the prediction follows it too: a steady line would leave 4e-3";
+  double squares = 0, rows = 0;
+  for (std::size_t r = 0; r < data.recordings.size(); ++r)
+    for (std::size_t k = 0; k < data.recordings[r].t.size() && data.recordings[r].role == Role::validate; ++k) {
+      squares += std::pow(data.recordings[r].columns.at("y")[k] - d.final_prediction.y[r][0][k], 2);
+      rows += 1;
+    }
+  EXPECT_NEAR(std::sqrt(squares / rows), d.final_error.rms_validate, 1e-9) << "what is handed on is what was judged";
   ASSERT_FALSE(d.warnings.empty());
   EXPECT_NE(d.warnings.back().find("wander"), std::string::npos) << d.warnings.back();
 }
