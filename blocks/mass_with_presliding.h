@@ -15,6 +15,7 @@
 namespace hysteron::blocks {
 
 struct DahlElement {
+  static constexpr bool damped = true;  ///< its contact is, by contact_time
   template <class T>
   static T rate(const T& distance, const T& z, const T& velocity) {
     return presliding::deflection_rate(distance, z, velocity);
@@ -22,6 +23,7 @@ struct DahlElement {
   using OnItsWay = presliding::SlippingElement;
 };
 struct SlipElement {
+  static constexpr bool damped = false;
   template <class T>
   static T rate(const T& distance, const T& z, const T& velocity) {
     return presliding::slip_rate(distance, z, velocity);
@@ -34,7 +36,7 @@ template <class Element>
 class HeldByElements {
  public:
   HeldByElements(std::span<const double> stiffness, std::span<const double> distance, double excess,
-                 double stribeck_velocity);
+                 double stribeck_velocity, double contact_time);
 
   double pull_at(const double* x) const;
   void place(const double* x, double speed);
@@ -43,8 +45,12 @@ class HeldByElements {
   void move(double way, double* x);
 
  private:
+  /// What the damping of a contact adds to its deflection z [m], and how that changes along the way.
+  mass_motion::Force damped(double distance, double z, double velocity) const;
+
   std::span<const double> stiffness_, distance_;
-  double excess_, stribeck_velocity_;
+  double excess_, stribeck_velocity_, contact_time_;
+  double speed_ = 0;  ///< [m/s] of this row, about
   std::vector<typename Element::OnItsWay> elements_;
 };
 
@@ -59,7 +65,8 @@ struct MassWithElements {
     excess,
     stribeck_velocity,
     initial_position,
-    initial_velocity
+    initial_velocity,
+    contact_time  ///< only of elements whose contact is damped
   };
 
   static void describe(Declaration& d);
@@ -76,8 +83,10 @@ struct MassWithElements {
     const T level = presliding::stribeck_level(v.parameter(excess), v.parameter(stribeck_velocity), velocity);
     T force = v.u[0];
     for (std::size_t i = 0; i < k.size(); ++i) {
+      const T rate = Element::rate(T(distance[i] * level), T(v.x[i + 2]), velocity);
       force -= k[i] * v.x[i + 2];
-      v.out[i + 2] = Element::rate(T(distance[i] * level), T(v.x[i + 2]), velocity);
+      if constexpr (Element::damped) force -= k[i] * v.parameter(contact_time) * rate;
+      v.out[i + 2] = rate;
     }
     const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
     v.out[0] = velocity;

@@ -37,6 +37,19 @@ Law with_excess(Law law, double fast, const Unit& speed_unit) {
   return law;
 }
 
+/// The contact resists its own motion while it sticks (LuGre's s1/s0): a time, of which nobody knows more than that
+/// rows must show it.
+Law with_contact_time(Law law, const Circumstances& at) {
+  give(law.block, "contact_time", with_unit(0.0, parse_unit("s")));
+  LawParameter time;
+  time.path = "contact_time";
+  time.lower = 0;
+  time.upper = 1e3 * at.shortest_step;
+  time.scan = {0, at.shortest_step, 10 * at.shortest_step};
+  law.free.push_back(time);
+  return law;
+}
+
 /// On a wire that carries a speed: the dashpot behind it makes a force of it. `flows`: it yields below sliding too.
 Law on_a_speed(const Circumstances& at, bool flows) {
   Law law;
@@ -137,6 +150,7 @@ Effect friction() {
       {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
       {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
       {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
+      {"contact_time", "s", "richest law: damping over stiffness of the contact while it sticks", ""},
       {"level", "unit of the wire",
        "on a wire that carries a speed: friction over the damping behind it; a motion: what is held back", ""},
       {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
@@ -184,7 +198,9 @@ Effect friction() {
     law.free = {k, d};
     Law sticky = with_excess(law, range / std::max(at.shortest_step, 1e-9), parse_unit("m/s"));
     sticky.name = "presliding with Stribeck's excess (LuGre)";
-    return std::vector<Law>{law, sticky};
+    Law damped = with_contact_time(sticky, at);
+    damped.name = "presliding with excess and a damped contact (LuGre)";
+    return std::vector<Law>{law, sticky, damped};
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
     if (law.block.type != "guide_friction") return "";

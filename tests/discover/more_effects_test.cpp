@@ -319,5 +319,23 @@ TEST_F(MoreEffects, FrictionOfAGuideIsNamedWithItsForce) {
   EXPECT_NEAR(f.at(0).estimate.used * f.at(1).estimate.used, 0.4, 0.04);  // N: another law of friction, a tenth
 }
 
+TEST_F(MoreEffects, AContactThatIsDampedIsNoResonance) {
+  // The same bristle, a hundredth as stiff (it gives way 1 mm), with LuGre's s1 = 20 N s/m: five times the damping of
+  // the mass while it sticks, none while it slides. Without s1 its rest rings as the mass does, at 3.2 Hz.
+  struct Bristle {
+    double z = 0;
+    double operator()(double, double v, double h) {
+      const double rate = v - std::abs(v) / 1e-3 * z;
+      z += h * rate;
+      return 400 * z + 20 * rate;
+    }
+  };
+  const auto d = discovered(mass_on_spring(), moving_mass(Bristle{}), {"friction", "structural_resonance"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(winner(d), "friction") << tried(d);
+  EXPECT_NEAR(value(d, "contact_time"), 20.0 / 400, 0.005);  // a tenth: Euler steps, and noise of 1 % of the effect
+  EXPECT_EQ(d.remainder, Remainder::noise);
+}
+
 }  // namespace
 }  // namespace hysteron

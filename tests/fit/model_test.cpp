@@ -119,7 +119,7 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
 
 /// A guide of 400 Hz beside elements that hold back a tenth of the force, in rows of 1/40 s: 60 radians each, in which
 /// its ringing dies away.
-ProgramPointer stage_beside_elements(const std::string& type, double excess = 0) {
+ProgramPointer stage_beside_elements(const std::string& type, double excess = 0, const std::string& contact_time = "") {
   Diagram d = lab::diagram("y");
   lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
   auto& mass = lab::add(d, "mass", type, "force");
@@ -130,6 +130,7 @@ ProgramPointer stage_beside_elements(const std::string& type, double excess = 0)
   mass.parameters["slip_distance"] = NumberList{{0.1, "um"}, {0.3, "um"}};
   mass.parameters["excess"] = excess;
   mass.parameters["stribeck_velocity"] = "5 um/s";  // of up to 10 um/s
+  if (!contact_time.empty()) mass.parameters["contact_time"] = contact_time;
   lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
   return compile(d, lab::registry());
 }
@@ -152,6 +153,12 @@ TEST(DataModel, ElementsThatHoldLessWhileTheySlideFastAgreeWithTheIntegrator) {
   // Two and a half radians in a row, and a quarter of one.
   for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"})
     for (const double step : {1e-3, 1e-4}) expect_the_integrator(stage_beside_elements(type, 0.5), step, 1500);
+}
+
+TEST(DataModel, AContactThatIsDampedAgreesWithTheIntegrator) {
+  // As much damping as three tenths of the guide's own while it sticks.
+  for (const double step : {1e-3, 1e-4})
+    expect_the_integrator(stage_beside_elements("mass_with_presliding", 0.5, "0.1 ms"), step, 1500);
 }
 
 /// The same guide on a spring that remembers, unevenly over its travel of 1 um.
