@@ -84,6 +84,12 @@ std::string seen_from(const Diagram& diagram, const std::string& file) {
   return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).generic_string();
 }
 
+/// Axes that couple into each other pass on each their own motion (x_j += c_ij*x_i, EFFECTS 3): the same effect on
+/// another wire, which has this one beside it, goes on reading it without what comes back.
+bool passes_on_its_own(const Wiring& w, const Reader& reader, const Effect& effect) {
+  return reader.index > 0 && w.is_inserted(reader.block) && w.diagram().blocks.find(reader.block)->effect == effect.id;
+}
+
 std::string insert(Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
                    const std::string& at, const Place& place, Added& added) {
   const Wiring w(diagram, registry);
@@ -111,6 +117,7 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
   const std::string name = unused_name(diagram, spot.wire + "_" + effect.id);
   const std::string source = w.source(w.signal(spot.from));
   for (const auto& reader : spot.readers) {
+    if (passes_on_its_own(w, reader, effect)) continue;
     if (reader.block.empty())
       *diagram.outputs.find(reader.output) = name + reader.element;
     else

@@ -50,6 +50,7 @@ class Wiring {
   /// Input ports by name, one per wire of `in` (a variadic port repeats).
   std::vector<std::string> ports(const std::string& block) const;
 
+  bool is_inserted(const std::string& block) const;  ///< an effect that was put on a wire
   bool has_memory(const std::string& block) const;
   bool is_linear(const std::string& block) const;     ///< declared so, nested diagrams block by block
   bool has_states(const std::string& block) const;    ///< states or a remembered past
@@ -69,7 +70,6 @@ class Wiring {
   /// Outputs that a signal moves; `beside`: also where another wire's effect only has it beside that wire.
   std::vector<std::string> outputs_behind(const std::string& signal, bool beside) const;
   bool passes(const std::string& block, Commutes law) const;
-  bool is_inserted(const std::string& block) const;  ///< an effect that was put on a wire
   const Diagram& diagram_;
   const Registry& registry_;
 };

@@ -148,7 +148,8 @@ TEST_F(Places, BeforeAnEffectThatReadsASecondSignalAreNamedByItsPort) {
   EXPECT_EQ(both.diagram.blocks.find("u_ageing")->in.front().from, both.name) << "the amplifier comes first";
 }
 
-TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
+/// Two stages with a sensor each.
+Diagram two_stages() {
   Diagram d = linear_stage();
   const Diagram second = linear_stage();
   d.inputs["u2"].unit = "V";
@@ -157,6 +158,11 @@ TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
   d.blocks["sensor2"] = *second.blocks.find("sensor");
   d.blocks["sensor2"].in = {{"", "stage2"}};
   d.outputs["y2"] = "sensor2";
+  return d;
+}
+
+TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
+  const Diagram d = two_stages();
   const Added a = with_beside(d, "cross_coupling", "stage2", "stage", "um");
   const Wiring w(a.diagram, registry);
   EXPECT_EQ(w.outputs_on_the_way("stage"), std::vector<std::string>{"y"});
@@ -164,6 +170,24 @@ TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
   EXPECT_TRUE(w.reaches_output("stage"));
   EXPECT_EQ(where("sensor_nonlinearity", a.diagram), where("sensor_nonlinearity", d))
       << "before the zero of the sensor, whoever else reads the motion";
+}
+
+TEST_F(Places, OfCouplingsBothWaysReadEachAxisOwnMotion) {
+  const Added one = with_beside(two_stages(), "cross_coupling", "stage2", "stage", "um");
+  const Added both = with_beside(one.diagram, "cross_coupling", "stage", "stage2", "um");
+  const auto wires = [&](const std::string& block) {
+    std::vector<std::string> list;
+    for (const auto& wire : both.diagram.blocks.find(block)->in) list.push_back(wire.from);
+    return list;
+  };
+  EXPECT_EQ(wires("stage2_cross_coupling"), (std::vector<std::string>{"stage2", "stage"}))
+      << "what the first axis gets from the second does not come back";
+  EXPECT_EQ(wires("stage_cross_coupling"), (std::vector<std::string>{"stage", "stage2"}));
+  EXPECT_EQ(both.diagram.blocks.find("sensor")->in.front().from, "stage_cross_coupling");
+  const Added crept = with_beside(one.diagram, "creep", "stage", "", "um");
+  EXPECT_EQ(crept.diagram.blocks.find("stage2_cross_coupling")->in.back().from, "stage_creep")
+      << "the other axis gets the motion as it is";
+  EXPECT_EQ(remove_effect(both.diagram, "stage_cross_coupling").blocks.find("sensor")->in.front().from, "stage");
 }
 
 TEST_F(Places, OfABundleAreThoseOfItsWires) {
