@@ -43,6 +43,11 @@ void sharpen(Books& books, Tried& t) {
   if (!finer.ok) return;
   finer.error_of = books.evidence->error(finer.prediction);
   t.contender = std::move(finer);
+  // Where it goes on to, it may no longer be itself.
+  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.contender, t.circumstances); !why.empty()) {
+    t.admitted = false;
+    t.reason = why;
+  }
 }
 
 /// Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks, or
