@@ -168,6 +168,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
     }
   }
   e.witnesses = witnesses_ > 0 ? witnesses_ : e.n();
+  e.noise_known = known_;
   e.nrmse_train = train.nrmse();
   e.nrmse_validate = validate.nrmse();
   if (one_dimension(base_)) {

@@ -45,7 +45,8 @@ struct ModelError {
   double chi2() const { return chi2_train + chi2_validate; }
   double evidence() const { return evidence_train + evidence_validate; }
   double n() const { return n_train + n_validate; }
-  double witnesses = 0;  ///< independent ones among them (Evidence)
+  double witnesses = 0;     ///< independent ones among them (Evidence)
+  bool noise_known = true;  ///< stated by the data set; else what the best model leaves is all that is known of it
   double excess_validate() const { return chi2_validate - n_validate; }
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
 };

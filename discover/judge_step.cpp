@@ -33,10 +33,13 @@ bool owns_an_excitation(const ModelError& before, const ModelError& after) {
   return train && validate;
 }
 
-/// A validate recording of an output that the place moves: one axis cannot take away what another one leaves.
+/// A recording of an output that the place moves: one axis cannot take away what another one leaves.
+bool is_moved(const RecordingError& r, const std::vector<std::string>& outputs) {
+  return outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end();
+}
+
 bool counts(const RecordingError& r, const std::vector<std::string>& outputs) {
-  return r.role == Role::validate &&
-         (outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end());
+  return r.role == Role::validate && is_moved(r, outputs);
 }
 
 /// What stands above the noise on validation, by chi2 or `plain`.
@@ -45,6 +48,23 @@ double excess_of(const ModelError& error, const std::vector<std::string>& output
   for (const auto& r : error.recordings)
     if (counts(r, outputs)) excess += plain ? r.plain_excess() : r.excess();
   return excess;
+}
+
+/// The same by chi2 on all recordings.
+double excess_everywhere(const ModelError& error, const std::vector<std::string>& outputs) {
+  double excess = 0;
+  for (const auto& r : error.recordings)
+    if (is_moved(r, outputs)) excess += r.excess();
+  return excess;
+}
+
+/// Other recordings decide whether it is chance. Whether it is a patch all of them tell: what is large in one kind of
+/// them need not be in those that judge, beside something else that is missing; of these it must take a good part.
+double share_of_recordings(double on_validation, const ModelError& was, const ModelError& is,
+                           const std::vector<std::string>& outputs) {
+  const double excess = excess_everywhere(was, outputs);
+  if (on_validation < rules::share_of_all || !(excess > 0)) return on_validation;
+  return std::max(on_validation, (excess - excess_everywhere(is, outputs)) / excess);
 }
 
 /// The same by chi2, without what the laws that stand may have left in each recording.
@@ -172,7 +192,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
-  tried.share = share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, left_by_laws));
+  tried.share = share_of_recordings(
+      share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, left_by_laws)), was, is, tried.outputs);
   const bool above_noise = was.over_floor() > rules::floor_gate;
   if (!(tried.fall_validate > rules::claim_fall) &&
       (above_noise || !left_by_laws.empty() || !all_agree(tried, before))) {
@@ -204,7 +225,10 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
       tried.reason = "no larger than what the laws that were found may have left of their own";
       return;
     }
-    if (tried.share < rules::share_of_rest && !owns_an_excitation(was, is)) {
+    // Where nobody states the noise, what is left need not be anything that the list can name: a part of it that a
+    // structure would be told for is enough.
+    const double of_rest = was.noise_known ? rules::share_of_rest : rules::structure_share;
+    if (tried.share < of_rest && !owns_an_excitation(was, is)) {
       tried.patch = true;
       tried.reason = fmt::format("a patch: it takes away {} of what is left, and most of it in no kind of recording",
                                  percent(tried.share));

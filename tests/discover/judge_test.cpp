@@ -125,6 +125,28 @@ TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {
   EXPECT_FALSE(judged(error(1000, 1650, 1000, 1650), error(1000, 1390, 1000, 1390), {}).admitted);
 }
 
+TEST_F(Judging, WhetherItIsAPatchAllRecordingsTell) {
+  // Beside another effect that the judging recordings show: four fifths of all, two fifths of these.
+  const ModelError before = error(1000, 5000, 1000, 2000);
+  const Tried t = judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1});
+  EXPECT_TRUE(t.admitted) << t.reason;
+  EXPECT_NEAR(t.share, 3900.0 / 5000, 1e-12);
+  EXPECT_TRUE(judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1}, "creep").admitted);
+  const Tried fitted = judged(before, error(1000, 1100, 1000, 1800), {0, 1, 0, 1});
+  EXPECT_FALSE(fitted.admitted) << "a fifth of what judges: it was fitted to the others";
+  EXPECT_TRUE(fitted.patch);
+}
+
+TEST_F(Judging, WhereNobodyStatesTheNoiseAThirdOfTheRestIsEnough) {
+  ModelError before = error(1000, 2000, 1000, 2000);
+  const ModelError after = error(1000, 1600, 1000, 1600), little = error(1000, 1750, 1000, 1750);
+  EXPECT_FALSE(judged(before, after, {0, 1, 0, 1}).admitted);
+  before.noise_known = false;
+  EXPECT_TRUE(judged(before, after, {0, 1, 0, 1}).admitted);
+  EXPECT_FALSE(judged(before, little, {0, 1, 0, 1}).admitted);
+  EXPECT_FALSE(judged(before, after, {}).admitted) << "the first effect takes half, as ever";
+}
+
 TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
   Contender before;
   before.error_of = error(1000, 1090, 1000, 1090);
