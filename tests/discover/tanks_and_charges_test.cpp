@@ -192,7 +192,8 @@ DataSet tank_level(double brim, Outflow leaves) {
 }
 
 TEST_F(TanksAndCharges, AnOutletByTheRootIsNamed) {
-  const Discovery d = diagnosed(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * std::pow(h, 0.5); }), of_tanks);
+  const Discovery d =
+      diagnosed(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * std::pow(h, 0.5); }), of_tanks);
   ASSERT_EQ(winner(d), "sqrt_outflow") << tried(d);
   EXPECT_NEAR(value(d, "outlet"), 0.5, 0.005);  // levels of 2 m, noise of 2 mm over 240 rows
   EXPECT_NEAR(d.final_error.rms_validate, 2e-3, 3e-4);
