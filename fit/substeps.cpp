@@ -19,6 +19,10 @@ namespace {
 // before to count as made there. What an earlier row left behind (in a memory, in a slow state) hardly changes.
 constexpr double made_here = 0.1;
 constexpr int most_pieces = 1024;  // of one row
+/// Times the rows that there were when cutting some helped last: so far it goes on where it does not. What happens
+/// within a thousandth of a row (a quick lag in a slow recording) shows no smaller error until it is cut that finely,
+/// and to cut a few rows costs little beside cutting all.
+constexpr double patience = 1.5;
 
 bool is_finite(const std::vector<Rows>& rows) { return !rows.empty(); }
 
@@ -116,6 +120,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
   };
   auto coarse = rows_with(b.substeps);
   double worst_before = std::numeric_limits<double>::infinity();
+  double when_it_helped = static_cast<double>(b.rows->size());
   const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
   while (static_cast<std::size_t>(b.substeps) * b.rows->size() < most) {
     auto fine = rows_with(2 * b.substeps);
@@ -126,12 +131,13 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
       return found;
     }
     auto into = with_more_pieces(b, where_made(b, coarse, fine, tolerance));
-    // Where cutting some rows did not help, the error comes from elsewhere.
-    const bool helps = worst < 0.7 * worst_before;
+    if (worst < 0.7 * worst_before) when_it_helped = static_cast<double>(b.rows->size());
     worst_before = worst;
-    if (into.empty() || !helps) {
+    // Where cutting some rows does not help, the error comes from elsewhere.
+    if (into.empty() || std::accumulate(into.begin(), into.end(), 0.0) > patience * when_it_helped) {
       b.substeps *= 2;
       coarse = std::move(fine);
+      when_it_helped = static_cast<double>(b.rows->size());
     } else {
       b.cut(std::move(into));
       coarse = rows_with(b.substeps);

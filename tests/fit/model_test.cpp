@@ -117,6 +117,35 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
   EXPECT_LT(model.steps(0), before);
 }
 
+TEST(DataModel, WhatHappensWithinAHundredthOfSomeRowsCutsThoseAlone) {
+  // A triangle with steps, through a lag of a hundredth of a row, turns within that hundredth, and plays that follow as
+  // quickly keep where it turned: until pieces are as short, halving them changes nothing for the better.
+  Diagram d = lab::diagram("y");
+  lab::add(d, "amplifier", "lag", "u").parameters["times"] = NumberList{{10, "us"}};
+  auto& plays = lab::add(d, "stage", "late_prandtl_ishlinskii", "amplifier");
+  plays.parameters["time"] = "7 us";
+  plays.parameters["ahead"] = -0.5;
+  plays.parameters["spread"] = -0.85;
+  plays.parameters["thresholds"] = NumberList{{0, "V"}, {0.5, "V"}, {1.5, "V"}, {3, "V"}};
+  plays.parameters["weights"] = NumberList{{0.2, "um/V"}, {0.3, "um/V"}, {0.2, "um/V"}, {0.1, "um/V"}};
+  lab::add(d, "y", "gain", "stage").parameters["gain"] = "1";
+  const auto program = compile(d, lab::registry());
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["y"].to = "y";
+  data.recordings.push_back(lab::recording("train", Role::train, 1e-3, 1000, [](double t) {
+    return 10 * std::abs(std::remainder(t, 0.2)) + 0.3 * std::floor(t / 0.25);  // turns at every hundredth row
+  }));
+  lab::measure(data, program, 0, 20);
+  DataModelOptions options;
+  options.substep_tolerance = 1e-5;
+  options.max_substeps = 1024;
+  DataModel model(program, lab::shared(data), options);
+  ASSERT_TRUE(model.predict({}, std::vector<int>{0}).ok);
+  EXPECT_LT(model.steps(0), 2 * 1000) << "ten corners need a hundred pieces each, and the other rows one";
+  EXPECT_LT(model.cross_check({}, std::vector<int>{0})[0], 5e-5) << "1e-5 of the span was asked for";
+}
+
 /// A guide of 400 Hz beside elements that hold back a tenth of the force, in rows of 1/40 s: 60 radians each, in which
 /// its ringing dies away.
 ProgramPointer stage_beside_elements(const std::string& type, double excess = 0, const std::string& contact_time = "") {
