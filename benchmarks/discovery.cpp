@@ -1,8 +1,9 @@
 // Answers a folder of cases with hidden effects (layout: README of the set; no answers needed): builds each base
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
-//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--tell]
+//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]
 //
+// --unstated: the data set does not say how noisy the sensor is.
 // Each case runs in a process of its own: one that fails costs that case only.
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -40,7 +41,8 @@ struct Wish {
   /// Of CPU, so that a busy machine gives the same answers: then a case ends, on two cores within thirty seconds of
   /// the clock; 0 = never.
   double seconds = 45;
-  bool tell = false;    ///< everything that was tried
+  bool tell = false;  ///< everything that was tried
+  Noise noise = Noise::stated;
 };
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -71,7 +73,7 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 /// One case, from its folder to its answer. Returns what is told of it.
 std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
-  const HiddenCase hidden = read_hidden_case(folder.string());
+  const HiddenCase hidden = read_hidden_case(folder.string(), wish.noise);
   const std::string file = (std::filesystem::path(wish.results) / (hidden.id + ".data.json")).string();
   write_file(file, hidden.data_text + "\n");
   const DataSet data = read_dataset(file, {std::filesystem::absolute(folder).lexically_normal().string()});
@@ -182,6 +184,8 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       wish.threads = std::atoi(next().c_str());
     } else if (word == "--seconds") {
       wish.seconds = std::atof(next().c_str());
+    } else if (word == "--unstated") {
+      wish.noise = Noise::unstated;
     } else if (word == "--tell") {
       wish.tell = true;
     } else {
@@ -199,9 +203,10 @@ std::optional<Wish> read_wish(int argc, char** argv) {
 int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
-    fmt::print(stderr,
-               "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--tell]\n"
-               "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
+    fmt::print(
+        stderr,
+        "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]\n"
+        "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }
   std::filesystem::create_directories(wish->results);

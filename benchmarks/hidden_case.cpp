@@ -123,7 +123,8 @@ void base_of(Diagram& d, const json& task) {
 }
 
 /// The data sheet's noise; quantised on top.
-json output_column(const json& task, const std::string& name, const char* unit) {
+json output_column(const json& task, const std::string& name, const char* unit, Noise noise) {
+  if (noise == Noise::unstated) return {{"to", name}};
   const auto& sensor = task.at("sensor");
   return {{"to", name},
           {"noise",
@@ -131,13 +132,14 @@ json output_column(const json& task, const std::string& name, const char* unit) 
             {"resolution", fmt::format("{} {}", sensor.at("lsb").get<double>(), unit)}}}};
 }
 
-std::string data_text(const Diagram& d, const json& task, const std::filesystem::path& folder) {
+std::string data_text(const Diagram& d, const json& task, const std::filesystem::path& folder, Noise noise) {
   const bool thermal = task.at("base") == "B5";
   json data;
   data["format"] = 1;
   for (const auto& name : d.inputs.names()) data["columns"][name] = {{"to", name}};
   if (!thermal) data["columns"]["T"] = {{"to", "T"}, {"optional", true}};  // not every rig logs it
-  for (const auto& name : d.outputs.names()) data["columns"][name] = output_column(task, name, thermal ? "K" : "um");
+  for (const auto& name : d.outputs.names())
+    data["columns"][name] = output_column(task, name, thermal ? "K" : "um", noise);
   for (const auto& f : task.at("files"))
     data["recordings"].push_back({{"file", (folder / f.at("file").get<std::string>()).string()},
                                   {"role", f.at("role")},
@@ -148,7 +150,7 @@ std::string data_text(const Diagram& d, const json& task, const std::filesystem:
 
 }  // namespace
 
-HiddenCase read_hidden_case(const std::string& folder) {
+HiddenCase read_hidden_case(const std::string& folder, Noise noise) {
   const auto path = std::filesystem::absolute(folder).lexically_normal();
   const std::string file = (path / "task.json").string();
   const std::string text = read_file(file);
@@ -161,7 +163,7 @@ HiddenCase read_hidden_case(const std::string& folder) {
     c.diagram.title = "case " + c.id;
     c.diagram.inputs["u"].unit = "V";
     base_of(c.diagram, task);
-    c.data_text = data_text(c.diagram, task, path);
+    c.data_text = data_text(c.diagram, task, path, noise);
     return c;
   } catch (const json::exception& e) {
     fail("bad_case", file, fmt::format("this is no case of hidden effects: {}", e.what()),

@@ -10,6 +10,9 @@
 
 namespace hysteron {
 
+/// Whether the data set says how noisy the sensor is, as the task does; few users' do.
+enum class Noise { stated, unstated };
+
 struct HiddenCase {
   std::string id;
   std::string base;                  ///< "B1" .. "B5"
@@ -19,7 +22,7 @@ struct HiddenCase {
 };
 
 /// Throws Error "no_file", "bad_case".
-HiddenCase read_hidden_case(const std::string& folder);
+HiddenCase read_hidden_case(const std::string& folder, Noise noise = Noise::stated);
 
 /// The effects that may be offered for these cases.
 const std::vector<std::string>& hidden_effect_names();
