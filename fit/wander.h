@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace hysteron {
