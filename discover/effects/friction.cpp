@@ -131,7 +131,8 @@ Effect friction() {
   e.title = "Friction";
   e.cause = "Guideways, cables, wipers. Flexure stages have none.";
   e.equation =
-      "F = stiffness*z,  z' = v - |v|*z/distance: sticks like a spring, slips at stiffness*distance; without a mass "
+      "F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips at "
+      "stiffness*distance; without a mass "
       "y = u - level*z/distance, v of y";
   e.source =
       "Dahl, AIAA J. 14 (1976) 1675; richer: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 "
