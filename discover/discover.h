@@ -105,7 +105,8 @@ struct Discovery {
   std::optional<Experiment> experiment;  ///< what to record next
   Diagram base_diagram, final_diagram;
   ModelError final_error;
-  Prediction final_prediction;  ///< of the final model on train and validate recordings, zeros per recording included
+  Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
+                                ///< (add_zeros)
   long model_runs = 0;
 };
 

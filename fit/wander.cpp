@@ -16,6 +16,7 @@ constexpr double in_common = 1e-10;
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
+
 /// Knots over the duration of the rows; 0: rows are too few for two.
 std::size_t knots_over(std::span<const double> t, std::size_t waves) {
   if (t.empty() || !(t.back() > t.front())) return 0;

@@ -131,7 +131,6 @@ TEST_F(Judging, WhetherItIsAPatchAllRecordingsTell) {
   const Tried t = judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1});
   EXPECT_TRUE(t.admitted) << t.reason;
   EXPECT_NEAR(t.share, 3900.0 / 5000, 1e-12);
-  EXPECT_TRUE(judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1}, "creep").admitted);
   const Tried fitted = judged(before, error(1000, 1100, 1000, 1800), {0, 1, 0, 1});
   EXPECT_FALSE(fitted.admitted) << "a fifth of what judges: it was fitted to the others";
   EXPECT_TRUE(fitted.patch);

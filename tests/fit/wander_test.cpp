@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -92,7 +93,7 @@ TEST(Wander, ItTakesAsManyNumbersAsItHas) {
   EXPECT_EQ(span.knots(), 6u);
   double of_all = 0, of_wandering = 0;
   std::vector<double> rows(n);
-  for (std::size_t i = 0; i < n; i += 1)
+  for (std::size_t i = 0; i < n; ++i)
     for (const Part part : {Part::all, Part::wandering}) {
       std::fill(rows.begin(), rows.end(), 0.0);
       rows[i] = 1;
