@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -23,6 +24,12 @@ constexpr int most_pieces = 1024;  // of one row
 /// within a thousandth of a row (a quick lag in a slow recording) shows no smaller error until it is cut that finely,
 /// and to cut a few rows costs little beside cutting all.
 constexpr double patience = 1.5;
+
+/// What rings between two rows and is gone at the second changes nothing when the row is halved, but a play keeps how
+/// far it went. So some rows at which the outputs bend most, and those behind them, are cut this finely to see; if that
+/// shows anything, the next ones too.
+constexpr int to_see = 64;
+constexpr std::size_t looked_at = 6;  // rows of an output at a time
 
 bool is_finite(const std::vector<Rows>& rows) { return !rows.empty(); }
 
@@ -65,6 +72,32 @@ std::vector<int> with_more_pieces(const BoundRecording& b, const std::vector<boo
     into[i] *= 2;
   }
   return more > 0 && 2 * more < into.size() ? into : std::vector<int>{};
+}
+
+/// Instants where an output bends most, and the two behind each, of those that are not all cut finely yet: a step of
+/// the input bends it where its ramp begins, and where it ends the plant rings.
+std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows>& rows) {
+  std::vector<bool> bends(b.instants.size(), false);
+  for (std::size_t o = 0; o < rows.size(); ++o) {
+    const Rows& y = rows[o];
+    const auto is_coarse = [&](std::size_t i) { return b.pieces.empty() || b.pieces[b.at[o][i]] < to_see; };
+    std::vector<std::pair<double, std::size_t>> bend;
+    for (std::size_t i = 1; i + 2 < y.size(); ++i)
+      if (is_coarse(i + 1)) bend.emplace_back(std::abs(y[i + 1] - 2 * y[i] + y[i - 1]), i);
+    const std::size_t n = std::min(looked_at, bend.size());
+    std::partial_sort(bend.begin(), bend.begin() + static_cast<std::ptrdiff_t>(n), bend.end(), std::greater<>());
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = bend[j].second; i < bend[j].second + 3; ++i) bends[b.at[o][i]] = true;
+  }
+  return bends;
+}
+
+/// The pieces of each row, enough to see where it is chosen, as far as rows are cut at all.
+std::vector<int> cut_there(const BoundRecording& b, const std::vector<bool>& chosen) {
+  auto into = b.pieces.empty() ? std::vector<int>(b.instants.size(), 1) : b.pieces;
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (chosen[i]) into[i] = std::max(into[i], std::min(to_see, most_pieces / b.substeps));
+  return into;
 }
 
 }  // namespace
@@ -127,6 +160,14 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
     const double worst = worst_of(coarse, fine, tolerance);
     if (worst <= 1) {
+      const auto pieces = b.pieces;
+      b.cut(cut_there(b, where_it_bends(b, fine)));
+      auto seen = rows_with(b.substeps);
+      if (worst_of(coarse, seen, tolerance) > 1) {
+        coarse = std::move(seen);
+        continue;
+      }
+      b.cut(pieces);
       found.suffice = found.simulated = true;
       return found;
     }

@@ -117,6 +117,37 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
   EXPECT_LT(model.steps(0), before);
 }
 
+TEST(DataModel, APlayKeepsHowFarThePlantRangBetweenTwoRows) {
+  // Of 200 Hz, damped by a tenth, in rows of 50 ms: at each of them it is at rest again, whether rows are halved or
+  // not.
+  constexpr double w = 2 * std::numbers::pi * 200, damping = 0.1, radius = 0.1, row = 0.05;
+  Diagram d = lab::diagram("y");
+  auto& plant = lab::add(d, "plant", "transfer_function", "u");
+  plant.parameters["num"] = NumberList{{w * w, ""}};
+  plant.parameters["den"] = NumberList{{1, ""}, {2 * damping * w, ""}, {w * w, ""}};
+  lab::add(d, "play", "play", "plant").parameters["radius"] = "0.1 V";
+  lab::add(d, "y", "gain", "play").parameters["gain"] = "1 um/V";
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["y"].to = "y";
+  const auto steps = [](double t) { return 2 * std::floor(t + 1e-9); };  // 40 V/s, each a row long
+  data.recordings.push_back(lab::recording("train", Role::train, row, 400, steps));
+  const auto program = compile(d, lab::registry());
+  lab::measure(data, program, 0, 20);
+  DataModel model(program, lab::shared(data));
+  const auto p = model.predict({}, std::vector<int>{0});
+  ASSERT_TRUE(p.ok);
+  // Behind the end of a ramp it is late by 2 damping/w times the slope and goes on as fast: a free oscillation.
+  double peak = 0;
+  const double fast = w * std::sqrt(1 - damping * damping), slope = 2 / row, late = -2 * damping * slope / w;
+  for (double t = 0; t < 0.01; t += 1e-7)
+    peak = std::max(peak, std::exp(-damping * w * t) *
+                              (late * std::cos(fast * t) + (slope + damping * w * late) / fast * std::sin(fast * t)));
+  ASSERT_GT(peak, 0.02);
+  for (const std::size_t k : {22, 42, 382})
+    EXPECT_NEAR(1e6 * p.y[0][0][k], steps(row * static_cast<double>(k)) + peak - radius, 1e-4) << k;  // of a span of 38
+}
+
 TEST(DataModel, WhatHappensWithinAHundredthOfSomeRowsCutsThoseAlone) {
   // A triangle with steps, through a lag of a hundredth of a row, turns within that hundredth, and plays that follow as
   // quickly keep where it turned: until pieces are as short, halving them changes nothing for the better.
