@@ -167,11 +167,9 @@ class Observer {
   Observer(const Diagram& diagram, const Registry& registry, const DataSet& data, const std::vector<Place>& places)
       : places_(places), data_(data), program_(compile(diagram, registry)) {
     find_signals(diagram, registry);
-    const bool reads_sides = std::any_of(side_signal_.begin(), side_signal_.end(), [](int s) { return s >= 0; });
     for (const auto& r : data.recordings) {
       if (r.role == Role::test || r.last < 2) continue;
-      Seen seen{&r, {}};
-      if (r.role == Role::train || reads_sides) seen.rows = traces(program_, data, r, signals_);
+      Seen seen{&r, traces(program_, data, r, signals_)};
       for (auto& s : seen.rows) s.resize(r.last);
       (r.role == Role::train ? trains_ : others_).push_back(std::move(seen));
     }
@@ -189,6 +187,8 @@ class Observer {
       c.resolution = resolution_at(*program_, data_, signal);
       c.by = places_[i].by;
       range_of(i, c.lowest, c.highest);
+      c.lowest_of_all = c.lowest, c.highest_of_all = c.highest;
+      for (const auto& seen : others_) widen(seen.rows[i], c.lowest_of_all, c.highest_of_all);
       if (travel_signal_[i] >= 0)
         range_of(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);
       look_at_moves(i, c);
@@ -247,25 +247,35 @@ class Observer {
   void range_of(std::size_t signal, double& low, double& high) const {
     low = std::numeric_limits<double>::infinity();
     high = -low;
-    for (const auto& seen : trains_) {
-      const auto [a, b] = std::minmax_element(seen.rows[signal].begin(), seen.rows[signal].end());
-      low = std::min(low, *a);
-      high = std::max(high, *b);
-    }
+    for (const auto& seen : trains_) widen(seen.rows[signal], low, high);
+  }
+
+  static void widen(const std::vector<double>& rows, double& low, double& high) {
+    const auto [a, b] = std::minmax_element(rows.begin(), rows.end());
+    low = std::min(low, *a);
+    high = std::max(high, *b);
+  }
+
+  /// [1/s] over the range.
+  static double quickest(const Seen& seen, std::size_t place, double range) {
+    const auto& v = seen.rows[place];
+    const auto& t = seen.recording->t;
+    double most = 0;
+    for (std::size_t k = 1; k < v.size(); ++k)
+      if (range > 0 && t[k] > t[k - 1]) most = std::max(most, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / range);
+    return most;
   }
 
   void look_at_moves(std::size_t place, Circumstances& c) const {
     for (const auto& seen : trains_) {
       const auto& v = seen.rows[place];
-      const auto& t = seen.recording->t;
       if (c.range() > 0) c.reversals += static_cast<int>(turning_points(v, 0.02 * c.range()).size());
       c.starts_away_from_zero = c.starts_away_from_zero || std::abs(v.front()) > 0.02 * c.range();
-      for (std::size_t k = 1; k < v.size(); ++k) {
-        c.largest_jump = std::max(c.largest_jump, std::abs(v[k] - v[k - 1]));
-        if (c.range() > 0 && t[k] > t[k - 1])
-          c.quickest = std::max(c.quickest, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]) / c.range());
-      }
+      for (std::size_t k = 1; k < v.size(); ++k) c.largest_jump = std::max(c.largest_jump, std::abs(v[k] - v[k - 1]));
+      c.quickest = std::max(c.quickest, quickest(seen, place, c.range()));
     }
+    c.quickest_of_all = c.quickest;
+    for (const auto& seen : others_) c.quickest_of_all = std::max(c.quickest_of_all, quickest(seen, place, c.range()));
   }
 
   /// A side signal is a wire of the diagram, or a column that the diagram does not read yet.

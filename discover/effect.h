@@ -46,6 +46,8 @@ struct Circumstances {
   bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
   Unit unit;               ///< of the wire, as it is written
   double lowest = 0, highest = 1;
+  /// Where no law holds it back, validation included: it is known from the inputs, not predicted.
+  double lowest_of_all = 0, highest_of_all = 1;
   std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
   double largest_jump = 0;                       ///< largest change between two rows
@@ -57,6 +59,7 @@ struct Circumstances {
   int reversals = 0;                             ///< turning points that come back by at least 2 % of the range
   int recordings = 0;                            ///< train recordings
   double quickest = 0;                           ///< [1/s] largest change per second over the range
+  double quickest_of_all = 0;                    ///< [1/s] the same, validation included
   bool starts_away_from_zero = false;            ///< the wire is not at zero at the start of some recording
   bool gain_is_free = false;    ///< a free gain in series behind the place makes a gain here undetermined
   bool offset_is_free = false;  ///< a free offset behind the place (or a free zero of each recording)

@@ -14,21 +14,26 @@ Law limit(const Circumstances& at, bool each_way) {
   Law law;
   law.name = each_way ? "one rate for each way" : "one rate";
   law.block.type = "slew_limit";
-  // At the quickest motion of the drive it limits nothing: held at that bound it costs no parameter.
+  // Where the quickest way the one way is not limited, one rate for both that limits the other brings nothing.
+  law.apart = each_way;
+  // At the quickest motion of the drive in any recording it limits nothing: held at that bound it costs no parameter.
   const double quickest = at.range() > 0 && at.quickest > 0 ? at.range() * at.quickest : 1;
-  give(law.block, "rate", per_second(quickest, at.unit));
+  const double none = std::max(quickest, at.range() * at.quickest_of_all);
+  give(law.block, "rate", per_second(none, at.unit));
   const auto rates = each_way ? std::vector<std::string>{"rise", "fall"} : std::vector<std::string>{"rate"};
   for (const auto& path : rates) {
-    if (each_way) give(law.block, path, per_second(quickest, at.unit));
+    if (each_way) give(law.block, path, per_second(none, at.unit));
     LawParameter rate;
     rate.path = path;
-    rate.start = quickest;
+    rate.start = none;
     rate.lower = 1e-6 * quickest;
-    rate.upper = quickest;
+    rate.upper = none;
     rate.log_scale = true;
     // A step of one row is far quicker than a sine: the rates that limit the one and not the other lie decades apart.
     // Near the quickest motion a limit acts on the largest steps alone, and no slope leads there from below.
-    rate.scan = per_decade(1e-5 * quickest, 0.5 * quickest, 5);
+    // First of all none: what the fitted recordings do not reach is left to itself.
+    rate.scan = {none};
+    for (const double r : per_decade(1e-5 * quickest, 0.5 * quickest, 5)) rate.scan.push_back(r);
     for (const double share : {0.6, 0.7, 0.78, 0.84, 0.88, 0.91, 0.94, 0.96, 0.975, 0.985, 0.993})
       rate.scan.push_back(share * quickest);
     law.free.push_back(std::move(rate));

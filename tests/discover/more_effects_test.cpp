@@ -230,10 +230,12 @@ TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
 }
 
 /// y = u behind an amplifier that moves by `up` and `down` a second at most, by small steps.
-DataSet slewing(double up, double down) {
+DataSet slewing(double up, double down, double to_judge = 1) {
   std::vector<Recording> list;
   std::uint64_t seed = 1300;
   for (auto& m : drives()) {
+    if (m.role == Role::validate)
+      for (double& u : m.u) u *= to_judge;
     auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
     double v = m.u.front();
     for (std::size_t k = 0; k < m.t.size(); ++k) {
@@ -265,6 +267,23 @@ TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
   ASSERT_EQ(winner.law, "one rate for each way");
   EXPECT_NEAR(winner.found.at(0).estimate.used, 0.7, 0.01);
   EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5, 0.01);
+}
+
+TEST_F(MoreEffects, WhatTheFittedRecordingsDoNotReachLimitsNothingInTheOthers) {
+  // Judged on what moves four times as far and as fast: a limit that was left at the end of what was fitted would cut
+  // half of it off.
+  const Discovery d = diagnosed(plain_gain(), slewing(1e3, 0.5, 4));
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  const auto& winner = d.steps.front().winner;
+  ASSERT_EQ(winner.effect, "slew_limit") << tried(d);
+  ASSERT_EQ(winner.law, "one rate for each way");
+  EXPECT_TRUE(winner.found.at(0).estimate.at_upper) << "nothing limits the way up";
+  EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5, 0.01);
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
+  for (const auto& c : d.candidates)
+    if (c.effect == "saturation") {
+      EXPECT_GT(c.fall_validate, -100) << tried(d);
+    }
 }
 
 /// The mass with a further force(x, v), by small semi-implicit Euler steps.
