@@ -157,6 +157,9 @@ TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
   EXPECT_FALSE(more_than_laws_leave(creep, before, after, {0, 50, 0, 50}));
   EXPECT_TRUE(more_than_laws_leave(friction, before, after, {0, 0.5, 0, 0.5}));
   EXPECT_FALSE(more_than_laws_leave(friction, before, after, {0, 2, 0, 2})) << "elements that slip leave such";
+  // In a fitted recording alone, too, but for what a fit takes away by itself.
+  EXPECT_TRUE(more_than_laws_leave(creep, before, after, {50, 20, 50, 50}));
+  EXPECT_FALSE(more_than_laws_leave(creep, before, after, {50, 35, 50, 50}));
   // Nor need it lie where the law acts most.
   EXPECT_TRUE(more_than_laws_leave(creep, before, after, {0, 0, 900, 0}));
   EXPECT_FALSE(more_than_laws_leave(friction, before, after, {0, 0, 2, 0}));
