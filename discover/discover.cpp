@@ -155,6 +155,7 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   if (winner >= 0) {
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
+    as_on_another_axis(books, tried, winner, ties);
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
     Contender before = books.current;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));

@@ -136,6 +136,29 @@ TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   EXPECT_FALSE(standing_before(books, model, effects.get("asymmetry"), on("u2")));
 }
 
+TEST_F(Rules, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
+  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
+  const DataSet data = of_two_axes(1e-3, same, same);
+  const DiscoverOptions options;
+  const Diagram diagram = two_axes();
+  Books books(diagram, data, registry, effects, options);
+  std::vector<Tried> tried(3);
+  tried[0].effect = effects.find("dead_time");
+  tried[1].effect = effects.find("rate_dependence");
+  tried[2].effect = effects.find("amplifier_lag");
+  int winner = 0;
+  std::vector<int> ties{1, 2};
+  as_on_another_axis(books, tried, winner, ties);
+  EXPECT_EQ(winner, 0) << "nothing stands";
+  books.current.standing.emplace_back().effect = effects.find("amplifier_lag");
+  as_on_another_axis(books, tried, winner, ties);
+  EXPECT_EQ(winner, 2);
+  EXPECT_EQ(ties, (std::vector<int>{1, 0}));
+  books.current.standing.emplace_back().effect = effects.find("rate_dependence");
+  as_on_another_axis(books, tried, winner, ties);
+  EXPECT_EQ(winner, 2) << "it stands itself";
+}
+
 TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
   // What a known line does beside being steady is left out, about its frequency: a line near by would cost nothing.
   constexpr double hertz = 59.95;
