@@ -145,7 +145,7 @@ def fine_steps(plant, recording, hidden=()):
         # Plays keep how far the plant rings between two rows: 20 steps to its quickest period. Behind a ramp of a tenth of
         # a second it hardly rings.
         quickest = np.abs(np.roots(plant.task["dynamics"]["den"])).max() / (2 * np.pi)
-        return int(np.clip(np.ceil(20 * quickest * recording.h), usual, 256))
+        return int(np.clip(np.ceil(20 * quickest * recording.h), usual, 64))
     return usual
 
 
