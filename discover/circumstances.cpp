@@ -187,7 +187,8 @@ class Observer {
       c.resolution = resolution_at(*program_, data_, signal);
       c.by = places_[i].by;
       range_of(i, c.lowest, c.highest);
-      c.lowest_of_all = c.lowest, c.highest_of_all = c.highest;
+      c.lowest_of_all = c.lowest;
+      c.highest_of_all = c.highest;
       for (const auto& seen : others_) widen(seen.rows[i], c.lowest_of_all, c.highest_of_all);
       if (travel_signal_[i] >= 0)
         range_of(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);

@@ -27,9 +27,9 @@ constexpr double patience = 1.5;
 
 /// What rings between two rows and is gone at the second changes nothing when the row is halved, but a play keeps how
 /// far it went. So some rows at which the outputs bend most, and those behind them, are cut this finely to see; if that
-/// shows anything, the next ones too.
+/// shows anything, the next ones too, four times as many each time.
 constexpr int to_see = 64;
-constexpr std::size_t looked_at = 6;  // rows of an output at a time
+constexpr std::size_t looked_at = 6;  // rows of an output at first
 
 bool is_finite(const std::vector<Rows>& rows) { return !rows.empty(); }
 
@@ -76,7 +76,7 @@ std::vector<int> with_more_pieces(const BoundRecording& b, const std::vector<boo
 
 /// Instants where an output bends most, and the two behind each, of those that are not all cut finely yet: a step of
 /// the input bends it where its ramp begins, and where it ends the plant rings.
-std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows>& rows) {
+std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows>& rows, std::size_t most) {
   std::vector<bool> bends(b.instants.size(), false);
   for (std::size_t o = 0; o < rows.size(); ++o) {
     const Rows& y = rows[o];
@@ -84,7 +84,7 @@ std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows
     std::vector<std::pair<double, std::size_t>> bend;
     for (std::size_t i = 1; i + 2 < y.size(); ++i)
       if (is_coarse(i + 1)) bend.emplace_back(std::abs(y[i + 1] - 2 * y[i] + y[i - 1]), i);
-    const std::size_t n = std::min(looked_at, bend.size());
+    const std::size_t n = std::min(most, bend.size());
     std::partial_sort(bend.begin(), bend.begin() + static_cast<std::ptrdiff_t>(n), bend.end(), std::greater<>());
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = bend[j].second; i < bend[j].second + 3; ++i) bends[b.at[o][i]] = true;
@@ -152,6 +152,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     return rows;
   };
   auto coarse = rows_with(b.substeps);
+  std::size_t look_at = looked_at;
   double worst_before = std::numeric_limits<double>::infinity();
   double when_it_helped = static_cast<double>(b.rows->size());
   const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
@@ -161,10 +162,11 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     const double worst = worst_of(coarse, fine, tolerance);
     if (worst <= 1) {
       const auto pieces = b.pieces;
-      b.cut(cut_there(b, where_it_bends(b, fine)));
+      b.cut(cut_there(b, where_it_bends(b, fine, look_at)));
       auto seen = rows_with(b.substeps);
       if (worst_of(coarse, seen, tolerance) > 1) {
         coarse = std::move(seen);
+        look_at *= 4;
         continue;
       }
       b.cut(pieces);
