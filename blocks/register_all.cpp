@@ -33,6 +33,7 @@
 #include "blocks/mass_with_stops.h"
 #include "blocks/matrix_gain.h"
 #include "blocks/maxwell_capacitor.h"
+#include "blocks/modes.h"
 #include "blocks/multisine.h"
 #include "blocks/pi_controller.h"
 #include "blocks/play.h"
@@ -112,7 +113,7 @@ Registry all_blocks() {
   r.add(blocks::state_space_block());
   r.add(blocks::pi_controller_block());
   r.add(blocks::resonance_block());
-  r.add(blocks::mode_block());
+  r.add(blocks::modes_block());
   r.add(blocks::lag_block());
   r.add(blocks::creep_block());
   r.add(blocks::logarithmic_creep_block());

@@ -1,6 +1,6 @@
-// Decides the blocks "resonance", one lightly damped mode with gain one, and "mode", one more mode beside what a signal
-// does anyway. For stages whose parts are known by their frequency only: with mass and stiffness known,
-// mass_spring_damper says more. Does not decide how a mode moves: models/resonance.h.
+// Decides the block "resonance", one lightly damped mode with gain one. For stages whose parts are known by their
+// frequency only: with mass and stiffness known, mass_spring_damper says more; for modes beside what a signal does
+// anyway, modes.h. Does not decide how a mode moves: models/resonance.h.
 #pragma once
 
 #include "engine/block.h"
@@ -38,37 +38,6 @@ struct Resonance {
   static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
 };
 
-struct AddedMode {
-  template <class T>
-  struct Params {
-    T frequency, damping, position, velocity;
-  };
-  template <class T>
-  struct In {
-    T u;
-  };
-  template <class T>
-  struct State {
-    T q, v;  ///< v = q'/w
-  };
-  template <class T>
-  struct Out {
-    T y;
-  };
-  static void describe(BlockSpec<AddedMode>& spec);
-  template <class T>
-  static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    return {in.u + p.position * (s.q - in.u) + p.velocity * s.v};
-  }
-  template <class T>
-  static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    const auto rate = resonance::rates(p.frequency, p.damping, s.q, s.v, in.u);
-    return {rate.q, rate.v};
-  }
-  static State<double> rest(const Params<double>&, const In<double>& in) { return {in.u, 0}; }
-};
-
 Kernel resonance_block();
-Kernel mode_block();
 
 }  // namespace hysteron::blocks

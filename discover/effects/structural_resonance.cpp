@@ -13,6 +13,92 @@ namespace {
 // parameters, and what never dies out is a line of the drive.
 constexpr double least_damping = 5e-4, most_damping = 0.1, searched_damping = 0.2;
 
+/// A mode is known by what is sampled four times a period; one more, beside it, by what is sampled more than twice.
+/// Less than five periods a recording do not ring.
+double fastest(const Circumstances& at, int index = 0) { return (index == 0 ? 0.25 : 0.45) / at.shortest_step; }
+double slowest(const Circumstances& at) { return std::min(5 / at.longest_recording, fastest(at) / 100); }
+
+LawParameter frequency_of(const Circumstances& at, int index) {
+  LawParameter p;
+  p.path = element("frequencies", index);
+  p.start = fastest(at, index) / 3;
+  p.lower = slowest(at);
+  p.upper = fastest(at, index);
+  p.log_scale = true;
+  // The next mode is searched together with what is known of the first: a decade and a half are enough, for modes of
+  // one stage that both show are neighbours.
+  const double below = index == 0 ? 1000 : 30;
+  p.scan = per_decade(std::max(slowest(at), fastest(at, index) / below), 0.95 * fastest(at, index), 12);
+  return p;
+}
+
+LawParameter damping_of(int index) {
+  LawParameter p;
+  p.path = element("dampings", index);
+  p.start = 0.03;
+  p.lower = least_damping;
+  p.upper = searched_damping;
+  p.log_scale = true;
+  p.plausible_upper = 0.05;
+  return p;
+}
+
+LawParameter residue(const std::string& list, int index) {
+  LawParameter p;
+  p.path = element(list, index);
+  p.lower = -2;
+  p.upper = 2;
+  return p;
+}
+
+/// So many modes, searched where they are not plausible, too, to be told what they are.
+Law modes(const Circumstances& at, int count) {
+  Law law;
+  law.name = count == 1 ? "one mode" : "two modes";
+  law.block.type = "modes";
+  const std::vector<double> none(static_cast<std::size_t>(count), 0.0);
+  std::vector<double> frequencies, dampings;
+  for (int k = 0; k < count; ++k) {
+    const auto frequency = frequency_of(at, k);
+    const auto damping = damping_of(k);
+    frequencies.push_back(frequency.start);
+    dampings.push_back(damping.start);
+    for (const auto& p : {frequency, damping, residue("positions", k), residue("velocities", k)}) law.free.push_back(p);
+  }
+  give(law.block, "frequencies", with_unit(frequencies, parse_unit("Hz")));
+  give(law.block, "dampings", with_unit(dampings, Unit{}));
+  give(law.block, "positions", with_unit(none, Unit{}));
+  give(law.block, "velocities", with_unit(none, Unit{}));
+  return law;
+}
+
+/// Of the values of a law: frequency, damping and two residues of each mode.
+constexpr std::size_t numbers_of_a_mode = 4;
+
+std::string tell_modes(const Law&, const std::vector<double>& values, const Circumstances&) {
+  std::string text;
+  for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
+    text += fmt::format("{}{:.4g} Hz, damping {:.2g}, {:.2g} % of the motion", text.empty() ? "" : "; ", values[k],
+                        values[k + 1], 100 * std::hypot(values[k + 2], values[k + 3]));
+  return text;
+}
+
+/// The mode that adds most must ring; what one more does beside it refines the shape.
+std::string why_no_ringing(const Law&, const std::vector<double>& values, const Circumstances&) {
+  double most = -1, damping = 0;
+  for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
+    if (const double adds = std::hypot(values[k + 2], values[k + 3]); adds > most) {
+      most = adds;
+      damping = values[k + 1];
+    }
+  if (damping > most_damping)
+    return fmt::format("with its damping of {:.2g}, more than {}, it would shift the phase and not ring", damping,
+                       most_damping);
+  if (damping < 1.01 * least_damping)
+    return fmt::format("at its damping of {:.2g}, the limit, it would never stop ringing", damping);
+  return "";
+}
+
 }  // namespace
 
 Effect structural_resonance() {
@@ -20,67 +106,29 @@ Effect structural_resonance() {
   e.id = "structural_resonance";
   e.title = "Resonance of the structure";
   e.cause = "The mass of the stage on the stiffness of actuator and flexures.";
-  e.equation = "y = u + position*(q - u) + velocity*q'/w,  q'' + 2*damping*w*q' + w^2*q = w^2*u,  w = 2*pi*frequency";
+  e.equation =
+      "y = u + position*(q - u) + velocity*q'/w,  q'' + 2*damping*w*q' + w^2*q = w^2*u,  w = 2*pi*frequency; two "
+      "modes: the "
+      "sum of what two such add";
   e.source = "Devasia, Eleftheriou, Moheimani, IEEE Trans. Control Syst. Technol. 15 (2007) 802";
   e.residual = "Ringing after steps and corners, a gain that rises towards the frequency, the same at all amplitudes.";
   e.needs = "Steps or corners, or motion up to the frequency, sampled four times a period.";
   e.way = Way::insert;
   e.commutes = Commutes::linear;
-  e.block_type = "mode";
+  e.block_type = "modes";
   e.places = {"core"};
   e.behind_core = true;
   e.parameters = {
-      {"frequency", "Hz", "undamped natural frequency", "100 Hz .. 10 kHz for piezo stages"},
-      {"damping", "", "damping ratio", "0.002 .. 0.05 for flexures; above 0.1 it would only shift the phase"},
-      {"position, velocity", "", "residues: share of the motion that the mode adds", ""}};
+      {"frequencies", "Hz", "undamped natural frequency", "100 Hz .. 10 kHz for piezo stages"},
+      {"dampings", "", "damping ratio", "0.002 .. 0.05 for flexures; above 0.1 it would only shift the phase"},
+      {"positions, velocities", "", "residues: share of the motion that each mode adds", ""}};
   e.look_alikes = {{"amplifier_lag", "fast_steps", "a lag creeps to the level, a resonance rings about it"},
                    {"sensor_lag", "fast_steps", "a lag creeps to the level, a resonance rings about it"},
                    {"dead_time", "fast_steps", "a delay repeats the step, a resonance rings about the level"}};
   e.family = "structural_resonance";
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
-    return fmt::format("{:.4g} Hz, damping {:.2g}, {:.2g} % of the motion", values[0], values[1],
-                       100 * std::hypot(values[2], values[3]));
-  };
-  e.laws = [](const Circumstances& at) {
-    Law law;
-    law.name = "one mode";
-    law.block.type = "mode";
-    // Sampled four times a period at least; slower than five periods a recording it is no ringing.
-    const double fastest = 0.25 / at.shortest_step, slowest = std::min(5 / at.longest_recording, fastest / 100);
-    give(law.block, "frequency", with_unit(fastest / 3, parse_unit("Hz")));
-    give(law.block, "damping", 0.03);
-    give(law.block, "position", 0.0);
-    give(law.block, "velocity", 0.0);
-    LawParameter frequency;
-    frequency.path = "frequency";
-    frequency.start = fastest / 3;
-    frequency.lower = slowest;
-    frequency.upper = fastest;
-    frequency.log_scale = true;
-    frequency.scan = per_decade(std::max(slowest, fastest / 1000), 0.95 * fastest, 12);
-    LawParameter damping;
-    damping.path = "damping";
-    damping.start = 0.03;
-    damping.lower = least_damping;
-    damping.upper = searched_damping;
-    damping.log_scale = true;
-    damping.plausible_upper = 0.05;
-    LawParameter position, velocity;
-    position.path = "position";
-    velocity.path = "velocity";
-    position.lower = velocity.lower = -2;
-    position.upper = velocity.upper = 2;
-    law.free = {frequency, damping, position, velocity};
-    return std::vector<Law>{law};
-  };
-  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
-    if (values[1] > most_damping)
-      return fmt::format("with its damping of {:.2g}, more than {}, it would shift the phase and not ring", values[1],
-                         most_damping);
-    if (values[1] < 1.01 * least_damping)
-      return fmt::format("at its damping of {:.2g}, the limit, it would never stop ringing", values[1]);
-    return "";
-  };
+  e.summary = tell_modes;
+  e.laws = [](const Circumstances& at) { return std::vector<Law>{modes(at, 1), modes(at, 2)}; };
+  e.implausible = why_no_ringing;
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)
       return "a temperature does not ring: conduction of heat has real poles only";

@@ -177,7 +177,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "temperature_gain",
                                        "thermal_expansion",
                                        "resonance",
-                                       "mode",
+                                       "modes",
                                        "mass_with_mode",
                                        "mass_with_presliding",
                                        "mass_on_hysteretic_spring",
