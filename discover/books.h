@@ -1,6 +1,6 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
-// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp,
+// compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
 // zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
 #pragma once
 
@@ -172,6 +172,11 @@ int held_one_first(const Books& books, const std::vector<Tried>& tried, int winn
 /// in one room. Each is claimed as a first effect would be there, unless another of those that were `tried` in its step
 /// explains that output better, and told as a step of its own.
 void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& tried, double bar);
+
+/// Where nobody was admitted in the `first` step and only noise is left: one effect on the ways to several outputs at
+/// once, if the recordings speak for all of it together. Each output is told as a step of its own. False if there is
+/// none.
+bool on_axes_together(Books& books, const std::vector<Tried>& first);
 
 /// A law that found the user's zero anew (Effect::moves_zero) may have taken up another effect: every recording that
 /// begins at rest has its zero from the sensor. Holds the zero where the user has it and asks for `one_more` effect; if

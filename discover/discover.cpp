@@ -207,7 +207,7 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     if (step == 1) {
-      if (!one_step(books, step, As::further, &first)) break;
+      if (!one_step(books, step, As::further, &first) && !on_axes_together(books, first)) break;
       continue;
     }
     const bool more = more_than_noise(books) && unless_it_fails(books, [&] {

@@ -162,6 +162,25 @@ TEST_F(Pairs, AnEffectOfOneAxisIsNotTakenToTheOther) {
   EXPECT_EQ(d.steps.size(), 2u) << tried(d);
 }
 
+TEST_F(Pairs, WhatNoAxisSaysAloneBothMaySayTogether) {
+  // At most 0.15 mm, three quarters of the noise: on one axis (the first discovery) not enough for a claim.
+  const Law law = [](double, double u, double warmer) { return u * (1 + 1.25e-5 * warmer); };
+  const std::vector<std::string> only{"temperature_gain", "creep", "amplifier_lag"};
+  const auto alone = discovered(with_sensor(), one_axis(measured(law, law)), only);
+  EXPECT_EQ(alone.verdict, Verdict::adequate) << tried(alone);
+  const auto d = discovered(two_axes(), measured(law, law), only);
+  EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
+  EXPECT_EQ(names(d), (Names{"temperature_gain"}));
+  EXPECT_EQ(d.steps.size(), 2u) << "one of each axis";
+}
+
+TEST_F(Pairs, WhatOneAxisAloneSaysALittleIsNotClaimedOnBoth) {
+  const Law law = [](double, double u, double warmer) { return u * (1 + 1.25e-5 * warmer); };
+  const Law none = [](double, double u, double) { return u; };
+  const auto d = discovered(two_axes(), measured(law, none), {"temperature_gain", "creep", "amplifier_lag"});
+  EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+}
+
 TEST_F(Pairs, AWrongZeroBesideALateExpansionIsTheSensors) {
   // 0.001 m/K, and a zero that is off by 20 K of it: no laboratory is that much colder one day.
   const Law law = [](double, double u, double warmer) { return u + 0.001 * warmer + 0.02; };

@@ -1,0 +1,118 @@
+// Decides whether an effect too weak to be claimed on the way to one output is claimed on the ways to several at once:
+// axes are built alike and stand in one room, and what each alone says hardly more than chance of, all together may.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/books.h"
+
+namespace hysteron {
+namespace {
+
+bool on_one_output(const Tried& a, const Tried& b) {
+  return a.outputs.empty() || b.outputs.empty() ||
+         std::any_of(a.outputs.begin(), a.outputs.end(), [&](const std::string& o) {
+           return std::find(b.outputs.begin(), b.outputs.end(), o) != b.outputs.end();
+         });
+}
+
+/// Every kind of recording speaks for it, if only a little, and it is plausible.
+bool agrees(const Tried& t) {
+  return t.contender.ok && t.fall_train > 0 && t.fall_validate > 0 &&
+         why_implausible(*t.effect, t.laws[t.law], t.contender, t.circumstances).empty();
+}
+
+/// The best candidates of the effect that begins with `i` of this order, one for each output.
+std::vector<const Tried*> of_one_effect(const std::vector<Tried>& tried, const std::vector<std::size_t>& order,
+                                        std::size_t i) {
+  std::vector<const Tried*> members;
+  for (std::size_t k = i; k < order.size(); ++k) {
+    const Tried& t = tried[order[k]];
+    if (t.effect != tried[order[i]].effect || !agrees(t)) continue;
+    if (std::none_of(members.begin(), members.end(), [&](const Tried* m) { return on_one_output(*m, t); }))
+      members.push_back(&t);
+  }
+  return members;
+}
+
+/// Separate outputs: what each takes away adds up, and what cannot suffice is not fitted.
+bool could_suffice(const Books& books, const std::vector<const Tried*>& members) {
+  double fall = 0;
+  for (const Tried* m : members) fall += books.current.score() - m->contender.score();
+  return members.size() > 1 && fall > 0;
+}
+
+/// The members in one model: the last one's candidate, with the others before it.
+struct Together {
+  std::vector<const Tried*> members;
+  Tried all;
+};
+
+Together fitted_together(const Books& books, const Workshop& shop, const std::vector<const Tried*>& members) {
+  Together set{members, *members.back()};
+  Contender c = members.front()->contender;
+  for (std::size_t k = 1; k < members.size() && c.ok; ++k) {
+    const Tried& m = *members[k];
+    books.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
+    c = with_effect(shop, c, *m.effect, m.laws[m.law], m.place, m.circumstances, Effort::full);
+    set.all.outputs.insert(set.all.outputs.end(), members[k - 1]->outputs.begin(), members[k - 1]->outputs.end());
+  }
+  set.all.contender = std::move(c);
+  return set;
+}
+
+std::vector<Together> sets_of(const Books& books, const std::vector<Tried>& first) {
+  const auto order = ranking(first);
+  std::vector<std::vector<const Tried*>> worth;
+  std::vector<const Effect*> seen;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Tried& t = first[order[i]];
+    if (!agrees(t) || std::find(seen.begin(), seen.end(), t.effect) != seen.end()) continue;
+    seen.push_back(t.effect);
+    if (auto members = of_one_effect(first, order, i); could_suffice(books, members)) worth.push_back(members);
+  }
+  std::vector<Together> sets(worth.size());
+  books.side_by_side(worth.size(), [&](std::size_t i, const Workshop& shop) {
+    sets[i] = fitted_together(books, shop, worth[i]);
+    return false;
+  });
+  return sets;
+}
+
+/// The members of the set that is claimed but the last, each as a step of its own.
+void tell_those_before(Books& books, int step, const Together& set) {
+  for (std::size_t k = 0; k + 1 < set.members.size(); ++k) {
+    std::vector<Tried> one{*set.members[k]};
+    if (k > 0)
+      one[0].contender = with_effect(books.shop, books.current, *one[0].effect, one[0].laws[one[0].law], one[0].place,
+                                     one[0].circumstances, Effort::full);
+    take(books, step + static_cast<int>(k), one[0], {});
+    one[0].reason += "; claimed with that of the other outputs";
+    keep_candidates(books, one, step + static_cast<int>(k), 0, {});
+  }
+}
+
+}  // namespace
+
+bool on_axes_together(Books& books, const std::vector<Tried>& first) {
+  if (books.stopped() || books.base_model->outputs().size() < 2 ||
+      books.current.error_of.over_floor() > rules::floor_gate)
+    return false;
+  const auto sets = sets_of(books, first);
+  std::vector<Tried> tried;
+  for (const auto& set : sets) tried.push_back(set.all);
+  compare_all(books, tried, As::first);
+  const int winner = best_admitted(tried);
+  std::vector<int> ties;
+  const int step = static_cast<int>(books.d.steps.size()) + 1;
+  if (winner >= 0) {
+    const auto& set = sets[static_cast<std::size_t>(winner)];
+    ties = ties_of(books, tried, static_cast<std::size_t>(winner));
+    tell_those_before(books, step, set);
+    claim(books, step + static_cast<int>(set.members.size()) - 1, tried, static_cast<std::size_t>(winner), ties, 0.95);
+  }
+  keep_candidates(books, tried, static_cast<int>(books.d.steps.size()), winner, ties);
+  return winner >= 0;
+}
+
+}  // namespace hysteron
