@@ -42,22 +42,24 @@ bool could_suffice(const Books& books, const std::vector<const Tried*>& members)
   return members.size() > 1 && fall > 0;
 }
 
-/// The members in one model: the last one's candidate, with the others before it.
+/// The members in one model, and how they came into it.
 struct Together {
   std::vector<const Tried*> members;
-  Tried all;
+  std::vector<Contender> so_far;  ///< with each member and those before it
+  Tried all;                      ///< the last one's candidate, with the others before it
 };
 
 Together fitted_together(const Books& books, const Workshop& shop, const std::vector<const Tried*>& members) {
-  Together set{members, *members.back()};
-  Contender c = members.front()->contender;
-  for (std::size_t k = 1; k < members.size() && c.ok; ++k) {
+  Together set{members, {members.front()->contender}, *members.back()};
+  for (std::size_t k = 1; k < members.size() && set.so_far.back().ok; ++k) {
     const Tried& m = *members[k];
     books.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
-    c = with_effect(shop, c, *m.effect, m.laws[m.law], m.place, m.circumstances, Effort::full);
-    set.all.outputs.insert(set.all.outputs.end(), members[k - 1]->outputs.begin(), members[k - 1]->outputs.end());
+    set.so_far.push_back(
+        with_effect(shop, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.circumstances, Effort::full));
+    const auto& before = members[k - 1]->outputs;
+    set.all.outputs.insert(set.all.outputs.end(), before.begin(), before.end());
   }
-  set.all.contender = std::move(c);
+  set.all.contender = set.so_far.back();
   return set;
 }
 
@@ -83,9 +85,7 @@ std::vector<Together> sets_of(const Books& books, const std::vector<Tried>& firs
 void tell_those_before(Books& books, int step, const Together& set) {
   for (std::size_t k = 0; k + 1 < set.members.size(); ++k) {
     std::vector<Tried> one{*set.members[k]};
-    if (k > 0)
-      one[0].contender = with_effect(books.shop, books.current, *one[0].effect, one[0].laws[one[0].law], one[0].place,
-                                     one[0].circumstances, Effort::full);
+    one[0].contender = set.so_far[k];
     take(books, step + static_cast<int>(k), one[0], {});
     one[0].reason += "; claimed with that of the other outputs";
     keep_candidates(books, one, step + static_cast<int>(k), 0, {});
