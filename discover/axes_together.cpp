@@ -99,19 +99,21 @@ bool on_axes_together(Books& books, const std::vector<Tried>& first) {
       books.current.error_of.over_floor() > rules::floor_gate)
     return false;
   const auto sets = sets_of(books, first);
+  if (sets.empty()) return false;
   std::vector<Tried> tried;
   for (const auto& set : sets) tried.push_back(set.all);
   compare_all(books, tried, As::first);
   const int winner = best_admitted(tried);
   std::vector<int> ties;
-  const int step = static_cast<int>(books.d.steps.size()) + 1;
+  int step = static_cast<int>(books.d.steps.size()) + 1;
   if (winner >= 0) {
     const auto& set = sets[static_cast<std::size_t>(winner)];
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     tell_those_before(books, step, set);
-    claim(books, step + static_cast<int>(set.members.size()) - 1, tried, static_cast<std::size_t>(winner), ties, 0.95);
+    step = static_cast<int>(books.d.steps.size()) + 1;
+    claim(books, step, tried, static_cast<std::size_t>(winner), ties, 0.95);
   }
-  keep_candidates(books, tried, static_cast<int>(books.d.steps.size()), winner, ties);
+  keep_candidates(books, tried, step, winner, ties);
   return winner >= 0;
 }
 

@@ -112,7 +112,9 @@ Effect structural_resonance() {
       "sum of what two such add";
   e.source = "Devasia, Eleftheriou, Moheimani, IEEE Trans. Control Syst. Technol. 15 (2007) 802";
   e.residual = "Ringing after steps and corners, a gain that rises towards the frequency, the same at all amplitudes.";
-  e.needs = "Steps or corners, or motion up to the frequency, sampled four times a period.";
+  e.needs =
+      "Steps or corners, or motion up to the frequency, sampled four times a period; a second mode beside it 2.2 "
+      "times.";
   e.way = Way::insert;
   e.commutes = Commutes::linear;
   e.block_type = "modes";

@@ -172,6 +172,8 @@ TEST_F(Pairs, WhatNoAxisSaysAloneBothMaySayTogether) {
   EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
   EXPECT_EQ(names(d), (Names{"temperature_gain"}));
   EXPECT_EQ(d.steps.size(), 2u) << "one of each axis";
+  for (const auto& c : d.candidates) EXPECT_GE(c.step, 1) << c.effect;
+  EXPECT_EQ(std::count_if(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) { return c.claimed; }), 2);
 }
 
 TEST_F(Pairs, WhatOneAxisAloneSaysALittleIsNotClaimedOnBoth) {
