@@ -2,6 +2,7 @@
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
 //   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]
+//   [--progress]
 //
 // --unstated: the data set does not say how noisy the sensor is.
 // Each case runs in a process of its own: one that fails costs that case only.
@@ -41,7 +42,8 @@ struct Wish {
   /// Of CPU, so that a busy machine gives the same answers: then a case ends, on two cores within thirty seconds of
   /// the clock; 0 = never.
   double seconds = 45;
-  bool tell = false;  ///< everything that was tried
+  bool tell = false;      ///< everything that was tried
+  bool progress = false;  ///< what is being tried, and the CPU seconds until then
   Noise noise = Noise::stated;
 };
 
@@ -83,6 +85,10 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     if (effects.find(name) != nullptr) options.only.push_back(name);
   if (wish.seconds > 0) options.stop = [&] { return cpu_seconds() > wish.seconds; };
   options.threads = wish.threads;
+  if (wish.progress)
+    options.progress = [&](const std::string& what, double) {
+      fmt::print(stderr, "{} {:7.2f}  {}\n", hidden.id, cpu_seconds(), what);
+    };
   const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
   write_hidden_answer(hidden, data, found, wish.results);
   const std::string late = wish.seconds > 0 && cpu_seconds() > wish.seconds ? ", stopped by its time limit" : "";
@@ -188,6 +194,8 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       wish.noise = Noise::unstated;
     } else if (word == "--tell") {
       wish.tell = true;
+    } else if (word == "--progress") {
+      wish.progress = true;
     } else {
       places.push_back(word);
     }
@@ -203,10 +211,10 @@ std::optional<Wish> read_wish(int argc, char** argv) {
 int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
-    fmt::print(
-        stderr,
-        "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]\n"
-        "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
+    fmt::print(stderr,
+               "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] "
+               "[--tell] [--progress]\n"
+               "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }
   std::filesystem::create_directories(wish->results);

@@ -22,11 +22,14 @@ void reference(BlockSpec<B>& spec) {
 
 void TemperatureGain::describe(BlockSpec<TemperatureGain>& spec) {
   spec.name("temperature_gain", "gain that changes with temperature");
-  spec.law("y = u (1 + sensitivity (temperature - reference))")
-      .from("definition; the gain of a piezo ceramic grows almost linearly near room temperature");
+  spec.law("y = u (1 + sensitivity dT + curvature dT^2), dT = temperature - reference")
+      .from("expansion about the reference; the gain of a piezo ceramic grows almost linearly near room temperature");
   ports(spec);
   spec.param(&Params<double>::sensitivity, "sensitivity", "1/K", "relative change of the gain per kelvin").linear();
   reference(spec);
+  spec.param(&Params<double>::curvature, "curvature", "1/K^2", "relative change of the gain per squared kelvin")
+      .optional("0")
+      .linear();
 }
 
 void ThermalExpansion::describe(Declaration& d) {

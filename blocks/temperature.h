@@ -20,7 +20,7 @@ struct WarmSignal {
 struct TemperatureGain {
   template <class T>
   struct Params {
-    T sensitivity, reference;
+    T sensitivity, reference, curvature;
   };
   template <class T>
   using In = SignalAndTemperature<T>;
@@ -29,7 +29,8 @@ struct TemperatureGain {
   static void describe(BlockSpec<TemperatureGain>& spec);
   template <class T>
   static Out<T> output(const Params<T>& p, const In<T>& in) {
-    return {in.u * (1.0 + p.sensitivity * (in.temperature - p.reference))};
+    const T warmer = in.temperature - p.reference;
+    return {in.u * (1.0 + warmer * (p.sensitivity + p.curvature * warmer))};
   }
 };
 

@@ -40,7 +40,7 @@ bool needs_both(Books& books, const Tried& first, const Tried& second, const std
   Tried t = first;
   t.contender = second.contender;
   t.contender.error_of = books.evidence->error(t.contender.prediction);
-  judge(t, without, left_by_laws_of(books, without));
+  judge(*books.evidence, t, without, left_by_laws_of(books, without));
   return t.admitted;
 }
 

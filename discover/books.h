@@ -151,6 +151,9 @@ bool would_tell(const Experiment& experiment, bool hidden);
 
 /// A rival of the step's winner, and the experiment that would tell the two apart. Both stand last in their models.
 void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival);
+/// Fits the candidate as it is claimed. Where it goes on to, it may no longer be itself (a resonance that rings no
+/// more): then it is not admitted, and the answer false.
+bool stays_itself(const Books& books, Tried& t);
 /// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
            double bar);
@@ -203,7 +206,8 @@ bool another_beginning(Books& books, const std::vector<Tried>& first);
 /// Where structure is left and nobody was admitted in the `last` step: one of its patches and one more effect on it, if
 /// both together leave only noise and neither would without the other. True if there are two.
 bool two_more(Books& books, const std::vector<Tried>& last);
-/// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had.
+/// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had,
+/// or is not itself in it.
 bool tell_again(Books& books, const Contender& set);
 
 /// As the recordings have it.

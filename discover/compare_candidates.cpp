@@ -149,6 +149,8 @@ bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t la
   // For the same, fewer numbers are taken: a spare pole stands where a lag is not, and is in everybody's way there.
   const double gain = t.laws[law].free.size() > t.laws[t.law].free.size() ? rules::alike : 0;
   if (!richer.ok || !(richer.score() < t.contender.score() - gain)) return false;
+  // What makes it better is then not the effect: a second mode at the limit of damping is somebody's lag.
+  if (!why_implausible(*t.effect, t.laws[law], richer, t.circumstances).empty()) return false;
   t.contender = std::move(richer);
   t.law = law;
   return true;
@@ -210,7 +212,7 @@ void compare_all(Books& books, std::vector<Tried>& tried, As as) {
   const auto left = left_by_laws(books, as);
   for (auto& t : tried) {
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(t, books.current, left);
+    judge(*books.evidence, t, books.current, left);
   }
   leave_to_calibration(tried, left);
 }
@@ -259,7 +261,7 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, A
     t.contender =
         with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(t, books.current, left);
+    judge(*books.evidence, t, books.current, left);
     t.hidden = true;
     tried.push_back(std::move(t));
   }

@@ -9,6 +9,7 @@
 
 #include "discover/parts.h"
 #include "engine/error.h"
+#include "fit/median.h"
 
 namespace hysteron {
 namespace {
@@ -392,9 +393,29 @@ int spent(const Contender& c, int standing) {
   return n;
 }
 
+/// See Contender::without_line.
+void look_without_line(const Workshop& shop, Contender& c) {
+  c.without_line.reset();
+  const double line = c.standing.empty() ? 0 : line_of(c);
+  const auto coarse = [&](int r) {
+    return !resolves(median_step(shop.data->recordings[static_cast<std::size_t>(r)].t), line);
+  };
+  const auto judged = train_and_validate(*shop.data);
+  if (std::none_of(judged.begin(), judged.end(), coarse)) return;
+  Trial silent;
+  for (const auto& v : c.of_recordings) {
+    const bool newest = v.path.starts_with(c.standing.back().name + ".");
+    silent.push_back({parameter_index(*c.program, v.path), newest && !coarse(v.recording) ? 0 : v.value, v.recording});
+  }
+  DataModel model(c.program, shop.data, accuracy(shop, Effort::full));
+  if (shop.evidence != nullptr) model.choose_substeps(silent, noise_of(shop, model).white());
+  c.without_line = model.predict(silent, judged);
+}
+
 Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, int held_parameters) {
   try {
     fit_contender(shop, c, effort, fresh);
+    if (c.ok) look_without_line(shop, c);
     if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
     // Effects that were held keep what they spent before.
     c.found_on_validation = 0;
@@ -526,6 +547,12 @@ std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int sta
     }
   }
   return list;
+}
+
+double line_of(const Contender& contender) {
+  for (const auto& p : parameters_of(contender, static_cast<int>(contender.standing.size()) - 1))
+    if (!p.law->line_bands.empty() && p.estimate != nullptr) return p.estimate->used;
+  return 0;
 }
 
 std::vector<double> values_of(const Contender& contender, std::size_t standing) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct Contender {
   std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
   Prediction prediction;                      ///< train and validate recordings
   ModelError error_of;                        ///< filled in by whoever holds the evidence
+  /// Where rows of some recordings are too coarse for the line of the last effect: the same without that line, where
+  /// they are fine enough. What it takes away there proves it (see `proved`).
+  std::optional<Prediction> without_line;
   /// Laws that move the zero (Effect::moves_zero) leave it where the user has it: it is a calibration's, or nobody's.
   bool zero_held = false;
   int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
@@ -103,6 +107,10 @@ struct ParameterOfEffect {
   const ParameterEstimate* estimate = nullptr;
 };
 std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing = -1);
+/// [Hz] of the line that the last effect's law looks for; 0 = it looks for none.
+double line_of(const Contender& contender);
+/// Rows so far apart [s] tell a line from slower ones.
+inline bool resolves(double step, double line) { return 2 * step * line < 1; }
 /// Values [SI] of the parameters of one effect that were estimated, in the order of its law.
 std::vector<double> values_of(const Contender& contender, std::size_t standing);
 

@@ -135,6 +135,18 @@ bool unless_it_fails(Books& books, const std::function<bool()>& search) {
   }
 }
 
+/// Index of the candidate that a step claims, -1 = none.
+int who_wins(Books& books, std::vector<Tried>& tried) {
+  for (int winner = best_admitted(tried); winner >= 0; winner = best_admitted(tried)) {
+    sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
+    winner = best_admitted(tried);
+    if (winner < 0) break;
+    winner = held_one_first(books, tried, calibration_first(tried, winner));
+    if (stays_itself(books, tried[static_cast<std::size_t>(winner)])) return winner;
+  }
+  return -1;
+}
+
 /// False if nothing was claimed. `kept`: what was tried; `outputs`: only what moves none but these, all if empty.
 bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std::vector<std::string>& outputs = {},
               const std::vector<const Effect*>& only = {}) {
@@ -145,12 +157,7 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   compare_all(books, tried, as);
   if (step > 1) refit_best(books, tried, as, bar(0.7));
   enrich(books, tried, step, as, bar(0.8));
-  int winner = best_admitted(tried);
-  if (winner >= 0) {
-    sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
-    winner = best_admitted(tried);
-  }
-  if (winner >= 0) winner = held_one_first(books, tried, calibration_first(tried, winner));
+  int winner = who_wins(books, tried);
   std::vector<int> ties;
   if (winner >= 0) {
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "fit/dense.h"
+#include "fit/median.h"
 #include "fit/whiten.h"
 
 namespace hysteron {
@@ -147,6 +148,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
     const auto w = residual(prediction, r);
     const bool is_train = base_.recording(r).role == Role::train;
+    const double step = median_step(base_.times(r));
     for (const auto& [o, begin, size, zero_is_free] : slices(r)) {
       const Rows& measured = base_.measured(r, o);
       RecordingError one;
@@ -154,6 +156,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       one.role = base_.recording(r).role;
       one.output = base_.outputs()[static_cast<std::size_t>(o)];
       one.rows = measured.size();
+      one.step = step;
       one.rms = rms(base_, with_zeros, std::span<const int>(&r, 1), o);
       const double dev = deviation(measured);
       one.nrmse = dev > 0 ? one.rms / dev : 0;

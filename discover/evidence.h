@@ -20,6 +20,7 @@ struct RecordingError {
   Role role = Role::train;
   std::string output;
   std::size_t rows = 0;
+  double step = 0;      ///< [s] between rows
   double rms = 0;       ///< [SI of the output]
   double nrmse = 0;     ///< rms over the standard deviation of what was measured
   double chi2 = 0;      ///< sum of squared whitened residuals, in units of the noise

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Tried {
   int twin = -1;  ///< the same finding, fitted at the other end of its places: index in the list; -1 = none
   std::vector<std::string> outputs;  ///< that the place moves; empty = all
   Contender contender;
+  std::optional<Contender> finished;         ///< with the finest rows and intervals, as it is claimed
   double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
   double share = 0;       ///< of the excess on validation that it removes, of the outputs that it can move
   bool admitted = false;  ///< passes the rules of a claim
@@ -85,7 +87,7 @@ constexpr std::size_t too_many_numbers = 15;
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.
-void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
+void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
 
 /// Is what `effect` takes away of what `before` leaves more than the laws of that one may have left of their own
 /// effects?

@@ -140,6 +140,41 @@ std::vector<double> left_for(const Effect& effect, const Contender& standing, st
   return left_by_laws;
 }
 
+/// What speaks for the newest law of `c`. Rows too coarse for a line show it at another frequency, where it may be
+/// anything that is slow: what it takes away there proves nothing, nor what the others take away elsewhere since then.
+/// A line proves itself where it is seen, by what is left there without it.
+ModelError proved(const Evidence& evidence, const ModelError& was, const Contender& c) {
+  ModelError is = c.error_of;
+  if (!c.without_line) return is;
+  const ModelError without = evidence.error(*c.without_line);
+  const double line = line_of(c);
+  for (std::size_t i = 0; i < is.recordings.size() && without.ok; ++i) {
+    RecordingError& r = is.recordings[i];
+    const auto& before = was.recordings[i];
+    const bool seen = resolves(r.step, line);
+    const double chi2 = before.chi2 - (seen ? without.recordings[i].chi2 - r.chi2 : 0);
+    const double of_evidence = before.evidence - (seen ? without.recordings[i].evidence - r.evidence : 0);
+    const bool is_train = r.role == Role::train;
+    (is_train ? is.chi2_train : is.chi2_validate) += chi2 - r.chi2;
+    (is_train ? is.evidence_train : is.evidence_validate) += of_evidence - r.evidence;
+    r.chi2 = chi2;
+    r.evidence = of_evidence;
+  }
+  return is;
+}
+
+/// Values of the newest law that were found on validate recordings which can speak for it.
+int found_where_proved(const Contender& c, const Contender& before) {
+  const int found = std::max(0, c.found_on_validation - before.found_on_validation);
+  const auto judging = [](const RecordingError& r) { return r.role == Role::validate; };
+  const double line = line_of(c);
+  const auto& list = c.error_of.recordings;
+  const auto all = std::count_if(list.begin(), list.end(), judging);
+  const auto some = std::count_if(list.begin(), list.end(),
+                                  [&](const RecordingError& r) { return judging(r) && resolves(r.step, line); });
+  return all > 0 ? static_cast<int>(found * some / all) : 0;
+}
+
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
 /// the price of every number that was fitted.
 bool all_agree(const Tried& tried, const Contender& before) {
@@ -182,7 +217,7 @@ bool look_alike(const Effect& a, const Effect& b) {
   return names(a, b) || names(b, a);
 }
 
-void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
+void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   const Contender& c = tried.contender;
   tried.admitted = tried.patch = false;
   if (!c.ok) {
@@ -190,11 +225,10 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     return;
   }
   const ModelError& was = before.error_of;
-  const ModelError& is = c.error_of;
+  const ModelError is = proved(evidence, was, c);
   tried.fall_train = was.evidence_train - is.evidence_train;
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
-  const int found_there = std::max(0, c.found_on_validation - before.found_on_validation);
-  tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_there;
+  tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_where_proved(c, before);
   tried.share = share_of_recordings(
       share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, left_by_laws)), was, is, tried.outputs);
   const bool above_noise = was.over_floor() > rules::floor_gate;

@@ -225,6 +225,7 @@ bool tell_again(Books& books, const Contender& set) {
       if (set.score() < t->contender.score()) t->contender = set;
       sharpen(books, *t);
     }
+    if (!why_implausible(*t->effect, t->laws[t->law], t->contender, t->circumstances).empty()) break;
     FoundStep found;
     for (const auto& was : steps)
       if (was.winner.effect == t->effect->id && was.winner.place == t->place.at) {
@@ -260,7 +261,7 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
   for (auto& t : as_good) {
     const auto same = [&](const Candidate& c) { return c.effect == t.effect->id; };
     if (same(step->winner) || std::any_of(step->ties.begin(), step->ties.end(), same)) continue;
-    judge(t, rest, left_by_laws_of(books, rest));
+    judge(*books.evidence, t, rest, left_by_laws_of(books, rest));
     add_tie(books, step->winner.step, *step, *winner, t);
   }
   step->sentence = step_sentence(*winner, step->ties, step->before, step->after, output_unit(books));

@@ -9,8 +9,53 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double least_span = 3;   // [K] of a recorded temperature that shows a gain
-constexpr double work_place = 15;  // [K] beyond what was recorded: another season, another laboratory
+constexpr double least_span = 3;         // [K] of a recorded temperature that shows a gain
+constexpr double most_curvature = 1e-3;  // [1/K^2] 0.1 %/K in every kelvin: more bends the gain than moves it
+constexpr double work_place = 15;        // [K] beyond what was recorded: another season, another laboratory
+
+/// `bent`: the change of the gain per kelvin is another one where it is warmer.
+Law law(const Circumstances& at, bool bent) {
+  Law law;
+  law.name = bent ? "bent in temperature" : "linear in temperature";
+  law.block.type = "temperature_gain";
+  const double middle = 0.5 * (at.side_lowest + at.side_highest);
+  // One temperature does not tell its own reference: the gain is then that of a usual room.
+  const bool one_temperature = at.from_data && at.side_highest - at.side_lowest < least_span;
+  give(law.block, "sensitivity", Number{0.001, "1/K"});
+  give(law.block, "reference",
+       at.side_unit.text.empty() ? Number{20, "degC"}
+                                 : level(one_temperature ? usual_room(middle) : middle, at.side_unit));
+  LawParameter sensitivity;
+  sensitivity.path = "sensitivity";
+  sensitivity.start = 0.001;
+  sensitivity.lower = -0.05;
+  sensitivity.upper = 0.05;
+  sensitivity.plausible_lower = -0.005;
+  sensitivity.plausible_upper = 0.01;
+  law.free = {sensitivity};
+  if (!at.gain_is_free && !one_temperature) {  // else the gain of the model is that at the reference, wherever that is
+    LawParameter reference;
+    reference.path = "reference";
+    reference.start = middle;
+    // Sensitivity and reference multiply each other: from a wrong reference the first steps go astray. The user's gain
+    // was found at a temperature of these recordings, most often the coldest, that of the room.
+    const double span = at.side_highest - at.side_lowest;
+    if (at.from_data) reference.scan = {at.side_lowest, at.side_lowest + 0.15 * span, middle, at.side_highest};
+    // A model's gain was found where its user works. Far from there, sensitivity times distance is a wrong gain that
+    // hardly knows the temperature.
+    reference.lower = at.from_data ? at.side_lowest - work_place : middle - 100;
+    reference.upper = at.from_data ? at.side_highest + work_place : middle + 100;
+    law.free.push_back(reference);
+  }
+  if (!bent) return law;
+  give(law.block, "curvature", Number{0, "1/K^2"});
+  LawParameter curvature;
+  curvature.path = "curvature";
+  curvature.lower = -most_curvature;
+  curvature.upper = most_curvature;
+  law.free.push_back(curvature);
+  return law;
+}
 
 }  // namespace
 
@@ -21,7 +66,7 @@ Effect temperature_gain() {
   e.id = "temperature_gain";
   e.title = "Gain that depends on temperature";
   e.cause = "The piezoelectric coefficient grows with temperature.";
-  e.equation = "y = u*(1 + sensitivity*(T - T0))";
+  e.equation = "y = u*(1 + sensitivity*(T - T0) + curvature*(T - T0)^2)";
   e.source =
       "Zheng, Takahashi, Yoshikawa, Uchino, J. Am. Ceram. Soc. 79 (1996) (heat and gain of multilayer actuators)";
   e.residual = "In proportion to (T - T0) times the signal; nothing where the signal is zero.";
@@ -33,53 +78,21 @@ Effect temperature_gain() {
   e.side = Side::temperature;
   e.parameters = {
       {"sensitivity", "1/K", "relative change of the gain per kelvin", "0.05 .. 0.5 %/K near room temperature"},
-      {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"}};
+      {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"},
+      {"curvature", "1/K^2", "how the change per kelvin changes with temperature", "0 in the simple law"}};
   e.look_alikes = {{"thermal_expansion", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"},
                    {"calibration", "temperature_staircase", "a calibration does not change with temperature"},
                    {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};
   e.family = "temperature_gain";
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
     std::string text = fmt::format("{:.3g} %/K", 100 * values[0]);
-    if (law.free.size() > 1)
-      text += fmt::format(" about {:.3g} {}", at.side_unit.from_si(values[1]), at.side_unit.text);
+    for (std::size_t i = 1; i < law.free.size(); ++i)
+      text += law.free[i].path == "reference"
+                  ? fmt::format(" about {:.3g} {}", at.side_unit.from_si(values[i]), at.side_unit.text)
+                  : fmt::format(", {:+.2g} %/K more per kelvin", 200 * values[i]);
     return text;
   };
-  e.laws = [](const Circumstances& at) {
-    Law law;
-    law.name = "linear in temperature";
-    law.block.type = "temperature_gain";
-    const double middle = 0.5 * (at.side_lowest + at.side_highest);
-    // One temperature does not tell its own reference: the gain is then that of a usual room.
-    const bool one_temperature = at.from_data && at.side_highest - at.side_lowest < least_span;
-    give(law.block, "sensitivity", Number{0.001, "1/K"});
-    give(law.block, "reference",
-         at.side_unit.text.empty() ? Number{20, "degC"}
-                                   : level(one_temperature ? usual_room(middle) : middle, at.side_unit));
-    LawParameter sensitivity;
-    sensitivity.path = "sensitivity";
-    sensitivity.start = 0.001;
-    sensitivity.lower = -0.05;
-    sensitivity.upper = 0.05;
-    sensitivity.plausible_lower = -0.005;
-    sensitivity.plausible_upper = 0.01;
-    law.free = {sensitivity};
-    if (!at.gain_is_free &&
-        !one_temperature) {  // else the gain of the model is that at the reference, wherever that is
-      LawParameter reference;
-      reference.path = "reference";
-      reference.start = middle;
-      // Sensitivity and reference multiply each other: from a wrong reference the first steps go astray. The user's
-      // gain was found at a temperature of these recordings, most often the coldest, that of the room.
-      const double span = at.side_highest - at.side_lowest;
-      if (at.from_data) reference.scan = {at.side_lowest, at.side_lowest + 0.15 * span, middle, at.side_highest};
-      // A model's gain was found where its user works. Far from there, sensitivity times distance is a wrong gain that
-      // hardly knows the temperature.
-      reference.lower = at.from_data ? at.side_lowest - work_place : middle - 100;
-      reference.upper = at.from_data ? at.side_highest + work_place : middle + 100;
-      law.free.push_back(reference);
-    }
-    return std::vector<Law>{law};
-  };
+  e.laws = [](const Circumstances& at) { return std::vector<Law>{law(at, false), law(at, true)}; };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;

@@ -310,7 +310,7 @@ inline std::vector<Sample> samples() {
       {"mains_interference", {{"frequency", {1.3}}, {"cosine", {0.4, 0.1}}, {"sine", {-0.2, 0.3}}}},
       {"cross_coupling", {{"coefficient", {0.3}}}},
       {"late_cross_coupling", {{"coefficient", {0.3}}, {"time", {0.6}}}},
-      {"temperature_gain", {{"sensitivity", {0.2}}, {"reference", {0.5}}}},
+      {"temperature_gain", {{"sensitivity", {0.2}}, {"reference", {0.5}}, {"curvature", {0.1}}}},
       {"thermal_expansion", {{"coefficients", {0.4, -0.2}}, {"times", {0.3, 1.1}}, {"reference", {0.5}}}, 2},
       {"resonance", {{"frequency", {0.8}}, {"damping", {0.2}}}},
       {"modes",

@@ -29,7 +29,8 @@ CAMPAIGN = dict(actuator=dict(train=("sine_multiamp", "triangle", "freq_low", "f
                               validate=("sine_multiamp", "step_hold", "multisine", "temp_ramp")),
                 mass=dict(train=MENU["mass"], validate=MENU["mass"]),
                 heater=dict(train=("step", "staircase", "prbs"), validate=("steps", "sine", "prbs")))
-ATTEMPTS = 60
+ATTEMPTS = 400
+ATTEMPTS_WITH_NOISE = 15  # then the sensor is a quieter one
 
 
 class Unsuited(Exception):
@@ -134,7 +135,7 @@ def named(rng, names, strengths, group, attempt, campaign):
         raise Unsuited("no plant holds all of " + ", ".join(names))
     plant = draw_plant(rng, str(rng.choice(plants)))
     recordings = draw_recordings(rng, plant, shows_of(names, plant.base), campaign)
-    sensor = sensor_for(rng, plant, recordings, 1.0 if attempt < ATTEMPTS // 4 else 0.2)
+    sensor = sensor_for(rng, plant, recordings, 1.0 if attempt < ATTEMPTS_WITH_NOISE else 0.2)
     effects = hide(rng, plant, recordings, names, strengths, sensor)
     allowed = []
     for e in effects:
