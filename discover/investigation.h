@@ -24,6 +24,7 @@ struct Tried {
   std::vector<std::string> outputs;  ///< that the place moves; empty = all
   Contender contender;
   std::optional<Contender> finished;         ///< with the finest rows and intervals, as it is claimed
+  std::optional<ModelError> without_line{};  ///< of Contender::without_line
   double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
   double share = 0;       ///< of the excess on validation that it removes, of the outputs that it can move
   bool admitted = false;  ///< passes the rules of a claim
@@ -87,6 +88,8 @@ constexpr std::size_t too_many_numbers = 15;
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.
+void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
+/// With what is left without the line that its law looks for (Contender::without_line).
 void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
 
 /// Is what `effect` takes away of what `before` leaves more than the laws of that one may have left of their own

@@ -140,14 +140,14 @@ std::vector<double> left_for(const Effect& effect, const Contender& standing, st
   return left_by_laws;
 }
 
-/// What speaks for the newest law of `c`. Rows too coarse for a line show it at another frequency, where it may be
+/// What speaks for the newest law. Rows too coarse for a line show it at another frequency, where it may be
 /// anything that is slow: what it takes away there proves nothing, nor what the others take away elsewhere since then.
 /// A line proves itself where it is seen, by what is left there without it.
-ModelError proved(const Evidence& evidence, const ModelError& was, const Contender& c) {
-  ModelError is = c.error_of;
-  if (!c.without_line) return is;
-  const ModelError without = evidence.error(*c.without_line);
-  const double line = line_of(c);
+ModelError proved(const ModelError& was, const Tried& tried) {
+  ModelError is = tried.contender.error_of;
+  if (!tried.without_line) return is;
+  const ModelError& without = *tried.without_line;
+  const double line = line_of(tried.contender);
   for (std::size_t i = 0; i < is.recordings.size() && without.ok; ++i) {
     RecordingError& r = is.recordings[i];
     const auto& before = was.recordings[i];
@@ -218,6 +218,12 @@ bool look_alike(const Effect& a, const Effect& b) {
 }
 
 void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
+  tried.without_line.reset();
+  if (tried.contender.without_line) tried.without_line = evidence.error(*tried.contender.without_line);
+  judge(tried, before, left_by_laws);
+}
+
+void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   const Contender& c = tried.contender;
   tried.admitted = tried.patch = false;
   if (!c.ok) {
@@ -225,7 +231,7 @@ void judge(const Evidence& evidence, Tried& tried, const Contender& before, cons
     return;
   }
   const ModelError& was = before.error_of;
-  const ModelError is = proved(evidence, was, c);
+  const ModelError is = proved(was, tried);
   tried.fall_train = was.evidence_train - is.evidence_train;
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_where_proved(c, before);

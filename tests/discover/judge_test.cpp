@@ -66,6 +66,45 @@ TEST_F(Judging, WhatALawMayHaveLeftCountsWhereThatLawActs) {
   EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
 }
 
+/// A mains that was looked for at 50 Hz, in rows of 1 s and 1 ms; `without` it this is left.
+Tried a_line(const Effects& effects, const ModelError& after, const ModelError& without) {
+  Tried t;
+  t.effect = effects.find("mains_interference");
+  Law law;
+  law.free.emplace_back().path = "frequency";
+  law.free.back().line_bands = {{49.5, 50.5}};
+  t.laws = {law};
+  t.contender.ok = true;
+  t.contender.error_of = after;
+  for (const std::size_t slow : {0u, 2u}) t.contender.error_of.recordings[slow].step = 1;
+  for (const std::size_t fast : {1u, 3u}) t.contender.error_of.recordings[fast].step = 1e-3;
+  auto& standing = t.contender.standing.emplace_back();
+  standing.effect = t.effect;
+  standing.law = law;
+  standing.name = "hum";
+  auto& estimate = t.contender.fit.estimates.emplace_back();
+  estimate.path = parameter_path("hum", law, law.free.front());
+  estimate.used = 50;
+  t.without_line = without;
+  return t;
+}
+
+TEST_F(Judging, ALineProvesItselfWhereRowsResolveIt) {
+  Contender was;
+  was.ok = true;
+  was.error_of = error(1900, 1900, 1900, 1900);
+  // Everybody gains in the slow rows, and by what others found since then in the fast ones: without the line no less.
+  Tried patch = a_line(effects, error(1000, 1500, 1000, 1500), error(1000, 1504, 1000, 1504));
+  judge(patch, was, {});
+  EXPECT_FALSE(patch.admitted);
+  EXPECT_NEAR(patch.fall_validate, 4, 1e-9);
+  EXPECT_NE(patch.reason.find("no more than chance"), std::string::npos) << patch.reason;
+  Tried mains = a_line(effects, error(1000, 1010, 1000, 1010), error(1000, 1900, 1000, 1900));
+  judge(mains, was, {});
+  EXPECT_TRUE(mains.admitted) << mains.reason;
+  EXPECT_NEAR(mains.fall_validate, 890, 1e-9);
+}
+
 TEST_F(Judging, WhatTakesASmallShareOfAllIsAPatchWhereverItLies) {
   const Tried t = judged(error(1100, 3900, 1100, 3900), error(1010, 3850, 1010, 3850), {0, 3000, 0, 3000});
   EXPECT_FALSE(t.admitted);

@@ -104,6 +104,23 @@ TEST_F(MoreEffects, AGainThatFollowsTheTemperatureIsNoExpansion) {
   EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 0.004, 4e-4);  // 1/K: noise and 1/f leave a tenth
 }
 
+TEST_F(MoreEffects, AGainMayBendWithTheTemperature) {
+  const auto data = with_temperature(12, 2e-3, [](const auto&, const auto& u, const auto& warm) {
+    std::vector<double> y;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const double warmer = warm[k] - 300;
+      y.push_back(u[k] * (1 + 0.004 * warmer + 4e-4 * warmer * warmer));
+    }
+    return y;
+  });
+  const Discovery d = diagnosed(plain_gain(), data);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "temperature_gain") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "bent in temperature") << tried(d);
+  EXPECT_NEAR(value(d, "curvature"), 4e-4, 4e-5);  // 1/K^2: noise of a thousandth over 1800 rows leaves a twentieth
+  EXPECT_LT(d.final_error.over_floor(), 1.2) << "chi2 of 900 rows is known to 5 %";
+}
+
 TEST_F(MoreEffects, AnExpansionIsRefusedWhereTheTemperatureStandsStillOrIsNotRecorded) {
   const Discovery still = diagnosed(plain_gain(), expanding(0.2));
   const auto* narrow = refusal(still, "thermal_expansion");
@@ -223,6 +240,16 @@ TEST_F(MoreEffects, TwoModesThatRingAreOneFindingOfTwoFrequencies) {
   EXPECT_NEAR(value(d, "frequencies[0]"), 37, 0.2);
   EXPECT_NEAR(value(d, "frequencies[1]"), 150, 0.6);
   EXPECT_LT(d.final_error.over_floor(), 1.2) << "chi2 of 1200 rows each is known to 4 %; one mode leaves 2.7";
+}
+
+TEST_F(MoreEffects, AModeIsNotRefusedForASecondOneThatOnlyShiftsThePhase) {
+  // What lags beside the mode is best described by a second one at the limit of damping: that is no refinement of it.
+  const Discovery d =
+      diagnosed(plain_gain(), with_modes({{37, 0.02, 0.05}, {60, 0.8, 0.15}}), {"structural_resonance"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.law, "one mode") << tried(d);
+  // Beside what lags and is not described yet, within the half width z f of the peak.
+  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 37, 0.7);
 }
 
 TEST_F(MoreEffects, WhatOnlyShiftsThePhaseIsNoResonance) {
