@@ -79,7 +79,8 @@ Effect temperature_gain() {
   e.parameters = {
       {"sensitivity", "1/K", "relative change of the gain per kelvin", "0.05 .. 0.5 %/K near room temperature"},
       {"reference", "temperature", "at which the gain is that of the model", "near the laboratory's"},
-      {"curvature", "1/K^2", "how the change per kelvin changes with temperature", "0 in the simple law"}};
+      {"curvature", "1/K^2", "how the change per kelvin changes with temperature",
+       "0 in the simple law; the gain rises, or falls, all over the temperatures recorded"}};
   e.look_alikes = {{"thermal_expansion", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"},
                    {"calibration", "temperature_staircase", "a calibration does not change with temperature"},
                    {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};
@@ -93,6 +94,15 @@ Effect temperature_gain() {
     return text;
   };
   e.laws = [](const Circumstances& at) { return std::vector<Law>{law(at, false), law(at, true)}; };
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances& at) -> std::string {
+    if (law.free.back().path != "curvature" || !at.from_data) return "";
+    const double middle = 0.5 * (at.side_lowest + at.side_highest);
+    const double reference = law.free[1].path == "reference" ? values[1] : middle;
+    const auto slope = [&](double t) { return values[0] + 2 * values.back() * (t - reference); };
+    if (slope(at.side_lowest) * slope(at.side_highest) > 0) return "";
+    return "it rises and falls within the temperatures recorded: strokes of ceramics rise steadily from -30 to 125 "
+           "degC";
+  };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;

@@ -109,7 +109,7 @@ TEST_F(MoreEffects, AGainMayBendWithTheTemperature) {
     std::vector<double> y;
     for (std::size_t k = 0; k < u.size(); ++k) {
       const double warmer = warm[k] - 300;
-      y.push_back(u[k] * (1 + 0.004 * warmer + 4e-4 * warmer * warmer));
+      y.push_back(u[k] * (1 + 0.004 * warmer + 2e-4 * warmer * warmer));
     }
     return y;
   });
@@ -117,8 +117,22 @@ TEST_F(MoreEffects, AGainMayBendWithTheTemperature) {
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "temperature_gain") << tried(d);
   EXPECT_EQ(d.steps.front().winner.law, "bent in temperature") << tried(d);
-  EXPECT_NEAR(value(d, "curvature"), 4e-4, 4e-5);  // 1/K^2: noise of a thousandth over 1800 rows leaves a twentieth
+  EXPECT_NEAR(value(d, "curvature"), 2e-4, 4e-5);  // 1/K^2: 0.1 % of the gain at 5 K, half of the noise
   EXPECT_LT(d.final_error.over_floor(), 1.2) << "chi2 of 900 rows is known to 5 %";
+}
+
+TEST_F(MoreEffects, AGainThatTurnsBackWithinTheTemperaturesIsImplausible) {
+  const Effect& e = effects.get("temperature_gain");
+  Circumstances at;
+  at.from_data = true;
+  at.side_lowest = 290;
+  at.side_highest = 300;
+  const Law bent = e.laws(at).back();
+  ASSERT_EQ(bent.free.size(), 3u);
+  EXPECT_EQ(e.implausible(bent, {0.004, 290, 1e-4}, at), "") << "0.4 %/K where it is cold, 0.6 %/K where it is warm";
+  EXPECT_NE(e.implausible(bent, {0.004, 290, -4e-4}, at).find("rises and falls"), std::string::npos)
+      << "0.4 %/K where it is cold, -0.4 %/K where it is warm";
+  EXPECT_EQ(e.implausible(e.laws(at).front(), {0.004, 290}, at), "");
 }
 
 TEST_F(MoreEffects, AnExpansionIsRefusedWhereTheTemperatureStandsStillOrIsNotRecorded) {
