@@ -103,7 +103,8 @@ bool on_axes_together(Books& books, const std::vector<Tried>& first) {
   std::vector<Tried> tried;
   for (const auto& set : sets) tried.push_back(set.all);
   compare_all(books, tried, As::first);
-  const int winner = best_admitted(tried);
+  int winner = best_admitted(tried);
+  while (winner >= 0 && !stays_itself(books, tried[static_cast<std::size_t>(winner)])) winner = best_admitted(tried);
   std::vector<int> ties;
   int step = static_cast<int>(books.d.steps.size()) + 1;
   if (winner >= 0) {

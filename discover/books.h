@@ -138,7 +138,7 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, A
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner);
 /// Axes are built alike: of those that explain as much the one that stands on another axis already is taken, and the
 /// winner becomes one of its ties. Indices of tried; changes both.
-void as_on_another_axis(const Books& books, const std::vector<Tried>& tried, int& winner, std::vector<int>& ties);
+void as_on_another_axis(const Books& books, std::vector<Tried>& tried, int& winner, std::vector<int>& ties);
 /// Fits with the finest rows, once.
 void sharpen(Books& books, Tried& t);
 /// Look-alikes that the accuracy of the search cannot tell apart are fitted again with finer rows.

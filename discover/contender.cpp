@@ -393,8 +393,8 @@ int spent(const Contender& c, int standing) {
   return n;
 }
 
-/// See Contender::without_line.
-void look_without_line(const Workshop& shop, Contender& c) {
+/// See Contender::without_line; as accurate as `c` itself, for the two are compared.
+void look_without_line(const Workshop& shop, Contender& c, Effort effort) {
   c.without_line.reset();
   const double line = c.standing.empty() ? 0 : line_of(c);
   const auto coarse = [&](int r) {
@@ -407,7 +407,7 @@ void look_without_line(const Workshop& shop, Contender& c) {
     const bool newest = v.path.starts_with(c.standing.back().name + ".");
     silent.push_back({parameter_index(*c.program, v.path), newest && !coarse(v.recording) ? 0 : v.value, v.recording});
   }
-  DataModel model(c.program, shop.data, accuracy(shop, Effort::full));
+  DataModel model(c.program, shop.data, accuracy(shop, effort));
   if (shop.evidence != nullptr) model.choose_substeps(silent, noise_of(shop, model).white());
   c.without_line = model.predict(silent, judged);
 }
@@ -415,7 +415,7 @@ void look_without_line(const Workshop& shop, Contender& c) {
 Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, int held_parameters) {
   try {
     fit_contender(shop, c, effort, fresh);
-    if (c.ok) look_without_line(shop, c);
+    if (c.ok) look_without_line(shop, c, effort);
     if (c.ok && shop.evidence != nullptr) c.error_of = shop.evidence->error(c.prediction);
     // Effects that were held keep what they spent before.
     c.found_on_validation = 0;

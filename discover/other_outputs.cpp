@@ -95,7 +95,7 @@ int best_place(const Books& books, std::vector<Tried>& tried, const Effect& effe
     t.reason = other->effect->id + " explains that output better";
   }
   for (const std::size_t i : ranking(tried))
-    if (tried[i].admitted && tried[i].effect == &effect) return static_cast<int>(i);
+    if (tried[i].admitted && tried[i].effect == &effect && stays_itself(books, tried[i])) return static_cast<int>(i);
   return -1;
 }
 

@@ -83,15 +83,17 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
   return ties;
 }
 
-void as_on_another_axis(const Books& books, const std::vector<Tried>& tried, int& winner, std::vector<int>& ties) {
+void as_on_another_axis(const Books& books, std::vector<Tried>& tried, int& winner, std::vector<int>& ties) {
   const auto stands = [&](int i) {
     const std::string& id = tried[static_cast<std::size_t>(i)].effect->id;
     return std::any_of(books.current.standing.begin(), books.current.standing.end(),
                        [&](const Standing& s) { return s.effect->id == id; });
   };
   if (stands(winner)) return;
-  if (const auto built_alike = std::find_if(ties.begin(), ties.end(), stands); built_alike != ties.end())
-    std::swap(winner, *built_alike);
+  const auto built_alike = std::find_if(ties.begin(), ties.end(), [&](int i) {
+    return stands(i) && stays_itself(books, tried[static_cast<std::size_t>(i)]);
+  });
+  if (built_alike != ties.end()) std::swap(winner, *built_alike);
 }
 
 void sharpen_rivals(Books& books, std::vector<Tried>& tried, std::size_t winner) {

@@ -13,18 +13,19 @@ constexpr double least_span = 3;         // [K] of a recorded temperature that s
 constexpr double most_curvature = 1e-3;  // [1/K^2] 0.1 %/K in every kelvin: more bends the gain than moves it
 constexpr double work_place = 15;        // [K] beyond what was recorded: another season, another laboratory
 
+/// It does not tell its own reference: the gain is then that of a usual room.
+bool one_temperature(const Circumstances& at) { return at.from_data && at.side_highest - at.side_lowest < least_span; }
+
 /// `bent`: the change of the gain per kelvin is another one where it is warmer.
 Law law(const Circumstances& at, bool bent) {
   Law law;
   law.name = bent ? "bent in temperature" : "linear in temperature";
   law.block.type = "temperature_gain";
   const double middle = 0.5 * (at.side_lowest + at.side_highest);
-  // One temperature does not tell its own reference: the gain is then that of a usual room.
-  const bool one_temperature = at.from_data && at.side_highest - at.side_lowest < least_span;
   give(law.block, "sensitivity", Number{0.001, "1/K"});
   give(law.block, "reference",
        at.side_unit.text.empty() ? Number{20, "degC"}
-                                 : level(one_temperature ? usual_room(middle) : middle, at.side_unit));
+                                 : level(one_temperature(at) ? usual_room(middle) : middle, at.side_unit));
   LawParameter sensitivity;
   sensitivity.path = "sensitivity";
   sensitivity.start = 0.001;
@@ -33,7 +34,8 @@ Law law(const Circumstances& at, bool bent) {
   sensitivity.plausible_lower = -0.005;
   sensitivity.plausible_upper = 0.01;
   law.free = {sensitivity};
-  if (!at.gain_is_free && !one_temperature) {  // else the gain of the model is that at the reference, wherever that is
+  if (!at.gain_is_free &&
+      !one_temperature(at)) {  // else the gain of the model is that at the reference, wherever that is
     LawParameter reference;
     reference.path = "reference";
     reference.start = middle;
@@ -93,7 +95,11 @@ Effect temperature_gain() {
                   : fmt::format(", {:+.2g} %/K more per kelvin", 200 * values[i]);
     return text;
   };
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{law(at, false), law(at, true)}; };
+  e.laws = [](const Circumstances& at) {
+    std::vector<Law> laws{law(at, false)};
+    if (!one_temperature(at)) laws.push_back(law(at, true));
+    return laws;
+  };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances& at) -> std::string {
     if (law.free.back().path != "curvature" || !at.from_data) return "";
     const double middle = 0.5 * (at.side_lowest + at.side_highest);

@@ -241,6 +241,26 @@ TEST_F(FurtherEffects, FifteenPeriodsOfTheMainsAreEnough) {
   EXPECT_EQ(winner(d), "mains_interference") << tried(d);
 }
 
+TEST_F(FurtherEffects, WhatOnlyCoarseRowsShowIsNoMains) {
+  // Rows of 1 s show 50.03 Hz as what swings once in 33 s, and rows of 2 ms are silent.
+  DataSet data = humming(0, 2e-3);
+  const auto slow = humming(5e-3, 1, 600, 0, 0.03);
+  for (auto r : slow.recordings) {
+    r.name = "slow_" + r.name;
+    data.recordings.push_back(std::move(r));
+  }
+  const auto d = discovered(plain_gain(), data, {"mains_interference"});
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  // The same line in all of them is a mains, however coarse the rows of some.
+  for (std::size_t r = 0; r < 4; ++r) {
+    auto& y = data.recordings[r].columns["y"];
+    for (std::size_t k = 0; k < y.size(); ++k)
+      y[k] += 5e-3 * std::sin(2 * pi * 50.03 * data.recordings[r].t[k] + static_cast<double>(r));
+  }
+  const auto both = discovered(plain_gain(), data, {"mains_interference"});
+  EXPECT_EQ(winner(both), "mains_interference") << tried(both);
+}
+
 TEST_F(FurtherEffects, ALineBesideWhatAnyMainsRunsAtIsNotTheMains) {
   const Discovery d = diagnosed(plain_gain(), humming(5e-3, 2e-3, 1500, 0, 50.8));
   EXPECT_EQ(d.verdict, Verdict::unexplained) << tried(d);
