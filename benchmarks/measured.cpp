@@ -2,7 +2,7 @@
 // recordings that were not used for the fit. Models and data sets: benchmarks/measured/; the recordings are used where
 // they lie (../shared/measured beside the project) and are never copied.
 //
-//   measured [--only silverbox,heater] [--seconds 300] [--tell]
+//   measured [--only silverbox,heater] [--seconds 300] [--tell] [--progress]
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/resource.h>
@@ -57,6 +57,7 @@ struct Wish {
   std::vector<std::string> only;
   double seconds = 600;  ///< after so many the search ends with what it has found
   bool tell = false;
+  bool progress = false;  ///< what is being tried, and the CPU seconds until then
 };
 
 Wish wish_of(int count, char** words) {
@@ -66,13 +67,15 @@ Wish wish_of(int count, char** words) {
     const auto next = [&] { return i + 1 < count ? std::string(words[++i]) : std::string(); };
     if (word == "--tell") {
       wish.tell = true;
+    } else if (word == "--progress") {
+      wish.progress = true;
     } else if (word == "--seconds") {
       wish.seconds = std::atof(next().c_str());
     } else if (word == "--only") {
       std::istringstream names(next());
       for (std::string name; std::getline(names, name, ',');) wish.only.push_back(name);
     } else {
-      fmt::print(stderr, "measured [--only NAME,NAME] [--seconds 300] [--tell]\n");
+      fmt::print(stderr, "measured [--only NAME,NAME] [--seconds 300] [--tell] [--progress]\n");
       std::exit(2);
     }
   }
@@ -152,6 +155,10 @@ void look_at(const Device& device, const Wish& wish, const Registry& registry, c
     stopped = stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > wish.seconds;
     return stopped;
   };
+  if (wish.progress)
+    options.progress = [&](const std::string& what, double) {
+      fmt::print(stderr, "{:<16} {:7.2f}  {}\n", device.name, cpu_seconds() - cpu, what);
+    };
   const Discovery d = discover(diagram, data, registry, effects, options);
   fmt::print("{}: {}{}\n  {}\n  {:.1f} s CPU, {} simulations\n", device.name, to_text(d.verdict),
              stopped ? " (stopped by its time)" : "", d.steps.empty() ? d.headline : names_of(d), cpu_seconds() - cpu,

@@ -265,6 +265,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (effort == Effort::screen) spend_less(c, steps, free, options);
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
   options.intervals = effort == Effort::final;
+  options.profile_steps = fit_steps;
   options.scores = false;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,9 @@ struct FitOptions {
   /// Covariance, intervals, undetermined combinations: one more Jacobian and two points per parameter searched; where
   /// the model bends over an interval and is advanced exactly, profiles besides.
   bool intervals = true;
+  /// Steps (rows times substeps) that these profiles may take; where they would take more, the result says that it is
+  /// worth asking for them.
+  double profile_steps = std::numeric_limits<double>::infinity();
   int starts = 0;  ///< further points spread evenly over the box, tried like those of a scan
   /// A method of global.h that looks for a start before the local search; "" = none. Needs finite bounds.
   std::string global{};

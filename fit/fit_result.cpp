@@ -195,7 +195,16 @@ void Fitting::find_profiles() {
   }
 }
 
-/// Where the linearization does not hold over an interval, the profile says where it ends.
+/// What so many profiles take: some ten points to each side, each a search of some steps with a derivative by each of
+/// the parameters searched.
+double Fitting::steps_of_profiles(std::size_t profiles) const {
+  constexpr double searches = 20, steps_of_search = 5;
+  double rows = 0;
+  for (const int r : fitted_) rows += static_cast<double>(model_.steps(r));
+  return static_cast<double>(profiles) * searches * steps_of_search * (1 + projection_->n_nonlinear()) * rows;
+}
+
+/// Where the linearization does not hold over an interval, the profile says where it ends; unasked a cheap one only.
 void Fitting::bend_intervals() {
   // With weights that are not those of the noise, a rise of chi2 says nothing of an interval.
   if (!options_.intervals || options_.residual_noise || result_.correlated.empty()) return;
@@ -203,7 +212,7 @@ void Fitting::bend_intervals() {
   if (curved.empty()) return;
   std::vector<std::string> paths;
   for (const int i : curved) paths.push_back(result_.estimates[static_cast<std::size_t>(i)].path);
-  if (!model_.why_not_exact().empty()) {  // a profile is some hundred simulations: cheap ones only, unasked
+  if (!model_.why_not_exact().empty() || !(steps_of_profiles(curved.size()) <= options_.profile_steps)) {
     result_.remarks.push_back(
         fmt::format("the model bends over the intervals of {}: ask for their profiles", fmt::join(paths, ", ")));
     return;

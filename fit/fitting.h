@@ -48,6 +48,7 @@ class Fitting {
   ProfileTask profile_task();
   const Profile& profile(int which, double fraction);
   void find_profiles();
+  double steps_of_profiles(std::size_t profiles) const;
   void bend_intervals();
   void take_interval(int which, const Profile& from);
   void fit_the_waiting();

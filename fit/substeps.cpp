@@ -164,7 +164,8 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
       const auto pieces = b.pieces;
       b.cut(cut_there(b, where_it_bends(b, fine, look_at)));
       auto seen = rows_with(b.substeps);
-      if (worst_of(coarse, seen, tolerance) > 1) {
+      // Cut more finely, any row shows up to twice what halving it showed, ringing or not.
+      if (worst_of(coarse, seen, tolerance) > std::max(1.0, 2 * worst)) {
         coarse = std::move(seen);
         look_at *= 4;
         continue;
