@@ -150,6 +150,12 @@ Facts discovery_facts(const Discovery& found, const Unit& unit, const std::strin
                                {"noise", noise},
                                {"noise_guessed", found.noise_guessed},
                                {"simulations", found.model_runs}});
+  if (!found.smooth_inputs.empty()) {
+    Facts::List smooth;
+    for (const auto& s : found.smooth_inputs)
+      smooth.push_back(Facts::object({{"input", s.input}, {"nrmse_before", s.before}, {"nrmse_after", s.after}}));
+    facts.set("smooth_between_samples", smooth);
+  }
   if (found.structure) facts.set("structure", facts_of(*found.structure));
   if (found.experiment) facts.set("next_experiment", facts_of(*found.experiment));
   return facts;

@@ -213,8 +213,8 @@ Facts inspection_facts(const Inspected& seen) {
                                    {"recordings", l.recordings}}));
   for (const auto& b : seen.data.between)
     between.push_back(Facts::object({{"input", b.input},
-                                     {"given", b.given == Between::linear ? "linear" : "hold"},
-                                     {"better", b.given == Between::linear ? "hold" : "linear"},
+                                     {"given", to_text(b.given)},
+                                     {"better", to_text(b.better)},
                                      {"error_share_removed", b.fall}}));
   for (const auto& e : seen.effects)
     if (e.can())

@@ -48,7 +48,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   const ProgramPointer program = compile_file(diagram);
   const bool is_check = arguments.has("--check");
   const DataSet given = load_data(arguments, *program);
-  const DataSet data = is_check ? with_both_roles(given) : given;
+  DataSet data = is_check ? with_both_roles(given) : given;
 
   const DeferInterrupts defer;
   Progress progress(arguments.quiet());
@@ -66,6 +66,7 @@ int look(const std::string& verb, const Arguments& arguments) {
     }
   });
   progress.clear();
+  data = as_found(std::move(data), found);
   const bool stopped = interrupted();
   // Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data.
   DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(data));

@@ -111,6 +111,10 @@ void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Di
   answer["headline"] = found.headline;
   write_diagram((folder / (hidden.id + ".diagram.json")).string(), found.final_diagram);
   write_file((folder / (hidden.id + ".json")).string(), answer.dump(1) + "\n");
+  if (found.smooth_inputs.empty()) return;
+  auto told = json::parse(hidden.data_text);
+  for (const auto& s : found.smooth_inputs) told["columns"][s.input]["between_samples"] = to_text(Between::smooth);
+  write_file((folder / (hidden.id + ".data.json")).string(), told.dump(1) + "\n");
 }
 
 }  // namespace hysteron

@@ -14,7 +14,8 @@ namespace hysteron {
 /// the base, by its score. One place for the order in which a person should think of them.
 std::vector<std::string> ranked_effects(const Discovery& found);
 
-/// Writes ID.json, ID.diagram.json and ID.predicted/ into the folder `results`.
+/// Writes ID.json, ID.diagram.json and ID.predicted/ into the folder `results`, and ID.data.json anew where inputs
+/// were found to move otherwise between their samples.
 void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found,
                          const std::string& results);
 

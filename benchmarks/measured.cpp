@@ -163,7 +163,8 @@ void look_at(const Device& device, const Wish& wish, const Registry& registry, c
   fmt::print("{}: {}{}\n  {}\n  {:.1f} s CPU, {} simulations\n", device.name, to_text(d.verdict),
              stopped ? " (stopped by its time)" : "", d.steps.empty() ? d.headline : names_of(d), cpu_seconds() - cpu,
              d.model_runs);
-  const auto before = figures(d.base_diagram, data, registry), after = figures(d.final_diagram, data, registry);
+  const auto before = figures(d.base_diagram, as_found(data, d), registry),
+             after = figures(d.final_diagram, as_found(data, d), registry);
   for (std::size_t i = 0; i < before.size(); ++i)
     fmt::print("  {:<48} {:6.2f} % -> {:5.2f} %   rms {:.4g} -> {:.4g}\n", before[i].of, 100 * before[i].nrmse,
                100 * after[i].nrmse, before[i].rms, after[i].rms);

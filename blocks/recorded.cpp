@@ -4,12 +4,14 @@ namespace hysteron::blocks {
 
 void Recorded::describe(Declaration& d) {
   d.name("recorded", "a recorded signal, from a column of a file").in_group("sources");
-  d.law("linear: straight lines between the samples; hold: each sample until the next; constant outside")
+  d.law(
+       "linear: straight lines between the samples; hold: each sample until the next; smooth: a cubic spline through "
+       "them; constant outside")
       .from("definition");
   d.remark("Name the column: \"file\": \"lab.csv\", \"column\": \"u\". The unit is that of the column.");
   d.remark("A held signal jumps: a law that is driven by the rate of its input (bouc_wen) needs a lag in between.");
   d.output("y", "$a", "the signal");
-  d.text("between_samples", {"linear", "hold"}, "how it moves between samples");
+  d.text("between_samples", {"linear", "hold", "smooth"}, "how it moves between samples");
   d.is_series = true;
 }
 

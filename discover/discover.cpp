@@ -10,6 +10,7 @@
 #include <functional>
 #include <utility>
 
+#include "discover/between_samples.h"
 #include "discover/books.h"
 #include "engine/error.h"
 
@@ -213,6 +214,8 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
   std::vector<Tried> last;
   for (int found = found_effects(books); found < books.options.max_steps && !books.stopped(); ++found) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
+    if (more_than_noise(books)) books.smooth = find_smooth_input(books);
+    if (books.smooth) return;
     if (step == 1) {
       if (!one_step(books, step, As::further, &first) && !on_axes_together(books, first)) break;
       continue;
@@ -232,17 +235,35 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
 
 }  // namespace
 
+DataSet as_found(DataSet data, const Discovery& found) {
+  for (const auto& s : found.smooth_inputs) {
+    data.notes[s.input].to = s.input;
+    data.notes[s.input].between = Between::smooth;
+  }
+  return data;
+}
+
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options) {
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
-  std::vector<Tried> first;
-  one_by_one(books, first);
-  // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
-  if (unless_it_fails(books, [&] { return another_beginning(books, first); })) one_by_one(books, first);
-  conclude(books);
-  books.d.model_runs = books.shop.notes->runs();
-  return std::move(books.d);
+  Discovery until_now;
+  for (;;) {
+    Books books(diagram, as_found(data, until_now), registry, effects, options);
+    books.d.smooth_inputs = until_now.smooth_inputs;
+    fit_base(books);
+    std::vector<Tried> first;
+    one_by_one(books, first);
+    // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
+    if (!books.smooth && unless_it_fails(books, [&] { return another_beginning(books, first); }))
+      one_by_one(books, first);
+    until_now.model_runs += books.shop.notes->runs();
+    if (books.smooth) {
+      until_now.smooth_inputs.push_back(*books.smooth);
+      continue;
+    }
+    conclude(books);
+    books.d.model_runs = until_now.model_runs;
+    return std::move(books.d);
+  }
 }
 
 Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,

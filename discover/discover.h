@@ -85,6 +85,12 @@ struct JudgedNoise {
   std::string remark;     ///< what the user must be told of it, or ""
 };
 
+/// An input that moves smoothly between its samples, where the data set says along straight lines.
+struct SmoothInput {
+  std::string input;
+  double before = 0, after = 0;  ///< NRMSE on validation of the model that told it, without and with that
+};
+
 /// Everything that was found.
 struct Discovery {
   Verdict verdict = Verdict::adequate;
@@ -103,6 +109,7 @@ struct Discovery {
   std::vector<JudgedNoise> noise;
   bool noise_guessed = false;            ///< no data sheet: taken from the residual
   std::optional<Experiment> experiment;  ///< what to record next
+  std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
@@ -127,6 +134,9 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
                    const DiscoverOptions& options = {});
 
 /// WHICH effect is missing: the first step of discover alone.
+/// The data set that the figures of a discovery hold for: as given, but for how inputs move between samples.
+DataSet as_found(DataSet data, const Discovery& found);
+
 Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    DiscoverOptions options = {});
 

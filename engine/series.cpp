@@ -6,6 +6,14 @@
 
 namespace hysteron {
 
+std::string to_text(Between between) {
+  return between == Between::hold ? "hold" : between == Between::smooth ? "smooth" : "linear";
+}
+
+Between between_of(const std::string& text) {
+  return text == "hold" ? Between::hold : text == "smooth" ? Between::smooth : Between::linear;
+}
+
 long Series::piece(double time) const {
   const auto n = static_cast<long>(t.size());
   if (n == 0 || time < t.front()) return -1;

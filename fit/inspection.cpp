@@ -220,33 +220,54 @@ class Inspector {
       const bool moves = std::any_of(parts_.begin(), parts_.end(),
                                      [&](const Part& part) { return range_of(rows_of(model_, part, name)) > 0; });
       if (!moves || !given.ok) continue;
-      auto other_data = std::make_shared<DataSet>(model_.data());
-      auto& note = other_data->notes[name];
-      note.to = name;
-      const Between before = note.between;
-      note.between = before == Between::linear ? Between::hold : Between::linear;
-      DataModel other(model_.program_pointer(), other_data);
-      Prediction prediction = other.predict({}, judged_, false);
-      if (!prediction.ok) continue;
-      calibrate(prediction);
-      const Score score = judge.score(other, prediction, judged_);
-      const double fall = given.chi2() > 0 ? 1 - score.chi2() / given.chi2() : 0;
-      const double floor = score.chi2() / std::max(1.0, score.n());
-      // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance.
-      if (!(fall > 0.1) || given.chi2() - score.chi2() < 25 * std::max(1.0, floor)) continue;
-      seen_.between.push_back({name, before, fall});
-      if (before == Between::hold)
-        seen_.faults.push_back(fmt::format(
-            "{0} is said to be held between samples, but the diagram comes nearer where it moves along a straight line "
-            "({1:.0f} % of the squared error go): write \"between_samples\": \"linear\" at its column.",
-            name, 100 * fall));
-      else
-        seen_.notes.push_back(
-            fmt::format("Held between samples, {0} would take {1:.0f} % of the squared error away; so may a lag or a "
-                        "delay of half a "
-                        "sample. If the drive is known to be held, write \"between_samples\": \"hold\" at its column.",
-                        name, 100 * fall));
+      const auto note = model_.data().notes.find(name);
+      InspectedBetween seen{name, note == model_.data().notes.end() ? Between::linear : note->second.between};
+      for (const Between other : {Between::linear, Between::hold, Between::smooth}) {
+        if (other == seen.given) continue;
+        const Score score = score_with(name, other, judge);
+        if (!score.ok) continue;
+        const double fall = given.chi2() > 0 ? 1 - score.chi2() / given.chi2() : 0;
+        const double floor = score.chi2() / std::max(1.0, score.n());
+        // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance.
+        if (!(fall > 0.1) || given.chi2() - score.chi2() < 25 * std::max(1.0, floor) || !(fall > seen.fall)) continue;
+        seen.better = other;
+        seen.fall = fall;
+      }
+      if (seen.fall > 0) tell(seen);
     }
+  }
+
+  /// Of the diagram, with another way of an input between its samples; not ok where that cannot be simulated.
+  Score score_with(const std::string& input, Between between, const Judge& judge) {
+    auto data = std::make_shared<DataSet>(model_.data());
+    data->notes[input].to = input;
+    data->notes[input].between = between;
+    DataModel other(model_.program_pointer(), data);
+    Prediction prediction = other.predict({}, judged_, false);
+    if (prediction.ok) calibrate(prediction);
+    return judge.score(other, prediction, judged_);
+  }
+
+  void tell(const InspectedBetween& seen) {
+    seen_.between.push_back(seen);
+    const char* moves = seen.better == Between::linear ? "along a straight line" : "smoothly";
+    if (seen.better == Between::hold)
+      seen_.notes.push_back(
+          fmt::format("Held between samples, {0} would take {1:.0f} % of the squared error away; so may a lag or a "
+                      "delay of half a "
+                      "sample. If the drive is known to be held, write \"between_samples\": \"hold\" at its column.",
+                      seen.input, 100 * seen.fall));
+    else if (seen.given == Between::hold)
+      seen_.faults.push_back(
+          fmt::format("{0} is said to be held between samples, but the diagram comes nearer where it moves {3} "
+                      "({1:.0f} % of the squared error go): write \"between_samples\": \"{2}\" at its column.",
+                      seen.input, 100 * seen.fall, to_text(seen.better), moves));
+    else
+      seen_.notes.push_back(
+          fmt::format("Moving {3} between samples, {0} would take {1:.0f} % of the squared error away. If it does (a "
+                      "generator behind "
+                      "a filter moves smoothly), write \"between_samples\": \"{2}\" at its column.",
+                      seen.input, 100 * seen.fall, to_text(seen.better), moves));
   }
 
   // --- rows -----------------------------------------------------------------------------------------------------

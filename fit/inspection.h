@@ -64,10 +64,10 @@ struct InspectedLine {
   bool of_residual = true;  ///< seen in what the diagram leaves, else in the measured signal itself
 };
 
-/// What the other way of an input between its samples would do to the error of the diagram.
+/// What another way of an input between its samples would do to the error of the diagram.
 struct InspectedBetween {
   std::string input;
-  Between given = Between::linear;
+  Between given = Between::linear, better = Between::hold;
   double fall = 0;  ///< share of the squared error that the other way takes away
 };
 

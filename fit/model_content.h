@@ -24,6 +24,7 @@ struct BoundRecording {
   std::vector<int> pieces;         ///< per instant: into how many parts the way to it is cut; empty: nothing is
   std::vector<std::size_t> place;  ///< per instant: index into rows; empty: they are the instants
   int substeps = 1;                ///< of each of the rows
+  double points_per_instant = 1;   ///< a run also passes the samples of inputs between the instants
   bool simulated = false;          ///< with these, at the values for which they were chosen
   std::optional<Advance> advance;
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/schedule.h"
 #include "engine/simulate.h"
 #include "fit/model_content.h"
 
@@ -71,6 +72,8 @@ void DataModel::Content::bind(int r) {
   }
   std::sort(b.instants.begin(), b.instants.end());
   b.instants.erase(std::unique(b.instants.begin(), b.instants.end()), b.instants.end());
+  b.points_per_instant =
+      static_cast<double>(rows_between(b.instants, b.run.series).size()) / static_cast<double>(b.instants.size());
   for (std::size_t o = 0; o < outputs.size(); ++o)
     for (const double t : wanted[o])
       b.at[o].push_back(

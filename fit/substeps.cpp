@@ -245,7 +245,8 @@ int DataModel::substeps(int recording) const {
 
 long DataModel::steps(int recording) const {
   const BoundRecording& b = content_->bound[static_cast<std::size_t>(recording)];
-  return static_cast<long>(b.rows ? b.rows->size() : b.instants.size()) * b.substeps;
+  const auto rows = static_cast<double>(b.rows ? b.rows->size() : b.instants.size());
+  return std::lround(rows * b.points_per_instant * b.substeps);
 }
 
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/error.h"
+#include "engine/smooth_series.h"
 #include "io/dataset.h"
 
 namespace hysteron {
@@ -130,12 +131,12 @@ SeriesPointer input_series(const DataSet& data, const Recording& recording, cons
   const ColumnNote& note = note_of(data, input);
   // Row i shows the input as it was `samples` rows and `delay_seconds` before.
   const auto samples = std::min(static_cast<std::size_t>(note.delay_samples), recording.t.size() - 1);
-  auto series = std::make_shared<Series>();
-  series->between = note.between;
-  series->t.assign(recording.t.begin(), recording.t.end() - static_cast<std::ptrdiff_t>(samples));
-  for (double& t : series->t) t -= note.delay_seconds;
-  series->v.assign(values.begin() + static_cast<std::ptrdiff_t>(samples), values.end());
-  return series;
+  Series series;
+  series.between = note.between;
+  series.t.assign(recording.t.begin(), recording.t.end() - static_cast<std::ptrdiff_t>(samples));
+  for (double& t : series.t) t -= note.delay_seconds;
+  series.v.assign(values.begin() + static_cast<std::ptrdiff_t>(samples), values.end());
+  return std::make_shared<const Series>(in_straight_pieces(std::move(series)));
 }
 
 std::vector<double> output_instants(const DataSet& data, const Recording& recording, const std::string& output) {

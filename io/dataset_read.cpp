@@ -94,8 +94,8 @@ class DataSetReader {
     noted.note.to = place.find("to") ? text_member(place, "to") : name;
     if (name == "t" || noted.note.to == "t")
       return place.add("bad_value", "t is the time and cannot be bound", "take this entry out");
-    if (const auto choice = one_of(place, "between_samples", {"linear", "hold"}))
-      noted.note.between = *choice == "hold" ? Between::hold : Between::linear;
+    if (const auto choice = one_of(place, "between_samples", {"linear", "hold", "smooth"}))
+      noted.note.between = between_of(*choice);
     if (const auto choice = one_of(place, "zero", {"shared", "per_recording"}))
       noted.note.zero_per_recording = *choice == "per_recording";
     if (const auto optional = place.find("optional")) noted.note.optional = optional->truth().value_or(false);

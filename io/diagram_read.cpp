@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "engine/simulate.h"
+#include "engine/smooth_series.h"
 #include "io/diagram_file.h"
 #include "io/json_reader.h"
 #include "io/project_path.h"
@@ -290,11 +291,10 @@ class DiagramReader {
       if (values == recording.columns.end())
         return column->add("missing_column", fmt::format("{} has no column \"{}\"", *path, *column->text()),
                            did_you_mean(*column->text(), recording.names));
-      auto series = std::make_shared<Series>(Series{recording.t, values->second, Between::linear});
+      Series series{recording.t, values->second, Between::linear};
       if (const auto* between = node.parameters.find("between_samples"))
-        if (const auto* text = std::get_if<std::string>(&between->content); text != nullptr && *text == "hold")
-          series->between = Between::hold;
-      Value samples(SeriesPointer(std::move(series)));
+        if (const auto* text = std::get_if<std::string>(&between->content)) series.between = between_of(*text);
+      Value samples(std::make_shared<const Series>(in_straight_pieces(std::move(series))));
       samples.origin = origin(place);
       node.parameters["samples"] = std::move(samples);
       Value unit;

@@ -16,7 +16,7 @@ Json column() {
       "how a column is meant",
       {{"to",
         text("input or output of the diagram, or the name under which effects find the column; default: its own name")},
-       {"between_samples", choice_of("how it moves between samples; default linear", {"linear", "hold"})},
+       {"between_samples", choice_of("how it moves between samples; default linear", {"linear", "hold", "smooth"})},
        {"noise",
         {{"description", "rms of white noise, or white, resolution and one_over_f"},
          {"anyOf", Json::array({{{"$ref", "#/definitions/quantity"}}, noise_object})}}},

@@ -31,9 +31,11 @@ lab::Signal broad(unsigned seed, double step, std::size_t rows) {
   return [values, step](double t) { return (*values)[static_cast<std::size_t>(std::lround(t / step))]; };
 }
 
-DataSet data_set(const ProgramPointer& program, std::size_t rows, const std::vector<lab::Signal>& drives) {
+DataSet data_set(const ProgramPointer& program, std::size_t rows, const std::vector<lab::Signal>& drives,
+                 Between between = Between::linear) {
   DataSet data;
   data.notes["u"].to = "u";
+  data.notes["u"].between = between;
   data.notes["y"].to = "y";
   for (std::size_t k = 0; k < drives.size(); ++k)
     data.recordings.push_back(
@@ -140,6 +142,20 @@ TEST_F(Inspecting, KnowsAnInputThatIsSaidToBeHeldAndIsNot) {
   ASSERT_EQ(seen.between.size(), 1U);
   EXPECT_EQ(seen.between[0].given, Between::hold);
   EXPECT_TRUE(tells(seen.faults, "write \"between_samples\": \"linear\""));
+}
+
+TEST_F(Inspecting, KnowsAnInputThatMovesSmoothlyBetweenItsSamples) {
+  const auto lag = program_of("lag");
+  auto data = data_set(lag, 5000, {broad(5, 1e-3, 5000), broad(6, 1e-3, 5000)}, Between::smooth);
+  EXPECT_TRUE(inspected(lag, data).between.empty());
+  for (const Between said : {Between::linear, Between::hold}) {
+    data.notes["u"].between = said;
+    const Inspection seen = inspected(lag, data);
+    ASSERT_EQ(seen.between.size(), 1U);
+    EXPECT_EQ(seen.between[0].given, said);
+    EXPECT_EQ(seen.between[0].better, Between::smooth);
+    EXPECT_TRUE(tells(said == Between::hold ? seen.faults : seen.notes, "write \"between_samples\": \"smooth\""));
+  }
 }
 
 TEST_F(Inspecting, AWrongGainIsNoFaultOfTheData) {

@@ -191,6 +191,20 @@ TEST(DataSet, ADelayedInputIsSetBackToWhenItHappened) {
   EXPECT_EQ(v->between, Between::hold);
 }
 
+TEST(DataSet, AnInputThatMovesSmoothlyBecomesStraightPiecesOfASpline) {
+  const TemporaryFolder folder;
+  folder.write("a.csv", "t [s],u [V],y\n0,0,1\n1,1,2\n2,8,3\n3,27,4\n4,64,5\n");
+  const auto data =
+      read_dataset(folder.write("d.json", R"({"format": 1, "columns": {"u": {"between_samples": "smooth"}},
+    "recordings": [{"file": "a.csv", "role": "validate"}]})"));
+  EXPECT_EQ(data.notes.at("u").between, Between::smooth);
+  const auto u = input_series(data, data.recordings[0], "u");
+  EXPECT_EQ(u->between, Between::linear);
+  EXPECT_NEAR(u->value(3.5, 3.5), 3.5 * 3.5 * 3.5, 6 * 3.5 / 144 + 1e-12)
+      << "t^3, and a hair beside it between samples";
+  EXPECT_EQ(u->value(3, 3), 27);
+}
+
 TEST(DataSet, ColumnsThatAreBoundToNothingStayAvailable) {
   const TemporaryFolder folder;
   const auto data = read_dataset(folder.write("a.csv", rows(10)));

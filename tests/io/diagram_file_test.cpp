@@ -317,6 +317,16 @@ TEST(DiagramFile, ARecordedInputBringsItsSamplesInSIAndIsWrittenAsItWasRead) {
   EXPECT_NE(written.find(R"("column": "5 V")"), written.npos);
 }
 
+TEST(DiagramFile, ARecordedSignalThatMovesSmoothlyIsASpline) {
+  const TemporaryFolder folder;
+  folder.write("lab.csv", "t [s],u [V]\n0,0\n1,1\n2,8\n3,27\n4,64\n");
+  const Diagram d = read_diagram(folder.write(
+      "d.json",
+      R"({"format": 1, "blocks": {"drive": {"type": "recorded", "file": "lab.csv", "column": "u", "between_samples": "smooth"}}})"));
+  const auto series = std::get<SeriesPointer>(d.blocks.find("drive")->parameters.find("samples")->content);
+  EXPECT_NEAR(series->value(3.5, 3.5), 3.5 * 3.5 * 3.5, 6 * 3.5 / 144 + 1e-12);  // t^3, and a hair beside it
+}
+
 TEST(DiagramFile, ARecordedSignalHasTheUnitOfItsColumn) {
   const TemporaryFolder folder;
   folder.write("lab.csv", "t [s],u [um]\n0,1\n1,2\n");

@@ -1,0 +1,90 @@
+#include "discover/between_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "discover/books.h"
+
+namespace hysteron {
+namespace {
+
+/// Of what the model leaves: who bends less than that (rms, of what the input varies) explains none of it.
+constexpr double hardly_bends = 0.02;
+
+Between given(const DataSet& data, const std::string& input) {
+  const auto note = data.notes.find(input);
+  return note == data.notes.end() ? Between::linear : note->second.between;
+}
+
+Workshop with_input(const Books& books, const std::string& input, Between between) {
+  DataSet other = *books.data;
+  other.notes[input].to = input;
+  other.notes[input].between = between;
+  Workshop shop = books.shop;
+  shop.data = std::make_shared<const DataSet>(std::move(other));
+  return shop;
+}
+
+/// More than a claim needs goes in recordings of both roles, and this share of what judging ones have above the noise.
+bool explains(const ModelError& now, const ModelError& was, double share) {
+  return was.evidence_train - now.evidence_train > rules::claim_fall &&
+         was.evidence_validate - now.evidence_validate > rules::claim_fall &&
+         now.excess_validate() < (1 - share) * was.excess_validate();
+}
+
+/// How far a cubic through the samples lies beside straight lines, rms over all recordings, over what they vary: an
+/// eighth of the second difference in the middle between two.
+double bend_of(const DataSet& data, const std::string& input) {
+  double bends = 0, varies = 0;
+  for (const auto& r : data.recordings) {
+    const auto column = r.columns.find(input);
+    if (column == r.columns.end() || column->second.empty()) continue;
+    const auto& u = column->second;
+    const double mean = std::accumulate(u.begin(), u.end(), 0.0) / static_cast<double>(u.size());
+    for (const double v : u) varies += (v - mean) * (v - mean);
+    for (std::size_t i = 1; i + 1 < u.size(); ++i) bends += std::pow((u[i - 1] - 2 * u[i] + u[i + 1]) / 8, 2);
+  }
+  return varies > 0 ? std::sqrt(bends / varies) : 0;
+}
+
+}  // namespace
+
+void tell_between_samples(Books& books) {
+  for (const auto& input : books.base_model->program().input_names) {
+    if (books.stopped()) return;
+    const Between between = given(*books.data, input);
+    if (between == Between::smooth || books.data->notes.count(input) == 0) continue;
+    const bool held = between == Between::hold;
+    const Workshop shop = with_input(books, input, held ? Between::linear : Between::hold);
+    const Contender c = base_contender(shop, books.user, Effort::full);
+    const ModelError& was = books.base.error_of;
+    if (!c.ok || !explains(c.error_of, was, rules::structure_share)) continue;
+    books.d.warnings.push_back(fmt::format(
+        "{} {}, not as the data set says: the error of the model as it is would be {:.3g} % instead of {:.3g} %. A "
+        "dead time of half a sample looks the same.",
+        input, held ? "moves linearly between its samples" : "is held between its samples",
+        100 * c.error_of.nrmse_validate, 100 * was.nrmse_validate));
+  }
+}
+
+std::optional<SmoothInput> find_smooth_input(const Books& books) {
+  const ModelError& was = books.current.error_of;
+  for (const auto& input : books.base_model->program().input_names) {
+    if (books.stopped()) return {};
+    if (given(*books.data, input) != Between::linear) continue;
+    if (bend_of(*books.data, input) < hardly_bends * was.nrmse_validate) continue;
+    const Workshop shop = with_input(books, input, Between::smooth);
+    Contender present = books.current;
+    present.prediction = {};  // it is of the data as they were said to be
+    const Contender c = refit(shop, present, Effort::screen);
+    if (c.ok && explains(c.error_of, was, rules::share_of_rest))
+      return SmoothInput{input, was.nrmse_validate, c.error_of.nrmse_validate};
+  }
+  return {};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,23 @@
+// Decides whether the recordings say otherwise than the data set how an input moves between its samples.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "discover/discover.h"
+
+namespace hysteron {
+
+struct Books;
+
+/// Where an input that is held fits the user's model better moving along straight lines, or the other way round, the
+/// user is told: how it moves is the user's word, and half a sample of delay looks the same.
+void tell_between_samples(Books& books);
+
+/// An input that bends between its samples by all that the present model leaves: straight lines through them are
+/// smaller than the signal, the more the quicker it is, which nothing in a device looks like but would be sold as a
+/// mode of its structure. No parameter is added, and most of what stands above the noise must go in recordings of both
+/// roles.
+std::optional<SmoothInput> find_smooth_input(const Books& books);
+
+}  // namespace hysteron
