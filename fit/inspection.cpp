@@ -228,8 +228,11 @@ class Inspector {
         if (!score.ok) continue;
         const double fall = given.chi2() > 0 ? 1 - score.chi2() / given.chi2() : 0;
         const double floor = score.chi2() / std::max(1.0, score.n());
-        // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance.
-        if (!(fall > 0.1) || given.chi2() - score.chi2() < 25 * std::max(1.0, floor) || !(fall > seen.fall)) continue;
+        // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance. That a signal
+        // bends is a share of what is quick in it, and so is what a mode leaves: most of the error.
+        if (!(fall > (other == Between::smooth ? 0.5 : 0.1)) ||
+            given.chi2() - score.chi2() < 25 * std::max(1.0, floor) || !(fall > seen.fall))
+          continue;
         seen.better = other;
         seen.fall = fall;
       }
