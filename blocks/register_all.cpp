@@ -25,6 +25,7 @@
 #include "blocks/load_dependence.h"
 #include "blocks/logarithmic_creep.h"
 #include "blocks/mains.h"
+#include "blocks/mass_on_bouc_wen_spring.h"
 #include "blocks/mass_on_spring_of_plays.h"
 #include "blocks/mass_spring_damper.h"
 #include "blocks/mass_with_friction.h"
@@ -151,6 +152,7 @@ Registry all_blocks() {
   r.add(blocks::guide_friction_block());
   r.add(blocks::mass_on_hysteretic_spring_block());
   r.add(blocks::mass_on_spring_of_plays_block());
+  r.add(blocks::mass_on_bouc_wen_spring_block());
   r.add(blocks::mass_with_stops_block());
   r.add(blocks::backlash_block());
 

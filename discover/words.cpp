@@ -133,7 +133,10 @@ Candidate candidate_of(const Tried& t, int step) {
     c.score = t.contender.score();
     c.found = found_parameters(t.contender, t.circumstances);
     const auto values = own_values(t);
-    if (t.effect->summary && values.size() == t.laws[t.law].free.size())
+    const auto& free = t.laws[t.law].free;
+    // A number that begins where the user has it comes last, and is the user's own where the diagram leaves it free.
+    const auto begun = std::count_if(free.begin(), free.end(), [](const auto& p) { return !std::isnan(p.start); });
+    if (t.effect->summary && values.size() >= static_cast<std::size_t>(begun))
       c.summary = t.effect->summary(t.laws[t.law], values, t.circumstances);
   }
   return c;

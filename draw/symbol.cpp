@@ -73,6 +73,7 @@ const Look* find_look(const std::string& type) {
       {"mass_with_friction", {"mass", true}},
       {"mass_with_stops", {"mass", true}},
       {"mass_on_spring_of_plays", {"mass", true}},
+      {"mass_on_bouc_wen_spring", {"mass", true}},
       {"tank", {"tank", true}},
   };
   const auto found = all.find(type);

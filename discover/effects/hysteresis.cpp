@@ -167,6 +167,42 @@ Law uneven_plays_in_the_spring(const Circumstances& at) {
   return law;
 }
 
+/// A law of three numbers whose loops soften or harden with the travel and need not close at turning points: joints,
+/// wire ropes, dampers. Elements that yield, and plays, only soften.
+Law bouc_wen_in_the_spring(const Circumstances& at) {
+  const double range = at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6;
+  Law law;
+  law.name = "Bouc-Wen in the spring";
+  law.block.type = "mass_on_bouc_wen_spring";
+  law.holds = {"stiffening"};  // without a loop it is a curve
+  const auto free = [&](const char* path, double start, double upper, const char* unit, std::vector<double> scan) {
+    LawParameter p;
+    p.path = path;
+    p.start = start;
+    p.lower = 0;
+    p.upper = upper;
+    p.scan = std::move(scan);
+    law.free.push_back(p);
+    give(law.block, path, with_unit(start, parse_unit(unit)));
+    return law.free.size() - 1;
+  };
+  free("hysteretic_share", 0.3, 1, "", {0.1, 0.4, 0.8});
+  free("beta", 1 / range, 100 / range, "1/m", {0.3 / range, 2 / range, 10 / range});
+  const auto gamma = free("gamma", 0, 100 / range, "1/m", {-1 / range, 0, 1 / range});
+  law.free[gamma].lower = -100 / range;
+  law.free.push_back(own_stiffness());
+  return law;
+}
+
+/// How much of the spring remembers, and how far its loop is apart in the middle of the travel, for loops that are not
+/// large: the half travel times beta of what that part holds back.
+std::string bouc_wen_summary(const std::vector<double>& values, const Circumstances& at) {
+  if (values.size() < 2) return "";
+  const double half = 0.5 * (at.travel_highest - at.travel_lowest);
+  return fmt::format("{:.2g} % of the stiffness remembers, in a loop of about {:.2g} % of what it holds back",
+                     100 * values[0], 100 * std::min(1.0, values[1] * half));
+}
+
 /// How far the force is apart there, where the motion passes the middle on its way up and down.
 std::string uneven_summary(const NumberList& plays, const std::vector<double>& values, const Circumstances& at) {
   const std::size_t n = plays.size();
@@ -183,6 +219,7 @@ std::string uneven_summary(const NumberList& plays, const std::vector<double>& v
 std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
   const double range = at.travel_highest - at.travel_lowest;
   if (!(range > 0) || !(at.range() > 0)) return "";
+  if (law.block.type == "mass_on_bouc_wen_spring") return bouc_wen_summary(values, at);
   if (const auto* plays = written<NumberList>(law, "thresholds"); plays != nullptr)
     return uneven_summary(*plays, values, at);
   const auto* list = written<NumberList>(law, "slip_distance");
@@ -283,6 +320,8 @@ Effect hysteresis() {
        "tutorial)"},
       {"at_lower, in_middle, at_upper", "N/m",
        "of a mass, richer than slip elements: by how much plays soften its spring over the travel", ""},
+      {"hysteretic_share, beta, gamma", ", 1/m, 1/m",
+       "of a mass: a Bouc-Wen law beside its spring; loops that may harden with the travel", ""},
       {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"},
       {"weights (relays)", "unit of the wire",
        "richest: of Preisach's relays that switch up in one cell of the range and down in another, 6 or 10 cells; "
@@ -303,7 +342,8 @@ Effect hysteresis() {
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;
   e.laws = [](const Circumstances& at) {
-    if (!at.by.empty()) return std::vector<Law>{slip_elements(at), uneven_plays_in_the_spring(at)};
+    if (!at.by.empty())
+      return std::vector<Law>{slip_elements(at), uneven_plays_in_the_spring(at), bouc_wen_in_the_spring(at)};
     std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
                           plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
                           plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};

@@ -182,6 +182,7 @@ TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
                                        "mass_with_presliding",
                                        "mass_on_hysteretic_spring",
                                        "mass_on_spring_of_plays",
+                                       "mass_on_bouc_wen_spring",
                                        "sliding_friction",
                                        "guide_friction",
                                        "tapi",
