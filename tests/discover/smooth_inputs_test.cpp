@@ -96,6 +96,21 @@ TEST_F(SmoothInputs, BehindAStrongEffectItIsFoundOnceThatIsKnown) {
   EXPECT_EQ(taken.notes.at("u").between, Between::smooth);
 }
 
+TEST_F(SmoothInputs, WhatWasFoundIsKeptWhereTheSearchWithItIsBrokenOff) {
+  bool anew = false;
+  DiscoverOptions options;
+  options.progress = [&](const std::string& what, double) { anew = anew || what.starts_with("anew: u"); };
+  options.stop = [&] { return anew; };
+  const Discovery d = discovered(mass_on_spring(), measured(8e4, false), {"stiffening"}, options);
+  ASSERT_TRUE(anew);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.effect, "stiffening");
+  EXPECT_TRUE(d.smooth_inputs.empty()) << "its figures are along straight lines";
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
+    return w.starts_with("u moves smoothly between its samples, it seems");
+  }));
+}
+
 TEST_F(SmoothInputs, StraightLinesThatAreStraightStayStraight) {
   const Discovery d = found(8e4, true);
   EXPECT_TRUE(d.smooth_inputs.empty()) << tried(d);
