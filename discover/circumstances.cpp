@@ -186,6 +186,8 @@ class Observer {
       c.weights = weights_behind(*program_, signal);
       c.resolution = resolution_at(*program_, data_, signal);
       c.by = places_[i].by;
+      const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(places_[i].at + ".stiffness");
+      c.springless = spring != nullptr && spring->value == 0 && !spring->free;
       range_of(i, c.lowest, c.highest);
       c.lowest_of_all = c.lowest;
       c.highest_of_all = c.highest;

@@ -50,6 +50,7 @@ struct Circumstances {
   double lowest_of_all = 0, highest_of_all = 1;
   std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
+  bool springless = false;                       ///< that block is a mass whose stiffness is 0, and not free
   double largest_jump = 0;                       ///< largest change between two rows
   double shortest_step = 1e-3;                   ///< [s] between rows, smallest over the train recordings
   double longest_step = 1e-3;                    ///< [s]

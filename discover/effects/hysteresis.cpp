@@ -353,6 +353,7 @@ Effect hysteresis() {
     return laws;
   };
   e.unseen = [](const Circumstances& at) -> std::string {
+    if (at.springless) return "the mass is on no spring: what remembers its turning points there is friction";
     if (!at.memory_blocks.empty())
       return fmt::format(
           "the diagram has memory already ({}): another shape of it would be an asymmetry, not a missing hysteresis",

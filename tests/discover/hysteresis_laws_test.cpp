@@ -247,6 +247,28 @@ TEST_F(HysteresisLaws, NoLawOfManyMoreNumbersIsTriedWhereAnotherEffectLeavesNois
   EXPECT_EQ(tries(curved), 0);
 }
 
+TEST_F(HysteresisLaws, AMassOnNoSpringHasNoneThatRemembers) {
+  const auto refused = [&](const std::string& stiffness) {
+    std::vector<Recording> list;
+    for (const Role role : {Role::train, Role::validate}) {
+      const auto t = rows(200, 0.01);
+      list.push_back(recording(to_text(role), role, t, several_sines(t, 1, {1.3}), noise(t.size(), white, 0, 1)));
+    }
+    Diagram d = mass_on_spring();
+    d.blocks["stage"].parameters["stiffness"] = Value(stiffness);
+    DiscoverOptions options;
+    options.only = {"hysteresis"};
+    options.max_steps = 1;
+    for (auto& r : list) r.at_rest = false;
+    const Discovery found = discover(d, data_set(std::move(list), white), registry, effects, options);
+    return std::any_of(found.refused.begin(), found.refused.end(), [](const Refused& r) {
+      return r.place == "stage" && r.reason.find("on no spring") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(refused("0 N/m"));
+  EXPECT_FALSE(refused("400 N/m"));
+}
+
 TEST_F(HysteresisLaws, ASpringHasATravelWhereNobodyLookedHowFarItMoves) {
   Circumstances at;
   at.by = "mass_on_hysteretic_spring";
