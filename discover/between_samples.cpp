@@ -20,10 +20,14 @@ Between given(const DataSet& data, const std::string& input) {
   return note == data.notes.end() ? Between::linear : note->second.between;
 }
 
+void move_input(DataSet& data, const std::string& input, Between between) {
+  data.notes[input].to = input;
+  data.notes[input].between = between;
+}
+
 Workshop with_input(const Books& books, const std::string& input, Between between) {
   DataSet other = *books.data;
-  other.notes[input].to = input;
-  other.notes[input].between = between;
+  move_input(other, input, between);
   Workshop shop = books.shop;
   shop.data = std::make_shared<const DataSet>(std::move(other));
   return shop;
@@ -53,7 +57,26 @@ double bend_of(const DataSet& data, const std::string& input) {
 
 }  // namespace
 
+DataSet as_found(DataSet data, const Discovery& found) {
+  for (const auto& s : found.smooth_inputs) move_input(data, s.input, Between::smooth);
+  return data;
+}
+
+void tell_unused(Books& books) {
+  books.d.warnings.push_back(
+      fmt::format("{} moves smoothly between its samples, it seems: with it the error of what was found falls from "
+                  "{:.3g} % to {:.3g} %. The search that takes it into account was broken off; write "
+                  "\"between_samples\": \"smooth\" at its column and begin with that.",
+                  books.smooth->input, 100 * books.smooth->before, 100 * books.smooth->after));
+}
+
 void tell_between_samples(Books& books) {
+  for (const auto& s : books.d.smooth_inputs)
+    books.d.warnings.push_back(
+        fmt::format("{} moves smoothly between its samples, not along straight lines as the data set says: with it the "
+                    "error of what had been found fell from {:.3g} % to {:.3g} %. All figures are with that: write "
+                    "\"between_samples\": \"smooth\" at its column.",
+                    s.input, 100 * s.before, 100 * s.after));
   for (const auto& input : books.base_model->program().input_names) {
     if (books.stopped()) return;
     const Between between = given(*books.data, input);

@@ -10,8 +10,9 @@ namespace hysteron {
 
 struct Books;
 
-/// Where an input that is held fits the user's model better moving along straight lines, or the other way round, the
-/// user is told: how it moves is the user's word, and half a sample of delay looks the same.
+/// Inputs that this search takes to move smoothly are told, with the cure. Then: where an input that is held fits the
+/// user's model better moving along straight lines, or the other way round, the user is told: how it moves is the
+/// user's word, and half a sample of delay looks the same.
 void tell_between_samples(Books& books);
 
 /// An input that bends between its samples by all that the present model leaves: straight lines through them are
@@ -19,5 +20,8 @@ void tell_between_samples(Books& books);
 /// mode of its structure. No parameter is added, and most of what stands above the noise must go in recordings of both
 /// roles.
 std::optional<SmoothInput> find_smooth_input(const Books& books);
+
+/// Tells of such an input (Books::smooth) where the search that takes it into account was broken off.
+void tell_unused(Books& books);
 
 }  // namespace hysteron

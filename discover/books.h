@@ -42,8 +42,8 @@ struct Books {
   std::unique_ptr<Evidence> evidence;
   Contender base, current;
   std::optional<SmoothInput> smooth;  ///< found on the way: all begins anew with it
-  std::vector<Tried> hidden;     ///< of the present step: cannot be seen here, may have acted all the same
-  Prediction before_prediction;  ///< of the model before the present step; empty = the base
+  std::vector<Tried> hidden;          ///< of the present step: cannot be seen here, may have acted all the same
+  Prediction before_prediction;       ///< of the model before the present step; empty = the base
   Discovery d;
 
  private:

@@ -186,8 +186,10 @@ class Observer {
       c.weights = weights_behind(*program_, signal);
       c.resolution = resolution_at(*program_, data_, signal);
       c.by = places_[i].by;
-      const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(places_[i].at + ".stiffness");
-      c.springless = spring != nullptr && spring->value == 0 && !spring->free;
+      const std::string stiffness = places_[i].at + ".stiffness";
+      const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
+      c.springless = spring != nullptr && spring->value == 0 && !spring->free &&
+                     std::find(free_paths.begin(), free_paths.end(), stiffness) == free_paths.end();
       range_of(i, c.lowest, c.highest);
       c.lowest_of_all = c.lowest;
       c.highest_of_all = c.highest;

@@ -244,24 +244,7 @@ void search(Books& books) {
     one_by_one(books, first);
 }
 
-std::string would_be_smooth(const SmoothInput& s) {
-  return fmt::format(
-      "{} moves smoothly between its samples, it seems: with it the error of what was found falls from {:.3g} % to "
-      "{:.3g} "
-      "%. The search that takes it into account was broken off; write \"between_samples\": \"smooth\" at its column "
-      "and begin with that.",
-      s.input, 100 * s.before, 100 * s.after);
-}
-
 }  // namespace
-
-DataSet as_found(DataSet data, const Discovery& found) {
-  for (const auto& s : found.smooth_inputs) {
-    data.notes[s.input].to = s.input;
-    data.notes[s.input].between = Between::smooth;
-  }
-  return data;
-}
 
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options) {
@@ -280,10 +263,8 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
       continue;
     }
     // Broken off before it had found again what was found without: that is still true.
-    if (before && books->stopped() && found_effects(*books) < found_effects(*before)) {
-      books = std::move(before);
-      books->d.warnings.push_back(would_be_smooth(*books->smooth));
-    }
+    if (before && books->stopped() && found_effects(*books) < found_effects(*before)) books = std::move(before);
+    if (books->smooth) tell_unused(*books);
     conclude(*books);
     books->d.model_runs = runs;
     return std::move(books->d);

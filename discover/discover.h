@@ -107,8 +107,8 @@ struct Discovery {
   std::vector<Refused> refused;
   std::optional<Structure> structure;  ///< strongest structure left, if any stands out
   std::vector<JudgedNoise> noise;
-  bool noise_guessed = false;            ///< no data sheet: taken from the residual
-  std::optional<Experiment> experiment;  ///< what to record next
+  bool noise_guessed = false;              ///< no data sheet: taken from the residual
+  std::optional<Experiment> experiment;    ///< what to record next
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   Diagram base_diagram, final_diagram;
   ModelError final_error;
@@ -133,10 +133,10 @@ struct DiscoverOptions {
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options = {});
 
-/// WHICH effect is missing: the first step of discover alone.
 /// The data set that the figures of a discovery hold for: as given, but for how inputs move between samples.
 DataSet as_found(DataSet data, const Discovery& found);
 
+/// WHICH effect is missing: the first step of discover alone.
 Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    DiscoverOptions options = {});
 

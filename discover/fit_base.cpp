@@ -1,6 +1,4 @@
 // Decides what a discovery starts from: the user's own model, fitted.
-#include <fmt/format.h>
-
 #include "discover/between_samples.h"
 #include "discover/books.h"
 #include "engine/error.h"
@@ -34,13 +32,6 @@ void fit_base(Books& books) {
   books.d.base_diagram = books.current.diagram;
   books.d.data_remarks = books.data->remarks;
   for (const auto& r : books.base_model->remarks()) books.d.data_remarks.push_back(r);
-  for (const auto& s : books.d.smooth_inputs)
-    books.d.warnings.push_back(fmt::format(
-        "{} moves smoothly between its samples, not along straight lines as the data set says: with it the error of "
-        "what "
-        "had been found fell from {:.3g} % to {:.3g} %. All figures are with that: write \"between_samples\": "
-        "\"smooth\" at its column.",
-        s.input, 100 * s.before, 100 * s.after));
   tell_between_samples(books);
 }
 

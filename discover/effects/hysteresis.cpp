@@ -320,8 +320,9 @@ Effect hysteresis() {
        "tutorial)"},
       {"at_lower, in_middle, at_upper", "N/m",
        "of a mass, richer than slip elements: by how much plays soften its spring over the travel", ""},
-      {"hysteretic_share, beta, gamma", ", 1/m, 1/m",
-       "of a mass: a Bouc-Wen law beside its spring; loops that may harden with the travel", ""},
+      {"hysteretic_share", "",
+       "of a mass: what part of its stiffness follows a Bouc-Wen law, which may harden with the travel", "0 .. 1"},
+      {"beta, gamma", "1/m", "of that law: the loop, and whether it softens (beta + gamma > 0) or hardens", ""},
       {"slope_at_lower, slope_at_upper", "", "richer: of the bent drive that the plays follow", "0 .. 3"},
       {"weights (relays)", "unit of the wire",
        "richest: of Preisach's relays that switch up in one cell of the range and down in another, 6 or 10 cells; "
