@@ -219,10 +219,10 @@ TEST_F(HysteresisLaws, ASpringWhoseLoopsHardenWithTheTravelIsHysteresis) {
   EXPECT_EQ(winner(d), "hysteresis") << tried(d);
   EXPECT_EQ(d.steps.front().winner.law, "Bouc-Wen in the spring") << tried(d);
   EXPECT_EQ(to_text(d.remainder), "noise") << tried(d);
-  // A thousandth of noise on some hundredths of a metre, 3000 rows of it.
-  EXPECT_NEAR(value(d, "hysteretic_share"), 0.5, 0.05);
-  EXPECT_NEAR(value(d, "beta"), 40, 4);
-  EXPECT_NEAR(value(d, "gamma"), -55, 6);
+  // Five standard deviations: the fit says 0.0018, 0.20 and 0.32 from 3000 rows with 0.2 mm of noise.
+  EXPECT_NEAR(value(d, "hysteretic_share"), 0.5, 0.009);
+  EXPECT_NEAR(value(d, "beta"), 40, 1);
+  EXPECT_NEAR(value(d, "gamma"), -55, 1.6);
   EXPECT_NE(d.steps.front().winner.summary.find("% of the stiffness remembers"), std::string::npos)
       << d.steps.front().winner.summary;
 }
