@@ -2,7 +2,9 @@
 // recordings that were not used for the fit. Models and data sets: benchmarks/measured/; the recordings are used where
 // they lie (../shared/measured beside the project) and are never copied.
 //
-//   measured [--only silverbox,heater] [--seconds 300] [--tell] [--progress]
+//   measured [FOLDER] [--only silverbox,heater] [--seconds 300] [--tell] [--progress]
+//
+// FOLDER: another folder of models (NAME.json) and data sets (NAME.data.json), all of which are taken.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/resource.h>
@@ -53,7 +55,23 @@ std::vector<Device> devices() {
   return list;
 }
 
+/// Every data set of a folder that has a model of its name, in the order of their names.
+std::vector<Device> devices_of(const std::string& folder) {
+  std::vector<Device> list;
+  const std::string end = ".data.json";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (!file.ends_with(end)) continue;
+    const std::string name = file.substr(0, file.size() - end.size());
+    const auto diagram = entry.path().parent_path() / (name + ".json");
+    if (std::filesystem::exists(diagram)) list.push_back({name, diagram.string(), entry.path().string()});
+  }
+  std::sort(list.begin(), list.end(), [](const Device& a, const Device& b) { return a.name < b.name; });
+  return list;
+}
+
 struct Wish {
+  std::string folder;  ///< of models and data sets; the measured devices if empty
   std::vector<std::string> only;
   double seconds = 600;  ///< after so many the search ends with what it has found
   bool tell = false;
@@ -74,8 +92,10 @@ Wish wish_of(int count, char** words) {
     } else if (word == "--only") {
       std::istringstream names(next());
       for (std::string name; std::getline(names, name, ',');) wish.only.push_back(name);
+    } else if (!word.starts_with("-") && std::filesystem::is_directory(word)) {
+      wish.folder = word;
     } else {
-      fmt::print(stderr, "measured [--only NAME,NAME] [--seconds 300] [--tell] [--progress]\n");
+      fmt::print(stderr, "measured [FOLDER] [--only NAME,NAME] [--seconds 300] [--tell] [--progress]\n");
       std::exit(2);
     }
   }
@@ -177,14 +197,14 @@ void look_at(const Device& device, const Wish& wish, const Registry& registry, c
 
 int main(int count, char** words) {
   const Wish wish = wish_of(count, words);
-  if (!std::filesystem::is_directory(recordings)) {
+  if (wish.folder.empty() && !std::filesystem::is_directory(recordings)) {
     fmt::print("skipped: {} is not there\n", recordings);
     return 0;
   }
   const Registry registry = all_blocks();
   const Effects effects = all_effects();
   int failed = 0;
-  for (const auto& device : devices()) {
+  for (const auto& device : wish.folder.empty() ? devices() : devices_of(wish.folder)) {
     if (!wish.only.empty() && std::find(wish.only.begin(), wish.only.end(), device.name) == wish.only.end()) continue;
     try {
       look_at(device, wish, registry, effects);

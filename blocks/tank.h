@@ -36,7 +36,7 @@ struct Tank {
     return {p.area, p.outlet, p.reference, p.brim > T{0} ? p.brim : T{std::numeric_limits<double>::infinity()}};
   }
   template <class T>
-  static Out<T> output(const Params<T>& p, const State<T>& s, Mode) {
+  static Out<T> output(const Params<T>& p, const State<T>& s) {
     return {s.level, tank::outflow(outlet_of(p), numbers(p), s.level), s.spilled};
   }
   template <class T>
@@ -57,6 +57,17 @@ struct Tank {
   static State<T> reset(const Params<T>& p, const State<T>& s, const In<T>&, Mode, Mode) {
     return {tank::held_level(numbers(p), s.level), s.spilled};
   }
+  /// Row by row, as measurements are compared: without events.
+  struct OwnStep {
+    tank::Outlet outlet;
+    tank::Params<double> law;
+    explicit OwnStep(const Params<double>& p) : outlet(outlet_of(p)), law(numbers(p)) {}
+    bool takes(double) const { return true; }
+    State<double> operator()(const State<double>& s, const In<double>& from, const In<double>& to, double h) const {
+      const auto f = tank::after(outlet, law, {s.level, s.spilled}, from.inflow, to.inflow, h);
+      return {f.level, f.spilled};
+    }
+  };
   static State<double> rest(const Params<double>& p, const In<double>& in) {
     return {tank::rest(outlet_of(p), numbers(p), in.inflow), 0};
   }

@@ -190,6 +190,8 @@ class Observer {
       const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
       c.springless = spring != nullptr && spring->value == 0 && !spring->free &&
                      std::find(free_paths.begin(), free_paths.end(), stiffness) == free_paths.end();
+      if (const auto* level = c.by.empty() ? nullptr : program_->find_parameter(places_[i].at + ".reference"))
+        c.reference = level->value;
       range_of(i, c.lowest, c.highest);
       c.lowest_of_all = c.lowest;
       c.highest_of_all = c.highest;

@@ -21,7 +21,7 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
     FreeParameter f = free_parameter(program, parameter_path(standing.name, standing.law, p));
     f.lower = std::max(f.lower, p.lower);
     f.upper = std::min(f.upper, p.upper);
-    if (is_new && !std::isnan(p.start)) f.start = p.start;
+    if (is_new) f.start = std::isnan(p.start) ? p.share * f.start : p.start;
     f.start = std::clamp(f.start, f.lower, f.upper);
     f.log_scale = p.log_scale && f.lower > 0;
     f.scan.clear();

@@ -50,20 +50,21 @@ struct Circumstances {
   double lowest_of_all = 0, highest_of_all = 1;
   std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
-  bool springless = false;                       ///< that block is a mass whose stiffness is 0, and not free
-  double largest_jump = 0;                       ///< largest change between two rows
-  double shortest_step = 1e-3;                   ///< [s] between rows, smallest over the train recordings
-  double longest_step = 1e-3;                    ///< [s]
-  double longest_recording = 100;                ///< [s] of any recording, validation included
-  double longest_hold = 0;                       ///< [s] at one level after a move of at least 5 % of the range
-  double step_at_longest_hold = 1e-3;            ///< [s] between rows in that hold
-  int reversals = 0;                             ///< turning points that come back by at least 2 % of the range
-  int recordings = 0;                            ///< train recordings
-  double quickest = 0;                           ///< [1/s] largest change per second over the range
-  double quickest_of_all = 0;                    ///< [1/s] the same, validation included
-  bool starts_away_from_zero = false;            ///< the wire is not at zero at the start of some recording
-  bool gain_is_free = false;    ///< a free gain in series behind the place makes a gain here undetermined
-  bool offset_is_free = false;  ///< a free offset behind the place (or a free zero of each recording)
+  double reference = 0;     ///< that block's parameter of this name (level at which its flow is told); 0 = it has none
+  bool springless = false;  ///< that block is a mass whose stiffness is 0, and not free
+  double largest_jump = 0;  ///< largest change between two rows
+  double shortest_step = 1e-3;         ///< [s] between rows, smallest over the train recordings
+  double longest_step = 1e-3;          ///< [s]
+  double longest_recording = 100;      ///< [s] of any recording, validation included
+  double longest_hold = 0;             ///< [s] at one level after a move of at least 5 % of the range
+  double step_at_longest_hold = 1e-3;  ///< [s] between rows in that hold
+  int reversals = 0;                   ///< turning points that come back by at least 2 % of the range
+  int recordings = 0;                  ///< train recordings
+  double quickest = 0;                 ///< [1/s] largest change per second over the range
+  double quickest_of_all = 0;          ///< [1/s] the same, validation included
+  bool starts_away_from_zero = false;  ///< the wire is not at zero at the start of some recording
+  bool gain_is_free = false;           ///< a free gain in series behind the place makes a gain here undetermined
+  bool offset_is_free = false;         ///< a free offset behind the place (or a free zero of each recording)
   /// Program paths of the constants that add to the signal behind the place ("sensor.offset"), free or not.
   std::vector<std::string> zeros;
   std::vector<std::string> weights;        ///< program paths of the weights of operators behind the place
@@ -81,7 +82,8 @@ struct Circumstances {
 /// One free number of a law. `path` is relative to the block: "delay", "weights[2]". All numbers in SI.
 struct LawParameter {
   std::string path;
-  double start = 0;  ///< not a number: as the block has it already (vary)
+  double start = 0;  ///< not a number: as the block has it already (vary), times `share`
+  double share = 1;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;

@@ -51,7 +51,8 @@ class Builder {
                         : fmt::format(
                               "{} \"{}\" {}", type_of(b), b.path,
                               b.sizes.smoothness == Smoothness::no_rate ? "draws random numbers" : "changes with time");
-    if (b.kernel->has_modes()) return fmt::format("{} \"{}\" changes its mode at events", type_of(b), b.path);
+    if (b.kernel->has_modes() && b.kernel->rows == nullptr)
+      return fmt::format("{} \"{}\" changes its mode at events", type_of(b), b.path);
     if (b.n_u > 0 && b.kernel->rows == nullptr)
       return fmt::format("{} \"{}\" has no functions that rows could be passed by", type_of(b), b.path);
     return "";
@@ -131,6 +132,7 @@ class Builder {
       return fmt::format("{} \"{}\" {} and stands in a feedback loop", type_of(block(b)), block(b).path, what);
     };
     if (role(b) == AdvanceRole::momentary) return in_loop("follows a function of time");
+    if (block(b).kernel->has_modes()) return in_loop("changes its mode at events");
     if (block(b).history_index >= 0) return in_loop("is a dead time");
     for (const Loop& loop : program_.loops)
       if (std::find(loop.blocks.begin(), loop.blocks.end(), b) != loop.blocks.end())

@@ -25,7 +25,8 @@
 // Both: struct OwnStep, where the block knows its states behind a row of straight inputs better than Runge-Kutta does:
 //   made from Params<double> or a View<double>; takes(h) says whether it steps through a row of that length [s], or
 //   share of a jump; the call (state, from, to, h) -> State, or (double* x, from, to, h), does, `from` and `to` being
-//   the inputs at its ends.
+//   the inputs at its ends. With it a fixed block with modes can be advanced row by row, too, if it takes all rows:
+//   then its modes change inside its own step, and its output is one of (p, s).
 #pragma once
 
 #include <array>

@@ -180,7 +180,7 @@ struct Kernel : Functions<double> {
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
   double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
-  void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor with modes nor a source: made by block.h
+  void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor a source: made by block.h
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure

@@ -55,6 +55,20 @@ class RestProblem {
     return z;
   }
 
+  /// Each block by itself in its own equilibrium for the inputs it has, as often as such inputs go on to move: where
+  /// the way from the start has a flat piece (a limited rate), or none at all (below the bottom of a tank).
+  Eigen::VectorXd block_by_block() {
+    Eigen::VectorXd z = start();
+    for (std::size_t pass = 0; pass <= program_.blocks.size(); ++pass) {
+      put(z);
+      evaluate_values(program_, trial_, work_, t_, z.data());
+      const Eigen::VectorXd before = z;
+      for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) settle_block(b, z);
+      if (z == before) break;
+    }
+    return z;
+  }
+
   /// dx/dt with every rate zero, as they all are at rest; for dead times, what their input lacks to its past.
   Eigen::VectorXd residual(const Eigen::VectorXd& z) {
     put(z);
@@ -63,19 +77,13 @@ class RestProblem {
     Eigen::VectorXd r = Eigen::VectorXd::Zero(z.size());
     for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b) {
       const auto& block = program_.blocks[static_cast<std::size_t>(b)];
-      inputs_.clear();
-      for (const int s : block.source) inputs_.push_back(work_.y[static_cast<std::size_t>(s)]);
+      gather_inputs(block);
       if (block.history_index >= 0) {
         const long row = program_.n_x + block.history_index;
         r[row] = (inputs_.front() - z[row]) * rate_of_size_one_;
       }
       if (block.kernel->derivative == nullptr) continue;
-      auto view = view_of(program_, trial_, b);
-      view.t = t_;
-      view.branch = trial_.branch;
-      view.x = z.data() + block.x_begin;
-      view.u = inputs_.data();
-      view.du = zero_.data();
+      auto view = view_at(b, z);
       view.out = r.data() + block.x_begin;
       block.kernel->derivative(view);
     }
@@ -124,6 +132,32 @@ class RestProblem {
     for (std::size_t h = 0; h < trial_.histories.size(); ++h)
       trial_.histories[h].before = z[program_.n_x + static_cast<long>(h)];
   }
+  void gather_inputs(const BlockInstance& block) {
+    inputs_.clear();
+    for (const int s : block.source) inputs_.push_back(work_.y[static_cast<std::size_t>(s)]);
+  }
+  /// Of block b, with the inputs that were gathered.
+  View<double> view_at(int b, const Eigen::VectorXd& z) {
+    auto view = view_of(program_, trial_, b);
+    view.t = t_;
+    view.branch = trial_.branch;
+    view.x = z.data() + program_.blocks[static_cast<std::size_t>(b)].x_begin;
+    view.u = inputs_.data();
+    view.du = zero_.data();
+    return view;
+  }
+  void settle_block(int b, Eigen::VectorXd& z) {
+    const auto& block = program_.blocks[static_cast<std::size_t>(b)];
+    gather_inputs(block);
+    if (block.history_index >= 0) z[program_.n_x + block.history_index] = inputs_.front();
+    if (block.kernel->rest == nullptr || block.kernel->is_sampled() || block.sizes.states == 0) return;
+    std::vector<double> x(static_cast<std::size_t>(block.sizes.states));
+    auto view = view_at(b, z);
+    view.out = x.data();
+    block.kernel->rest(view);
+    if (!std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) return;
+    std::copy(x.begin(), x.end(), z.data() + block.x_begin);
+  }
 
   const Program& program_;
   Run trial_;
@@ -163,11 +197,14 @@ void hold_free_states(Eigen::MatrixXd& jacobian, const Eigen::VectorXd& unit) {
                 "give initial states instead of \"rest\", or let the inputs start where an integrator's input is zero");
 }
 
-}  // namespace
+/// How far Newton's method came.
+struct Settled {
+  Eigen::VectorXd z, rate, relative;  ///< relative: rates in units of what states of nominal size make of them
+  bool finite() const { return relative.allFinite(); }
+  bool reached_rest() const { return finite() && (z.size() == 0 || relative.lpNorm<Eigen::Infinity>() <= good_enough); }
+};
 
-void settle_at_rest(const Program& program, Run& run, double t) {
-  RestProblem problem(program, run, t);
-  Eigen::VectorXd z = problem.start();
+Settled settle_from(RestProblem& problem, Eigen::VectorXd z) {
   Eigen::VectorXd rate = problem.residual(z);
   Eigen::VectorXd relative = Eigen::VectorXd::Zero(z.size());
   for (int iteration = 0; iteration < iterations_allowed && z.size() > 0; ++iteration) {
@@ -195,10 +232,19 @@ void settle_at_rest(const Program& program, Run& run, double t) {
     }
     if (!better) break;
   }
-  if (!relative.allFinite()) problem.check_loops(z);
-  if (!relative.allFinite() || (z.size() > 0 && relative.lpNorm<Eigen::Infinity>() > good_enough))
-    no_rest(program, t, rate, relative);
-  problem.finish(z, run);
+  return {std::move(z), std::move(rate), std::move(relative)};
+}
+
+}  // namespace
+
+void settle_at_rest(const Program& program, Run& run, double t) {
+  RestProblem problem(program, run, t);
+  Settled end = settle_from(problem, problem.start());
+  if (!end.reached_rest())
+    if (Settled second = settle_from(problem, problem.block_by_block()); second.reached_rest()) end = std::move(second);
+  if (!end.finite()) problem.check_loops(end.z);
+  if (!end.reached_rest()) no_rest(program, t, end.rate, end.relative);
+  problem.finish(end.z, run);
 }
 
 }  // namespace hysteron

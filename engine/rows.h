@@ -91,7 +91,7 @@ void fixed_rows_of(const RowsView& r) {
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::ptrdiff_t place = k * static_cast<std::ptrdiff_t>(lanes) + static_cast<std::ptrdiff_t>(l);
       const auto now = inputs(place);
-      if constexpr (F::derivative || F::derivative_rate) {
+      if constexpr (F::derivative || F::derivative_rate || StepsOnItsOwn<B>) {
         const auto before = inputs(place - static_cast<std::ptrdiff_t>(lanes));
         const auto move = [&](double begin, double end, double length, double duration) {
           std::array<double, n_u> from, to, middle, rate;
@@ -108,18 +108,20 @@ void fixed_rows_of(const RowsView& r) {
               return;
             }
           }
-          std::array<double, n_x> x;
-          std::array<double, 5 * n_x> work;
-          store<double>(s[l], x.data());
-          runge_kutta(
-              static_cast<int>(n_x), x.data(), length, work.data(), [&](double c, const double* at, double* dx) {
-                const auto in = load<double>(I{}, (c == 0 ? from : c == 1 ? to : middle).data());
-                if constexpr (F::derivative_rate)
-                  store<double>(B::derivative(p[l], load<double>(S{}, at), in, load<double>(I{}, rate.data())), dx);
-                else
-                  store<double>(B::derivative(p[l], load<double>(S{}, at), in), dx);
-              });
-          s[l] = load<double>(S{}, x.data());
+          if constexpr (F::derivative || F::derivative_rate) {
+            std::array<double, n_x> x;
+            std::array<double, 5 * n_x> work;
+            store<double>(s[l], x.data());
+            runge_kutta(
+                static_cast<int>(n_x), x.data(), length, work.data(), [&](double c, const double* at, double* dx) {
+                  const auto in = load<double>(I{}, (c == 0 ? from : c == 1 ? to : middle).data());
+                  if constexpr (F::derivative_rate)
+                    store<double>(B::derivative(p[l], load<double>(S{}, at), in, load<double>(I{}, rate.data())), dx);
+                  else
+                    store<double>(B::derivative(p[l], load<double>(S{}, at), in), dx);
+                });
+            s[l] = load<double>(S{}, x.data());
+          }
         };
         follow_row(r.h[k], now != before, r.path_steps, move);
       }
@@ -148,10 +150,12 @@ void fixed_rows(const RowsView& r) {
   r.lanes == 1 ? fixed_rows_of<B, 1>(r) : fixed_rows_of<B, RowsView::most_lanes>(r);
 }
 
-/// Is there a loop over rows: outputs follow from parameters, states, memory and inputs, without modes.
+/// Is there a loop over rows: outputs follow from parameters, states, memory and inputs, without modes. A block with
+/// modes has one if it steps through every row on its own, whatever its mode, and its outputs do not tell it.
 template <class B>
 constexpr bool has_fixed_rows() {
   using F = Forms<B>;
+  if constexpr (F::modes) return F::inputs && F::output_state && StepsOnItsOwn<B>;
   return F::inputs && !F::sampled && !F::modes &&
          (F::output_memory || F::output_in ||
           ((F::output_state || F::output_state_in) && (F::derivative || F::derivative_rate)));

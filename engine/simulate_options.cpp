@@ -134,7 +134,13 @@ void check_inputs(const Program& program, const Run& run) {
 
 bool advances_exactly(const Program& program, const SimulateOptions& options) {
   if (options.method != Method::automatic && options.method != Method::exact) return false;
-  const auto graph = advance_graph(program);
+  auto graph = advance_graph(program);
+  // Some blocks with modes can be advanced row by row; but only an integrator finds when they change.
+  if (graph.why_not.empty() && !program.modal_blocks.empty()) {
+    const auto& b = program.blocks[static_cast<std::size_t>(program.modal_blocks.front())];
+    graph.why_not = fmt::format("{} \"{}\" changes its mode at events", b.kernel->declaration.type, b.path);
+    graph.in_the_way = b.path;
+  }
   // A free choice leaves loops with nonlinear blocks to the integrators: they see where these switch.
   if (options.method == Method::automatic) return graph.why_not.empty() && graph.loops.empty();
   if (graph.why_not.empty()) return true;

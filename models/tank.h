@@ -72,6 +72,21 @@ T held_level(const Params<T>& p, const T& level) {
   return max(T{0}, min(p.height, level));
 }
 
+/// Level [m] and what has been spilled [m^3] behind a step of h [s] while the inflow [m^3/s] moves in a straight line:
+/// one Runge-Kutta step of the open tank (Kutta, Z. Math. Phys. 46 (1901) 435-453), held between bottom and brim. What
+/// is above the brim is spilled; when it was reached is known to within the step only.
+struct Filled {
+  double level = 0, spilled = 0;
+};
+inline Filled after(Outlet law, const Params<double>& p, const Filled& before, double from, double to, double h) {
+  const auto slope = [&](double level, double inflow) { return net(law, p, held_level(p, level), inflow) / p.area; };
+  const double x = before.level, middle = 0.5 * (from + to);
+  const double k1 = slope(x, from), k2 = slope(x + 0.5 * h * k1, middle), k3 = slope(x + 0.5 * h * k2, middle),
+               k4 = slope(x + h * k3, to);
+  const double moved = x + h / 6 * (k1 + 2 * (k2 + k3) + k4);
+  return {held_level(p, moved), before.spilled + p.area * std::max(0.0, moved - p.height)};
+}
+
 /// Level [m] at which in- and outflow balance, at most the brim; not a number without an outlet.
 inline double rest(Outlet law, const Params<double>& p, double inflow) {
   if (inflow <= 0) return 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "discover/effects/library.h"
@@ -11,6 +12,13 @@ namespace hysteron::effects {
 namespace {
 
 double travelled(const Circumstances& at) { return at.travel_highest - at.travel_lowest; }
+
+/// An outlet by the root has the flow of the linear one at the middle of the levels where it has this share of it at
+/// the reference level.
+double share_of_root(const Circumstances& at) {
+  const double middle = 0.5 * (at.travel_lowest + at.travel_highest);
+  return at.from_data && at.reference > 0 && middle > 0 ? std::sqrt(middle / at.reference) : 1;
+}
 
 std::string level_stands(const Circumstances& at) {
   return at.from_data && !(travelled(at) > 0) ? "the level does not move" : "";
@@ -36,7 +44,7 @@ Effect sqrt_outflow() {
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
     return fmt::format("{:.3g} m^3/s [SI] at the reference level", values[0]);
   };
-  e.laws = [](const Circumstances&) {
+  e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "root of the level";
     law.block.type = "tank";
@@ -44,6 +52,7 @@ Effect sqrt_outflow() {
     LawParameter outlet;
     outlet.path = "outlet";
     outlet.start = std::numeric_limits<double>::quiet_NaN();  // as the linear outlet has it
+    outlet.share = share_of_root(at);
     outlet.lower = 0;
     law.free = {outlet};
     return std::vector<Law>{law};

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "engine/advance.h"
+#include "engine/simulate_parts.h"
 #include "tests/engine/simulate_tools.h"
 #include "tests/models/golden.h"
 
@@ -233,6 +235,53 @@ TEST(EventsInDiagrams, TankSpillsItsSurplusAndKeepsTheBalance) {
   EXPECT_NEAR(traces.values[1][4], 1e-3 * (20 - full), 3e-10);
   EXPECT_NEAR(traces.values[0][4], 0.2 * std::exp(-0.5), 1e-8);
   EXPECT_NEAR(traces.values[2][3], 1e-3, 1e-12);
+}
+
+TEST(EventsInDiagrams, RowByRowATankIsHeldAtItsBrimWithinTheRow) {
+  // As above, 100 substeps of a row of 0.1 s: water that is above the brim within one substep of 1 ms is spilled at its
+  // end, after an outflow that is at most 1 l/s too large for 1 ms: 1e-6 m^3 of 6e-3.
+  const auto d = tools::diagram(
+      {{"tank",
+        block("tank", {{"area", "0.1 m^2"}, {"outlet", "1 l/s"}, {"reference", "20 cm"}, {"brim", "20 cm"}}, {"q"})}},
+      {"tank.level", "tank.spilled"}, {{"q", "m^3/s"}});
+  const auto program = tools::compiled(d);
+  EXPECT_EQ(why_not_exact(*program), "");
+  auto run = start(*program);
+  bind_input(*program, run, "q", tools::series({0, 20, 40}, {2e-3, 0, 0}, Between::hold));
+  std::vector<std::vector<double>> values;
+  const auto instants = tools::grid(0, 30, 300);
+  Advance advance(program, program->record_signals);
+  EXPECT_TRUE(advance.integrates());
+  advance(run, instants, {.substeps = 100, .at_rest = false}, values);
+  const double full = 20 * std::log(2);
+  EXPECT_NEAR(values[0][50], 0.4 * (1 - std::exp(-0.25)), 1e-12);  // nothing but Runge-Kutta: (h/20 s)^4
+  EXPECT_EQ(values[0][160], 0.2);
+  EXPECT_NEAR(values[1][160], 1e-3 * (16 - full), 1e-6);
+  EXPECT_NEAR(values[1][300], 1e-3 * (20 - full), 1e-6);
+  EXPECT_NEAR(values[0][300], 0.2 * std::exp(-0.5), 1e-12);
+  // A run that may choose finds the events, and one that asks for rows is told what stands in the way.
+  SimulateOptions options;
+  options.instants = instants;
+  options.until = 30;
+  EXPECT_FALSE(advances_exactly(*program, options));
+  options.method = Method::exact;
+  try {
+    simulate(*program, run, options);
+    ADD_FAILURE() << "a tank was advanced exactly";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().path, "tank");
+    EXPECT_NE(std::string(e.what()).find("changes its mode at events"), std::string::npos) << e.what();
+  }
+}
+
+TEST(EventsInDiagrams, InALoopATankIsLeftToTheIntegrator) {
+  const auto program = tools::compiled(tools::diagram(
+      {{"lack", block("sum", {{"signs", "+-"}}, {"h", "tank.level"})},
+       {"pump", block("gain", {{"gain", "2 m^2/s"}}, {"lack"})},
+       {"tank", block("tank", {{"area", "1 m^2"}, {"outlet", "1 m^3/s"}, {"reference", "1 m"}}, {"pump"})}},
+      {"tank.level"}, {{"h", "m"}}));
+  EXPECT_NE(why_not_exact(*program).find("changes its mode at events and stands in a feedback loop"), std::string::npos)
+      << why_not_exact(*program);
 }
 
 TEST(EventsInDiagrams, CurrentLimitSlewsTheStaircaseOfAConverter) {

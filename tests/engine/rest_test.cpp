@@ -67,6 +67,21 @@ TEST(Rest, MemoryInsideALoopFollowsToItsEquilibrium) {
   EXPECT_NEAR(run.m[0], run.x[0], 1e-9) << "committed";
 }
 
+TEST(Rest, WhereTheWayIsFlatBlocksBeginAtTheirOwnRest) {
+  // From 0 V a follower limited to 1 V/s closes a gap of 5 V at the same rate wherever it is: no slope to go by. Behind
+  // it a tank by the root of its level: 5 m^3/s of outflow at 2 m for every root of 1 m, so 2 m (5/5)^2.
+  const auto program = compiled(diagram(
+      {{"u", block("constant", {{"value", "5 V"}})},
+       {"s", block("slew_limit", {{"rate", "1 V/s"}}, {"u"})},
+       {"q", block("gain", {{"gain", "1 m^3/s/V"}}, {"s"})},
+       {"h", block("tank", {{"area", "1 m^2"}, {"outlet", "5 m^3/s"}, {"reference", "2 m"}, {"law", "square_root"}},
+                   {"q"})}},
+      {"h.level"}));
+  const auto run = settled(*program);
+  EXPECT_NEAR(run.x[static_cast<std::size_t>(state(*program, "s"))], 5, 1e-9);
+  EXPECT_NEAR(run.x[static_cast<std::size_t>(state(*program, "h"))], 2, 1e-9);
+}
+
 TEST(Rest, AnIntegratorWithoutInputStaysWhereItIs) {
   const auto program = compiled(diagram({{"u", block("constant", {{"value", "0 V"}})},
                                          {"x", block("integrator", {{"initial", "7 V s"}}, {"u"})},

@@ -298,6 +298,22 @@ TEST(TankModel, OrificeDrainsInFiniteTime) {
   EXPECT_GE(walk.x[0], 0);
 }
 
+TEST(TankModel, AStepOfARowIsKuttasAndHeldBetweenBottomAndBrim) {
+  // An orifice drains as a parabola, sqrt(h) = 1 - t/4 (area 2, outlet 1 at 1 m): one step of 0.1 s leaves h^5 of it.
+  const tank::Params<double> orifice{.area = 2, .outlet = 1, .height = no_brim};
+  const auto drained = tank::after(tank::Outlet::square_root, orifice, {1, 0}, 0, 0, 0.1);
+  EXPECT_NEAR(drained.level, std::pow(1 - 0.025, 2), 1e-9);
+  EXPECT_EQ(drained.spilled, 0);
+  // A closed tank under a straight inflow from 1 to 3 m^3/s in 1 s takes 2 m^3: 0.9 + 1 m, of which 0.4 m are spilled.
+  const tank::Params<double> closed{.area = 2, .outlet = 0, .height = 1.5};
+  const auto filled = tank::after(tank::Outlet::linear, closed, {0.9, 5}, 1, 3, 1);
+  EXPECT_EQ(filled.level, 1.5);
+  EXPECT_NEAR(filled.spilled, 5 + 2 * 0.4, 1e-14);
+  const auto pumped = tank::after(tank::Outlet::linear, closed, {0.9, 0}, -3, -3, 1);
+  EXPECT_EQ(pumped.level, 0);
+  EXPECT_EQ(pumped.spilled, 0);
+}
+
 TEST(TankModel, WaterOverTheBrimIsLost) {
   // Inflow 2 for 1.5 s into area 1, brim 1, no outlet yet: full at 0.5 s. Then -0.5 (a pump) lowers it at once.
   const tank::Params<double> p{.area = 1, .outlet = 0, .height = 1};
