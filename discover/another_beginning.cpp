@@ -32,7 +32,7 @@ std::optional<Tried> with_one_more(Books& books, const std::string& begun) {
 /// Is `first` no patch beside the other one, as that one is none beside it?
 bool needs_both(Books& books, const Tried& first, const Tried& second, const std::vector<Tried>& alone) {
   const auto other = std::find_if(alone.begin(), alone.end(), [&](const Tried& t) {
-    return t.effect == second.effect && t.place.at == second.place.at && t.contender.ok;
+    return t.effect == second.effect && t.place.where() == second.place.where() && t.contender.ok;
   });
   if (other == alone.end()) return false;
   Contender without = other->contender;
@@ -42,6 +42,12 @@ bool needs_both(Books& books, const Tried& first, const Tried& second, const std
   t.contender.error_of = books.evidence->error(t.contender.prediction);
   judge(*books.evidence, t, without, left_by_laws_of(books, without));
   return t.admitted;
+}
+
+/// Two effects in the place of one explain most of what that one leaves: its law need not be more than nearly right.
+bool is_worth_two(const Contender& pair, const Contender& stands) {
+  return pair.standing.size() <= stands.standing.size() ||
+         pair.error_of.excess_validate() < 0.5 * stands.error_of.excess_validate();
 }
 
 /// On top of a patch nobody else was: the pair is told only if nothing but noise is left.
@@ -74,7 +80,8 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   if (!best) return false;
   books.settle(*best);
   books.current.error_of = books.evidence->error(books.current.prediction);
-  if (best->score() < books.current.score() - rules::exchange && tell_again(books, *best)) {
+  if (best->score() < books.current.score() - rules::exchange &&
+      (begun.empty() || is_worth_two(*best, books.current)) && tell_again(books, *best)) {
     reconsider(books, 0.95, Came::at_once);
     return true;
   }

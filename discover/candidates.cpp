@@ -55,6 +55,9 @@ void begin_at_lines(const Books& books, Tried& t) {
     }
 }
 
+/// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own.
+bool in_another_block(const Place& a, const Place& b) { return !a.by.empty() && !b.by.empty() && a.at != b.at; }
+
 }  // namespace
 
 bool standing(const Books& books, const Effect& e) {
@@ -67,7 +70,7 @@ bool standing_before(const Books& books, const Contender& model, const Effect& e
   if (e.side == Side::other_axis) return false;
   const auto here = outputs_moved(books, model, place.wire);
   return std::any_of(model.standing.begin(), model.standing.end(), [&](const Standing& s) {
-    if (s.effect->family != e.family) return false;
+    if (s.effect->family != e.family || in_another_block(s.place, place)) return false;
     const auto there = outputs_moved(books, model, s.place.wire);
     return there.empty() || here.empty() ||
            std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
@@ -151,7 +154,7 @@ std::vector<Tried> everywhere(Books& books, int step, const Names& outputs, cons
 /// Beside the candidate that stands for it already: a further place, or a twin.
 void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
   if (same.effect != t.effect) same.same_effects.push_back(t.effect->id);
-  same.same_places.push_back(t.place.at);
+  same.same_places.push_back(t.place.where());
   // A delay is best put where the signal is smooth: behind the plant, not on a drive with corners between rows; it is
   // fitted at both ends all the same, for what lies between may be rougher than the drive.
   if (same.effect != t.effect || t.effect->commutes != Commutes::time_invariant) return;
@@ -195,7 +198,7 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   std::vector<Tried> kept;
   for (auto& t : everywhere(books, step, outputs, only)) {
     if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
-      if (step == 1) books.d.refused.push_back({t.effect->id, t.place.at, why});
+      if (step == 1) books.d.refused.push_back({t.effect->id, t.place.where(), why});
       if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) books.hidden.push_back(std::move(t));
       continue;
     }
@@ -243,16 +246,16 @@ void join_twins(std::vector<Tried>& tried) {
     if (tried[i].twin < 0) continue;
     Tried& first = tried[static_cast<std::size_t>(tried[i].twin)];
     Tried& second = tried[i];
-    std::erase(first.same_places, second.place.at);
+    std::erase(first.same_places, second.place.where());
     if (second.contender.ok &&
         (!first.contender.ok || second.contender.score() < first.contender.score() + blur(first.contender))) {
-      first.same_places.push_back(first.place.at);
+      first.same_places.push_back(first.place.where());
       std::swap(first.place, second.place);
       std::swap(first.circumstances, second.circumstances);
       std::swap(first.laws, second.laws);
       std::swap(first.contender, second.contender);
     } else {
-      first.same_places.push_back(second.place.at);
+      first.same_places.push_back(second.place.where());
     }
   }
   std::erase_if(tried, [](const Tried& t) { return t.twin >= 0; });

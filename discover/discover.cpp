@@ -99,7 +99,7 @@ void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
   books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
     const double part = 0.6 * static_cast<double>(i) / static_cast<double>(tried.size());
-    books.progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.at),
+    books.progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
                    (step - 1 + part) / books.options.max_steps);
     t.contender = with_effect(shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances,
                               step == 1 || taken_up(books, *t.effect) ? Effort::full : Effort::screen);

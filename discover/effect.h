@@ -165,7 +165,9 @@ struct Effect {
   /// Why fitted values, though they may fit, are not this effect ("all of it lies beyond the longest hold"); "" = they
   /// are.
   std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> implausible;
-  /// What the fitted law says, in one phrase ("1.5 % of the move per decade"); values [SI] as Law::free. May be empty.
+  /// What the fitted law says, in one phrase ("1.5 % of the move per decade"); values [SI] as Law::free, but
+  /// for numbers that begin where the user has them and are free in the diagram: these come last, and lack. May be
+  /// empty.
   std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> summary;
 };
 

@@ -68,7 +68,7 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
   auto tried = list_candidates(books, step, outputs, effects);
   books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
-    books.progress(t.effect->id + " at " + t.place.at, bar);
+    books.progress(t.effect->id + " at " + t.place.where(), bar);
     for (const std::size_t law : std::set<std::size_t>{0, law_as_found(books, t)}) {
       Contender c = with_effect(shop, books.current, *t.effect, as_found(books, t, t.laws[law]), t.place,
                                 t.circumstances, Effort::full);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "discover/effect.h"
 #include "discover/wiring.h"
 #include "engine/error.h"
 
@@ -18,25 +19,40 @@ int rank(const std::string& kind) {
   return 1;  // core, force, motion
 }
 
-/// The kind of place at which a block enters: as it declares, or core where it remembers.
-std::string kind_of(const Wiring& w, const Registry& registry, const std::string& block) {
+/// Nothing drives the block that makes this signal.
+bool is_drive(const Wiring& w, const std::string& wire) {
+  const Node* node = w.source(wire).empty() ? nullptr : w.diagram().blocks.find(w.source(wire));
+  return node == nullptr || node->in.empty();
+}
+
+/// The rank of the place at which a block on this wire entered, the earliest that it may be: as its effect declares, or
+/// core where it remembers; -1 = nobody knows.
+int rank_of(const Wiring& w, const Registry& registry, const std::string& wire, const std::string& block) {
+  static const Effects known = all_effects();
+  const Node* outer = w.diagram().blocks.find(block);
+  const Effect* effect = outer == nullptr ? nullptr : known.find(outer->effect);
+  int earliest = -1;
+  for (const auto& kind : effect == nullptr ? std::vector<std::string>{} : effect->places)
+    if (kind != "command" || is_drive(w, wire)) earliest = earliest < 0 ? rank(kind) : std::min(earliest, rank(kind));
+  if (earliest >= 0) return earliest;
   const Node* node = w.body(block);
   const Kernel* k = node != nullptr && !node->nested ? registry.find(node->type) : nullptr;
-  if (k != nullptr && !k->declaration.place.empty()) return k->declaration.place;
-  return w.has_memory(block) ? "core" : "";
+  if (k != nullptr && !k->declaration.place.empty()) return rank(k->declaration.place);
+  return w.has_memory(block) ? rank("core") : -1;
 }
 
 /// A place on `wire` for an effect of `kind`: behind the effects that stand there already, but before those that come
-/// later along the signal (a lag of the amplifier enters before a hysteresis that was found first).
+/// later along the signal: a lag of the amplifier enters before a hysteresis that was found first, a resonance before
+/// the curve of a sensor.
 Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire) {
   Place p;
   p.kind = kind;
   p.at = p.wire = wire;
   for (const auto& effect : w.chain(wire)) {
-    const std::string theirs = kind_of(w, registry, effect);
-    if (!theirs.empty() && rank(theirs) > rank(kind)) {
+    if (rank_of(w, registry, wire, effect) > rank(kind)) {
       const auto ports = w.ports(effect);  // one that reads a second signal names its ports
       p.at = effect + "." + (ports.size() > 1 ? ports.front() : "in");
+      p.on = wire;
       return p;
     }
     p.wire = effect;  // add_effect puts it behind the chain: that is the signal that the effect sees

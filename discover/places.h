@@ -18,11 +18,14 @@ struct Place {
   std::string at;    ///< a signal ("drive", "stage.x": behind it, for all readers) or an input port ("stage.in"), or
                      ///< (vary) a block
   std::string wire;  ///< the signal that passes there
+  std::string on{};  ///< the wire as it is without the effects that stand on it, where `at` is between these
   bool behind_core = false;  ///< of a core place: behind the core, not before it
   std::string side{};        ///< the signal or column that an effect reads there besides; "" = none
   std::string by{};          ///< the type that replaces the block `at` (a variation that it offers); "" = no block is
   Unit side_unit{};          ///< of a column that the diagram does not read yet
   std::string group[4]{};    ///< by Commutes: places with one mark cannot be told apart by such a law
+  /// The place as it is called whatever else stands there.
+  const std::string& where() const { return on.empty() ? at : on; }
   const std::string& group_for(const Effect& effect) const { return group[static_cast<int>(effect.commutes)]; }
 };
 

@@ -61,7 +61,7 @@ std::optional<Tried> tried_at(const Books& books, const Workshop& shop, const Co
 std::optional<Tried> tried_again(const Books& books, const Workshop& shop, const Contender& model, const Member& m,
                                  Line line = Line::of_a_curve) {
   auto places = places_of(*m.effect, model.diagram, books.registry, books.data.get());
-  const auto same = [&](const Place& p) { return p.at == m.place.at; };
+  const auto same = [&](const Place& p) { return p.kind == m.place.kind && p.where() == m.place.where(); };
   if (std::any_of(places.begin(), places.end(), same)) std::erase_if(places, [&](const Place& p) { return !same(p); });
   std::optional<Tried> best;
   for (const auto& place : places) {
@@ -228,7 +228,7 @@ bool tell_again(Books& books, const Contender& set) {
     if (!why_implausible(*t->effect, t->laws[t->law], t->contender, t->circumstances).empty()) break;
     FoundStep found;
     for (const auto& was : steps)
-      if (was.winner.effect == t->effect->id && was.winner.place == t->place.at) {
+      if (was.winner.effect == t->effect->id && was.winner.place == t->place.where()) {
         found.ties = was.ties;
         found.experiment = was.experiment;
         found.experiment_would_tell = was.experiment_would_tell;
@@ -251,7 +251,7 @@ namespace {
 /// What is as good in place of a member becomes a tie of its step, by name once.
 void tell_ties(Books& books, const Contender& rest, const Member& member, std::vector<Tried>& as_good) {
   const auto step = std::find_if(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
-    return s.winner.effect == member.effect->id && s.winner.place == member.place.at;
+    return s.winner.effect == member.effect->id && s.winner.place == member.place.where();
   });
   if (as_good.empty() || step == books.d.steps.end() || !step->ties.empty()) return;
   auto winner = tried_again(books, books.shop, rest, member);

@@ -56,8 +56,8 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
   for (std::size_t i = 0; i < places.size(); ++i) {
     Visible& v = list[of[i]];
     const std::string why = effects.list()[of[i]].unseen(seen[i]);
-    const bool known = std::find(v.places.begin(), v.places.end(), places[i].at) != v.places.end();
-    if (why.empty() && !known) v.places.push_back(places[i].at);
+    const bool known = std::find(v.places.begin(), v.places.end(), places[i].where()) != v.places.end();
+    if (why.empty() && !known) v.places.push_back(places[i].where());
     if (!why.empty() && v.reason.empty()) v.reason = why;
   }
   for (auto& v : list)

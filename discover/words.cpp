@@ -17,8 +17,8 @@ std::string common_name(const Tried& t) {
 }
 
 std::string place_text(const Tried& t) {
-  if (t.same_places.empty()) return "at " + t.place.at;
-  std::vector<std::string> all{t.place.at};
+  if (t.same_places.empty()) return "at " + t.place.where();
+  std::vector<std::string> all{t.place.where()};
   for (const auto& p : t.same_places)
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   return fmt::format("at {} (these places cannot be told apart)", fmt::join(all, " or "));
@@ -115,7 +115,7 @@ Candidate candidate_of(const Tried& t, int step) {
   c.effect = t.effect->id;
   c.title = effect_words(t);
   c.law = t.laws.empty() ? "" : t.laws[t.law].name;
-  c.place = t.place.at;
+  c.place = t.place.where();
   c.same_places = t.same_places;
   c.same_effects = t.same_effects;
   c.step = step;

@@ -43,9 +43,11 @@ LawParameter damping_of(int index) {
   return p;
 }
 
-LawParameter residue(const std::string& list, int index) {
+/// Linear, and then it matters not where it begins; before a curve it is not, and at 0 no frequency shows.
+LawParameter residue(const std::string& list, int index, double start) {
   LawParameter p;
   p.path = element(list, index);
+  p.start = start;
   p.lower = -2;
   p.upper = 2;
   return p;
@@ -63,7 +65,8 @@ Law modes(const Circumstances& at, int count) {
     const auto damping = damping_of(k);
     frequencies.push_back(frequency.start);
     dampings.push_back(damping.start);
-    for (const auto& p : {frequency, damping, residue("positions", k), residue("velocities", k)}) law.free.push_back(p);
+    for (const auto& p : {frequency, damping, residue("positions", k, k == 0 ? 0.5 : 0), residue("velocities", k, 0)})
+      law.free.push_back(p);
   }
   give(law.block, "frequencies", with_unit(frequencies, parse_unit("Hz")));
   give(law.block, "dampings", with_unit(dampings, Unit{}));

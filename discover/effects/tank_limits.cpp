@@ -42,7 +42,8 @@ Effect sqrt_outflow() {
                    {"asymmetry", "fast_steps", "a curve does not change the time constant"},
                    {"overflow", "fast_steps", "an overflow is flat at one level and lacks water afterwards"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
-    return fmt::format("{:.3g} m^3/s [SI] at the reference level", values[0]);
+    return values.empty() ? "the outlet is the diagram's own free number"
+                          : fmt::format("{:.3g} m^3/s [SI] at the reference level", values[0]);
   };
   e.laws = [](const Circumstances& at) {
     Law law;

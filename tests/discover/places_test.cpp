@@ -101,6 +101,29 @@ TEST_F(Places, OfTheCommandStayBeforeAnEffectOfTheCoreThatWasFoundFirst) {
       << "it stands there already";
 }
 
+TEST_F(Places, OfTheDeviceStayBeforeWhatTheSensorDoesWhicheverWasFoundFirst) {
+  Circumstances at;
+  at.unit = parse_unit("um");
+  for (const char* first : {"sensor_nonlinearity", "rectification"}) {
+    const auto& sensor = effects.get(first);
+    const auto places = places_of(sensor, linear_stage(), registry);
+    const Added a = add_effect(linear_stage(), registry, sensor, sensor.laws(at).front(), places.back());
+    const std::string before = std::string("stage_") + first + ".in";
+    for (const char* effect : {"structural_resonance", "creep", "backlash"}) {
+      EXPECT_EQ(where(effect, a.diagram), std::vector<std::string>{before}) << effect;
+      EXPECT_EQ(places_of(effects.get(effect), a.diagram, registry).front().where(), "stage")
+          << "it is called by the wire, not by what stands there";
+    }
+    EXPECT_EQ(where("sensor_lag", a.diagram), std::vector<std::string>{"stage"}) << "of the sensor, too: behind it";
+  }
+  // A limit of the command is none of the sensor's: a curve of the device comes behind it.
+  const auto& limit = effects.get("saturation");
+  at.unit = parse_unit("V");
+  const Added a = add_effect(linear_stage(), registry, limit, limit.laws(at).front(),
+                             places_of(limit, linear_stage(), registry).front());
+  EXPECT_EQ(where("asymmetry", a.diagram).front(), "u");
+}
+
 TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
   Circumstances at;
   at.unit = parse_unit("um");

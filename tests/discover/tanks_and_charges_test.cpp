@@ -191,12 +191,62 @@ DataSet tank_level(double brim, Outflow leaves) {
   return data;
 }
 
+/// The level of a second tank under two orifices in a row, by small Euler steps, 1 m^2 each.
+DataSet two_tanks(double upper, double lower) {
+  auto list = drives(0.75, 160);
+  DataSet data = made(list, 2e-3, [&](const auto& t, const auto& u, std::uint64_t seed) {
+    std::vector<double> y{0};
+    double a = 0, b = 0;
+    for (std::size_t k = 1; k < t.size(); ++k) {
+      const int n = 750;
+      const double dt = (t[k] - t[k - 1]) / n;
+      for (int i = 0; i < n; ++i) {
+        const double q = u[k - 1] + (u[k] - u[k - 1]) * (i + 0.5) / n, between = upper * std::sqrt(std::max(a, 0.0));
+        a = std::max(0.0, a + dt * (q - between));
+        b = std::max(0.0, b + dt * (between - lower * std::sqrt(std::max(b, 0.0))));
+      }
+      y.push_back(b);
+    }
+    return with_noise(y, 2e-3, seed);
+  });
+  for (auto& r : data.recordings) r.units["u"] = parse_unit("m^3/s");
+  return data;
+}
+
 TEST_F(TanksAndCharges, AnOutletByTheRootIsNamed) {
   const Discovery d =
       diagnosed(linear_tank(), tank_level(1e9, [](double h) { return 0.5 * std::pow(h, 0.5); }), of_tanks);
   ASSERT_EQ(winner(d), "sqrt_outflow") << tried(d);
   EXPECT_NEAR(value(d, "outlet"), 0.5, 0.005);  // levels of 2 m, noise of 2 mm over 240 rows
   EXPECT_NEAR(d.final_error.rms_validate, 2e-3, 3e-4);
+}
+
+TEST_F(TanksAndCharges, OfTwoTanksInARowEachHasItsOwnOrificeAndTheDiagramItsFreeOutlets) {
+  Diagram d = linear_tank();
+  for (const char* name : {"upper", "lower"}) {
+    auto& p = d.parameters[name];
+    p.value = Value("0.3 m^3/s");
+    p.lower = Number{1e-3, "m^3/s"};
+    p.upper = Number{10, "m^3/s"};
+    p.free = true;
+  }
+  const Node tank = *d.blocks.find("tank");
+  d.blocks["second"] = tank;
+  d.blocks["tank"].parameters["outlet"] = Value("$upper");
+  d.blocks["second"].parameters["outlet"] = Value("$lower");
+  d.blocks["second"].in = {{"", "tank.outflow"}};
+  d.outputs["y"] = "second.level";
+  const DataSet data = two_tanks(0.5, 0.4);
+  const Discovery found = discovered(d, data, {"calibration", "sensor_nonlinearity", "sqrt_outflow", "overflow"});
+  ASSERT_EQ(found.steps.size(), 2u) << tried(found);
+  std::vector<std::string> places;
+  for (const auto& step : found.steps) {
+    EXPECT_EQ(step.winner.effect, "sqrt_outflow") << tried(found);
+    places.push_back(step.winner.place);
+  }
+  std::sort(places.begin(), places.end());
+  EXPECT_EQ(places, (std::vector<std::string>{"second", "tank"}));
+  EXPECT_NEAR(found.final_error.rms_validate, 2e-3, 3e-4);
 }
 
 TEST_F(TanksAndCharges, ATankThatRunsOverIsNamedWithItsBrim) {
