@@ -89,6 +89,10 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
 /// Steps of one simulation while candidates are searched: some tenths of a second where states are nonlinear.
 constexpr double simulation_steps = 4e6;
 
+/// Rows are no more exact than this share of what a candidate leaves: a law that leaves a thousand times the noise of
+/// an encoder is not told from others by the last tenth of that noise.
+constexpr double residual_share = 1.0 / 300;
+
 /// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
 /// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
 DataModelOptions accuracy(const Workshop& shop, Effort effort) {
@@ -104,6 +108,7 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   }
   options.relative_tolerance *= shop.looser;
   options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
+  options.substep_share = effort == Effort::final ? residual_share / 5 : residual_share;
   return options;
 }
 
@@ -170,7 +175,7 @@ double steps_from(DataModel& model, const std::vector<double>& noise, const Tria
     steps += static_cast<double>(model.steps(r));
     most = std::max(most, model.substeps(r));
   }
-  return most == 1 ? 0 : steps;  // without nonlinear states nothing is slow
+  return most == 1 && !model.integrates() ? 0 : steps;  // linear and static: nothing is slow
 }
 
 /// How many of the free parameters are found by linear least squares.

@@ -104,6 +104,10 @@ int DataModel::main_input() const {
 
 double DataModel::span(int output) const { return content_->spans[static_cast<std::size_t>(output)]; }
 const std::string& DataModel::why_not_exact() const { return content_->not_exact; }
+bool DataModel::integrates() const {
+  const auto& bound = content_->bound;
+  return std::any_of(bound.begin(), bound.end(), [](const auto& b) { return b.advance && b.advance->integrates(); });
+}
 
 Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<const int> recordings,
                               bool with_initial) {

@@ -41,6 +41,7 @@ struct DataModelOptions {
   Threads threads{};                 ///< recordings side by side; the numbers do not depend on it
   int max_substeps = 64;             ///< per row, in the mean, where rows have to be split at all
   double substep_tolerance = 1e-6;   ///< of the output's span; see choose_substeps
+  double substep_share = 0;          ///< of what the model leaves (rms about its mean): no finer than that either
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
   bool bdf_otherwise = true;         ///< where max_substeps do not suffice; else the finest rows are taken as they are
@@ -85,6 +86,9 @@ class DataModel {
   /// "" if the exact advance is used, else why BDF is used.
   const std::string& why_not_exact() const;
 
+  /// Some states are not linear: each step of them costs tens of those that are.
+  bool integrates() const;
+
   /// Simulates the recordings with these values (all others as compiled). Never throws for a failing simulation.
   /// `with_initial` = false leaves out the responses to initial states that are free per recording.
   Prediction predict(std::span<const ParameterValue> values, std::span<const int> recordings, bool with_initial = true);
@@ -94,8 +98,8 @@ class DataModel {
   std::vector<Prediction> predict_each(std::span<const Trial> trials, std::span<const int> recordings);
 
   /// Chooses the substeps of each recording at these values: doubled where rows change by more than
-  /// max(noise[output] / 1000, substep_tolerance * span), until none does. Called by predict() at its first call with
-  /// noise 0. `only_finer`: a row keeps its substeps where these values need fewer.
+  /// max(noise[output] / 1000, substep_tolerance * span, substep_share * residual), until none does. Called by
+  /// predict() at its first call with noise 0. `only_finer`: a row keeps its substeps where these values need fewer.
   /// Returns a text for each recording where max_substeps did not suffice.
   std::vector<std::string> choose_substeps(std::span<const ParameterValue> values, std::span<const double> noise = {},
                                            bool only_finer = false);

@@ -100,6 +100,24 @@ std::vector<int> cut_there(const BoundRecording& b, const std::vector<bool>& cho
   return into;
 }
 
+/// Where a model leaves much more than the noise, rows that are exact to the noise only cost time.
+std::vector<double> no_finer_than(double share, const BoundRecording& b, const std::vector<Rows>& made,
+                                  std::span<const double> tolerance) {
+  std::vector<double> list(tolerance.begin(), tolerance.end());
+  if (share <= 0 || !is_finite(made)) return list;
+  for (std::size_t o = 0; o < made.size(); ++o) {
+    double sum = 0, squares = 0;
+    const auto n = static_cast<double>(made[o].size());
+    for (std::size_t i = 0; i < made[o].size(); ++i) {
+      const double left = b.measured[o][i] - made[o][i];
+      sum += left;
+      squares += left * left;
+    }
+    if (n > 0) list[o] = std::max(list[o], share * std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n))));
+  }
+  return list;
+}
+
 }  // namespace
 
 /// The way to instant i in into[i] parts of one length; nothing is cut where it is empty.
@@ -137,7 +155,7 @@ void BoundRecording::keep_instants(std::vector<std::vector<double>>& computed) c
 
 /// From the substeps that it has upwards.
 SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const ParameterValue> values,
-                                                  std::span<const double> tolerance) {
+                                                  std::span<const double> asked) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   SubstepsFound found;
   // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
@@ -152,6 +170,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     return rows;
   };
   auto coarse = rows_with(b.substeps);
+  const auto tolerance = no_finer_than(options.substep_share, b, coarse, asked);
   std::size_t look_at = looked_at;
   double worst_before = std::numeric_limits<double>::infinity();
   double when_it_helped = static_cast<double>(b.rows->size());
