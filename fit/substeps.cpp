@@ -170,13 +170,13 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     return rows;
   };
   auto coarse = rows_with(b.substeps);
-  const auto tolerance = no_finer_than(options.substep_share, b, coarse, asked);
   std::size_t look_at = looked_at;
   double worst_before = std::numeric_limits<double>::infinity();
   double when_it_helped = static_cast<double>(b.rows->size());
   const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
   while (static_cast<std::size_t>(b.substeps) * b.rows->size() < most) {
     auto fine = rows_with(2 * b.substeps);
+    const auto tolerance = no_finer_than(options.substep_share, b, fine, asked);
     // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
     const double worst = worst_of(coarse, fine, tolerance);
     if (worst <= 1) {

@@ -259,10 +259,8 @@ TEST(DataModel, ABoucWenSpringAgreesWithTheIntegrator) {
   for (const double step : {1e-3, 1e-4}) expect_the_integrator(program, step, 800);
 }
 
-TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
-  // Behind a law that is not linear a signal is straight between substeps: every row converges with the square of its
-  // length, and one that is cut into 64 shows 4/3 of what halving it shows. Where that lies below the tolerance by less
-  // than this, rows that were cut to see if anything rings there showed more than it, and so did the next ones.
+/// A stiffening mass whose position was measured, and is asked for with `gain` times as much of it.
+Diagram stiffening_mass(const char* gain) {
   Diagram d = lab::diagram("y");
   lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
   auto& mass = lab::add(d, "mass", "mass_on_stiffening_spring", "force");
@@ -271,8 +269,15 @@ TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
   mass.parameters["stiffness"] = "1000 N/m";
   mass.parameters["stiffening"] = "1e7 N/m^3";
   lab::add(d, "lag", "lag", "mass.position").parameters["times"] = NumberList{{20, "ms"}};
-  lab::add(d, "y", "gain", "lag").parameters["gain"] = "1";
-  const auto program = compile(d, lab::registry());
+  lab::add(d, "y", "gain", "lag").parameters["gain"] = gain;
+  return d;
+}
+
+TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
+  // Behind a law that is not linear a signal is straight between substeps: every row converges with the square of its
+  // length, and one that is cut into 64 shows 4/3 of what halving it shows. Where that lies below the tolerance by less
+  // than this, rows that were cut to see if anything rings there showed more than it, and so did the next ones.
+  const auto program = compile(stiffening_mass("1"), lab::registry());
   DataSet data = recordings(0.01, 400);
   lab::measure(data, program, 0, 24);
   std::vector<long> steps;
@@ -286,6 +291,46 @@ TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
   }
   EXPECT_LE(*std::max_element(steps.begin(), steps.end()), 4 * *std::min_element(steps.begin(), steps.end()))
       << "an octave of substeps, and as much again for rows that were cut";
+}
+
+TEST(DataModel, RowsAreNoMoreExactThanAShareOfWhatTheModelLeaves) {
+  const auto right = compile(stiffening_mass("1"), lab::registry()),
+             wrong = compile(stiffening_mass("1.5"), lab::registry());
+  DataSet data = recordings(0.01, 400);
+  lab::measure(data, right, 0, 24);
+  const auto steps_and_rows = [&](const ProgramPointer& program, double share) {
+    DataModelOptions options;
+    options.substep_tolerance = 1e-6;
+    options.substep_share = share;
+    DataModel model(program, lab::shared(data), options);
+    model.choose_substeps({});
+    EXPECT_EQ(model.why_not_exact(), "");
+    EXPECT_TRUE(model.integrates());
+    const std::vector<int> first{0};
+    return std::pair(model.steps(0), model.predict({}, first).y[0][0]);
+  };
+  const double share = 0.01;
+  const auto [fine_steps, fine] = steps_and_rows(wrong, 0);
+  const auto [some_steps, some] = steps_and_rows(wrong, share);
+  EXPECT_LT(2 * some_steps, fine_steps);
+  // A third of the motion is left, over which the rms about the mean is less than half of its span.
+  const auto [low, high] = std::minmax_element(fine.begin(), fine.end());
+  double worst = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) worst = std::max(worst, std::abs(fine[i] - some[i]));
+  EXPECT_LT(worst, share * 0.5 * (*high - *low) / 3);
+  EXPECT_GT(worst, 0);
+  // What leaves nothing is simulated as finely as ever.
+  EXPECT_EQ(steps_and_rows(right, share).first, steps_and_rows(right, 0).first);
+}
+
+TEST(DataModel, LinearStatesAreNoneThatCostMore) {
+  Diagram d = lab::diagram("y");
+  lab::add(d, "lag", "lag", "u").parameters["times"] = NumberList{{20, "ms"}};
+  lab::add(d, "y", "gain", "lag").parameters["gain"] = "1 um/V";
+  const auto program = compile(d, lab::registry());
+  DataSet data = recordings(0.01, 50);
+  lab::measure(data, program, 0, 24);
+  EXPECT_FALSE(DataModel(program, lab::shared(data)).integrates());
 }
 
 TEST(DataModel, AnInputThatMovesSmoothlyHasItsOwnSteps) {
