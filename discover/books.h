@@ -99,6 +99,9 @@ std::vector<int> measured_moved(const Books& books, const Contender& model, cons
 std::vector<std::string> untouched_outputs(const Books& books);
 /// Outputs that nothing of this family that stands moves.
 std::vector<std::string> outputs_without(const Books& books, const std::string& family);
+/// Takes out what could be switched off without any loss: an effect that another one, found later, has taken over.
+/// Where there is time for it, reconsider() has done that already.
+void leave_out_idle(Books& books);
 /// Names of effects that stand, each once.
 int found_effects(const Books& books);
 /// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.

@@ -507,20 +507,24 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 
-Contender before_last(const Workshop& shop, const Contender& contender) {
-  const std::string& name = contender.standing.back().name;
+Contender without(const Workshop& shop, const Contender& contender, std::size_t standing) {
+  const std::string& name = contender.standing[standing].name;
   Contender c;
   c.ok = true;
   c.diagram = remove_effect(contender.diagram, name);
   c.program = compile(c.diagram, *shop.registry);
   c.standing = contender.standing;
-  c.standing.pop_back();
+  c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(standing));
   c.of_recordings = contender.of_recordings;
   c.fit.estimates = contender.fit.estimates;
   std::erase_if(c.fit.estimates, [&](const ParameterEstimate& e) { return e.path.starts_with(name + "."); });
   c.zero_held = contender.zero_held;
-  c.parameters = contender.parameters - spent(contender, static_cast<int>(c.standing.size()));
+  c.parameters = contender.parameters - spent(contender, static_cast<int>(standing));
   return c;
+}
+
+Contender before_last(const Workshop& shop, const Contender& contender) {
+  return without(shop, contender, contender.standing.size() - 1);
 }
 
 Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings) {

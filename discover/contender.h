@@ -88,6 +88,8 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
                       const Place& place, const Circumstances& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
+/// The same model without one of its effects, with the values that were found together with it; not simulated.
+Contender without(const Workshop& shop, const Contender& contender, std::size_t standing);
 /// What stood before the last effect, with the values that were found together with it.
 Contender before_last(const Workshop& shop, const Contender& contender);
 

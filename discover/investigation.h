@@ -47,6 +47,7 @@ constexpr double far_more = 4;     ///< times the squared error above the noise:
 /// Of the score: who needs fewer numbers for the same goes first, also where a spare one is held at a bound and not
 /// counted (a second pole of a lag beside a dead time).
 constexpr double alike = 1;
+constexpr double idle = 1;      ///< rise of chi2 below which an effect can be switched off without any loss
 constexpr double exchange = 6;  ///< fall of the score for which a look-alike is taken instead
 /// Standard deviations of chance in one octave of all recordings together, above which a further effect is looked for:
 /// 1/f noise of another shape than the whitener's reached 5 in cases with nothing left.

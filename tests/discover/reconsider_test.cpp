@@ -125,6 +125,42 @@ TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
   EXPECT_NE(books.d.steps.front().sentence.find("explained as well by dead_time"), std::string::npos);
 }
 
+TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
+  const DataSet data = seen_through([](const auto& u) { return behind_a_lag(u, 0.6); });
+  DiscoverOptions options;
+  options.only = {"amplifier_lag", "saturation"};
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, options);
+  fit_base(books);
+  auto lags = list_candidates(books, 1);
+  std::erase_if(lags, [](const Tried& t) { return t.effect->id != "amplifier_lag"; });
+  ASSERT_FALSE(lags.empty());
+  fit_candidates(books, lags, 1);
+  ASSERT_TRUE(tell_again(books, lags.front().contender));
+  leave_out_idle(books);
+  EXPECT_EQ(books.d.steps.size(), 1u) << "alone it stays, whatever it does";
+  // A limit that no recording reaches, as if it had been claimed.
+  auto limits = list_candidates(books, 2);
+  ASSERT_FALSE(limits.empty());
+  fit_candidates(books, limits, 2);
+  const Tried& limit = limits.front();
+  ASSERT_TRUE(limit.contender.ok);
+  const double before = books.current.error_of.evidence();
+  books.current = limit.contender;
+  books.current.error_of = books.evidence->error(books.current.prediction);
+  ASSERT_NEAR(books.current.error_of.evidence(), before, 1) << "the limit limits something";
+  FoundStep step;
+  step.winner.effect = "saturation";
+  step.winner.place = limit.place.where();
+  books.d.steps.push_back(step);
+  leave_out_idle(books);
+  ASSERT_EQ(books.d.steps.size(), 1u);
+  EXPECT_EQ(books.d.steps.front().winner.effect, "amplifier_lag") << "without which 0.6 rows of delay are left";
+  ASSERT_EQ(books.current.standing.size(), 1u);
+  EXPECT_EQ(books.current.standing.front().effect->id, "amplifier_lag");
+  EXPECT_NEAR(books.current.error_of.evidence(), before, 1);
+}
+
 TEST_F(Sets, WhatWasFoundStaysFoundWhereTheSearchForMoreFails) {
   const DataSet data = seen_through([](const auto& u) {
     auto y = across_a_gap(u, 0.02);
