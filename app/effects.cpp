@@ -6,6 +6,7 @@
 #include "app/load.h"
 #include "app/terminal.h"
 #include "app/verb.h"
+#include "blocks/register_all.h"
 #include "discover/effect.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
@@ -25,11 +26,27 @@ constexpr char help[] =
     "a standard signal that brings it out. Prints to the terminal; with -o it writes that file as well.\n"
     "Exit codes: 0 done, 2 there is no such effect.";
 
+/// The block types that offer the variation of an effect: "tank"; "" where it has none.
+std::string varied_blocks(const Effect& effect) {
+  std::vector<std::string> types;
+  const Registry registry = all_blocks();
+  for (const auto& type : registry.types())
+    for (const auto& v : registry.find(type)->declaration.variations)
+      if (!effect.variation.empty() && v.name == effect.variation) types.push_back(type);
+  return fmt::format("{}", fmt::join(types, ", "));
+}
+
+/// What an effect varies instead of a wire: types of blocks, or a parameter.
+std::string varied(const Effect& effect) {
+  if (const auto types = varied_blocks(effect); !types.empty()) return types;
+  return effect.way == Way::vary ? fmt::format("{} of a block", effect.parameter) : "";
+}
+
 void print_all(const Effects& effects) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& effect : effects.list())
-    rows.push_back({effect.id, fmt::format("{}", fmt::join(effect.places, ", ")), effect.title});
-  fmt::print("{}", table_text({"effect", "enters at", "what it is"}, rows));
+    rows.push_back({effect.id, fmt::format("{}", fmt::join(effect.places, ", ")), varied(effect), effect.title});
+  fmt::print("{}", table_text({"effect", "enters at", "or varies", "what it is"}, rows));
   fmt::print("\n\"hysteron effects ID\" shows one in full, \"hysteron add ID DIAGRAM.json\" puts it into a diagram.\n");
 }
 
@@ -37,8 +54,12 @@ std::string way_text(const Effect& effect) {
   const std::string places =
       effect.places.empty() ? "" : fmt::format(" Kinds of place: {}.", fmt::join(effect.places, ", "));
   if (!effect.file.empty()) return fmt::format("The diagram {} is put on a wire.{}", effect.file, places);
+  const std::string types = varied_blocks(effect);
+  const std::string richer = types.empty() ? "" : fmt::format("A block of type {} becomes one that has it.", types);
   if (effect.way == Way::insert)
-    return fmt::format("A block of type {} is put on a wire.{}", effect.block_type, places);
+    return fmt::format("{}A block of type {} is put on a wire.{}",
+                       richer.empty() ? "" : richer + " Or: ", effect.block_type, places);
+  if (effect.way == Way::vary && !richer.empty()) return richer + places;
   if (effect.way == Way::vary)
     return fmt::format("A block of the diagram gets the parameter \"{}\".{}", effect.parameter, places);
   return fmt::format("A value of the recording: {}.{}", effect.parameter, places);

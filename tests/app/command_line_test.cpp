@@ -111,12 +111,17 @@ TEST(Blocks, TellVariationsAndMemoryToPeopleAndToPrograms) {
 TEST(Effects, EveryEffectIsListedAndShownWithItsLookAlikes) {
   const Folder folder;
   const Outcome all = process::hysteron(folder.path(), {"effects"});
+  EXPECT_NE(all.out.find("or varies"), std::string::npos);
+  const auto overflow = all.out.find("overflow ");
+  ASSERT_NE(overflow, std::string::npos);
+  EXPECT_NE(all.out.substr(overflow, 60).find("tank"), std::string::npos) << "which block can run over";
   ASSERT_EQ(all.code, 0);
   EXPECT_LE(longest_line(all.out), 100U) << all.out;
   for (const char* id :
        {"calibration", "initial_remanence", "hysteresis", "creep", "amplifier_lag", "sensor_lag", "dead_time"}) {
     EXPECT_NE(all.out.find("  " + std::string(id) + " "), std::string::npos) << id;
     const Outcome one = process::hysteron(folder.path(), {"effects", id});
+    EXPECT_EQ(one.out.find("the parameter \"\""), std::string::npos) << id << " says what it varies";
     EXPECT_EQ(one.code, 0) << id;
     EXPECT_LE(longest_line(one.out), 100U) << one.out;
     for (const char* part : {"\ncause\n", "\nlaw\n", "\npicture\n", "\nhow it enters\n", "\ndata that show it\n"})
