@@ -162,6 +162,10 @@ void thin_scans(std::vector<FreeParameter>& free, double most) {
   }
 }
 
+/// Steps of many rows at once that one of a single point takes the time of (a delayed held drive beside friction, and a
+/// linear plant).
+constexpr double cost_of_a_point = 6;
+
 /// Steps of one simulation of the train recordings from the start values: rows times substeps.
 double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
                   const std::vector<FreeParameter>& free) {
@@ -175,6 +179,7 @@ double steps_from(DataModel& model, const std::vector<double>& noise, const Tria
     steps += static_cast<double>(model.steps(r));
     most = std::max(most, model.substeps(r));
   }
+  if (model.goes_by_points()) return cost_of_a_point * steps;
   return most == 1 && !model.integrates() ? 0 : steps;  // linear and static: nothing is slow
 }
 
@@ -271,6 +276,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
   options.intervals = effort == Effort::final;
   options.profile_steps = fit_steps;
+  if (effort != Effort::final) options.search_again_steps = effort == Effort::full ? fit_steps : screening_steps;
   options.scores = false;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;

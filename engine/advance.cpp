@@ -244,6 +244,7 @@ Advance& Advance::operator=(Advance&&) noexcept = default;
 
 bool Advance::exact_without_substeps() const { return content_->plan.no_substeps_needed; }
 bool Advance::integrates() const { return content_->plan.integrates; }
+bool Advance::passes_rows(const Run& run) const { return content_->plan.is_plain(run); }
 long Advance::samples() const { return content_->state.hits; }
 
 void Advance::operator()(const Run& run, const Instants& instants, const AdvanceOptions& options,

@@ -57,6 +57,10 @@ class Advance {
   /// that pays may suffice.
   bool integrates() const;
 
+  /// Such a run passes many rows at once. It does not where sources that jump (held inputs) meet a dead time, or
+  /// sampled blocks: then every instant is a point of its own, and some more are.
+  bool passes_rows(const Run& run) const;
+
   long samples() const;  ///< runs of sampled blocks in the last advance
 
  private:

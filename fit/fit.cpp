@@ -367,7 +367,11 @@ void Fitting::refine_substeps() {
   best_.reset();
   const auto again = projection_->at(z);
   keep(again);
-  if (again->ok && projection_->n_nonlinear() > 0 && !result_.stopped) search_from(again->z);
+  double steps = 0;
+  for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
+  constexpr double iterations = 3;
+  const bool in_time = iterations * (1 + static_cast<double>(free_.size())) * steps <= options_.search_again_steps;
+  if (again->ok && projection_->n_nonlinear() > 0 && in_time && !result_.stopped) search_from(again->z);
 }
 
 FitResult fit(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,

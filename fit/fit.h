@@ -47,6 +47,9 @@ struct FitOptions {
   /// Steps (rows times substeps) that these profiles may take; where they would take more, the result says that it is
   /// worth asking for them.
   double profile_steps = std::numeric_limits<double>::infinity();
+  /// Where the values that were found need finer rows, they are searched again from there; not where some steps of that
+  /// search would take more steps of simulation than this.
+  double search_again_steps = std::numeric_limits<double>::infinity();
   int starts = 0;  ///< further points spread evenly over the box, tried like those of a scan
   /// A method of global.h that looks for a start before the local search; "" = none. Needs finite bounds.
   std::string global{};

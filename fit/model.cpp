@@ -108,6 +108,11 @@ bool DataModel::integrates() const {
   const auto& bound = content_->bound;
   return std::any_of(bound.begin(), bound.end(), [](const auto& b) { return b.advance && b.advance->integrates(); });
 }
+bool DataModel::goes_by_points() const {
+  const auto& bound = content_->bound;
+  return std::any_of(bound.begin(), bound.end(),
+                     [](const auto& b) { return b.advance && !b.advance->passes_rows(b.run); });
+}
 
 Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<const int> recordings,
                               bool with_initial) {

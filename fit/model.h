@@ -88,6 +88,8 @@ class DataModel {
 
   /// Some states are not linear: each step of them costs tens of those that are.
   bool integrates() const;
+  /// Some recordings are simulated instant by instant, not many rows at once (Advance::passes_rows).
+  bool goes_by_points() const;
 
   /// Simulates the recordings with these values (all others as compiled). Never throws for a failing simulation.
   /// `with_initial` = false leaves out the responses to initial states that are free per recording.

@@ -162,7 +162,7 @@ def bouc_wen(folder):
     bench.finish(
         "Bouc-Wen oscillator: linear", "Noel, Schoukens, Hysteretic benchmark with a dynamic nonlinearity (2016)",
         {
-            "parameters": {"gain": free("1 N/N"), "stiffness": free("8e4 N/m", "1e3 N/m", "1e7 N/m"),
+            "parameters": {"stiffness": free("8e4 N/m", "1e3 N/m", "1e7 N/m"),
                            "damping": free("20 N*s/m", "0.1 N*s/m", "1e4 N*s/m")},
             "inputs": {"u": {"unit": "N"}},
             "blocks": {"body": {"type": "mass_spring_damper", "mass": "2 kg", "stiffness": "$stiffness",
