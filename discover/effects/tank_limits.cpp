@@ -42,7 +42,7 @@ Effect sqrt_outflow() {
                    {"asymmetry", "fast_steps", "a curve does not change the time constant"},
                    {"overflow", "fast_steps", "an overflow is flat at one level and lacks water afterwards"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
-    return values.empty() ? "the outlet is the diagram's own free number"
+    return values.empty() ? "the outflow follows the root of the level, its size is a free number of the diagram"
                           : fmt::format("{:.3g} m^3/s [SI] at the reference level", values[0]);
   };
   e.laws = [](const Circumstances& at) {
