@@ -29,7 +29,7 @@ constexpr char help[] =
     "Writes into the folder: result.json (every decision with its numbers), traces/*.csv, report.html, and the\n"
     "diagram of each step (step1_creep.json ... final.json), and pictures of it: base.svg,\n"
     "final.svg.\n"
-    "Ctrl-C ends with the steps found so far.\n"
+    "Ctrl-C, or the time given by --within, ends with the steps found so far.\n"
     "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";
 

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <chrono>
+#include <limits>
+
 #include "app/discover_facts.h"
 #include "app/discover_page.h"
 #include "app/interrupt.h"
@@ -52,8 +56,18 @@ int look(const std::string& verb, const Arguments& arguments) {
 
   const DeferInterrupts defer;
   Progress progress(arguments.quiet());
-  settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
-  settings.stop = [] { return interrupted(); };
+  std::atomic<bool> searches = false;  // the model as it stands is fitted, whatever time there is
+  settings.progress = [&](const std::string& what, double done) {
+    if (what.starts_with("step")) searches = true;
+    progress.show(done, what);
+  };
+  const auto begun = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> within{arguments.seconds("--within", std::numeric_limits<double>::infinity())};
+  std::atomic<bool> out_of_time = false;  // asked by all threads
+  settings.stop = [&] {
+    if (searches && std::chrono::steady_clock::now() - begun > within) out_of_time = true;
+    return out_of_time || interrupted();
+  };
   Discovery found;
   std::optional<Check> answer;
   with_lines_of(diagram, [&] {
@@ -76,6 +90,12 @@ int look(const std::string& verb, const Arguments& arguments) {
       discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
                          answer ? &*answer : nullptr);
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
+  if (out_of_time && !stopped)
+    document.warnings.insert(
+        document.warnings.begin(),
+        fmt::format("Ended by --within {}: this is what was found until then; with more time there "
+                    "may be more, or other names.",
+                    arguments.text("--within")));
   if (arguments.has("--json")) {
     write_results(folder, document);
     fmt::print("{}\n", json_text(short_answer(document, found, answer ? &*answer : nullptr, folder)));
@@ -94,6 +114,7 @@ std::vector<OptionSpec> look_options() {
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           options::effects(),
           options::threads("candidates"),
+          {"--within", "TIME", "end after so long with what was found by then, e.g. \"2 min\"", false, false},
           options::output_folder(),
           options::set(),
           options::choose(),

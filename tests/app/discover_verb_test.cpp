@@ -49,6 +49,24 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
   EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
 }
 
+TEST_F(DiscoverVerb, DiscoverEndsWithinTheTimeThatItIsGivenAndSaysSo) {
+  record(3, 0.02);
+  const auto discovered = [&](const std::string& within) {
+    return hysteron(folder_.path(),
+                    {"discover", "diagram.json", "--data", "dataset.json", "--within", within, "-o", "out"});
+  };
+  const Outcome cut = discovered("1 us");
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_NE(cut.out.find("Ended by --within 1 us"), std::string::npos) << cut.out;
+  EXPECT_TRUE(result("out")["steps"].empty() || !result("out").contains("steps"));
+  const Outcome whole = discovered("10 min");
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.out.find("Ended by"), std::string::npos) << whole.out;
+  const Outcome wrong = discovered("3 V");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("is no time"), std::string::npos) << wrong.err;
+}
+
 TEST_F(DiscoverVerb, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
   record(1);
   // 5 % less than the recordings have, though free: a plain discovery fits it, a check does not.
