@@ -6,7 +6,6 @@
 #include "app/load.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "blocks/register_all.h"
 #include "discover/effect.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
@@ -29,9 +28,8 @@ constexpr char help[] =
 /// The block types that offer the variation of an effect: "tank"; "" where it has none.
 std::string varied_blocks(const Effect& effect) {
   std::vector<std::string> types;
-  const Registry registry = all_blocks();
-  for (const auto& type : registry.types())
-    for (const auto& v : registry.find(type)->declaration.variations)
+  for (const auto& type : registry().types())
+    for (const auto& v : registry().find(type)->declaration.variations)
       if (!effect.variation.empty() && v.name == effect.variation) types.push_back(type);
   return fmt::format("{}", fmt::join(types, ", "));
 }
@@ -57,8 +55,8 @@ std::string way_text(const Effect& effect) {
   const std::string types = varied_blocks(effect);
   const std::string richer = types.empty() ? "" : fmt::format("A block of type {} becomes one that has it.", types);
   if (effect.way == Way::insert)
-    return fmt::format("{}A block of type {} is put on a wire.{}",
-                       richer.empty() ? "" : richer + " Or: ", effect.block_type, places);
+    return fmt::format("{} block of type {} is put on a wire.{}", richer.empty() ? "A" : richer + " Or a",
+                       effect.block_type, places);
   if (effect.way == Way::vary && !richer.empty()) return richer + places;
   if (effect.way == Way::vary)
     return fmt::format("A block of the diagram gets the parameter \"{}\".{}", effect.parameter, places);

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
 #include <limits>
 
@@ -56,18 +55,13 @@ int look(const std::string& verb, const Arguments& arguments) {
 
   const DeferInterrupts defer;
   Progress progress(arguments.quiet());
-  std::atomic<bool> searches = false;  // the model as it stands is fitted, whatever time there is
-  settings.progress = [&](const std::string& what, double done) {
-    if (what.starts_with("step")) searches = true;
-    progress.show(done, what);
-  };
+  settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
   const auto begun = std::chrono::steady_clock::now();
   const std::chrono::duration<double> within{arguments.seconds("--within", std::numeric_limits<double>::infinity())};
-  std::atomic<bool> out_of_time = false;  // asked by all threads
-  settings.stop = [&] {
-    if (searches && std::chrono::steady_clock::now() - begun > within) out_of_time = true;
-    return out_of_time || interrupted();
-  };
+  if (is_check && arguments.has("--within"))
+    fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
+         "leave out --within, or --check");
+  settings.stop = [&] { return interrupted() || std::chrono::steady_clock::now() - begun > within; };
   Discovery found;
   std::optional<Check> answer;
   with_lines_of(diagram, [&] {
@@ -90,7 +84,7 @@ int look(const std::string& verb, const Arguments& arguments) {
       discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
                          answer ? &*answer : nullptr);
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
-  if (out_of_time && !stopped)
+  if (found.broken_off && !stopped)
     document.warnings.insert(
         document.warnings.begin(),
         fmt::format("Ended by --within {}: this is what was found until then; with more time there "

@@ -109,6 +109,7 @@ struct Discovery {
   std::vector<JudgedNoise> noise;
   bool noise_guessed = false;              ///< no data sheet: taken from the residual
   std::optional<Experiment> experiment;    ///< what to record next
+  bool broken_off = false;                 ///< by DiscoverOptions::stop: not everything was tried
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   Diagram base_diagram, final_diagram;
   ModelError final_error;
@@ -124,7 +125,7 @@ struct DiscoverOptions {
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
-  /// Asked between candidates, by any thread; true = end with what was found so far.
+  /// Asked between trials, by any thread, once the user's model is fitted; true = end with what was found so far.
   std::function<bool()> stop;
   Threads threads{};  ///< candidates side by side; no answer depends on it
 };

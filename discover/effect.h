@@ -83,7 +83,7 @@ struct Circumstances {
 struct LawParameter {
   std::string path;
   double start = 0;  ///< not a number: as the block has it already (vary), times `share`
-  double share = 1;
+  double share = 1;  ///< of the value that the block has: where the same flow takes another number
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;

@@ -19,7 +19,9 @@ void fit_base(Books& books) {
   books.shop.row_tolerance =
       row_tolerance(*books.base_model, books.evidence->noise(), books.options.looser * rules::of_noise);
   const Prediction as_given = books.base_model->predict({}, books.evidence->recordings());
-  books.current = base_contender(books.shop, books.user, Effort::final);
+  Workshop to_its_end = books.shop;  // without the user's model there is nothing to tell
+  to_its_end.stop = nullptr;
+  books.current = base_contender(to_its_end, books.user, Effort::final);
   if (!books.current.ok)
     fail_numerics("base_failed", books.user.title,
                   "the diagram cannot be simulated on these recordings: " + books.current.error,

@@ -160,12 +160,14 @@ void put_into_words(Discovery& d, const DataSet& data, const Unit& unit) {
   const std::string fall = error_fall(d.base, d.final_error, unit);
   std::vector<std::string> names;
   for (const auto& s : d.steps) names.push_back(words_of(s));
+  const std::string tried = d.broken_off ? " that was tried until the search was broken off" : "";
   switch (d.verdict) {
     case Verdict::adequate:
       d.headline = fmt::format(
-          "Adequate: what the model leaves ({}, {:.3g} %) is the noise of the recordings, and no effect improves it by "
+          "Adequate: what the model leaves ({}, {:.3g} %) is the noise of the recordings, and no effect{} improves it "
+          "by "
           "more than chance.",
-          size_text(d.base.rms_validate, unit), 100 * d.base.nrmse_validate);
+          size_text(d.base.rms_validate, unit), 100 * d.base.nrmse_validate, tried);
       break;
     case Verdict::missing_effect:
       d.headline = fmt::format("Missing: {}. The {}.", fmt::join(names, ", then "), fall);
@@ -175,12 +177,13 @@ void put_into_words(Discovery& d, const DataSet& data, const Unit& unit) {
                                fmt::join(names, "; "), d.steps.front().winner.effect, fall);
       break;
     case Verdict::unexplained:
-      d.headline = d.structure
-                       ? fmt::format("Unexplained: {}, and no known effect takes it away.", d.structure->sentence)
-                       : fmt::format(
-                             "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no "
-                             "known effect takes it away.",
-                             std::sqrt(std::max(d.base.over_floor(), 0.0)));
+      d.headline =
+          d.structure
+              ? fmt::format("Unexplained: {}, and no known effect{} takes it away.", d.structure->sentence, tried)
+              : fmt::format(
+                    "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no "
+                    "known effect{} takes it away.",
+                    std::sqrt(std::max(d.base.over_floor(), 0.0)), tried);
       break;
   }
   for (const auto& s : d.steps) d.sentences.push_back(s.sentence);

@@ -369,7 +369,7 @@ void Fitting::refine_substeps() {
   keep(again);
   double steps = 0;
   for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
-  constexpr double iterations = 3;
+  constexpr double iterations = 3;  // fewer than that hardly ever end a search
   const bool in_time = iterations * (1 + static_cast<double>(free_.size())) * steps <= options_.search_again_steps;
   if (again->ok && projection_->n_nonlinear() > 0 && in_time && !result_.stopped) search_from(again->z);
 }

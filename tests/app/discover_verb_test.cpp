@@ -58,13 +58,21 @@ TEST_F(DiscoverVerb, DiscoverEndsWithinTheTimeThatItIsGivenAndSaysSo) {
   const Outcome cut = discovered("1 us");
   EXPECT_EQ(cut.code, 0) << cut.err;
   EXPECT_NE(cut.out.find("Ended by --within 1 us"), std::string::npos) << cut.out;
-  EXPECT_TRUE(result("out")["steps"].empty() || !result("out").contains("steps"));
-  const Outcome whole = discovered("10 min");
-  EXPECT_EQ(whole.code, 0) << whole.err;
-  EXPECT_EQ(whole.out.find("Ended by"), std::string::npos) << whole.out;
+  const std::string headline = result("out").at("headline");
+  EXPECT_NE(headline.find("until the search was broken off"), std::string::npos) << headline;
+  EXPECT_TRUE(result("out").at("facts").at("effects").empty());
+  const auto find_lag = discovered("10 min");
+  EXPECT_EQ(find_lag.code, 0) << find_lag.err;
+  EXPECT_FALSE(result("out").at("facts").at("effects").empty()) << "there is something to be found";
+  EXPECT_EQ(find_lag.out.find("Ended by"), std::string::npos) << find_lag.out;
+  EXPECT_EQ(find_lag.out.find("broken off"), std::string::npos) << find_lag.out;
   const Outcome wrong = discovered("3 V");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("is no time"), std::string::npos) << wrong.err;
+  const Outcome check = hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--check",
+                                                  "--within", "1 min", "-o", "out"});
+  EXPECT_EQ(check.code, 2);
+  EXPECT_NE(check.err.find("leave out --within"), std::string::npos) << check.err;
 }
 
 TEST_F(DiscoverVerb, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {

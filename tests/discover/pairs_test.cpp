@@ -489,7 +489,7 @@ TEST_F(Pairs, ATieOnOneAxisIsATieOnTheOther) {
 
 // --- a resonance whose sensor cannot tell the sign ------------------------------------------------------------------
 
-/// A lag of 0.4 s, then a mode of 1.27 Hz (a belt), by small Runge-Kutta steps, the speed without its sign. As the
+/// A lag of 0.4 s, then a mode of 1.27 Hz (a belt), by small Euler steps, the speed without its sign. As the
 /// coupled drives of Wigren and Schoukens (2017).
 DataSet coupled_drives() {
   const double w = 8, damping = 0.06;
@@ -521,20 +521,15 @@ DataSet coupled_drives() {
 }
 
 TEST_F(Pairs, AModeBeforeARectifierIsFoundThoughNeitherIsMoreThanAPatchAlone) {
-  Diagram d;
-  d.inputs["u"].unit = "V";
+  Diagram d = plain_gain();
   d.parameters["time"].value = Value("1 s");
   d.parameters["time"].lower = Number{0.01, "s"};
   d.parameters["time"].upper = Number{100, "s"};
   d.parameters["time"].free = true;
-  Node& drive = d.blocks["drive"];
-  drive.type = "gain";
-  drive.parameters["gain"] = Value("1 m/V");
-  drive.in = {{"", "u"}};
   Node& pulley = d.blocks["pulley"];
   pulley.type = "lag";
   pulley.parameters["times"] = Value("$time");
-  pulley.in = {{"", "drive"}};
+  pulley.in = {{"", "stage"}};
   d.outputs["y"] = "pulley";
   const Discovery found =
       discovered(d, coupled_drives(), {"rectification", "structural_resonance", "sensor_nonlinearity", "sensor_lag"});
