@@ -51,8 +51,7 @@ class Builder {
                         : fmt::format(
                               "{} \"{}\" {}", type_of(b), b.path,
                               b.sizes.smoothness == Smoothness::no_rate ? "draws random numbers" : "changes with time");
-    if (b.kernel->has_modes() && b.kernel->rows == nullptr)
-      return fmt::format("{} \"{}\" changes its mode at events", type_of(b), b.path);
+    if (b.kernel->has_modes() && b.kernel->rows == nullptr) return changes_mode(b);
     if (b.n_u > 0 && b.kernel->rows == nullptr)
       return fmt::format("{} \"{}\" has no functions that rows could be passed by", type_of(b), b.path);
     return "";
@@ -212,5 +211,9 @@ class Builder {
 }  // namespace
 
 AdvanceGraph advance_graph(const Program& program) { return Builder(program)(); }
+
+std::string changes_mode(const BlockInstance& block) {
+  return fmt::format("{} \"{}\" changes its mode at events", type_of(block), block.path);
+}
 
 }  // namespace hysteron

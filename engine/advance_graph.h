@@ -32,4 +32,7 @@ struct AdvanceGraph {
 
 AdvanceGraph advance_graph(const Program& program);
 
+/// Why a block with modes is left to an integrator, which finds when they change.
+std::string changes_mode(const BlockInstance& block);
+
 }  // namespace hysteron

@@ -138,7 +138,7 @@ bool advances_exactly(const Program& program, const SimulateOptions& options) {
   // Some blocks with modes can be advanced row by row; but only an integrator finds when they change.
   if (graph.why_not.empty() && !program.modal_blocks.empty()) {
     const auto& b = program.blocks[static_cast<std::size_t>(program.modal_blocks.front())];
-    graph.why_not = fmt::format("{} \"{}\" changes its mode at events", b.kernel->declaration.type, b.path);
+    graph.why_not = changes_mode(b);
     graph.in_the_way = b.path;
   }
   // A free choice leaves loops with nonlinear blocks to the integrators: they see where these switch.
