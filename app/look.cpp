@@ -61,7 +61,9 @@ int look(const std::string& verb, const Arguments& arguments) {
   if (is_check && arguments.has("--within"))
     fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
          "leave out --within, or --check");
-  settings.stop = [&] { return interrupted() || std::chrono::steady_clock::now() - begun > within; };
+  const auto past = [&](double share) { return std::chrono::steady_clock::now() - begun > share * within; };
+  settings.enough = [&] { return past(DiscoverOptions::to_search); };
+  settings.stop = [&] { return interrupted() || past(1); };
   Discovery found;
   std::optional<Check> answer;
   with_lines_of(diagram, [&] {

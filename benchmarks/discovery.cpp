@@ -83,7 +83,10 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
   DiscoverOptions options;
   for (const auto& name : hidden_effect_names())
     if (effects.find(name) != nullptr) options.only.push_back(name);
-  if (wish.seconds > 0) options.stop = [&] { return cpu_seconds() > wish.seconds; };
+  if (wish.seconds > 0) {
+    options.enough = [&] { return cpu_seconds() > DiscoverOptions::to_search * wish.seconds; };
+    options.stop = [&] { return cpu_seconds() > wish.seconds; };
+  }
   options.threads = wish.threads;
   if (wish.progress)
     options.progress = [&](const std::string& what, double) {
@@ -91,7 +94,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     };
   const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
   write_hidden_answer(hidden, data, found, wish.results);
-  const std::string late = wish.seconds > 0 && cpu_seconds() > wish.seconds ? ", stopped by its time limit" : "";
+  const std::string late = found.broken_off ? ", stopped by its time limit" : "";
   return fmt::format("{} runs{}; {}{}", found.model_runs, late, found.headline, wish.tell ? everything(found) : "");
 }
 

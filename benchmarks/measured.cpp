@@ -170,19 +170,19 @@ void look_at(const Device& device, const Wish& wish, const Registry& registry, c
   const auto start = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   DiscoverOptions options;
-  bool stopped = false;
-  options.stop = [&] {
-    stopped = stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > wish.seconds;
-    return stopped;
+  const auto past = [&](double share) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > share * wish.seconds;
   };
+  options.enough = [&] { return past(DiscoverOptions::to_search); };
+  options.stop = [&] { return past(1); };
   if (wish.progress)
     options.progress = [&](const std::string& what, double) {
       fmt::print(stderr, "{:<16} {:7.2f}  {}\n", device.name, cpu_seconds() - cpu, what);
     };
   const Discovery d = discover(diagram, data, registry, effects, options);
   fmt::print("{}: {}{}\n  {}\n  {:.1f} s CPU, {} simulations\n", device.name, to_text(d.verdict),
-             stopped ? " (stopped by its time)" : "", d.steps.empty() ? d.headline : names_of(d), cpu_seconds() - cpu,
-             d.model_runs);
+             d.broken_off ? " (stopped by its time)" : "", d.steps.empty() ? d.headline : names_of(d),
+             cpu_seconds() - cpu, d.model_runs);
   const auto before = figures(d.base_diagram, as_found(data, d), registry),
              after = figures(d.final_diagram, as_found(data, d), registry);
   for (std::size_t i = 0; i < before.size(); ++i)

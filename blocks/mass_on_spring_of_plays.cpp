@@ -59,24 +59,30 @@ HeldByPlays::HeldByPlays(uneven_plays::Range<double> range, std::span<const doub
                          std::span<const double> at_lower, std::span<const double> in_middle,
                          std::span<const double> at_upper)
     : range_(range), radius_(radius), places_(radius.size()) {
-  for (std::size_t i = 0; i < radius.size(); ++i) strength_.push_back({at_lower[i], in_middle[i], at_upper[i]});
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    strength_.push_back({at_lower[i], in_middle[i], at_upper[i]});
+    law_.emplace_back(range_, strength_.back());
+    passed_.push_back(law_.back()(0));
+  }
 }
 
 double HeldByPlays::pull_at(const double* x) const {
   double force = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i) force += uneven_plays::passed_on(range_, strength_[i], x[i + 2]);
+  for (std::size_t i = 0; i < places_.size(); ++i) force += passed_on(i, x[i + 2]);
   return force;
 }
 
 void HeldByPlays::place(const double* x, double) {
   from_ = x[0];
-  std::copy_n(x + 2, places_.size(), places_.begin());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    passed_[i] = passed_on(i, x[i + 2]);
+    places_[i] = x[i + 2];
+  }
 }
 
 double HeldByPlays::pull(double way) const {
   double force = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    force += uneven_plays::passed_on(range_, strength_[i], stands(i, way));
+  for (std::size_t i = 0; i < places_.size(); ++i) force += passed_on(i, stands(i, way));
   return force;
 }
 

@@ -28,12 +28,15 @@ class HeldByPlays {
   double stands(std::size_t i, double way) const {
     return uneven_plays::after(radius_[i], places_[i], from_, from_ + way);
   }
+  double passed_on(std::size_t i, double w) const { return w == places_[i] ? passed_[i] : law_[i](w); }
 
   uneven_plays::Range<double> range_;
   std::span<const double> radius_;
   std::vector<uneven_plays::Strength<double>> strength_;
+  std::vector<uneven_plays::PassedOn> law_;
   double from_ = 0;             ///< [m] the mass
   std::vector<double> places_;  ///< [m] the plays
+  std::vector<double> passed_;  ///< [N] by each where it stands
 };
 
 struct MassOnSpringOfPlays {

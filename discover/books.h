@@ -1,7 +1,7 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
-// zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
+// idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict (conclude.cpp).
 #pragma once
 
 #include <functional>
@@ -22,7 +22,8 @@ struct Books {
   Books(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
         const DiscoverOptions& options);
 
-  bool stopped() const { return options.stop && options.stop(); }
+  /// Nothing new is begun: the search is over, or, once it is `closing`, all is.
+  bool stopped() const { return (options.stop && options.stop()) || (!closing && options.enough && options.enough()); }
   void progress(const std::string& what, double done) const;  ///< by any thread
   /// Fits that do not need each other, several at a time: job(i, shop) for each i in [0, n), begun in this order, until
   /// one answers true or the user stops. Returns the first that did, n if none; what later ones left does not count.
@@ -44,6 +45,7 @@ struct Books {
   std::optional<SmoothInput> smooth;  ///< found on the way: all begins anew with it
   std::vector<Tried> hidden;          ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction;       ///< of the model before the present step; empty = the base
+  bool closing = false;               ///< what was found is looked at for the last time
   Discovery d;
 
  private:
@@ -99,9 +101,13 @@ std::vector<int> measured_moved(const Books& books, const Contender& model, cons
 std::vector<std::string> untouched_outputs(const Books& books);
 /// Outputs that nothing of this family that stands moves.
 std::vector<std::string> outputs_without(const Books& books, const std::string& family);
-/// Takes out what could be switched off without any loss: an effect that another one, found later, has taken over.
-/// Where there is time for it, reconsider() has done that already.
+/// Takes out what is not needed beside what was found later: what could be switched off without any loss, and, while
+/// there is time, what the others explain as well once they are fitted again. Where the search came to its end,
+/// reconsider() has done more than that already.
 void leave_out_idle(Books& books);
+/// A set does without this member: `rest`, the others fitted without it, gives back less than a claim has to take away,
+/// or no more than what the laws of the others may have left.
+bool is_needless(const Books& books, const Effect& member, const Contender& rest);
 /// Names of effects that stand, each once.
 int found_effects(const Books& books);
 /// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.

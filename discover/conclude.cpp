@@ -108,6 +108,7 @@ void conclude(Books& books) {
   books.settle(books.current);
   books.d.base = books.evidence->error(books.base.prediction);
   books.d.broken_off = books.stopped();
+  books.closing = true;
   if (books.d.broken_off) leave_out_idle(books);
   const double floor = books.current.error_of.over_floor();
   // Where all that is left is slow, as much 1/f noise as would explain it is read off it: more than sensors have is

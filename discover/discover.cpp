@@ -155,6 +155,10 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
   auto tried = list_candidates(books, step, outputs, only);
   fit_candidates(books, tried, step);
+  if (step > 1 && books.stopped()) {  // who was not asked might have been the one
+    keep_candidates(books, tried, step, -1, {});
+    return false;
+  }
   join_twins(tried);
   compare_all(books, tried, as);
   if (step > 1) refit_best(books, tried, as, bar(0.7));

@@ -125,9 +125,13 @@ struct DiscoverOptions {
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
-  /// Asked between trials, by any thread, once the user's model is fitted; true = end with what was found so far.
+  /// Asked between trials, by any thread, once the user's model is fitted; true = end with what was found so far. A
+  /// further effect is claimed only where all that could be it were asked.
   std::function<bool()> stop;
-  Threads threads{};  ///< candidates side by side; no answer depends on it
+  /// Asked likewise; true = begin nothing new: whether all that was found is still needed is looked at until `stop`.
+  std::function<bool()> enough;
+  static constexpr double to_search = 0.8;  ///< of a limit of time: then it is enough
+  Threads threads{};                        ///< candidates side by side; no answer depends on it
 };
 
 /// The whole loop. Throws Error where diagram and data do not fit together; a candidate that fails costs only itself.

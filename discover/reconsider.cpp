@@ -100,20 +100,10 @@ Rests rests_of(const Books& books, double bar, bool all) {
   return rests;
 }
 
-/// The set without one that the others have made needless: it gives back less than a claim has to take away, or no more
-/// than what the laws of the others may have left.
+/// The set without one that the others have made needless.
 const Contender* without_a_needless_one(const Books& books, const Rests& rests) {
-  for (std::size_t i = 0; i < rests.size(); ++i) {
-    const auto& rest = rests[i];
-    if (!rest) continue;
-    const double given_back = rest->error_of.evidence_validate - books.current.error_of.evidence_validate;
-    if (given_back < rules::claim_fall && rest->score() < books.current.score()) return &*rest;
-    const Effect& member = *books.current.standing[i].effect;
-    // Who could describe it besides, has: that another one does without it says nothing.
-    const auto describes = [&](const Standing& s) { return could_hold(books, s.law, member); };
-    if (std::any_of(rest->standing.begin(), rest->standing.end(), describes)) continue;
-    if (!more_than_laws_leave(member, *rest, books.current.error_of, left_by_laws_of(books, *rest))) return &*rest;
-  }
+  for (std::size_t i = 0; i < rests.size(); ++i)
+    if (rests[i] && is_needless(books, *books.current.standing[i].effect, *rests[i])) return &*rests[i];
   return nullptr;
 }
 
@@ -203,6 +193,15 @@ void mark_claimed(Books& books, const std::vector<Member>& before) {
 }
 
 }  // namespace
+
+bool is_needless(const Books& books, const Effect& member, const Contender& rest) {
+  const double given_back = rest.error_of.evidence_validate - books.current.error_of.evidence_validate;
+  if (given_back < rules::claim_fall && rest.score() < books.current.score()) return true;
+  // Who could describe it besides, has: that another one does without it says nothing.
+  const auto describes = [&](const Standing& s) { return could_hold(books, s.law, member); };
+  if (std::any_of(rest.standing.begin(), rest.standing.end(), describes)) return false;
+  return !more_than_laws_leave(member, rest, books.current.error_of, left_by_laws_of(books, rest));
+}
 
 bool tell_again(Books& books, const Contender& set) {
   const Contender current = books.current;

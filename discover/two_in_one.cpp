@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "discover/books.h"
@@ -10,6 +11,8 @@
 
 namespace hysteron {
 namespace {
+
+constexpr std::size_t held_ones_fitted = 3;
 
 /// Of those that could be fitted.
 std::optional<Contender> best_of(std::vector<Contender> fitted) {
@@ -33,19 +36,33 @@ std::optional<Contender> by_a_plain_law(const Books& books, const Contender& bef
   return best_of(std::move(plain));
 }
 
-/// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places.
-std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed) {
+/// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places:
+/// screened with the plain law held, the best few are fitted together with it.
+std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed, double bar) {
   const auto list = choices_on(
       books, plain, [&](const Effect& e) { return could_hold(books, mixed, e); },
       [](const Effect& e, const Circumstances& at) { return e.laws(at); });
   std::vector<Contender> fitted(list.size());
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
-    Contender both = with_effect(shop, plain, *effect, law, place, at, Effort::full);
-    if (both.ok && why_implausible(*effect, law, both, at).empty()) fitted[i] = std::move(both);
+    books.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), bar);
+    fitted[i] = with_effect(shop, plain, *effect, law, place, at, Effort::screen);
     return false;
   });
-  return best_of(std::move(fitted));
+  std::vector<std::size_t> best(list.size());
+  std::iota(best.begin(), best.end(), std::size_t{0});
+  std::erase_if(best, [&](std::size_t i) { return !fitted[i].ok; });
+  std::stable_sort(best.begin(), best.end(),
+                   [&](std::size_t a, std::size_t b) { return fitted[a].score() < fitted[b].score(); });
+  best.resize(std::min(best.size(), held_ones_fitted));
+  std::vector<Contender> together(best.size());
+  books.side_by_side(best.size(), [&](std::size_t k, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[best[k]];
+    Contender both = refit(shop, fitted[best[k]], Effort::full);
+    if (both.ok && why_implausible(*effect, law, both, at).empty()) together[k] = std::move(both);
+    return false;
+  });
+  return best_of(std::move(together));
 }
 
 /// Is the other effect more than what the plainer law may have left of its own?
@@ -84,7 +101,7 @@ bool in_two(Books& books, Contender before, double bar) {
   before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
   const auto plain = by_a_plain_law(books, before, mixed);
   if (!plain) return false;
-  const auto best = with_a_held_one(books, *plain, mixed.law);
+  const auto best = with_a_held_one(books, *plain, mixed.law, bar);
   return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
          tell_again(books, *best);
 }

@@ -3,6 +3,7 @@
 // that force is.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -114,10 +115,28 @@ Motion step_to_balance(const ExactStep& step, const Motion& start, double begin,
   return {reached, step(start, begin + before, end + force(reached).value).velocity};
 }
 
+/// A force at three places, and the parabola through them at a place so near to one of them that it may stand for the
+/// force itself: not a number elsewhere, and where two of the three are the same.
+struct NearPlaces {
+  std::array<double, 3> x, force;
+
+  double at(double place, double near) const {
+    const double first = x[1] - x[0], second = x[2] - x[1], both = x[2] - x[0];
+    // A hundredth of the way: what the parabola misses there is that share of what it misses between them.
+    if (!(100 * std::fabs(place - near) <= std::fabs(first) + std::fabs(second)) || first == 0 || second == 0 ||
+        both == 0)
+      return std::numeric_limits<double>::quiet_NaN();
+    const double rise = (force[1] - force[0]) / first;
+    const double bend = ((force[2] - force[1]) / second - rise) / both;
+    return force[0] + (place - x[0]) * (rise + (place - x[1]) * bend);
+  }
+};
+
 /// A step under a force from outside that goes straight from `begin` to `end` [N] and one that hangs on the place,
 /// pull(x) [N], taken as the parabola through its values at the start, in the middle and at the end: twice around,
-/// which is right to the fourth power of the length. half: the step of half the length. Source: exponential time
-/// differencing, Cox, Matthews, J. Comput. Phys. 176 (2002) 430-455.
+/// which is right to the fourth power of the length. The second time the places have hardly moved, and the pull there
+/// follows from the first one's. half: the step of half the length. Source: exponential time differencing, Cox,
+/// Matthews, J. Comput. Phys. 176 (2002) 430-455.
 template <class Pull>
 Motion step_under(const ExactStep& whole, const ExactStep& half, const Motion& start, double begin, double end,
                   const Pull& pull) {
@@ -125,11 +144,20 @@ Motion step_under(const ExactStep& whole, const ExactStep& half, const Motion& s
   double middle = first, last = first;
   const auto turn = [&] { return 4 * middle - 3 * first - last; };
   const auto bend = [&] { return 2 * (first - 2 * middle + last); };
-  for (int i = 0; i < 2; ++i) {
-    middle = pull(half(start, begin + first, 0.5 * (rise + turn()), 0.25 * bend()).position);
-    if (i == 0) last = 2 * middle - first;
-    last = pull(whole(start, begin + first, rise + turn(), bend()).position);
-  }
+  const auto halfway = [&] { return half(start, begin + first, 0.5 * (rise + turn()), 0.25 * bend()).position; };
+  const auto behind = [&] { return whole(start, begin + first, rise + turn(), bend()).position; };
+  const double x_middle = halfway();
+  middle = pull(x_middle);
+  last = 2 * middle - first;
+  const double x_last = behind();
+  last = pull(x_last);
+  const NearPlaces known{{start.position, x_middle, x_last}, {first, middle, last}};
+  const auto pull_near = [&](double place, double near) {
+    const double force = known.at(place, near);
+    return std::isnan(force) ? pull(place) : force;
+  };
+  middle = pull_near(halfway(), x_middle);
+  last = pull_near(behind(), x_last);
   return whole(start, begin + first, rise + turn(), bend());
 }
 

@@ -71,32 +71,37 @@ class YieldingShare {
  public:
   static double behind(double way) {
     static const YieldingShare table;
-    if (way < 0) return -behind(-way);
-    const double place = way * per_one;
-    if (!(place < last)) return way >= 0 ? 1 : way;  // 1 but for rounding; not a number stays none
-    const auto k = static_cast<std::size_t>(place);
-    const double c = place - static_cast<double>(k), a = table.share_[k], b = table.share_[k + 1];
-    const auto slope = [](double s) { return (1 - s * s * s * s) / per_one; };
-    const double rise = b - a, before = slope(a) - rise, behind = rise - slope(b);
-    return a + c * (rise + (1 - c) * (before * (1 - c) + behind * c));  // Hermite's cubic
+    const double place = std::fabs(way) * per_one;
+    if (!(place < last)) return std::isnan(way) ? way : std::copysign(1, way);  // 1 but for rounding
+    const auto k = static_cast<int>(place);
+    const double c = place - k;
+    const auto& piece = table.pieces_[static_cast<std::size_t>(k)];
+    return std::copysign(piece[0] + c * (piece[1] + c * (piece[2] + c * piece[3])), way);
   }
 
  private:
   static constexpr int per_one = 64, last = 10 * per_one;
-  std::array<double, last + 1> share_{};
+  std::array<std::array<double, 4>, last> pieces_{};  ///< Hermite's cubics, in powers of the place on each
 
   YieldingShare() {
-    for (int k = 1; k <= last; ++k) {
-      // Newton from the place before, where the way still hangs on the share but for rounding.
-      const double way = static_cast<double>(k) / per_one;
-      double share = share_[static_cast<std::size_t>(k - 1)];
-      for (int i = 0; i < 60 && share < 1; ++i) {
-        const double move = (way - yielding_way(share)) * (1 - share * share * share * share);
-        share = std::fmin(share + move, 1.0);
-        if (std::fabs(move) < 1e-17) break;
-      }
-      share_[static_cast<std::size_t>(k)] = share;
+    double a = 0;
+    for (int k = 0; k < last; ++k) {
+      const double b = share_behind(static_cast<double>(k + 1) / per_one, a);
+      const auto slope = [](double s) { return (1 - s * s * s * s) / per_one; };
+      const double rise = b - a, before = slope(a), behind = slope(b);
+      pieces_[static_cast<std::size_t>(k)] = {a, before, 3 * rise - 2 * before - behind, before + behind - 2 * rise};
+      a = b;
     }
+  }
+
+  /// Newton from the share a little before, where the way still hangs on the share but for rounding.
+  static double share_behind(double way, double share) {
+    for (int i = 0; i < 60 && share < 1; ++i) {
+      const double move = (way - yielding_way(share)) * (1 - share * share * share * share);
+      share = std::fmin(share + move, 1.0);
+      if (std::fabs(move) < 1e-17) break;
+    }
+    return share;
   }
 };
 
@@ -119,29 +124,36 @@ inline double relaxed_share(double share, double way) {
 /// An element at some deflection z [m]: where it stands behind a motion by x [m] in one direction.
 class SlippingElement {
  public:
-  SlippingElement(double distance, double z) : distance_(distance), z_(z) {}
+  SlippingElement(double distance, double z) : distance_(distance), per_distance_(1 / distance), z_(z) {}
   double z() const { return z_; }
   double distance() const { return distance_; }
-  double after(double x) const { return deflection_after(distance_, x, z_); }
+  /// deflection_after, but for rounding of the distance.
+  double after(double x) const {
+    if (x == 0) return z_;
+    const double held = std::copysign(distance_, x);
+    return held - (held - z_) * std::exp(-std::fabs(x) * per_distance_);
+  }
   void move(double x) { z_ = after(x); }
 
  private:
-  double distance_, z_;
+  double distance_, per_distance_, z_;
 };
 
 /// The same of one that yields: free on the way back to 0, then along its way. To 1e-8 of the distance.
 class YieldingElement {
  public:
-  YieldingElement(double distance, double z) : distance_(distance), z_(z) {}
+  YieldingElement(double distance, double z) : distance_(distance), per_distance_(1 / distance), z_(z) {}
   double z() const { return z_; }
   double distance() const { return distance_; }
   double after(double x) const {
     if (x == 0) return z_;
-    if (z_ * x > 0 && std::fabs(z_) > distance_)
-      return std::copysign(distance_ * relaxed_share(std::fabs(z_) / distance_, std::fabs(x) / distance_), x);
-    if (z_ * x >= 0) return std::copysign(distance_ * YieldingShare::behind(way() + std::fabs(x) / distance_), x);
-    const double beyond = std::fabs(x) - std::fabs(z_);
-    return beyond <= 0 ? z_ + x : std::copysign(distance_ * YieldingShare::behind(beyond / distance_), x);
+    const double way = std::fabs(x), held = std::fabs(z_);
+    if (z_ * x < 0) {
+      const double beyond = way - held;
+      return beyond <= 0 ? z_ + x : std::copysign(distance_ * YieldingShare::behind(beyond * per_distance_), x);
+    }
+    if (held > distance_) return std::copysign(distance_ * relaxed_share(held / distance_, way * per_distance_), x);
+    return std::copysign(distance_ * YieldingShare::behind(way_so_far() + way * per_distance_), x);
   }
   void move(double x) {
     if (x == 0) return;
@@ -150,18 +162,18 @@ class YieldingElement {
       *this = YieldingElement(distance_, after(x));
       return;
     }
-    way_ = z_ * x < 0 ? beyond / distance_ : way() + std::fabs(x) / distance_;
+    way_ = z_ * x < 0 ? beyond * per_distance_ : way_so_far() + std::fabs(x) * per_distance_;
     z_ = std::copysign(distance_ * YieldingShare::behind(way_), x);
   }
 
  private:
   /// From 0 to |z|, in distances. On its way back nobody asks.
-  double way() const {
+  double way_so_far() const {
     if (way_ < 0) way_ = yielding_way(std::fabs(z_) / distance_);
     return way_;
   }
 
-  double distance_, z_;
+  double distance_, per_distance_, z_;
   mutable double way_ = -1;  ///< not known yet
 };
 

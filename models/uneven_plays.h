@@ -48,6 +48,32 @@ T passed_on(const Range<T>& range, const Strength<T>& s, const T& w) {
   return width * (from_lower(w) - from_lower(T{0}));
 }
 
+/// passed_on() of one play whose numbers stay: they are worked out once.
+class PassedOn {
+ public:
+  PassedOn(const Range<double>& range, const Strength<double>& s)
+      : lower_(range.lower),
+        width_(range.upper - range.lower),
+        per_width_(1 / width_),
+        at_lower_(width_ * s.at_lower),
+        rise_(width_ * (s.in_middle - s.at_lower)),
+        bend_(width_ * (s.at_lower - 2 * s.in_middle + s.at_upper) / 3),
+        all_(width_ * (s.at_lower + s.in_middle + s.at_upper) / 3),
+        at_upper_(width_ * s.at_upper),
+        from_lower_to_0_(from_lower(0)) {}
+  double operator()(double w) const { return from_lower(w) - from_lower_to_0_; }
+
+ private:
+  double from_lower(double w) const {
+    const double part = (w - lower_) * per_width_;
+    if (!(part > 0)) return at_lower_ * part;
+    if (!(part < 1)) return all_ + at_upper_ * (part - 1);
+    return part * (at_lower_ + part * (rise_ + part * bend_));
+  }
+
+  double lower_, width_, per_width_, at_lower_, rise_, bend_, all_, at_upper_, from_lower_to_0_;
+};
+
 /// [-] Over this part of its half width a play comes to be carried along: a sharp corner would be a jump of its rate,
 /// which no integrator passes quickly. What it lags more by is gone after a few times that.
 inline constexpr double corner = 0.05;
@@ -64,11 +90,13 @@ T rate(const T& radius, const T& w, const T& u, const T& rate_of_u) {
 /// The same law behind a move of the input in one direction, from `before` to u: where the play stands that was at w.
 inline double after(double radius, double w, double before, double u) {
   const double side = u < before ? -1 : 1, round = corner * radius;
-  const double gap = side * (before - w), beyond = std::fabs(u - before) - std::fmax(radius - round - gap, 0);
+  const double to_the_wall = radius - side * (before - w), free = to_the_wall - round;
+  const double beyond = std::fabs(u - before) - (free > 0 ? free : 0);
   if (!(beyond > 0)) return w;
-  // What is left of the corner falls by 1/e with every `round` of the way.
-  const double left = std::fmin(radius - gap, round);
-  return u - side * (radius - (left > 0 ? left * std::exp(-beyond / round) : left));
+  // What is left of the corner falls by 1/e with every `round` of the way; behind forty of them nothing is.
+  const double left = free > 0 ? round : to_the_wall;
+  if (!(left > 0)) return u - side * (radius - left);
+  return u - side * (beyond < 40 * round ? radius - left * std::exp(-beyond / round) : radius);
 }
 
 }  // namespace hysteron::uneven_plays

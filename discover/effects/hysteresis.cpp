@@ -203,30 +203,46 @@ std::string bouc_wen_summary(const std::vector<double>& values, const Circumstan
                      100 * values[0], 100 * std::min(1.0, values[1] * half));
 }
 
-/// How far the force is apart there, where the motion passes the middle on its way up and down.
-std::string uneven_summary(const NumberList& plays, const std::vector<double>& values, const Circumstances& at) {
+/// [N] by which the force is apart there, where the motion passes the middle on its way up and down.
+double apart_by_plays(const NumberList& plays, const std::vector<double>& values, const Circumstances& at) {
   const std::size_t n = plays.size();
-  if (values.size() < 3 * n) return "";
   double force = 0;  // a play stands its half width to either side, and is there about as strong as in the middle
   for (std::size_t i = 0; i < n; ++i) {
     const double strength = (values[i] + 2 * values[n + i] + values[2 * n + i]) / 4, radius = plays[i].value * 1e-6;
     force += 2 * strength * std::min(radius, (at.travel_highest - at.travel_lowest) / 2 - radius);
   }
-  return fmt::format("a loop of about {:.2g} % of the force at full travel", 100 * force / at.range());
+  return force;
 }
 
-/// Force by which the elements hold the mass back, over that of the drive.
-std::string slip_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  const double range = at.travel_highest - at.travel_lowest;
-  if (!(range > 0) || !(at.range() > 0)) return "";
-  if (law.block.type == "mass_on_bouc_wen_spring") return bouc_wen_summary(values, at);
-  if (const auto* plays = written<NumberList>(law, "thresholds"); plays != nullptr)
-    return uneven_summary(*plays, values, at);
+/// [N] by which elements hold the mass back: after half the travel k times its distance each, or what it was bent.
+double held_back_by_elements(const NumberList& distances, const std::vector<double>& values, const Circumstances& at) {
+  double force = 0;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    force += values[i] * std::min(distances[i].value * 1e-6, (at.travel_highest - at.travel_lowest) / 2);
+  return force;
+}
+
+/// Of laws in the spring of a mass.
+struct SpringLoop {
+  double share = 0;  ///< of the force of the drive by which it is apart
+  std::string text;
+};
+std::optional<SpringLoop> spring_loop(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  if (!(at.travel_highest > at.travel_lowest) || !(at.range() > 0)) return std::nullopt;
+  if (law.block.type == "mass_on_bouc_wen_spring") {
+    if (values.size() < 2) return std::nullopt;
+    return SpringLoop{values[0] * values[1] * (at.travel_highest - at.travel_lowest) / 2, bouc_wen_summary(values, at)};
+  }
+  if (const auto* plays = written<NumberList>(law, "thresholds"); plays != nullptr) {
+    if (values.size() < 3 * plays->size()) return std::nullopt;
+    const double share = apart_by_plays(*plays, values, at) / at.range();
+    return SpringLoop{share, fmt::format("a loop of about {:.2g} % of the force at full travel", 100 * share)};
+  }
   const auto* list = written<NumberList>(law, "slip_distance");
-  if (list == nullptr || list->size() > values.size()) return "";
-  double force = 0;  // after half the travel an element holds back k times its distance, or what it was bent
-  for (std::size_t i = 0; i < list->size(); ++i) force += values[i] * std::min((*list)[i].value * 1e-6, range / 2);
-  return fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * force / at.range());
+  if (list == nullptr || list->size() > values.size()) return std::nullopt;
+  const double share = held_back_by_elements(*list, values, at) / at.range();
+  return SpringLoop{share,
+                    fmt::format("elements that hold back {:.2g} % of the force at the end of a stroke", 100 * share)};
 }
 
 /// The loops of all plays at half the range, where a rising branch lags by min(r, R - r) [SI of the wire]. Of laws on a
@@ -271,20 +287,32 @@ std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, c
 
 /// Width of the largest loop over the stroke.
 std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  if (!at.by.empty()) return slip_summary(law, values, at);
+  if (!at.by.empty()) {
+    const auto in_the_spring = spring_loop(law, values, at);
+    return in_the_spring ? in_the_spring->text : "";
+  }
   const auto loop = loop_of(law, values, at);
   if (!loop || !(loop->stroke > 0)) return "";
   return fmt::format("a loop of about {:.2g} % of the stroke at full drive", 100 * loop->gap / loop->stroke);
 }
 
+constexpr double no_loop = 1e-6;     // of the stroke: what a fit leaves on plays that it does not need
 constexpr double nearly_all = 0.95;  // of a loop: what noise puts on the other plays is less than a twentieth
 
-/// Domains switch over the whole range; what has followed after a tenth of it is a clearance.
+/// Domains switch over the whole range; what has followed after a tenth of it is a clearance. Without a loop only what
+/// the law finds anew besides is left: a gain, a stiffness, a curve.
 std::string why_no_hysteresis(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  if (!at.by.empty()) return "";
+  const std::string no_memory = "it has no loop: nothing of it remembers";
+  if (!at.by.empty()) {
+    const auto in_the_spring = spring_loop(law, values, at);
+    return in_the_spring && !(in_the_spring->share > no_loop) ? no_memory : "";
+  }
   const auto loop = loop_of(law, values, at);
-  if (!loop || !(loop->gap > 0) || loop->narrow < nearly_all * loop->gap) return "";
-  return "all of its loop lies within a tenth of the stroke: that is lost motion";
+  if (!loop) return "";
+  if (!(loop->gap > no_loop * loop->stroke)) return no_memory;
+  return loop->narrow < nearly_all * loop->gap ? ""
+                                               : "all of its loop lies within a tenth of the stroke: that is lost "
+                                                 "motion";
 }
 
 }  // namespace

@@ -310,7 +310,26 @@ TEST_F(HysteresisLaws, ALoopWithinATenthOfTheStrokeIsLostMotion) {
   EXPECT_NE(hysteresis.implausible(law, {0.1, 0, 0, 0, 0, 0}, at), "");
   EXPECT_NE(hysteresis.implausible(law, {0.1, 0.001, 0, 0, 0, 0}, at), "") << "4 % of it lie beyond";
   EXPECT_EQ(hysteresis.implausible(law, {0.1, 0.002, 0, 0, 0, 0}, at), "") << "8 %";
-  EXPECT_EQ(hysteresis.implausible(law, {0, 0, 0, 0, 0, 0}, at), "") << "no loop at all";
+}
+
+TEST_F(HysteresisLaws, WithoutALoopOnlyAGainOrAStiffnessIsLeftOfIt) {
+  const Effect& hysteresis = effects.get("hysteresis");
+  Circumstances at;
+  at.lowest = 0;
+  at.highest = 1;
+  at.unit = parse_unit("V");
+  const Law plays = hysteresis.laws(at).front();  // the first weight is the gain of the drive, found anew
+  EXPECT_NE(hysteresis.implausible(plays, {1.02, 0, 0, 0, 0, 0, 0}, at).find("no loop"), std::string::npos);
+  EXPECT_EQ(hysteresis.implausible(plays, {1, 0, 0, 0, 0, 1e-3, 0}, at), "");
+  at.by = "mass_on_hysteretic_spring";
+  at.travel_highest = 1e-5;
+  for (const Law& law : hysteresis.laws(at)) {
+    std::vector<double> values(law.free.size(), 0.0);
+    values.back() = 400;  // its own spring
+    EXPECT_NE(hysteresis.implausible(law, values, at).find("no loop"), std::string::npos) << law.name;
+    for (double& v : values) v = 1;
+    EXPECT_EQ(hysteresis.implausible(law, values, at), "") << law.name;
+  }
 }
 
 }  // namespace

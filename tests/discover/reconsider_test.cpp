@@ -158,6 +158,61 @@ TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
   EXPECT_NEAR(books.current.error_of.evidence(), before, 1);
 }
 
+TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
+  // A lag of a third of a row, half of it told as a delay: switched off alone, each leaves the other too short by half;
+  // fitted again the delay is all of it.
+  const DataSet data = seen_through([](const auto& u) { return behind_a_lag(u, 0.3); });
+  bool late = false;
+  DiscoverOptions options;
+  options.only = {"amplifier_lag", "dead_time"};
+  options.stop = [&] { return late; };
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_the_lag(books));
+  const double before = books.current.error_of.evidence();
+  const auto lag = parameters_of(books.current, 0).front();
+  books.current.diagram =
+      with_parameters(books.current.diagram, *books.current.program,
+                      {{parameter_index(*books.current.program, lag.estimate->path), lag.estimate->used / 2, -1}});
+  auto delays = list_candidates(books, 2);
+  std::erase_if(delays, [](const Tried& t) { return t.effect->id != "dead_time"; });
+  ASSERT_FALSE(delays.empty());
+  Tried& delay = delays.front();
+  delay.contender = with_effect(books.shop, books.current, *delay.effect, delay.laws.front(), delay.place,
+                                delay.circumstances, Effort::screen);
+  ASSERT_TRUE(delay.contender.ok);
+  ASSERT_NEAR(delay.contender.error_of.evidence(), before, 8) << "a screening ends a few of chi2 early";
+  take(books, 2, delay, {});
+  ASSERT_EQ(books.d.steps.size(), 2u);
+  late = true;
+  leave_out_idle(books);
+  EXPECT_EQ(books.d.steps.size(), 2u) << "neither is idle, and for more there is no time";
+  late = false;
+  leave_out_idle(books);
+  ASSERT_EQ(books.d.steps.size(), 1u);
+  EXPECT_EQ(books.d.steps.front().winner.effect, "dead_time") << "the last one was compared when it was claimed";
+  ASSERT_EQ(books.current.standing.size(), 1u);
+  EXPECT_NEAR(books.current.error_of.evidence(), before, 2);
+  EXPECT_EQ(books.d.steps.front().after.rms_validate, books.current.error_of.rms_validate);
+}
+
+TEST_F(Sets, NothingIsClaimedOfWhichNotAllWereAskedOnceItIsEnough) {
+  const DataSet data = seen_through([](const auto& u) {
+    auto y = across_a_gap(u, 0.02);
+    for (double& v : y) v += 0.004 * v * (1 - v);
+    return y;
+  });
+  bool begun = false;
+  DiscoverOptions options;
+  options.only = {"backlash", "sensor_nonlinearity"};
+  options.progress = [&](const std::string& what, double) { begun = begun || what.starts_with("step 2"); };
+  options.enough = [&] { return begun; };
+  const Discovery d = discover(plain_gain(), data, registry, effects, options);
+  EXPECT_TRUE(d.broken_off);
+  ASSERT_EQ(d.steps.size(), 1u);
+  EXPECT_EQ(d.steps.front().winner.effect, "backlash");
+}
+
 TEST_F(Sets, WhatWasFoundStaysFoundWhereTheSearchForMoreFails) {
   const DataSet data = seen_through([](const auto& u) {
     auto y = across_a_gap(u, 0.02);

@@ -81,6 +81,19 @@ TEST(MassMotion, AForceThatHangsOnThePlaceIsRightToTheFourthPowerOfTheStep) {
   EXPECT_NEAR(std::log2(error(10) / error(20)), 4, 0.6);
 }
 
+TEST(MassMotion, APullNearKnownPlacesIsThatOfTheParabolaThroughThem) {
+  const auto pull = [](double x) { return 3 - 2 * x + 5 * x * x; };
+  const mass_motion::NearPlaces known{{0.1, 0.3, 0.4}, {pull(0.1), pull(0.3), pull(0.4)}};
+  for (const double off : {-0.002, 0.0, 0.0029}) {
+    EXPECT_NEAR(known.at(0.3 + off, 0.3), pull(0.3 + off), 1e-14) << "rounding of 3";
+    EXPECT_NEAR(known.at(0.4 + off, 0.4), pull(0.4 + off), 1e-14);
+  }
+  EXPECT_TRUE(std::isnan(known.at(0.304, 0.3))) << "more than a hundredth of the way";
+  const mass_motion::NearPlaces still{{0.1, 0.1, 0.1}, {3, 3, 3}}, back{{0.1, 0.2, 0.1}, {3, 4, 3}};
+  EXPECT_TRUE(std::isnan(still.at(0.1, 0.1)));
+  EXPECT_TRUE(std::isnan(back.at(0.1, 0.1)));
+}
+
 TEST(MassMotion, TheEndBalancesAForceThatHangsOnIt) {
   // A hardening force, one that holds back by a constant at most, and one that pulls: x = free + yield F(x).
   const std::array<std::function<Force(double)>, 3> laws{
@@ -121,7 +134,7 @@ TEST(PreslidingModel, AWayOfAnyLengthIsWhatItsRateSays) {
       presliding::SlippingElement slipping(distance, z);
       EXPECT_NEAR(slipping.after(way), along(dahl, z, way), 1e-12) << z << " " << way;
       slipping.move(way);
-      EXPECT_EQ(slipping.z(), presliding::deflection_after(distance, way, z));
+      EXPECT_NEAR(slipping.z(), presliding::deflection_after(distance, way, z), 1e-15) << "rounding of 0.3";
       const auto slip = [&](double at, double v) { return presliding::slip_rate(distance, at, v); };
       presliding::YieldingElement yielding(distance, z);
       EXPECT_NEAR(yielding.after(way), along(slip, z, way), 2e-8 * distance) << z << " " << way;

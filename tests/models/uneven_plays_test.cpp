@@ -37,6 +37,16 @@ TEST(UnevenPlays, WhatIsPassedOnIsTheIntegralOfTheStrength) {
   EXPECT_EQ(uneven_plays::strength(range, s, 0.5), 4.0 / 4 + 0.5 / 2 + 7.0 / 4) << "in the middle";
 }
 
+TEST(UnevenPlays, OnePlayWhoseNumbersStayPassesOnTheSame) {
+  const Strength<double> s{4, 0.5, 7};
+  const uneven_plays::PassedOn one(range, s);
+  EXPECT_EQ(one(0.0), 0);
+  for (const double w : {-7.0, -2.0, -1.9, 0.5, 2.9, 3.0, 11.0})
+    EXPECT_NEAR(one(w), uneven_plays::passed_on(range, s, w), 1e-13) << w;  // rounding of 77
+  const uneven_plays::PassedOn above(Range<double>{1, 2}, s);
+  EXPECT_NEAR(above(1.5), uneven_plays::passed_on(Range<double>{1, 2}, s, 1.5), 1e-14) << "0 lies beyond the range";
+}
+
 TEST(UnevenPlays, BehindAMoveStandsWhatTheRateSays) {
   const double radius = 0.4;
   double w = 0, u = 0;
