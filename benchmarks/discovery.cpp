@@ -93,7 +93,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
       fmt::print(stderr, "{} {:7.2f}  {}\n", hidden.id, cpu_seconds(), what);
     };
   const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
-  write_hidden_answer(hidden, data, found, wish.results);
+  write_hidden_answer(hidden, data, found, cpu_seconds(), wish.results);
   const std::string late = found.broken_off ? ", stopped by its time limit" : "";
   return fmt::format("{} runs{}; {}{}", found.model_runs, late, found.headline, wish.tell ? everything(found) : "");
 }

@@ -88,7 +88,7 @@ std::vector<std::string> ranked_effects(const Discovery& found) {
 }
 
 void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found,
-                         const std::string& results) {
+                         double seconds, const std::string& results) {
   const std::filesystem::path folder(results);
   const auto names = hidden.diagram.outputs.names();
   const Unit unit = file_unit(data, names.front());
@@ -109,6 +109,7 @@ void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Di
   answer["predicted"] = hidden.id + ".predicted";
   answer["diagram"] = hidden.id + ".diagram.json";
   answer["headline"] = found.headline;
+  answer["seconds"] = seconds;
   write_diagram((folder / (hidden.id + ".diagram.json")).string(), found.final_diagram);
   write_file((folder / (hidden.id + ".json")).string(), answer.dump(1) + "\n");
   if (found.smooth_inputs.empty()) return;

@@ -15,8 +15,8 @@ namespace hysteron {
 std::vector<std::string> ranked_effects(const Discovery& found);
 
 /// Writes ID.json, ID.diagram.json and ID.predicted/ into the folder `results`, and ID.data.json anew where inputs
-/// were found to move otherwise between their samples.
+/// were found to move otherwise between their samples. seconds: of the processor that the discovery took.
 void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found,
-                         const std::string& results);
+                         double seconds, const std::string& results);
 
 }  // namespace hysteron

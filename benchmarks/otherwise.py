@@ -349,7 +349,7 @@ def line(name, truth, found):
 
 
 def seconds(answers):
-    """Median CPU time; answers read from a folder do not tell theirs."""
+    """Median CPU time, of the answers that tell theirs."""
     each = [f[2] for _, f in answers if np.isfinite(f[2])]
     return "%.2f" % np.median(each) if each else "-"
 

@@ -38,7 +38,7 @@ Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tri
 /// that is not beyond what the laws that stand may have left.
 void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& left) {
   for (const auto& plain : tried) {
-    if (plain.effect->id != "calibration" || !plain.admitted) continue;
+    if (!plain.effect->straight || !plain.admitted) continue;
     for (auto& t : tried) {
       if (!t.admitted || !t.effect->moves_zero) continue;
       if (more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left)) continue;

@@ -492,7 +492,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   return guarded(shop, std::move(c), effort, fresh, before.parameters);
 }
 
-bool calibrates(const Standing& s) { return s.effect->family == "calibration"; }
+bool calibrates(const Standing& s) { return s.effect->straight; }
 
 std::vector<std::string> free_anyway(const Workshop& shop, const Contender& c) {
   auto paths = shop.free_paths;

@@ -93,7 +93,7 @@ Contender without(const Workshop& shop, const Contender& contender, std::size_t 
 /// What stood before the last effect, with the values that were found together with it.
 Contender before_last(const Workshop& shop, const Contender& contender);
 
-/// The effect is a calibration: its gain and zero are free whatever else is fitted.
+/// The effect is a straight line: its gain and zero are free whatever else is fitted.
 bool calibrates(const Standing& standing);
 
 /// What is free besides the laws' own parameters: the user's, and gain and zero of a calibration that stands. A gain or

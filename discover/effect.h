@@ -139,7 +139,9 @@ struct Effect {
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
   bool else_a_block = false;        ///< a block of its own at the core only where no block offers the variation
-  bool before_sensor = false;       ///< not on a wire that is measured itself: there its law is the sensor's own
+  int least_outputs = 1;       ///< measured ones behind its place: where there are fewer, another effect is the same
+  bool straight = false;       ///< a line, nothing else: what another law takes beyond it is that law's own
+  bool before_sensor = false;  ///< not on a wire that is measured itself: there its law is the sensor's own
   Commutes commutes = Commutes::nothing;
   /// The law shifts the middle of the signal: a zero that was found for the model without it no longer holds and is
   /// found anew.

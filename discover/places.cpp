@@ -354,6 +354,17 @@ bool is_measured(const Wiring& w, const Registry& registry, const std::string& w
   });
 }
 
+/// Outputs behind a wire that any recording holds; all of them where there are none.
+int measured_behind(const Wiring& w, const std::string& wire, const DataSet* data) {
+  const auto outputs = w.outputs_on_the_way(w.signal(wire));
+  return static_cast<int>(std::count_if(outputs.begin(), outputs.end(), [&](const std::string& output) {
+    return data == nullptr || std::any_of(data->recordings.begin(), data->recordings.end(), [&](const Recording& r) {
+             return std::any_of(r.columns.begin(), r.columns.end(),
+                                [&](const auto& column) { return is_of_output(column.first, output); });
+           });
+  }));
+}
+
 }  // namespace
 
 std::vector<Place> find_places(const Diagram& diagram, const Registry& registry) {
@@ -380,6 +391,8 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     const bool known = std::any_of(list.begin(), list.end(), [&](const Place& p) { return p.at == place.at; });
     if (!known) list.push_back(std::move(place));
   }
+  if (effect.least_outputs > 1)
+    std::erase_if(list, [&](const Place& p) { return measured_behind(w, p.wire, data) < effect.least_outputs; });
   if (effect.before_sensor && diagram.places.find("core") == nullptr)
     std::erase_if(list, [&](const Place& p) { return is_measured(w, registry, p.wire); });
   if (effect.side != Side::none) return beside(list, effect, w, data);

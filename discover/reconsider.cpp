@@ -109,13 +109,13 @@ const Contender* without_a_needless_one(const Books& books, const Rests& rests) 
 
 /// A law that finds the zero anew, and with its weights the gain, may have stood for these alone.
 bool may_stand_for(const Effect& member, const Effect& e) {
-  return look_alike(member, e) || (member.moves_zero && e.family == "calibration");
+  return look_alike(member, e) || (member.moves_zero && e.straight);
 }
 
 /// `other` has a gain and a zero alone in place of the member, which holds these besides its own and takes no more.
 bool is_all_of_it(const Books& books, const Contender& rest, const Effect& member, const Effect& e,
                   const Contender& other) {
-  return member.moves_zero && e.family == "calibration" &&
+  return member.moves_zero && e.straight &&
          rest.error_of.evidence_validate - other.error_of.evidence_validate > rules::claim_fall &&
          !more_than_a_line(member, other, books.current.error_of, left_by_laws_of(books, other));
 }

@@ -12,7 +12,7 @@ namespace {
 /// With few recordings a spare gain tells look-alikes apart that are none: each gets one, and an offset, before the
 /// comparison.
 double tie_score(Books& books, const Tried& t, bool few) {
-  if (!few || t.effect->id == "calibration") return t.contender.tie_score();
+  if (!few || t.effect->straight) return t.contender.tie_score();
   const Effect* calibration = books.effects.find("calibration");
   if (calibration == nullptr) return t.contender.tie_score();
   const auto places = places_of(*calibration, t.contender.diagram, books.registry);
@@ -62,7 +62,7 @@ bool as_imperfect(const Books& books, const Tried& rival, const Tried& winner) {
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner) {
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
   const Tried& w = tried[winner];
-  const bool spare_gain = few && w.effect->id != "calibration";  // beside that one the spare gain is the winner itself
+  const bool spare_gain = few && !w.effect->straight;  // beside that one the spare gain is the winner itself
   std::vector<int> ties;
   double own = w.contender.tie_score();
   bool freed = false;

@@ -78,7 +78,7 @@ int calibration_first(const std::vector<Tried>& tried, int winner) {
   if (!w.effect->moves_zero) return winner;
   for (const std::size_t i : ranking(tried)) {
     const Tried& t = tried[i];
-    if (t.effect->family != "calibration" || !t.admitted || t.outputs != w.outputs) continue;
+    if (!t.effect->straight || !t.admitted || t.outputs != w.outputs) continue;
     if (t.fall_train > rules::straight_share * w.fall_train &&
         t.fall_validate > rules::straight_share * w.fall_validate)
       return static_cast<int>(i);

@@ -7,6 +7,7 @@ Effects all_effects() {
   using namespace effects;
   return Effects({
       calibration(),
+      drive_gain(),
       initial_remanence(),
       hysteresis(),
       creep(),

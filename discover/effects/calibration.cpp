@@ -24,6 +24,7 @@ Effect calibration() {
       {"offset", "unit of the output", "reading at zero", "any"}};
   e.look_alikes = {};
   e.family = "calibration";
+  e.straight = true;
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
     std::string text;
     for (std::size_t i = 0; i < law.free.size(); ++i) {

@@ -1,19 +1,14 @@
-// The effects friction and stiffening: what a mass on a spring may lack.
+// The effect friction: in the guide of a mass, on a wire that carries a speed, behind a motion without a mass.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "discover/effects/library.h"
+#include "discover/effects/travel.h"
 
 namespace hysteron::effects {
 namespace {
-
-/// [m] that the mass moves; a micrometre where nobody looked.
-double travel(const Circumstances& at) {
-  const double range = at.travel_highest - at.travel_lowest;
-  return range > 0 ? range : 1e-6;
-}
 
 /// Holds more before it slides fast. `fast`: the whole travel in a row, from which speeds are tried downwards.
 Law with_excess(Law law, double fast, const Unit& speed_unit) {
@@ -218,107 +213,6 @@ Effect friction() {
     if (at.by.empty() && !is_speed(at.unit) && !is_motion(at.unit))
       return "friction needs a mass, or a wire that carries a motion or a speed";
     return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";
-  };
-  return e;
-}
-
-Effect quadratic_drag() {
-  Effect e;
-  e.id = e.family = "quadratic_drag";
-  e.title = "Drag of a fluid";
-  e.cause = "A body that moves fast through air or liquid, a flow through an orifice.";
-  e.equation = "F = drag*v*|v|";
-  e.source = "Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11";
-  e.residual = "In proportion to v*|v|: odd harmonics only, a third of a fifth of its own fundamental.";
-  e.needs = "Speeds that span 3:1.";
-  e.way = Way::vary;
-  e.variation = "drag";
-  e.parameters = {{"drag", "N s^2/m^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
-  e.look_alikes = {{"friction", "triangle", "friction does not grow with the speed"},
-                   {"stiffening", "low_frequencies", "a spring acts at rest too"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
-    return fmt::format("{:.3g} N at 1 m/s", values[0]);
-  };
-  e.laws = [](const Circumstances& at) {
-    Law law;
-    law.name = "square of the speed";
-    law.block.type = "mass_with_drag";
-    // As much force as the drive has, at the whole travel in ten rows.
-    const double speed = travel(at) / std::max(10 * at.shortest_step, 1e-9);
-    const double unit = std::max(at.range(), 1e-30) / (speed * speed);
-    give(law.block, "drag", with_unit(0.01 * unit, parse_unit("N*s^2/m^2")));
-    LawParameter c;
-    c.path = "drag";
-    c.start = 0.01 * unit;
-    c.lower = 1e-9 * unit;
-    c.upper = 1e9 * unit;
-    c.log_scale = true;
-    c.scan = per_decade(1e-3 * unit, 1e6 * unit, 2);
-    law.free = {c};
-    return std::vector<Law>{law};
-  };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";
-  };
-  return e;
-}
-
-Effect stiffening() {
-  Effect e;
-  e.id = e.family = "stiffening";
-  e.title = "Stiffening spring";
-  e.cause = "Flexures and membranes get harder with travel.";
-  e.equation = "F = stiffness*x + stiffening*x^3";
-  e.source = "Nayfeh, Mook, Nonlinear Oscillations (1979)";
-  e.residual = "In proportion to x^3; the resonance moves with the amplitude.";
-  e.needs = "Three amplitudes, ideally near the resonance.";
-  e.way = Way::vary;
-  e.variation = "stiffening";
-  e.parameters = {{"stiffening", "N/m^3", "cubic part of the spring",
-                   "up to 30 % of the linear force at full travel; negative = softening"}};
-  e.look_alikes = {{"sensor_nonlinearity", "multisine", "a sensor's curve cannot move a resonance"},
-                   {"asymmetry", "multisine", "a curved drive cannot move a resonance"},
-                   {"saturation", "sine_amplitudes", "a clamp does nothing below its level"},
-                   {"friction", "sine_amplitudes", "a stiffening spring has no memory"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
-    const double x = std::max(std::abs(at.travel_lowest), std::abs(at.travel_highest));
-    return fmt::format("{:.3g} N of cubic force at the largest travel", values[0] * x * x * x);
-  };
-  e.laws = [](const Circumstances& at) {
-    Law law;
-    law.name = "cubic";
-    law.block.type = "mass_on_stiffening_spring";
-    const double x = std::max({std::abs(at.travel_lowest), std::abs(at.travel_highest), 1e-12});
-    const double unit =
-        std::max(at.range(), 1e-30) / (x * x * x);  // as much force as the drive has, at the largest travel
-    give(law.block, "stiffening", with_unit(0.01 * unit, parse_unit("N/m^3")));
-    LawParameter k3;
-    k3.path = "stiffening";
-    k3.start = 0.01 * unit;
-    k3.lower = -0.3 * unit;
-    k3.upper = 10 * unit;
-    for (const double f : {-0.05, 0.01, 0.1, 0.5}) k3.scan.push_back(f * unit);
-    k3.plausible_upper = unit;
-    law.free = {k3};
-
-    // Harder one way than the other, and harder still at large travel; as much force at the largest travel each.
-    Law more = law;
-    more.name = "quadratic, cubic and quintic";
-    const auto further = [&](const char* path, double size, const char* written) {
-      give(more.block, path, with_unit(0.0, parse_unit(written)));
-      LawParameter p;
-      p.path = path;
-      p.lower = -3 * size;
-      p.upper = 3 * size;
-      p.scan = {-0.1 * size, 0.1 * size};
-      more.free.push_back(p);
-    };
-    further("quadratic", unit * x, "N/m^2");
-    further("quintic", unit / (x * x), "N/m^5");
-    return std::vector<Law>{law, more};
-  };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";
   };
   return e;
 }

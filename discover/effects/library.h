@@ -6,6 +6,7 @@
 namespace hysteron::effects {
 
 Effect calibration();
+Effect drive_gain();
 Effect initial_remanence();
 Effect hysteresis();
 Effect creep();

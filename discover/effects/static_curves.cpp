@@ -1,4 +1,6 @@
-// The effects asymmetry and sensor_nonlinearity: a static curve before the memory, or at the sensor.
+// What asymmetry and sensor_nonlinearity share: a static curve.
+#include "discover/effects/static_curves.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +19,26 @@ std::optional<Number> far_from_zero(const Circumstances& at) {
   return level_within(at.range(), 0.5 * (at.lowest + at.highest), at.unit);
 }
 
-/// [SI] The constant of the neutral curve.
+std::string curve_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  std::string text;
+  for (std::size_t k = 0; k < values.size() && law.free[k].path.starts_with("coefficients["); ++k) {
+    const int power = static_cast<int>(k) + 2;
+    if (law.free[k].path != element("coefficients", power)) break;
+    text += fmt::format("{}{:.2g} % {}", k == 0 ? "" : ", ", 100 * values[k] / std::max(at.range(), 1e-300),
+                        power == 2   ? "quadratic"
+                        : power == 3 ? "cubic"
+                                     : fmt::format("of order {}", power));
+  }
+  return text + " over the range";
+}
+
+}  // namespace
+
 double neutral_constant(const Circumstances& at) {
   const auto middle = far_from_zero(at);
   return middle ? at.unit.to_si(middle->value) : 0;
 }
 
-/// y = c_0 + c_1 x + c_2 x^2 + ... of the given order, x = (u - about)/range, straight on beyond twice the range. What
-/// a curve is bent about is its best straight line (Fleming, section 2), whose slope the user's gain stands for: from
-/// the rest position, c_1 is free with it unless a gain behind it is; its constant is the user's zero (moves_zero).
 Law curve(const Circumstances& at, int order) {
   Law law;
   law.name = order == 2 ? "quadratic" : order == 3 ? "cubic" : fmt::format("of order {}", order);
@@ -69,46 +82,7 @@ Law curve(const Circumstances& at, int order) {
   return law;
 }
 
-/// A sensor that is calibrated over its range is off at zero too: its constant is free where nobody else's zero is.
-std::vector<Law> curves_of_sensor(const Circumstances& at) {
-  std::vector<Law> laws;
-  for (const int order : {3, 2, 5}) {
-    Law law = curve(at, order);
-    if (!at.offset_is_free && at.zeros.empty()) {
-      LawParameter zero;
-      zero.path = element("coefficients", 0);
-      zero.start = neutral_constant(at);
-      zero.lower = zero.start - 0.5 * at.range();
-      zero.upper = zero.start + 0.5 * at.range();
-      law.free.push_back(zero);
-    }
-    laws.push_back(std::move(law));
-  }
-  return laws;
-}
-
-/// The curve before the operators, and other weights of these: what bends the drive bends the loops too.
-Law reweighed(const Circumstances& at) {
-  Law law = curve(at, 3);
-  law.name = "cubic, with other weights of the operators";
-  law.reweighs = true;
-  return law;
-}
-
-std::string curve_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
-  std::string text;
-  for (std::size_t k = 0; k < values.size() && law.free[k].path.starts_with("coefficients["); ++k) {
-    const int power = static_cast<int>(k) + 2;
-    if (law.free[k].path != element("coefficients", power)) break;
-    text += fmt::format("{}{:.2g} % {}", k == 0 ? "" : ", ", 100 * values[k] / std::max(at.range(), 1e-300),
-                        power == 2   ? "quadratic"
-                        : power == 3 ? "cubic"
-                                     : fmt::format("of order {}", power));
-  }
-  return text + " over the range";
-}
-
-Effect common() {
+Effect static_curve() {
   Effect e;
   e.way = Way::insert;
   e.block_type = "polynomial";
@@ -119,44 +93,6 @@ Effect common() {
   e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
   e.look_alikes = {{"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
                    {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};
-  return e;
-}
-
-}  // namespace
-
-Effect asymmetry() {
-  Effect e = common();
-  e.id = e.family = "asymmetry";
-  e.title = "Asymmetry";
-  e.cause = "Unipolar drive: the low and the high end of the drive, and so both branches, respond differently.";
-  e.source = "Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
-  e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
-  e.needs = "Full drive, and small motion about two or more levels.";
-  e.places = {"core"};
-  e.before_sensor = true;
-  e.laws = [](const Circumstances& at) {
-    // The cubic first: an S about the middle has nothing quadratic to begin with.
-    std::vector<Law> laws{curve(at, 3), curve(at, 2), curve(at, 5)};
-    if (!at.weights.empty()) laws.push_back(reweighed(at));
-    return laws;
-  };
-  e.parameters.front().range = "up to 10 % of the linear part";
-  e.look_alikes.push_back({"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"});
-  return e;
-}
-
-Effect sensor_nonlinearity() {
-  Effect e = common();
-  e.id = e.family = "sensor_nonlinearity";
-  e.title = "Curvature of the sensor";
-  e.cause = "Tilt and fringes of a capacitive sensor, a bridge, the ends of an LVDT.";
-  e.source = "Fleming, Sens. Actuators A 190 (2013) 106 (linearity of position sensors)";
-  e.residual = "One curve over the output, the same on rising and falling branches.";
-  e.needs = "A second sensor for proof; without it a curve in y or a curved actuator.";
-  e.places = {"measured"};
-  e.laws = curves_of_sensor;
-  e.parameters.front().range = "0.02 .. 1 % of full scale";
-  e.look_alikes.push_back({"asymmetry", "reference_sensor", "a sensor's curve has no memory"});
   return e;
 }
 

@@ -102,11 +102,12 @@ TEST_F(HiddenCases, TheAnswerNamesTheEffectAndItsPredictedRowsHaveTheStatedError
   options.only = {"calibration", "dead_time"};
   const Discovery found = discover(hidden.diagram, data, registry_, all_effects(), options);
   const std::string results = (folder_ / "results").string();
-  write_hidden_answer(hidden, data, found, results);
+  write_hidden_answer(hidden, data, found, 1.5, results);
   const json answer = json::parse(read_file(results + "/042.json"));
   EXPECT_EQ(answer.at("verdict"), "missing_effect");
   EXPECT_EQ(answer.at("effects").at(0), "calibration");
   EXPECT_EQ(answer.at("claimed"), 1);
+  EXPECT_EQ(answer.at("seconds"), 1.5);
   // Gain 2 % of about 1 um and offset 0.05 um before; noise 1 nm after.
   EXPECT_GT(answer.at("validation_rms_before").get<double>(), 0.04);
   EXPECT_NEAR(answer.at("validation_rms_after").get<double>(), 1e-3, 2e-4);

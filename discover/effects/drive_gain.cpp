@@ -1,0 +1,52 @@
+// The effect drive_gain: the device answers its drive by another factor than the model says, on all of its outputs.
+#include <fmt/format.h>
+
+#include "discover/effects/library.h"
+
+namespace hysteron::effects {
+
+Effect drive_gain() {
+  Effect e;
+  e.id = e.family = "drive_gain";
+  e.straight = true;
+  e.title = "Gain of the drive";
+  e.cause = "The amplifier's gain or the actuator's sensitivity differs from the value in the model.";
+  e.equation = "y = f(gain*u)";
+  e.source = "IEEE Std 176-1987 (piezoelectric coefficients of one material spread from part to part)";
+  e.residual = "The same share of every output that the drive moves, at all frequencies and amplitudes.";
+  e.needs = "Two measured outputs or more behind one drive: of one alone a calibration says the same.";
+  e.way = Way::insert;
+  e.block_type = "gain";
+  e.places = {"command"};
+  e.least_outputs = 2;
+  e.parameters = {
+      {"gain", "", "true over written drive", "0.9 .. 1.1: amplifiers 1 %, piezo coefficients 10 % or more"}};
+  e.look_alikes = {{"calibration", "reference_sensor", "a sensor's gain changes its own reading only"}};
+  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+    return fmt::format("gain {:.5g}", values.empty() ? 1.0 : values[0]);
+  };
+  e.laws = [](const Circumstances& at) {
+    std::vector<Law> laws;
+    if (at.gain_is_free) return laws;
+    Law law;
+    law.name = "gain";
+    law.block.type = "gain";
+    give(law.block, "gain", 1.0);
+    LawParameter gain;
+    gain.path = "gain";
+    gain.start = 1;
+    gain.scan = {0.9, 1, 1.1};
+    gain.plausible_lower = 0.8;
+    gain.plausible_upper = 1.25;
+    law.free.push_back(gain);
+    laws.push_back(std::move(law));
+    return laws;
+  };
+  e.unseen = [](const Circumstances& at) -> std::string {
+    if (at.gain_is_free) return "a gain is free in the diagram already";
+    return at.from_data && at.range() <= 0 ? "the drive does not move" : "";
+  };
+  return e;
+}
+
+}  // namespace hysteron::effects
