@@ -1,6 +1,7 @@
 // Decides what a claim says: the best candidate of a step with its intervals, its ties, and the experiment that would
 // break them.
 #include "discover/books.h"
+#include "discover/tie_experiment.h"
 
 namespace hysteron {
 namespace {
@@ -20,12 +21,11 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
 
 void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival) {
   found.ties.push_back(candidate_of(rival, step));
-  auto e = experiment_between(books, winner, rival);
-  // The nearest rival first: what separates a third one best may leave the second.
-  if (!e || found.experiment_would_tell) return;
-  found.experiment_would_tell = would_tell(*e, rival.hidden);
-  if (found.experiment_would_tell || !found.experiment || e->separation > found.experiment->separation)
-    found.experiment = e;
+  auto e =
+      found.experiment ? with_another_rival(books, *found.experiment, rival) : experiment_between(books, winner, rival);
+  if (!e) return;
+  found.experiment_would_tell = e->rivals_told > 0;
+  found.experiment = std::move(e);
 }
 
 bool stays_itself(const Books& books, Tried& t) {

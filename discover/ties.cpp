@@ -1,4 +1,5 @@
-// Decides which candidates explain the recordings as well as the best one, and which experiment would tell them apart.
+// Decides which candidates explain the recordings as well as the best one. What would tell them apart:
+// tie_experiment.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -23,15 +24,6 @@ double tie_score(Books& books, const Tried& t, bool few) {
   const Contender free = with_effect(books.shop, t.contender, *calibration, calibration->laws(at).front(),
                                      places.front(), at, Effort::full);
   return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
-}
-
-bool is_of_sensor(const Effect& e) { return e.places == std::vector<std::string>{"measured"} && e.id != "calibration"; }
-
-/// Compiled anew: fitted values stand in the diagram. `motion`: without the last effect where it is the sensor's.
-ProgramPointer rival(const Books& books, const Tried& t, bool motion) {
-  const Contender& c = t.contender;
-  return compile(motion && is_of_sensor(*t.effect) ? remove_effect(c.diagram, c.standing.back().name) : c.diagram,
-                 books.registry);
 }
 
 }  // namespace
@@ -109,38 +101,6 @@ void sharpen_rivals(Books& books, std::vector<Tried>& tried, std::size_t winner)
     sharp = true;
     sharpen(books, t);
   }
-}
-
-std::optional<Experiment> experiment_between(Books& books, const Tried& a, const Tried& b) {
-  Rivals rivals{rival(books, a, false), rival(books, b, false), {}, {}, {}, {}};
-  for (const auto* t : {&a, &b}) {
-    if (!t->place.side.empty()) rivals.sides.push_back({t->place.side, t->effect->side});
-    for (const auto& l : t->effect->look_alikes)
-      if (l.effect == (t == &a ? b : a).effect->id) rivals.preferred.push_back(l.experiment);
-  }
-  if (is_of_sensor(*a.effect) != is_of_sensor(*b.effect)) {
-    rivals.motion_a = rival(books, a, true);
-    rivals.motion_b = rival(books, b, true);
-  }
-  std::vector<bool> free_zero;
-  for (int o = 0; o < static_cast<int>(books.base_model->outputs().size()); ++o)
-    free_zero.push_back(books.base_model->zero_per_recording(o));
-  Device device = device_of(books.base_model->program(), *books.data);
-  auto e = separate(rivals, books.base_model->outputs(), device, books.evidence->noise().white(), free_zero);
-  // Few recordings of one kind may just have been too slow: the same menu, sampled faster.
-  const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
-  for (int faster = 0; few && faster < 2 && (!e || e->separation <= rules::experiment_tells); ++faster) {
-    device.shortest_step /= 8;
-    auto again = separate(rivals, books.base_model->outputs(), device, books.evidence->noise().white(), free_zero);
-    if (again && (!e || again->separation > e->separation)) e = std::move(again);
-  }
-  if (e) e->between = a.effect->id + " and " + b.effect->id;
-  return e;
-}
-
-bool would_tell(const Experiment& e, bool hidden) {
-  return e.separation > rules::experiment_tells ||
-         (hidden && e.separation * e.separation * e.rows > 2 * rules::claim_fall);
 }
 
 }  // namespace hysteron

@@ -1,0 +1,75 @@
+// Decides which experiment a tie of candidates asks for. See tie_experiment.h.
+#include "discover/tie_experiment.h"
+
+#include <algorithm>
+
+#include "discover/add.h"
+
+namespace hysteron {
+namespace {
+
+bool is_of_sensor(const Effect& e) { return e.of_the_sensor() && e.id != "calibration"; }
+
+/// Inputs of the user's diagram that lead to what the candidate moves, and what it reads besides; empty = nobody knows.
+std::vector<std::string> inputs_before(const Books& books, const Tried& t) {
+  std::vector<std::string> list;
+  if (t.outputs.empty()) return list;
+  for (const auto& input : books.base_model->program().input_names) {
+    const auto moved = outputs_moved(books, t.contender, input);
+    const auto is_moved = [&](const std::string& o) { return std::find(moved.begin(), moved.end(), o) != moved.end(); };
+    if (input == t.place.side || std::any_of(t.outputs.begin(), t.outputs.end(), is_moved)) list.push_back(input);
+  }
+  return list;
+}
+
+/// Compiled anew: fitted values stand in the diagram. Of an effect of the sensor also what lies before it.
+Rival rival_of(const Books& books, const Tried& t) {
+  const Contender& c = t.contender;
+  Rival r;
+  r.effect = t.effect->id;
+  r.program = compile(c.diagram, books.registry);
+  if (is_of_sensor(*t.effect)) r.motion = compile(remove_effect(c.diagram, c.standing.back().name), books.registry);
+  if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
+  r.look_alikes = t.effect->look_alikes;
+  r.inputs = inputs_before(books, t);
+  r.hidden = t.hidden;
+  return r;
+}
+
+std::optional<Experiment> experiment_among(Books& books, const Rivals& rivals) {
+  Sight sight{books.base_model->outputs(), books.evidence->noise().white(), {}};
+  for (int o = 0; o < static_cast<int>(sight.outputs.size()); ++o)
+    sight.free_zero.push_back(books.base_model->zero_per_recording(o));
+  Device device = device_of(books.base_model->program(), *books.data);
+  auto e = separate(rivals, device, sight);
+  const int all = static_cast<int>(rivals.models.size()) - 1;
+  const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
+  // Few recordings of one kind may just have been too slow: the same menu, sampled faster.
+  const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
+  const auto tells_all = [&] { return e && e->rivals_told == all && e->separation > rules::experiment_tells; };
+  for (int faster = 0; few && faster < 2 && !tells_all(); ++faster) {
+    device.shortest_step /= 8;
+    auto again = separate(rivals, device, sight);
+    if (again && (!e || told(*again) > told(*e))) e = std::move(again);
+  }
+  return e;
+}
+
+}  // namespace
+
+std::optional<Experiment> experiment_between(Books& books, const Tried& a, const Tried& b) {
+  return experiment_among(books, {{rival_of(books, a), rival_of(books, b)}, would_tell});
+}
+
+std::optional<Experiment> with_another_rival(Books& books, const Experiment& so_far, const Tried& rival) {
+  Rivals rivals = *so_far.rivals;
+  rivals.models.push_back(rival_of(books, rival));
+  return experiment_among(books, rivals);
+}
+
+bool would_tell(const Experiment& e, bool hidden) {
+  return e.separation > rules::experiment_tells ||
+         (hidden && e.separation * e.separation * e.rows > 2 * rules::claim_fall);
+}
+
+}  // namespace hysteron
