@@ -7,28 +7,53 @@
 namespace hysteron {
 namespace {
 
-Facts facts_of(const ModelError& error, const Unit& unit) {
-  Facts::List recordings;
-  for (const auto& r : error.recordings)
-    recordings.push_back(Facts::object({{"recording", r.recording},
-                                        {"role", to_text(r.role)},
-                                        {"output", r.output},
-                                        {"rows", r.rows},
-                                        {"rms", unit.difference_from_si(r.rms)},
-                                        {"nrmse", r.nrmse},
-                                        {"chi2", r.chi2}}));
-  Facts facts = Facts::object({{"unit", unit_text(unit)},
-                               {"rms_train", unit.difference_from_si(error.rms_train)},
-                               {"rms_validate", unit.difference_from_si(error.rms_validate)},
-                               {"nrmse_train", error.nrmse_train},
+/// Each output over all recordings of a role, in its own unit.
+Facts output_facts(const ModelError& error) {
+  Facts::List list;
+  for (const Role role : {Role::train, Role::validate, Role::test})
+    for (const auto& o : by_output(error, role))
+      list.push_back(Facts::object({{"output", o.output},
+                                    {"role", to_text(role)},
+                                    {"unit", unit_text(o.unit)},
+                                    {"rms", o.unit.difference_from_si(o.rms)},
+                                    {"nrmse", o.nrmse}}));
+  return list;
+}
+
+Facts recording_facts(const ModelError& error) {
+  Facts::List list;
+  for (const auto* recordings : {&error.recordings, &error.test})
+    for (const auto& r : *recordings) {
+      Facts facts = Facts::object({{"recording", r.recording},
+                                   {"role", to_text(r.role)},
+                                   {"output", r.output},
+                                   {"unit", unit_text(r.unit)},
+                                   {"rows", r.rows},
+                                   {"rms", r.unit.difference_from_si(r.rms)},
+                                   {"nrmse", r.nrmse}});
+      if (recordings == &error.recordings) facts.set("chi2", r.chi2);
+      list.push_back(std::move(facts));
+    }
+  return list;
+}
+
+/// Outputs of several dimensions have no rms in common.
+Facts facts_of(const ModelError& error) {
+  Facts facts = Facts::object({{"nrmse_train", error.nrmse_train},
                                {"nrmse_validate", error.nrmse_validate},
                                {"chi2_train", error.chi2_train},
                                {"chi2_validate", error.chi2_validate},
                                {"n_train", error.n_train},
                                {"n_validate", error.n_validate},
-                               {"recordings", recordings}});
-  if (error.rms_test) facts.set("rms_test", unit.difference_from_si(*error.rms_test));
+                               {"outputs", output_facts(error)},
+                               {"recordings", recording_facts(error)}});
   if (error.nrmse_test) facts.set("nrmse_test", *error.nrmse_test);
+  if (error.recordings.empty() || !of_one_dimension(error.recordings)) return facts;
+  const Unit& unit = error.recordings.front().unit;
+  facts.set("unit", unit_text(unit));
+  facts.set("rms_train", unit.difference_from_si(error.rms_train));
+  facts.set("rms_validate", unit.difference_from_si(error.rms_validate));
+  if (error.rms_test) facts.set("rms_test", unit.difference_from_si(*error.rms_test));
   return facts;
 }
 
@@ -60,7 +85,7 @@ Facts facts_of(const Experiment& e) {
       {{"word", e.word}, {"text", e.text}, {"separation_over_noise", e.separation}, {"between", e.between}});
 }
 
-Facts facts_of(const Candidate& c, const Unit& unit) {
+Facts facts_of(const Candidate& c) {
   return Facts::object({{"step", c.step},
                         {"effect", c.effect},
                         {"law", c.law},
@@ -72,7 +97,7 @@ Facts facts_of(const Candidate& c, const Unit& unit) {
                         {"fall_validate", c.fall_validate},
                         {"score", c.score},
                         {"share_removed", c.share_removed},
-                        {"error", facts_of(c.error, unit)},
+                        {"error", facts_of(c.error)},
                         {"found", facts_of(c.found)},
                         {"claimed", c.claimed},
                         {"failed", c.failed},
@@ -80,18 +105,18 @@ Facts facts_of(const Candidate& c, const Unit& unit) {
                         {"reason", c.reason}});
 }
 
-Facts facts_of(const FoundStep& step, std::size_t number, const Unit& unit) {
+Facts facts_of(const FoundStep& step, std::size_t number) {
   Facts::List ties;
-  for (const auto& tie : step.ties) ties.push_back(facts_of(tie, unit));
+  for (const auto& tie : step.ties) ties.push_back(facts_of(tie));
   Facts facts = Facts::object({{"step", number},
                                {"effect", step.winner.effect},
                                {"place", step.winner.place},
                                {"block", step.change.name},
-                               {"evidence", facts_of(step.winner, unit)},
+                               {"evidence", facts_of(step.winner)},
                                {"ties", ties},
                                {"experiment_would_tell", step.experiment_would_tell},
-                               {"before", facts_of(step.before, unit)},
-                               {"after", facts_of(step.after, unit)},
+                               {"before", facts_of(step.before)},
+                               {"after", facts_of(step.after)},
                                {"sentence", step.sentence}});
   if (step.experiment) facts.set("experiment", facts_of(*step.experiment));
   return facts;
@@ -119,14 +144,13 @@ Facts facts_of(const Structure& s) {
 
 }  // namespace
 
-Facts discovery_facts(const Discovery& found, const Unit& unit, const std::string& diagram_file,
-                      const std::string& data_file) {
+Facts discovery_facts(const Discovery& found, const std::string& diagram_file, const std::string& data_file) {
   Facts::List effects, steps, candidates, refused, noise;
   for (const auto& step : found.steps) {
     effects.emplace_back(step.winner.effect);
-    steps.push_back(facts_of(step, steps.size() + 1, unit));
+    steps.push_back(facts_of(step, steps.size() + 1));
   }
-  for (const auto& c : found.candidates) candidates.push_back(facts_of(c, unit));
+  for (const auto& c : found.candidates) candidates.push_back(facts_of(c));
   for (const auto& r : found.refused)
     refused.push_back(Facts::object({{"effect", r.effect}, {"place", r.place}, {"reason", r.reason}}));
   for (const auto& n : found.noise)
@@ -140,10 +164,10 @@ Facts discovery_facts(const Discovery& found, const Unit& unit, const std::strin
                                {"data", data_file},
                                {"remainder", to_text(found.remainder)},
                                {"effects", effects},
-                               {"as_given", facts_of(found.as_given, unit)},
-                               {"base", facts_of(found.base, unit)},
+                               {"as_given", facts_of(found.as_given)},
+                               {"base", facts_of(found.base)},
                                {"base_parameters", facts_of(found.base_parameters)},
-                               {"final", facts_of(found.final_error, unit)},
+                               {"final", facts_of(found.final_error)},
                                {"steps", steps},
                                {"candidates", candidates},
                                {"refused", refused},

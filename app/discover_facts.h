@@ -9,9 +9,8 @@
 
 namespace hysteron {
 
-/// `unit`: in which errors are given.
-Facts discovery_facts(const Discovery& found, const Unit& unit, const std::string& diagram_file,
-                      const std::string& data_file);
+/// Every error in the unit of its output.
+Facts discovery_facts(const Discovery& found, const std::string& diagram_file, const std::string& data_file);
 /// The answer to --check.
 Facts check_facts(const Check& answer);
 

@@ -10,6 +10,7 @@
 
 #include "app/load.h"
 #include "app/numbers.h"
+#include "discover/words.h"
 #include "draw/drawing.h"
 #include "engine/error.h"
 #include "fit/noise.h"
@@ -20,31 +21,10 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// rms and NRMSE of one output over all recordings that were not used for the fit.
-struct Judged {
-  double rms = 0, nrmse = 0;
-  bool known = false;
-};
-
-Judged judged(const ModelError& error, const std::string& output) {
-  double rows = 0, squares = 0, variance = 0;
-  for (const auto& r : error.recordings) {
-    if (r.role != Role::validate || r.output != output) continue;
-    const auto n = static_cast<double>(r.rows);
-    rows += n;
-    squares += n * r.rms * r.rms;
-    if (r.nrmse > 0) variance += n * std::pow(r.rms / r.nrmse, 2);
-  }
-  if (rows == 0) return {};
-  return {std::sqrt(squares / rows), variance > 0 ? std::sqrt(squares / variance) : 0, true};
-}
-
-/// The step's name; with its place where another step has the same.
-std::string label_of(const Discovery& found, std::size_t step) {
-  const std::string name = step_name(found.steps[step]);
-  for (std::size_t i = 0; i < found.steps.size(); ++i)
-    if (i != step && step_name(found.steps[i]) == name) return name + " at " + found.steps[step].winner.place;
-  return name;
+/// Over all recordings that were not used for the fit; null where none measured the output.
+const OutputError* find(const std::vector<OutputError>& judged, const std::string& output) {
+  const auto found = std::find_if(judged.begin(), judged.end(), [&](const auto& o) { return o.output == output; });
+  return found == judged.end() ? nullptr : &*found;
 }
 
 /// What the lines are, and what it means to be below them.
@@ -70,19 +50,22 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
   figure.title = fmt::format("{}: error on recordings that were not fitted, step by step", name);
   figure.y_label = axis_text("RMS", unit_of_differences(unit));
   const auto bar = [&](const std::string& label, const ModelError& error, const std::string& role) {
-    const Judged j = judged(error, name);
-    if (!j.known) return;
-    figure.bars.push_back({label, unit.difference_from_si(j.rms),
-                           fmt::format("{} ({})", difference_text(j.rms, unit), percent_text(j.nrmse)), role});
+    const auto judged = by_output(error, Role::validate);
+    const OutputError* j = find(judged, name);
+    if (j == nullptr) return;
+    figure.bars.push_back({label, unit.difference_from_si(j->rms),
+                           fmt::format("{} ({})", difference_text(j->rms, unit), percent_text(j->nrmse)), role});
   };
   bar("as given", found.as_given, "before");
   // A refit of the user's own parameters is a step of its own only where there were any.
   if (!found.base_parameters.empty()) bar("own parameters fitted", found.base, "");
-  for (std::size_t i = 0; i < found.steps.size(); ++i) bar("+ " + label_of(found, i), found.steps[i].after, "");
+  for (std::size_t i = 0; i < found.steps.size(); ++i) bar("+ " + names_of(found.steps, i), found.steps[i].after, "");
   if (figure.bars.empty()) return figure;
   if (figure.bars.size() > 1) figure.bars.back().role = "after";
   figure.log_y = figure.bars.front().value > 20 * figure.bars.back().value;
-  const double reached = judged(found.final_error, name).rms;
+  const auto judged = by_output(found.final_error, Role::validate);
+  const OutputError* last = find(judged, name);
+  const double reached = last == nullptr ? 0 : last->rms;
   const auto line = [&](const std::string& label, double rms) {
     if (rms > 0) figure.bars.push_back({label, unit.difference_from_si(rms), difference_text(rms, unit), "floor"});
   };
@@ -134,8 +117,8 @@ void add_step_figure(Section& section, const Document& document, const Discovery
     const Unit unit = output_unit(model, output);
     const CsvTable& table = document.traces[i];
     Figure figure;
-    figure.title = fmt::format("Step {}, {}: residual of {} before and after, {}", step + 1, label_of(found, step),
-                               place.output, place.recording);
+    figure.title = fmt::format("Step {}, {}: residual of {} before and after, {}", step + 1,
+                               names_of(found.steps, step), place.output, place.recording);
     figure.x_label = time_label(place.recording);
     figure.y_label = axis_text("residual", unit_of_differences(unit));
     const Beside view = stages.beside();
@@ -165,16 +148,6 @@ int most_telling(const Stages& stages) {
 int depth_of(const std::string& path) { return static_cast<int>(std::count(path.begin(), path.end(), '/')); }
 
 }  // namespace
-
-double judged_rms(const ModelError& error) { return error.n_validate > 0 ? error.rms_validate : error.rms_train; }
-double judged_nrmse(const ModelError& error) { return error.n_validate > 0 ? error.nrmse_validate : error.nrmse_train; }
-
-std::string step_name(const FoundStep& step) {
-  std::string name = step.winner.effect;
-  for (const auto& same : step.winner.same_effects) name += " / " + same;
-  for (const auto& tie : step.ties) name += " or " + tie.effect;
-  return name;
-}
 
 // --- floors ----------------------------------------------------------------------------------------------------------
 

@@ -60,11 +60,4 @@ void add_fall_figures(Section& section, const Document& document, const Discover
 /// Graphviz is missing the section says so instead.
 void add_diagram_pictures(Section& section, Document& document, const Discovery& found);
 
-/// "hysteresis or backlash", as in the label of a step.
-std::string step_name(const FoundStep& step);
-
-/// Error on recordings that were not used for the fit.
-double judged_rms(const ModelError& error);
-double judged_nrmse(const ModelError& error);
-
 }  // namespace hysteron

@@ -9,9 +9,11 @@
 
 #include "app/discover_facts.h"
 #include "app/discover_fall.h"
+#include "app/discover_structure.h"
 #include "app/numbers.h"
 #include "app/publish.h"
 #include "app/rewrite.h"
+#include "discover/words.h"
 #include "io/diagram_file.h"
 
 namespace hysteron {
@@ -22,8 +24,19 @@ struct Seen {
   const Discovery& found;
   const Stages& stages;
   const std::vector<Floor>& floors;
-  Unit unit;  ///< of the first output: in which errors over all outputs are shown
 };
+
+const char* use_of(Role role) {
+  return role == Role::train ? "fitted" : role == Role::test ? "read once, at the end (test)" : "judged (validate)";
+}
+
+/// Over all outputs; of several dimensions the share alone.
+std::string judged_error(const ModelError& error) {
+  const bool judged = error.n_validate > 0;
+  if (error.recordings.empty() || !of_one_dimension(error.recordings))
+    return percent_text(judged ? error.nrmse_validate : error.nrmse_train);
+  return difference_text(judged ? error.rms_validate : error.rms_train, error.recordings.front().unit);
+}
 
 Section steps_section(const Document& document, const Seen& seen) {
   Section section;
@@ -73,13 +86,12 @@ Section candidates_section(const Seen& seen) {
       "in units of the noise: chance alone reaches a few. The score is chi2 on train and validate plus p ln N; lower "
       "is better.");
   Table table;
-  table.columns = {"step",  "effect",        "law", "place", "p", "chi2 fall, train", "chi2 fall, validate",
-                   "score", "RMS, validate", "why"};
+  table.columns = {"step",  "effect",          "law", "place", "p", "chi2 fall, train", "chi2 fall, validate",
+                   "score", "error, validate", "why"};
   for (const auto& c : seen.found.candidates)
     table.rows.push_back({std::to_string(c.step), c.effect, c.law, c.place, std::to_string(c.parameters),
                           c.failed ? "-" : number_text(c.fall_train), c.failed ? "-" : number_text(c.fall_validate),
-                          c.failed ? "-" : number_text(c.score, 6),
-                          c.failed ? "-" : difference_text(judged_rms(c.error), seen.unit), c.reason});
+                          c.failed ? "-" : number_text(c.score, 6), c.failed ? "-" : judged_error(c.error), c.reason});
   section.tables.push_back(std::move(table));
   if (!seen.found.refused.empty()) {
     Table refused;
@@ -91,6 +103,15 @@ Section candidates_section(const Seen& seen) {
   return section;
 }
 
+/// The error of the same recording and output as the user's diagram stands; null where that was not looked at.
+const RecordingError* given_for(const Seen& seen, const RecordingError& after) {
+  const auto& given = seen.found.as_given.recordings;
+  const auto before = std::find_if(given.begin(), given.end(), [&](const auto& b) {
+    return b.recording == after.recording && b.output == after.output;
+  });
+  return before == given.end() ? nullptr : &*before;
+}
+
 /// Recordings that were not used for the fit come first.
 Section errors_section(const Seen& seen) {
   Section section;
@@ -98,26 +119,20 @@ Section errors_section(const Seen& seen) {
   Table table;
   table.columns = {"recording", "used",         "output",      "rows",        "RMS before",
                    "RMS after", "NRMSE before", "NRMSE after", "chi2/N after"};
-  const auto unit = [&](const std::string& output) {
-    const auto& outputs = seen.stages.model().outputs();
-    return output_unit(seen.stages.model(),
-                       static_cast<int>(std::find(outputs.begin(), outputs.end(), output) - outputs.begin()));
-  };
-  for (const Role role : {Role::validate, Role::train})
-    for (const auto& after : seen.found.final_error.recordings) {
+  const ModelError& error = seen.found.final_error;
+  for (const Role role : {Role::validate, Role::test, Role::train})
+    for (const auto& after : role == Role::test ? error.test : error.recordings) {
       if (after.role != role) continue;
-      const auto& given = seen.found.as_given.recordings;
-      const auto before = std::find_if(given.begin(), given.end(), [&](const auto& b) {
-        return b.recording == after.recording && b.output == after.output;
-      });
-      const bool known = before != given.end();
-      const Unit u = unit(after.output);
-      table.rows.push_back({after.recording, role == Role::train ? "fitted" : "judged (validate)", after.output,
-                            std::to_string(after.rows), known ? difference_text(before->rms, u) : "-",
-                            difference_text(after.rms, u), known ? percent_text(before->nrmse) : "-",
-                            percent_text(after.nrmse),
-                            number_text(after.chi2 / static_cast<double>(std::max<std::size_t>(1, after.rows)), 3)});
+      const RecordingError* before = given_for(seen, after);
+      table.rows.push_back(
+          {after.recording, use_of(role), after.output, std::to_string(after.rows),
+           before != nullptr ? difference_text(before->rms, after.unit) : "-", difference_text(after.rms, after.unit),
+           before != nullptr ? percent_text(before->nrmse) : "-", percent_text(after.nrmse),
+           role == Role::test
+               ? "-"
+               : number_text(after.chi2 / static_cast<double>(std::max<std::size_t>(1, after.rows)), 3)});
     }
+  if (error.nrmse_test) section.text.push_back(test_sentence(error));
   section.tables.push_back(std::move(table));
   return section;
 }
@@ -158,15 +173,38 @@ Section change_section(Document& document, const Discovery& found) {
 Section next_section(const Discovery& found) {
   Section section;
   section.title = "What to record next";
-  const auto say = [&](const Experiment& e) {
-    section.text.push_back(fmt::format("{}: {} It would set {} apart by {} times the noise.", e.word, e.text, e.between,
-                                       number_text(e.separation, 3)));
-  };
+  std::vector<std::string> untold;
+  for (std::size_t i = 0; i < found.steps.size(); ++i)
+    if (!found.steps[i].ties.empty() && !found.steps[i].experiment_would_tell)
+      untold.push_back(names_of(found.steps, i));
   if (found.experiment)
-    say(*found.experiment);
-  else
-    section.text.emplace_back("No experiment is needed to separate what was found.");
+    section.text.push_back(fmt::format("{}: {} It would set {} apart by {} times the noise.", found.experiment->word,
+                                       found.experiment->text, found.experiment->between,
+                                       number_text(found.experiment->separation, 3)));
+  for (const auto& names : untold)
+    section.text.push_back(fmt::format("No experiment that was simulated sets {} apart.", names));
+  if (found.structure || found.verdict == Verdict::unexplained)
+    section.text.push_back(what_to_record(found.structure ? &*found.structure : nullptr));
+  if (section.text.empty()) section.text.emplace_back("No experiment is needed to separate what was found.");
   return section;
+}
+
+/// Where the user's own diagram failed, as compare says it: three sentences, of several outputs some of each.
+std::vector<std::string> where_it_failed(const Seen& seen) {
+  constexpr std::size_t sentences = 3;
+  std::vector<std::string> list;
+  if (seen.found.verdict == Verdict::adequate) return list;
+  const auto& outputs = seen.stages.model().outputs();
+  const std::size_t each = std::max<std::size_t>(1, sentences / outputs.size());
+  for (const auto& of_output : seen.stages.before_unseen().splits) {
+    auto told = telling_sentences(of_output.splits);
+    told.resize(std::min({told.size(), each, sentences - list.size()}));
+    for (const auto& sentence : told)
+      list.push_back(fmt::format("{}{}{}.", seen.found.steps.empty() ? "" : "Before: ",
+                                 outputs.size() > 1 ? outputs[static_cast<std::size_t>(of_output.output)] + ": " : "",
+                                 sentence));
+  }
+  return list;
 }
 
 /// The traces of all recordings go into the document, in their order; a section per recording only of those that were
@@ -182,6 +220,7 @@ std::vector<Section> recording_sections(Document& document, const Seen& seen) {
     Section section;
     section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
     add_time_figures(section, view, document.traces.back());
+    mark_structure(section, seen.found, model.recording(r).name, document.traces.back());
     sections.push_back(std::move(section));
   }
   return sections;
@@ -220,11 +259,16 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
 
   const Stages stages(found, std::make_shared<const DataSet>(data));
   const auto floors = floors_of(found, stages.model(), inspected);
-  const Seen seen{found, stages, floors, output_unit(stages.model(), 0)};
+  const Seen seen{found, stages, floors};
+  // Behind what each step found, before what is left.
+  const auto failed = where_it_failed(seen);
+  document.sentences.insert(document.sentences.begin() + static_cast<std::ptrdiff_t>(found.steps.size()),
+                            failed.begin(), failed.end());
 
   const auto recordings = recording_sections(document, seen);
   document.sections.push_back(data_section(found, inspected));
   document.sections.push_back(steps_section(document, seen));
+  if (found.structure) document.sections.push_back(structure_section(document, found, stages.model(), stages.unseen()));
   document.sections.push_back(change_section(document, found));
   document.sections.push_back(parameters_section(seen));
   document.sections.push_back(next_section(found));
@@ -238,7 +282,9 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   add_diagrams(document, found, files.folder);
   const auto& faults = inspected.data.faults;
   document.warnings.insert(document.warnings.end(), faults.begin(), faults.end());
-  Facts facts = discovery_facts(found, seen.unit, files.diagram_file, files.data_file);
+  Facts facts = discovery_facts(found, files.diagram_file, files.data_file);
+  facts.set("splits_before", split_facts(stages.model(), stages.before_unseen()));
+  if (!found.steps.empty()) facts.set("splits_after", split_facts(stages.model(), stages.after_unseen()));
   facts.set("floor", floor_facts(floors, stages.model()));
   facts.set("inspection", inspection_facts(inspected));
   if (answer != nullptr) facts.set("check", check_facts(*answer));

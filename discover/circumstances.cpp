@@ -12,6 +12,7 @@
 #include "fit/branches.h"
 #include "fit/excitation.h"
 #include "fit/free_parameter.h"
+#include "fit/inspection.h"
 #include "fit/median.h"
 #include "fit/noise.h"
 
@@ -130,20 +131,11 @@ std::vector<std::string> weights_behind(const Program& program, int signal) {
   return list;
 }
 
-/// Step of the levels of the output that this signal is, where all train recordings have one; 0 = none.
+/// Step of the levels of the output that this signal is; 0 = none, or no output.
 double resolution_at(const Program& program, const DataSet& data, int signal) {
   const auto output = std::find(program.output_signals.begin(), program.output_signals.end(), signal);
   if (output == program.output_signals.end()) return 0;
-  const std::string& name = program.output_names[static_cast<std::size_t>(output - program.output_signals.begin())];
-  double step = 0;
-  for (const auto& r : data.recordings) {
-    const auto column = r.columns.find(name);
-    if (r.role != Role::train || column == r.columns.end()) continue;
-    const double own = resolution_of(column->second);
-    if (own <= 0) return 0;
-    step = step > 0 ? std::min(step, own) : own;
-  }
-  return step;
+  return finest_step(data, program.output_names[static_cast<std::size_t>(output - program.output_signals.begin())]);
 }
 
 void look_at_row_times(const DataSet& data, Circumstances& c) {

@@ -57,10 +57,7 @@ void test_recordings(Books& books) {
   if (test.empty()) return;
   const Prediction p = predicted(books.shop, books.current, test);
   if (!p.ok) return;
-  if (const auto e = books.evidence->test_error(p)) {
-    books.d.final_error.rms_test = e->first;
-    books.d.final_error.nrmse_test = e->second;
-  }
+  books.evidence->add_test(books.d.final_error, p);
 }
 
 /// What a steady line cannot follow is found anew in each recording, and is no evidence of anything else.
@@ -157,7 +154,7 @@ void conclude(Books& books) {
   test_recordings(books);
   tell_noise(books);
   tell_wandering(books);
-  put_into_words(books.d, *books.data, output_unit(books));
+  put_into_words(books.d, *books.data);
   books.progress("done", 1);
 }
 

@@ -26,17 +26,34 @@ double deviation(const Rows& rows) {
   return rows.empty() ? 0 : std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
-/// Sums over several outputs; they may be added up only where they are of one dimension.
+/// Sums over several outputs; squares may be added up only where these are of one dimension, shares always.
 struct Pool {
-  double squares = 0, variance = 0, rows = 0;
-  void add(double rms, double dev, std::size_t n) {
-    squares += rms * rms * static_cast<double>(n);
-    variance += dev * dev * static_cast<double>(n);
-    rows += static_cast<double>(n);
+  double squares = 0, variance = 0, rows = 0, shares = 0, moving_rows = 0;
+  void add(const RecordingError& e) {
+    const auto n = static_cast<double>(e.rows);
+    squares += n * e.rms * e.rms;
+    rows += n;
+    if (!(e.deviation > 0)) return;
+    variance += n * e.deviation * e.deviation;
+    shares += n * e.nrmse * e.nrmse;
+    moving_rows += n;
   }
   double rms() const { return rows > 0 ? std::sqrt(squares / rows) : 0; }
-  double nrmse() const { return variance > 0 ? std::sqrt(squares / variance) : 0; }
+  double nrmse(bool one_dimension) const {
+    if (one_dimension) return variance > 0 ? std::sqrt(squares / variance) : 0;
+    return moving_rows > 0 ? std::sqrt(shares / moving_rows) : 0;
+  }
 };
+
+/// As the data file has it; what no file says, as the diagram.
+Unit unit_of_output(const DataModel& model, int output) {
+  for (int r = 0; r < model.n_recordings(); ++r) {
+    const auto& units = model.recording(r).units;
+    if (const auto found = units.find(model.outputs()[static_cast<std::size_t>(output)]); found != units.end())
+      return found->second;
+  }
+  return model.output_unit(output);
+}
 
 bool one_dimension(const DataModel& model) {
   const auto& signals = model.program().signals;
@@ -137,6 +154,20 @@ std::vector<Evidence::Slice> Evidence::slices(int recording) const {
   return list;
 }
 
+RecordingError Evidence::plain_error(const Prediction& with_zeros, int recording, int output) const {
+  const Rows& measured = base_.measured(recording, output);
+  RecordingError one;
+  one.recording = base_.recording(recording).name;
+  one.role = base_.recording(recording).role;
+  one.output = base_.outputs()[static_cast<std::size_t>(output)];
+  one.unit = unit_of_output(base_, output);
+  one.rows = measured.size();
+  one.rms = rms(base_, with_zeros, std::span<const int>(&recording, 1), output);
+  one.deviation = deviation(measured);
+  one.nrmse = one.deviation > 0 ? one.rms / one.deviation : 0;
+  return one;
+}
+
 ModelError Evidence::error(const Prediction& prediction) const {
   ModelError e;
   e.ok = prediction.ok;
@@ -150,31 +181,24 @@ ModelError Evidence::error(const Prediction& prediction) const {
     const bool is_train = base_.recording(r).role == Role::train;
     const double step = median_step(base_.times(r));
     for (const auto& [o, begin, size, zero_is_free] : slices(r)) {
-      const Rows& measured = base_.measured(r, o);
-      RecordingError one;
-      one.recording = base_.recording(r).name;
-      one.role = base_.recording(r).role;
-      one.output = base_.outputs()[static_cast<std::size_t>(o)];
-      one.rows = measured.size();
+      RecordingError one = plain_error(with_zeros, r, o);
       one.step = step;
-      one.rms = rms(base_, with_zeros, std::span<const int>(&r, 1), o);
-      const double dev = deviation(measured);
-      one.nrmse = dev > 0 ? one.rms / dev : 0;
       one.chi2 = dot(w.data() + begin, w.data() + begin, size);
       one.evidence = one.chi2 * per_chi2_;
       one.plain = one.rms * one.rms * static_cast<double>(one.rows) / noisy_variance(o);
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
       (is_train ? e.evidence_train : e.evidence_validate) += one.evidence;
       (is_train ? e.n_train : e.n_validate) += static_cast<double>(size);
-      (is_train ? train : validate).add(one.rms, dev, one.rows);
+      (is_train ? train : validate).add(one);
       e.recordings.push_back(std::move(one));
     }
   }
   e.witnesses = witnesses_ > 0 ? witnesses_ : e.n();
   e.noise_known = known_;
-  e.nrmse_train = train.nrmse();
-  e.nrmse_validate = validate.nrmse();
-  if (one_dimension(base_)) {
+  const bool one_sum = one_dimension(base_);
+  e.nrmse_train = train.nrmse(one_sum);
+  e.nrmse_validate = validate.nrmse(one_sum);
+  if (one_sum) {
     e.rms_train = train.rms();
     e.rms_validate = validate.rms();
   }
@@ -322,17 +346,47 @@ double vuong(const std::vector<double>& a, const std::vector<double>& b) {
   return variance > 0 ? mean / std::sqrt(variance / n) : 0;
 }
 
-std::optional<std::pair<double, double>> Evidence::test_error(const Prediction& prediction) const {
+void Evidence::add_test(ModelError& error, const Prediction& prediction) const {
   Prediction with_zeros = prediction;
   add_zeros(base_, *judge_, with_zeros);
   Pool pool;
-  for (int r = 0; r < base_.n_recordings(); ++r)
-    if (base_.recording(r).role == Role::test && !prediction.y[static_cast<std::size_t>(r)].empty())
-      for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o)
-        pool.add(rms(base_, with_zeros, std::span<const int>(&r, 1), o), deviation(base_.measured(r, o)),
-                 base_.measured(r, o).size());
-  if (pool.rows == 0) return std::nullopt;
-  return std::pair{pool.rms(), pool.nrmse()};
+  for (int r = 0; r < base_.n_recordings(); ++r) {
+    if (base_.recording(r).role != Role::test || prediction.y[static_cast<std::size_t>(r)].empty()) continue;
+    for (int o = 0; o < static_cast<int>(base_.outputs().size()); ++o) {
+      if (base_.measured(r, o).empty()) continue;
+      error.test.push_back(plain_error(with_zeros, r, o));
+      pool.add(error.test.back());
+    }
+  }
+  if (error.test.empty()) return;
+  error.nrmse_test = pool.nrmse(one_dimension(base_));
+  if (one_dimension(base_)) error.rms_test = pool.rms();
+}
+
+std::vector<OutputError> by_output(const ModelError& error, Role role) {
+  std::vector<OutputError> list;
+  std::vector<Pool> pools;
+  for (const auto& r : role == Role::test ? error.test : error.recordings) {
+    if (r.role != role) continue;
+    const auto known =
+        std::find_if(list.begin(), list.end(), [&](const OutputError& o) { return o.output == r.output; });
+    const auto at = static_cast<std::size_t>(known - list.begin());
+    if (known == list.end()) {
+      list.push_back({r.output, r.unit});
+      pools.emplace_back();
+    }
+    pools[at].add(r);
+  }
+  for (std::size_t o = 0; o < list.size(); ++o) {
+    list[o].rms = pools[o].rms();
+    list[o].nrmse = pools[o].nrmse(true);
+  }
+  return list;
+}
+
+bool of_one_dimension(const std::vector<RecordingError>& recordings) {
+  return std::all_of(recordings.begin(), recordings.end(),
+                     [&](const RecordingError& r) { return r.unit.dimension == recordings.front().unit.dimension; });
 }
 
 }  // namespace hysteron

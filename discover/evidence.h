@@ -19,12 +19,14 @@ struct RecordingError {
   std::string recording;
   Role role = Role::train;
   std::string output;
+  Unit unit;  ///< in which the output is told: that of its column
   std::size_t rows = 0;
-  double step = 0;      ///< [s] between rows
-  double rms = 0;       ///< [SI of the output]
-  double nrmse = 0;     ///< rms over the standard deviation of what was measured
-  double chi2 = 0;      ///< sum of squared whitened residuals, in units of the noise
-  double evidence = 0;  ///< what falls are counted in: chi2 where the noise is known (see Evidence)
+  double step = 0;       ///< [s] between rows
+  double rms = 0;        ///< [SI of the output]
+  double deviation = 0;  ///< standard deviation of what was measured [SI of the output]
+  double nrmse = 0;      ///< rms over that
+  double chi2 = 0;       ///< sum of squared whitened residuals, in units of the noise
+  double evidence = 0;   ///< what falls are counted in: chi2 where the noise is known (see Evidence)
   /// Sum of squares, not whitened, over the variance of a sensor with much 1/f noise: one per row or less if only noise
   /// is left.
   double plain = 0;
@@ -32,16 +34,18 @@ struct RecordingError {
   double plain_excess() const { return plain - static_cast<double>(rows); }
 };
 
-/// One model against all recordings. `rms` over several outputs is only given where they share a unit (else 0).
+/// One model against all recordings. `rms` over several outputs is only given where they are of one dimension (else 0);
+/// `nrmse` there is that of the summed squares, else the root of the mean square of the outputs' own.
 struct ModelError {
   bool ok = true;
   std::vector<RecordingError> recordings;    ///< train and validate
+  std::vector<RecordingError> test;          ///< only of the last model, read once at the end
   double chi2_train = 0, chi2_validate = 0;  ///< in units of the noise: about one per row if only noise is left
   double evidence_train = 0, evidence_validate = 0;
   double n_train = 0, n_validate = 0;
   double rms_train = 0, rms_validate = 0;  ///< [SI] over all rows and outputs of the role together
   double nrmse_train = 0, nrmse_validate = 0;
-  std::optional<double> rms_test, nrmse_test;  ///< only of the last model, read once at the end
+  std::optional<double> rms_test, nrmse_test;  ///< of `test`
 
   double chi2() const { return chi2_train + chi2_validate; }
   double evidence() const { return evidence_train + evidence_validate; }
@@ -51,6 +55,18 @@ struct ModelError {
   double excess_validate() const { return chi2_validate - n_validate; }
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
 };
+
+/// One model against one output, over all recordings of a role.
+struct OutputError {
+  std::string output;
+  Unit unit;       ///< in which it is told
+  double rms = 0;  ///< [SI of the output]
+  double nrmse = 0;
+};
+/// Outputs that recordings of this role measured, in the order of the recordings' outputs.
+std::vector<OutputError> by_output(const ModelError& error, Role role);
+/// Their outputs can be added up.
+bool of_one_dimension(const std::vector<RecordingError>& recordings);
 
 /// chi2 per row: 1 = noise.
 struct OverFloor {
@@ -108,8 +124,8 @@ class Evidence {
   const std::vector<int>& recordings() const { return recordings_; }  ///< train and validate
   bool noise_known() const { return known_; }
   double witnesses() const { return witnesses_; }  ///< N, or N_eff: what ln N in a score means
-  /// rms over rows and outputs of the test recordings, and their NRMSE; nullopt if there are none.
-  std::optional<std::pair<double, double>> test_error(const Prediction& prediction) const;
+  /// Adds how far the model is from the test recordings, which this prediction holds; nothing if there are none.
+  void add_test(ModelError& error, const Prediction& prediction) const;
 
  private:
   /// Where the residual of one output lies in that of its recording (residual()): `size` coefficients from `begin`, one
@@ -120,6 +136,8 @@ class Evidence {
     bool zero_is_free = false;
   };
   std::vector<Slice> slices(int recording) const;
+  /// Names, rows, rms and NRMSE; nothing that is whitened.
+  RecordingError plain_error(const Prediction& with_zeros, int recording, int output) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 

@@ -118,10 +118,10 @@ std::string percent(double share);
 std::string size_text(double si, const Unit& unit);  ///< "0.42 um"
 std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at);
 Candidate candidate_of(const Tried& tried, int step);
-/// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %".
+/// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
 std::string step_sentence(const Tried& tried, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after, const Unit& unit);
+                          const ModelError& after, const Unit&);
 /// Headline, sentences, warnings of the finished discovery.
-void put_into_words(Discovery& d, const DataSet& data, const Unit& output_unit);
+void put_into_words(Discovery& d, const DataSet& data);
 
 }  // namespace hysteron

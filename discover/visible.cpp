@@ -22,6 +22,15 @@ std::string offered_by(const std::string& variation, const Registry& registry) {
   return fmt::format("{}", fmt::join(types, ", "));
 }
 
+/// How near an effect that cannot be seen at a place comes to it: 2 = other recordings would show it, 1 = the diagram
+/// has something else that does the same, 0 = it is no place for it.
+int nearness(const Effect& effect, Circumstances at) {
+  at.from_data = false;
+  if (effect.unseen(at).empty()) return 2;
+  at.memory_blocks.clear();
+  return effect.unseen(at).empty() ? 1 : 0;
+}
+
 }  // namespace
 
 std::string why_no_place(const Effect& e, const Registry& registry) {
@@ -55,13 +64,19 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
     list.back().needs_block = e.way == Way::vary || !e.variation.empty();
   }
   if (places.empty()) return list;
+  std::vector<int> nearest(list.size(), -1);  // of the place that gave the reason
   const auto seen = circumstances_at(diagram, registry, data, places, free_paths);
   for (std::size_t i = 0; i < places.size(); ++i) {
     Visible& v = list[of[i]];
     const std::string why = effects.list()[of[i]].unseen(seen[i]);
     const bool known = std::find(v.places.begin(), v.places.end(), places[i].where()) != v.places.end();
     if (why.empty() && !known) v.places.push_back(places[i].where());
-    if (!why.empty() && v.reason.empty()) v.reason = why;
+    if (why.empty()) continue;
+    const int near = nearness(effects.list()[of[i]], seen[i]);
+    if (near > nearest[of[i]]) {
+      nearest[of[i]] = near;
+      v.reason = why;
+    }
   }
   for (auto& v : list)
     if (v.can()) v.reason.clear();

@@ -16,7 +16,7 @@ namespace hysteron {
 struct Visible {
   std::string effect, title;
   std::vector<std::string> places;  ///< where it could be seen; none = it cannot
-  std::string reason;               ///< why it cannot, and what it needs; "" where it can
+  std::string reason;               ///< why it cannot at the place that comes nearest, and what it needs; "" = it can
   bool needs_block = false;         ///< it cannot because the diagram lacks a block that it varies
   bool can() const { return !places.empty(); }
 };

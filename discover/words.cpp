@@ -1,4 +1,6 @@
 // Decides how a discovery is told to people. Decides nothing else.
+#include "discover/words.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,19 +51,55 @@ std::string usual_range(const ParameterOfEffect& p) {
   return std::isfinite(low) ? "at least " + shown(low) : "";
 }
 
-std::string error_fall(const ModelError& before, const ModelError& after, const Unit& unit) {
-  return fmt::format("error on recordings not used for the fit {:.3g} % -> {:.3g} % ({} -> {})",
-                     100 * before.nrmse_validate, 100 * after.nrmse_validate, size_text(before.rms_validate, unit),
-                     size_text(after.rms_validate, unit));
+constexpr std::size_t most_outputs_told = 3;
+
+/// How the error of each output fell, in its own unit; "" where these are too many.
+std::string falls_of(const ModelError& before, const ModelError& after) {
+  const auto was = by_output(before, Role::validate), is = by_output(after, Role::validate);
+  if (was.size() != is.size() || is.size() > most_outputs_told) return "";
+  std::vector<std::string> falls;
+  for (std::size_t o = 0; o < is.size(); ++o)
+    falls.push_back(fmt::format("{}{} -> {}", is.size() > 1 ? is[o].output + ": " : "",
+                                size_text(was[o].rms, was[o].unit), size_text(is[o].rms, is[o].unit)));
+  return fmt::format("{}", fmt::join(falls, ", "));
 }
 
-std::string words_of(const FoundStep& s) {
-  std::vector<std::string> names{s.winner.effect};
-  for (const auto& n : s.winner.same_effects) names.push_back(n);
-  for (const auto& t : s.ties) {
-    names.push_back(t.effect);
-    for (const auto& n : t.same_effects) names.push_back(n);
-  }
+std::string error_fall(const ModelError& before, const ModelError& after) {
+  const std::string falls = falls_of(before, after);
+  return fmt::format("error on recordings not used for the fit {:.3g} % -> {:.3g} %{}", 100 * before.nrmse_validate,
+                     100 * after.nrmse_validate, falls.empty() ? "" : " (" + falls + ")");
+}
+
+/// "0.42 um, 3.2 %"
+std::string left_text(const ModelError& e) {
+  const std::string sizes = sizes_text(e, Role::validate);
+  return fmt::format("{}{:.3g} %", sizes.empty() ? "" : sizes + ", ", 100 * e.nrmse_validate);
+}
+
+/// An effect that may explain a step, and where.
+struct Named {
+  std::string effect;
+  std::vector<std::string> places;
+};
+
+std::string names_of(const FoundStep& s) {
+  std::vector<Named> list;
+  const auto add = [&](const std::string& effect, const std::string& place) {
+    auto named = std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.effect == effect; });
+    if (named == list.end()) named = list.insert(named, {effect, {}});
+    if (!place.empty() && std::find(named->places.begin(), named->places.end(), place) == named->places.end())
+      named->places.push_back(place);
+  };
+  const auto add_all = [&](const Candidate& c) {
+    add(c.effect, c.place);
+    for (const auto& same : c.same_effects) add(same, "");
+  };
+  add_all(s.winner);
+  for (const auto& tie : s.ties) add_all(tie);
+  std::vector<std::string> names;
+  for (const auto& n : list)
+    names.push_back(n.places.size() < 2 ? n.effect
+                                        : fmt::format("{} (at {})", n.effect, fmt::join(n.places, " or at ")));
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
@@ -94,6 +132,27 @@ std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share);
 std::string size_text(double si, const Unit& unit) {
   return unit.text.empty() ? fmt::format("{:.3g}", unit.difference_from_si(si))
                            : fmt::format("{:.3g} {}", unit.difference_from_si(si), unit.text);
+}
+
+std::string names_of(const std::vector<FoundStep>& steps, std::size_t step) {
+  const std::string name = names_of(steps[step]);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (i != step && names_of(steps[i]) == name) return name + " at " + steps[step].winner.place;
+  return name;
+}
+
+std::string sizes_text(const ModelError& error, Role role) {
+  const auto outputs = by_output(error, role);
+  if (outputs.size() > most_outputs_told) return "";
+  std::vector<std::string> sizes;
+  for (const auto& o : outputs) sizes.push_back((outputs.size() > 1 ? o.output + " " : "") + size_text(o.rms, o.unit));
+  return fmt::format("{}", fmt::join(sizes, ", "));
+}
+
+std::string test_sentence(const ModelError& e) {
+  const std::string sizes = sizes_text(e, Role::test);
+  return fmt::format("On the test recordings, read once at the end: {:.3g} %{}.", 100 * *e.nrmse_test,
+                     sizes.empty() ? "" : " (" + sizes + " rms)");
 }
 
 std::string effect_words(const Tried& t) { return t.same_effects.empty() ? t.effect->title : common_name(t); }
@@ -143,11 +202,11 @@ Candidate candidate_of(const Tried& t, int step) {
 }
 
 std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after, const Unit& unit) {
+                          const ModelError& after, const Unit&) {
   const Candidate c = candidate_of(t, 1);
   std::string text = fmt::format("{} {}", effect_words(t), place_text(t));
   if (!c.summary.empty()) text += ": " + c.summary;
-  text += "; " + error_fall(before, after, unit);
+  text += "; " + error_fall(before, after);
   if (!ties.empty()) {
     std::vector<std::string> names;
     for (const auto& tie : ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));
@@ -156,48 +215,63 @@ std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, co
   return text;
 }
 
-void put_into_words(Discovery& d, const DataSet& data, const Unit& unit) {
-  const std::string fall = error_fall(d.base, d.final_error, unit);
+namespace {
+
+std::string headline_of(const Discovery& d) {
   std::vector<std::string> names;
-  for (const auto& s : d.steps) names.push_back(words_of(s));
+  for (std::size_t i = 0; i < d.steps.size(); ++i) names.push_back(names_of(d.steps, i));
+  const std::string fall = error_fall(d.base, d.final_error);
   const std::string tried = d.broken_off ? " that was tried until the search was broken off" : "";
   switch (d.verdict) {
     case Verdict::adequate:
-      d.headline = fmt::format(
-          "Adequate: what the model leaves ({}, {:.3g} %) is the noise of the recordings, and no effect{} improves it "
-          "by "
+      return fmt::format(
+          "Adequate: what the model leaves ({}) is the noise of the recordings, and no effect{} improves it by "
           "more than chance.",
-          size_text(d.base.rms_validate, unit), 100 * d.base.nrmse_validate, tried);
-      break;
+          left_text(d.base), tried);
     case Verdict::missing_effect:
-      d.headline = fmt::format("Missing: {}. The {}.", fmt::join(names, ", then "), fall);
-      break;
+      return fmt::format("Missing: {}. The {}.", fmt::join(names, ", then "), fall);
     case Verdict::not_distinguishable:
-      d.headline = fmt::format("Something is missing, and these recordings cannot tell what: {}. With {} the {}.",
-                               fmt::join(names, "; "), d.steps.front().winner.effect, fall);
-      break;
+      return fmt::format("Something is missing, and these recordings cannot tell what: {}. With {} the {}.",
+                         fmt::join(names, "; "), d.steps.front().winner.effect, fall);
     case Verdict::unexplained:
-      d.headline =
-          d.structure
-              ? fmt::format("Unexplained: {}, and no known effect{} takes it away.", d.structure->sentence, tried)
-              : fmt::format(
-                    "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no "
-                    "known effect{} takes it away.",
-                    std::sqrt(std::max(d.base.over_floor(), 0.0)), tried);
       break;
   }
-  for (const auto& s : d.steps) d.sentences.push_back(s.sentence);
-  if (!d.steps.empty())
-    d.sentences.push_back(d.remainder == Remainder::noise
-                              ? fmt::format("What is left ({}) is noise.", size_text(d.final_error.rms_validate, unit))
-                              : fmt::format("What is left ({}) still has structure: {:.2g} times the noise.",
-                                            size_text(d.final_error.rms_validate, unit),
-                                            std::sqrt(std::max(d.final_error.over_floor(), 0.0))));
-  if (!d.steps.empty() && d.structure) d.sentences.push_back("In what is left " + d.structure->sentence + ".");
+  if (d.structure)
+    return fmt::format("Unexplained: {}, and no known effect{} takes it away.", d.structure->sentence, tried);
+  return fmt::format(
+      "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no known effect{} takes it "
+      "away.",
+      std::sqrt(std::max(d.base.over_floor(), 0.0)), tried);
+}
+
+/// What was found and what is left of it; of what nothing explains all that is known.
+void tell_what_is_left(Discovery& d) {
+  auto& say = d.sentences;
+  for (const auto& s : d.steps) say.push_back(s.sentence);
+  if (d.verdict == Verdict::unexplained)
+    say.push_back(fmt::format("The model leaves {} on recordings not used for the fit{}.", left_text(d.final_error),
+                              d.structure ? "" : ", and no line, ripple, kink, jumps or bursts stand out of it"));
+  else if (!d.steps.empty())
+    say.push_back(d.remainder == Remainder::noise
+                      ? fmt::format("What is left ({}) is noise.", left_text(d.final_error))
+                      : fmt::format("What is left ({}) still has structure: {:.2g} times the noise.",
+                                    left_text(d.final_error), std::sqrt(std::max(d.final_error.over_floor(), 0.0))));
+  if (!d.steps.empty() && d.structure) say.push_back("In what is left " + d.structure->sentence + ".");
+  if (d.structure)
+    for (auto& sentence : structure_sentences(*d.structure)) say.push_back(std::move(sentence));
+}
+
+}  // namespace
+
+void put_into_words(Discovery& d, const DataSet& data) {
+  d.headline = headline_of(d);
+  tell_what_is_left(d);
+  if (d.final_error.nrmse_test) d.sentences.push_back(test_sentence(d.final_error));
   if (d.experiment)
     d.sentences.push_back(
         fmt::format("To tell {} apart, record {}: {}. The two models differ there by {:.3g} times the noise.",
                     d.experiment->between, d.experiment->word, d.experiment->text, d.experiment->separation));
+  if (d.verdict == Verdict::unexplained) d.sentences.push_back(what_to_record(d.structure ? &*d.structure : nullptr));
   if (data.single)
     d.warnings.push_back(
         "One recording only: its first 60 % trained, the rest judged. That is weak evidence; a second recording with "

@@ -89,17 +89,17 @@ std::vector<SplitSignal> signals_besides(const DataModel& model, const std::vect
   return telling_signals(std::move(list), main);
 }
 
-/// The three that matter. Below 0.02 the error is spread as the rows are: nothing to say; and nothing is said twice.
+}  // namespace
+
 std::vector<std::string> telling_sentences(const std::vector<Split>& splits) {
+  constexpr double spread = 0.02;  // information below which the error is spread as the rows are
   std::vector<std::string> list;
   for (const auto& split : splits)
-    if (list.size() < 3 && split.information > 0.02 &&
+    if (list.size() < 3 && split.information > spread &&
         std::find(list.begin(), list.end(), split.sentence) == list.end())
       list.push_back(split.sentence);
   return list;
 }
-
-}  // namespace
 
 Metrics metrics_of(const Rows& measured, const Rows& residual) {
   Pool pool;

@@ -65,6 +65,10 @@ struct Comparison {
 /// Compares a prediction with the measurement on these recordings (empty = all that were predicted).
 Comparison compare(const DataModel& model, const Judge& judge, Prediction prediction, std::vector<int> recordings = {});
 
+/// The three that matter of one output's splits, most informative first; fewer, or none, where the error is spread as
+/// the rows are.
+std::vector<std::string> telling_sentences(const std::vector<Split>& splits);
+
 Metrics metrics_of(const Rows& measured, const Rows& residual);
 
 /// Splits of one residual with its input, for one recording or pooled; also used on results before and after an effect.

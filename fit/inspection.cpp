@@ -22,24 +22,28 @@ struct Part {
   std::string name;
 };
 
-std::vector<Part> parts_of(const DataModel& model) {
+std::vector<Part> parts_of(const DataSet& data) {
   std::vector<Part> parts;
-  for (int r = 0; r < model.n_recordings(); ++r) {
-    const Recording& recording = model.recording(r);
+  for (std::size_t r = 0; r < data.recordings.size(); ++r) {
+    const Recording& recording = data.recordings[r];
     if (recording.role == Role::test) continue;
-    if (model.data().single && !parts.empty())
+    if (data.single && !parts.empty())
       parts.front().last = recording.last;
     else
-      parts.push_back({r, recording.first, recording.last, recording.name});
+      parts.push_back({static_cast<int>(r), recording.first, recording.last, recording.name});
   }
   return parts;
 }
 
-std::span<const double> rows_of(const DataModel& model, const Part& part, const std::string& column) {
-  const auto& columns = model.recording(part.recording).columns;
+std::span<const double> rows_of(const DataSet& data, const Part& part, const std::string& column) {
+  const auto& columns = data.recordings[static_cast<std::size_t>(part.recording)].columns;
   const auto found = columns.find(column);
   if (found == columns.end()) return {};
   return std::span(found->second).subspan(part.first, part.last - part.first);
+}
+
+std::span<const double> rows_of(const DataModel& model, const Part& part, const std::string& column) {
+  return rows_of(model.data(), part, column);
 }
 
 std::span<const double> times_of(const DataModel& model, const Part& part) {
@@ -80,7 +84,7 @@ std::string list_text(const std::vector<std::string>& names) {
 class Inspector {
  public:
   Inspector(DataModel& model, bool diagram_is_meant)
-      : model_(model), diagram_is_meant_(diagram_is_meant), parts_(parts_of(model)) {}
+      : model_(model), diagram_is_meant_(diagram_is_meant), parts_(parts_of(model.data())) {}
 
   Inspection run() {
     columns();
@@ -117,7 +121,7 @@ class Inspector {
         InspectedColumn c{name, role, unit_of(name)};
         c.lowest = std::numeric_limits<double>::infinity();
         c.highest = -c.lowest;
-        std::vector<double> rough, finest;
+        std::vector<double> rough;
         for (const auto& part : parts_) {
           const auto rows = rows_of(model_, part, name);
           if (rows.empty()) continue;
@@ -125,10 +129,9 @@ class Inspector {
           c.lowest = std::min(c.lowest, *low);
           c.highest = std::max(c.highest, *high);
           rough.push_back(roughness(rows));
-          if (const double q = finest_step(rows); q > 0) finest.push_back(q);
         }
         c.roughness = median(rough);
-        if (!finest.empty()) c.finest = *std::min_element(finest.begin(), finest.end());
+        c.finest = finest_step(model_.data(), name);
         seen_.columns.push_back(std::move(c));
       }
   }
@@ -581,6 +584,13 @@ class Inspector {
 };
 
 }  // namespace
+
+double finest_step(const DataSet& data, const std::string& column) {
+  double finest = 0;
+  for (const auto& part : parts_of(data))
+    if (const double q = finest_step(rows_of(data, part, column)); q > 0 && (finest == 0 || q < finest)) finest = q;
+  return finest;
+}
 
 Inspection inspect(DataModel& model, bool diagram_is_meant) { return Inspector(model, diagram_is_meant).run(); }
 

@@ -83,6 +83,10 @@ struct Inspection {
   std::vector<std::string> sentences;     ///< what the data are, most important first
 };
 
+/// The step between the levels of a column [SI], the finest that a recording shows; 0 = none can be told. One that
+/// rests on few of them shows none, or several in one.
+double finest_step(const DataSet& data, const std::string& column);
+
 /// Inspects the data set of `model`. Shift, lines and the way between samples are judged against the diagram as it is,
 /// but for a gain and an offset of each output. `diagram_is_meant` = false: the diagram only stands for one that nobody
 /// named, and what it gets wrong in time says nothing of the data.

@@ -7,6 +7,7 @@
 
 #include "fit/branches.h"
 #include "fit/median.h"
+#include "fit/row_checks.h"
 #include "fit/whiten.h"
 
 namespace hysteron {
@@ -22,7 +23,7 @@ const NoiseNote* note_of(const DataModel& model, int output) {
 double found_resolution(const DataModel& model, int output) {
   double finest = 0;
   for (int r = 0; r < model.n_recordings(); ++r) {
-    const double q = resolution_of(model.measured(r, output));
+    const double q = finest_step(model.measured(r, output));
     if (q > 0 && (finest == 0 || q < finest)) finest = q;
   }
   return finest;
@@ -169,26 +170,6 @@ NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before,
     n.white = std::max(n.white * std::sqrt(s2), noise_floor(model, static_cast<int>(o), n.resolution));
   }
   return noise;
-}
-
-double resolution_of(const std::vector<double>& values) {
-  std::vector<double> sorted = values;
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted.size() < 8) return 0;
-  const double span = sorted.back() - sorted.front();
-  if (!(span > 0)) return 0;
-  const double same = 1e-9 * span;  // equal but for the rounding of a unit conversion
-  double q = span;
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (const double d = sorted[i] - sorted[i - 1]; d > same) q = std::min(q, d);
-  const double steps = std::round(span / q);
-  if (steps < 2 || steps > 1e7) return 0;
-  q = span / steps;
-  for (const double v : sorted) {
-    const double k = (v - sorted.front()) / q;
-    if (std::abs(k - std::round(k)) > 0.05) return 0;
-  }
-  return q;
 }
 
 }  // namespace hysteron

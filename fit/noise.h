@@ -55,7 +55,4 @@ NoiseModel noise_before_fit(const DataModel& model);
 NoiseModel noise_from_residual(const DataModel& model, const NoiseModel& before, const Prediction& best,
                                const std::vector<int>& recordings);
 
-/// Smallest step on whose multiples all values lie [same unit], 0 if there is none. For finding an unsaid resolution.
-double resolution_of(const std::vector<double>& values);
-
 }  // namespace hysteron

@@ -82,6 +82,21 @@ void expect_the_error_is_seen_to_fall(const json& all) {
   EXPECT_EQ(parameters["rows"][0][4], "at most 0.05");  // half of the 0.1 per decade of soft ceramics
 }
 
+/// What compare says of the user's diagram stands among the first sentences, its shares in the facts.
+void expect_where_it_failed_is_told(const json& all) {
+  const auto sentences = all["sentences"].get<std::vector<std::string>>();
+  ASSERT_GE(sentences.size(), 2U);
+  EXPECT_TRUE(sentences[1].starts_with("Before: ")) << sentences[1];
+  EXPECT_NE(sentences[1].find("of the squared error lies"), std::string::npos) << sentences[1];
+  ASSERT_FALSE(all["facts"]["splits_before"].empty());
+  for (const auto& split : all["facts"]["splits_before"]) {
+    double sum = 0;
+    for (const auto& part : split["parts"]) sum += part["share_of_squared_error"].get<double>();
+    EXPECT_NEAR(sum, 1, 1e-9) << split;
+  }
+  EXPECT_EQ("Before: " + all["facts"]["splits_before"][0]["sentence"].get<std::string>() + ".", sentences[1]);
+}
+
 /// Every curve of every figure comes from a recording that is not a train recording.
 void expect_no_figure_shows_what_was_fitted(const json& all) {
   std::set<std::string> fitted, drawn;
@@ -120,6 +135,7 @@ TEST(Demo, NamesCreepReachesTheNoiseOnOtherRecordingsAndTellsIt) {
   expect_steps_that_run_by_hand(folder);
   const json all = json::parse(folder.read("out/result.json"));
   expect_the_error_is_seen_to_fall(all);
+  expect_where_it_failed_is_told(all);
   expect_no_figure_shows_what_was_fitted(all);
   expect_pictures_before_and_after(folder, all);
   if (browser::find().empty()) GTEST_SKIP() << "no Chromium on this machine (scripts/test installs one)";

@@ -1,8 +1,10 @@
 // `hysteron discover`: the test for machines, and what its errors are held against.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
@@ -109,6 +111,98 @@ TEST_F(DiscoverVerb, DiscoverHoldsTheErrorAgainstTheNoiseWhereNothingWasRecorded
   EXPECT_EQ(floor_labels(all), std::set<std::string>{"noise of the sensor"});
   EXPECT_FALSE(all["facts"]["floor"][0].contains("repeatability_rms"));
   EXPECT_NE(folder_.read("out/report.html").find("Nothing was recorded twice"), std::string::npos);
+}
+
+TEST_F(DiscoverVerb, DiscoverGivesEachOutputInItsOwnUnit) {
+  record(3, 0.02);
+  // The same law read as a speed: alike but for the unit and the noise.
+  for (const char* file : {"a.csv", "b.csv"}) {
+    std::istringstream y(folder_.read(file)), s(lab::noisy_recording(file[0] == 'a' ? 11 : 12, 0.02));
+    std::string text, row, other;
+    while (std::getline(y, row) && std::getline(s, other))
+      text += row + (text.empty() ? ",s [mm/s]" : other.substr(other.rfind(','))) + "\n";
+    folder_.write(file, text);
+  }
+  folder_.write("diagram.json",
+                R"json({"format": 1, "title": "Stage and speed", "inputs": {"u": {"unit": "V"}}, "blocks": {
+    "actuator": {"type": "gain", "gain": "1.5 um/V", "in": "u"},
+    "sensor":   {"type": "calibration", "gain": 1, "offset": "0.2 um", "in": "actuator"},
+    "speed":    {"type": "gain", "gain": "1.5 mm/(s V)", "in": "u"},
+    "meter":    {"type": "calibration", "gain": 1, "offset": "0.2 mm/s", "in": "speed"}},
+    "outputs": {"y": "sensor", "s": "meter"}})json");
+  folder_.write("dataset.json", R"({"format": 1, "title": "two outputs", "columns": {"u": {"to": "u"},
+    "y": {"to": "y", "noise": "5 nm"}, "s": {"to": "s", "noise": "0.005 mm/s"}},
+    "recordings": [{"file": "a.csv", "role": "train"}, {"file": "b.csv", "role": "validate"}]})");
+  const json all = looked_for_a_lag();
+  const json &given = all["facts"]["as_given"], &last = all["facts"]["final"];
+  EXPECT_FALSE(given.contains("rms_validate")) << "um and mm/s have no rms in common";
+  std::map<std::string, json> of;
+  for (const auto& o : given["outputs"])
+    if (o["role"] == "validate") of[o["output"]] = o;
+  EXPECT_EQ(of["y"]["unit"], "um");
+  EXPECT_EQ(of["s"]["unit"], "mm/s");
+  // 1.5 um/V * 8 V/s * 20 ms = 0.24 um behind on the slopes, less at the turns.
+  EXPECT_NEAR(of["y"]["rms"].get<double>(), of["s"]["rms"].get<double>(), 0.005);
+  EXPECT_GT(of["s"]["rms"].get<double>(), 0.1);
+  for (const auto& r : last["recordings"]) EXPECT_EQ(r["unit"], r["output"] == "s" ? "mm/s" : "um") << r;
+  const std::string headline = all["headline"];
+  EXPECT_NE(headline.find(" um, s: "), std::string::npos) << headline;
+  EXPECT_NE(headline.find(" mm/s)."), std::string::npos) << headline;
+  EXPECT_EQ(headline.find("(0 um"), std::string::npos) << headline;
+}
+
+TEST_F(DiscoverVerb, DiscoverTellsWhatTheTestRecordingsSay) {
+  record(5, 0.02);
+  folder_.write("c.csv", lab::noisy_recording(9, 0.02));
+  std::string data = folder_.read("dataset.json");
+  data.replace(data.find("\"validate\"}"), 11, R"("validate"}, {"file": "c.csv", "role": "test"})");
+  folder_.write("dataset.json", data);
+  const json all = looked_for_a_lag();
+  // What is left is the noise of 5 nm; 600 rows tell it to 1/sqrt(1200) = 3 %, four of these.
+  EXPECT_NEAR(all["facts"]["final"]["rms_test"].get<double>(), 0.005, 0.12 * 0.005);
+  std::string said;
+  for (const auto& s : all["sentences"]) said += s.get<std::string>() + "\n";
+  EXPECT_NE(said.find("On the test recordings, read once at the end: "), std::string::npos) << said;
+  EXPECT_NE(folder_.read("out/report.html").find("read once, at the end (test)"), std::string::npos);
+  record(5, 0.02);
+  for (const auto& s : looked_for_a_lag()["sentences"])
+    EXPECT_EQ(s.get<std::string>().find("test recordings"), std::string::npos) << "there are none";
+}
+
+TEST_F(DiscoverVerb, DiscoverShowsWhenWhatNoEffectExplainsIsThere) {
+  record(1);
+  // Levels of +- 50 nm that change at times of their own.
+  const std::set<int> at{31, 77, 92, 170, 201, 290, 333, 341, 420, 487, 555};
+  for (const char* file : {"a.csv", "b.csv"}) {
+    std::istringstream in(folder_.read(file));
+    std::string text, row;
+    std::getline(in, text);
+    text += "\n";
+    double level = 0.05;
+    for (int k = 0; std::getline(in, row); ++k) {
+      if (at.contains(k + (file[0] == 'a' ? 7 : 0))) level = -level;
+      const auto comma = row.rfind(',') + 1;
+      text += row.substr(0, comma) + std::to_string(std::stod(row.substr(comma)) + level) + "\n";
+    }
+    folder_.write(file, text);
+  }
+  const json all = looked_for_a_lag();
+  ASSERT_EQ(all["verdict"], "unexplained") << all["headline"];
+  EXPECT_GE(all["sentences"].size(), 3U);
+  json shown, next;
+  for (const auto& s : all["sections"]) {
+    if (s["title"] == "What no effect explains") shown = s;
+    if (s["title"] == "What to record next") next = s;
+  }
+  ASSERT_FALSE(shown.is_null());
+  EXPECT_EQ(shown["tables"][0]["columns"], json({"recording", "used", "jumps", "at [s]"}));
+  EXPECT_EQ(shown["tables"][0]["rows"][1][0], "b.csv");
+  EXPECT_EQ(shown["tables"][0]["rows"][1][2], "11");
+  EXPECT_TRUE(shown["tables"][0]["rows"][1][3].get<std::string>().starts_with("0.155, 0.385, 0.46, "));  // 5 ms a row
+  EXPECT_EQ(shown["figures"][0]["curves"][1]["name"], "jumps");
+  EXPECT_EQ(shown["figures"][0]["curves"][1]["x"].size(), 22U) << "the rows before and behind each";
+  EXPECT_EQ(next["text"].dump().find("No experiment is needed"), std::string::npos) << next["text"];
+  EXPECT_NE(next["text"].dump().find("every input held"), std::string::npos) << next["text"];
 }
 
 }  // namespace

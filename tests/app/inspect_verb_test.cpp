@@ -53,6 +53,27 @@ TEST_F(InspectVerb, InspectNeedsNoDiagramAndSaysWhatItAssumed) {
   EXPECT_EQ(inspection["recordings"][0]["rows"], 200);
 }
 
+TEST_F(InspectVerb, InspectSaysTheSameOfTheLevelsOfAColumnAndOfTheEffectThatTheyShow) {
+  const std::string demo = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/discover/demo/";
+  const Outcome outcome =
+      hysteron(folder_.path(), {"inspect", demo + "dataset.json", "--diagram", demo + "stage.json", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const json inspection = result("out")["facts"]["inspection"];
+  // README of the demonstration: 16 bits over 16 um, written with 0.01 nm.
+  for (const auto& c : inspection["columns"]) {
+    if (c["column"] != "y") continue;
+    EXPECT_NEAR(c["finest_step"].get<double>(), 0.000244141, 1e-7);
+  }
+  bool quantization = false;
+  for (const auto& e : inspection["can_show"]) quantization = quantization || e["effect"] == "quantization";
+  EXPECT_TRUE(quantization);
+  // At the stack, which carries a motion, and not at u, which no friction could enter.
+  for (const auto& e : inspection["cannot_show"]) {
+    if (e["effect"] != "friction") continue;
+    EXPECT_NE(e["reason"].get<std::string>().find("has memory already (stack)"), std::string::npos) << e;
+  }
+}
+
 TEST_F(InspectVerb, InspectTellsAGapOfTheClock) {
   std::string text = lab::recording();
   for (int k = 0; k < 2; ++k) {  // two rows in the middle

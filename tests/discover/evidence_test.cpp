@@ -51,6 +51,65 @@ TEST_F(EvidenceOf, WhatIsInFewCosinesStandsOutInItsOctave) {
   EXPECT_LT(without.octave, 4);
 }
 
+/// u -> 1 m/V -> y and u -> 1 m/(s V) -> s, which read 3 and 4 % more, without noise; one recording for each role.
+class TwoUnits : public ::testing::Test {
+ protected:
+  static DataSet read() {
+    std::vector<Recording> list;
+    for (const Role role : {Role::train, Role::validate, Role::test}) {
+      const auto t = rows(1000, 0.01);
+      const auto u = several_sines(t, 1, {0.5});
+      Recording r = recording(to_text(role) + ".csv", role, t, u, u);
+      r.columns["s"] = u;
+      r.units["s"] = parse_unit("mm/s");
+      for (double& y : r.columns["y"]) y *= 1.03;
+      for (double& s : r.columns["s"]) s *= 1.04;
+      list.push_back(std::move(r));
+    }
+    DataSet d = data_set(std::move(list), white, 0);
+    d.notes["s"] = d.notes["y"];
+    d.notes["s"].to = "s";
+    return d;
+  }
+  static Diagram stage_and_speed() {
+    Diagram d = plain_gain();
+    Node& speed = d.blocks["speed"];
+    speed = d.blocks["stage"];
+    speed.parameters["gain"] = Value("1 m/(s V)");
+    d.outputs["s"] = "speed";
+    return d;
+  }
+  DataModel model_{compile(stage_and_speed(), all_blocks()), std::make_shared<const DataSet>(read())};
+  const Evidence evidence_{model_};
+};
+
+TEST_F(TwoUnits, HaveNoRmsInCommonButTheMeanSquareOfTheirShares) {
+  const ModelError e = evidence_.error(model_.predict({}, evidence_.recordings()));
+  EXPECT_FALSE(of_one_dimension(e.recordings));
+  EXPECT_EQ(e.rms_validate, 0);
+  // The sines' mean is half of their top: a share of the deviation is the share of the gain times sqrt(1 + 2), for
+  // 0.5 (1 - cos) has the mean square 3/8 and the variance 1/8.
+  const double larger = std::sqrt(3.0);
+  EXPECT_NEAR(e.nrmse_validate, larger * std::sqrt((std::pow(0.03 / 1.03, 2) + std::pow(0.04 / 1.04, 2)) / 2), 1e-4);
+  const auto outputs = by_output(e, Role::validate);
+  ASSERT_EQ(outputs.size(), 2U);
+  EXPECT_NEAR(outputs[1].rms, 0.04 * std::sqrt(3.0 / 8), 1e-4);
+  EXPECT_EQ(outputs[1].unit.text, "mm/s");
+  EXPECT_TRUE(by_output(e, Role::test).empty()) << "not read yet";
+}
+
+TEST_F(TwoUnits, OfTheTestRecordingsAreReadOnDemandOnly) {
+  const std::vector<int> test = model_.recordings(Role::test);
+  ModelError e = evidence_.error(model_.predict({}, evidence_.recordings()));
+  EXPECT_FALSE(e.nrmse_test);
+  evidence_.add_test(e, model_.predict({}, test));
+  ASSERT_TRUE(e.nrmse_test);
+  EXPECT_NEAR(*e.nrmse_test, e.nrmse_validate, 1e-12) << "the same rows";
+  EXPECT_FALSE(e.rms_test);
+  EXPECT_EQ(by_output(e, Role::test).size(), 2U);
+  EXPECT_EQ(e.recordings.size(), 4U) << "what counts as evidence is as before";
+}
+
 TEST_F(EvidenceOf, TheBestLineOfASensorIsFoundOverAllRecordings) {
   DataModel model = measured([](double, double u) { return 0.03 * u - 0.2; }, 0);
   const Evidence evidence(model);

@@ -174,5 +174,15 @@ TEST_F(Inspecting, DoesNotLookAtTestRecordings) {
   EXPECT_TRUE(seen.faults.empty());
 }
 
+TEST_F(Inspecting, TheFinestStepIsThatOfTheRecordingThatShowsIt) {
+  for (std::size_t r = 0; r < 2; ++r)
+    for (double& v : y(r)) v = 1e-8 * std::round(v / 1e-8);
+  for (double& v : y(1)) v = 1e-7 * std::round(v / 1e-7);  // rests on every tenth level
+  EXPECT_NEAR(finest_step(data_, "y"), 1e-8, 1e-12);
+  data_.recordings[0].role = Role::test;
+  EXPECT_NEAR(finest_step(data_, "y"), 1e-7, 1e-11) << "test recordings are not read";
+  EXPECT_EQ(finest_step(data_, "z"), 0);
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fit/row_checks.h"
 #include "tests/fit/lab.h"
 
 namespace hysteron {
@@ -99,13 +100,13 @@ TEST(Noise, AQuantisedColumnIsNeverBetterThanItsStep) {
   DataSet data = noisy(0, 4);
   for (double& y : data.recordings[0].columns["y"]) y = 1e-7 * std::round(y / 1e-7);
   DataModel model(gain_program(), lab::shared(data));
-  EXPECT_NEAR(resolution_of(data.recordings[0].columns["y"]), 1e-7, 1e-12);
+  EXPECT_NEAR(finest_step(data.recordings[0].columns["y"]), 1e-7, 1e-12);
   EXPECT_GE(noise_before_fit(model).outputs[0].white, 1e-7 / std::sqrt(12.0) * (1 - 1e-9));
 }
 
 TEST(Noise, ContinuousValuesHaveNoResolution) {
   DataSet data = noisy(5e-9, 5);
-  EXPECT_EQ(resolution_of(data.recordings[0].columns["y"]), 0);
+  EXPECT_EQ(finest_step(data.recordings[0].columns["y"]), 0);
 }
 
 TEST(Noise, ARecordingSmootherThanItsSamplingIsSaidToBe) {
