@@ -220,8 +220,6 @@ bool two_more(Books& books, const std::vector<Tried>& last);
 /// or is not itself in it.
 bool tell_again(Books& books, const Contender& set);
 
-/// As the recordings have it.
-Unit output_unit(const Books& books);
 /// Verdict, remainder, words.
 void conclude(Books& books);
 

@@ -65,7 +65,7 @@ void take(Books& books, int step, Tried& w, FoundStep found) {
   found.winner.claimed = true;
   found.change = books.current.change;
   found.change.diagram = books.current.diagram;
-  found.sentence = step_sentence(w, found.ties, found.before, found.after, output_unit(books));
+  found.sentence = step_sentence(w, found.ties, found.before, found.after);
   books.d.steps.push_back(std::move(found));
 }
 

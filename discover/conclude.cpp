@@ -93,13 +93,6 @@ void tell_noise(Books& books) {
 
 }  // namespace
 
-Unit output_unit(const Books& books) {
-  const auto& name = books.base_model->outputs().front();
-  for (const auto& r : books.data->recordings)
-    if (const auto found = r.units.find(name); found != r.units.end()) return found->second;
-  return books.base_model->program().signals[static_cast<std::size_t>(books.base_model->output_signal(0))].unit;
-}
-
 void conclude(Books& books) {
   books.progress("what is left", 0.97);
   books.settle(books.current);

@@ -120,7 +120,7 @@ std::vector<FoundParameter> found_parameters(const Contender& c, const Circumsta
 Candidate candidate_of(const Tried& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
 std::string step_sentence(const Tried& tried, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after, const Unit&);
+                          const ModelError& after);
 /// Headline, sentences, warnings of the finished discovery.
 void put_into_words(Discovery& d, const DataSet& data);
 

@@ -263,7 +263,7 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
     judge(*books.evidence, t, rest, left_by_laws_of(books, rest));
     add_tie(books, step->winner.step, *step, *winner, t);
   }
-  step->sentence = step_sentence(*winner, step->ties, step->before, step->after, output_unit(books));
+  step->sentence = step_sentence(*winner, step->ties, step->before, step->after);
 }
 
 }  // namespace

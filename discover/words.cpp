@@ -202,7 +202,7 @@ Candidate candidate_of(const Tried& t, int step) {
 }
 
 std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after, const Unit&) {
+                          const ModelError& after) {
   const Candidate c = candidate_of(t, 1);
   std::string text = fmt::format("{} {}", effect_words(t), place_text(t));
   if (!c.summary.empty()) text += ": " + c.summary;
