@@ -95,27 +95,25 @@ std::vector<std::string> structure_sentences(const Structure& s) {
 std::string what_to_record(const Structure* left) {
   if (left == nullptr)
     return "Record longer, each input by itself, slow and fast, small and large and held, and beside them, as columns "
-           "of "
-           "their own, what else may act (temperature, load, supply): then it shows what the residual follows.";
+           "of their "
+           "own, what else may act (temperature, load, supply): then it shows what the residual follows.";
   if (left->kind == "line_in_time")
     return fmt::format(
-        "Record once with every input held, for many times {}: a line that stays comes from outside or from the "
-        "sensor, "
-        "one that goes is made by the motion.",
+        "Record once with every input held, for many times {}: a line that stays comes from outside or from "
+        "the sensor, one that goes is made by the motion.",
         difference_text(left->period, left->unit));
   if (left->kind == "line_in_level" || left->has_threshold) {
     const std::string across =
         left->has_threshold ? "across " + level_text(*left) : fmt::format("over the range of {}", left->variable);
     return fmt::format(
-        "Record slow and fast runs {}, both ways and several times each: what belongs to the level stays there at "
-        "every "
-        "speed, and whether it does so both ways tells a law without memory from one with.",
+        "Record slow and fast runs {}, both ways and several times each: what belongs to the level stays there "
+        "at every speed, and whether it does so both ways tells a law without memory from one with.",
         across);
   }
   return fmt::format(
       "Record once with every input held, as long as the longest recording: {} that go on are not made by the inputs. "
-      "And "
-      "record beside them, as columns of their own, what may act at such times (temperature, load, supply, a change of "
+      "And record beside them, as columns of their own, what may act at such times (temperature, load, supply, a "
+      "change of "
       "range): a column that is bound to nothing is looked at, too.",
       left->kind);
 }

@@ -12,6 +12,8 @@
 namespace hysteron {
 namespace {
 
+/// Of those that were screened: the law that takes most when it stands alone need not be the one that fits best beside
+/// the plain one.
 constexpr std::size_t held_ones_fitted = 3;
 
 /// Of those that could be fitted.

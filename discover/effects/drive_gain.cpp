@@ -12,7 +12,7 @@ Effect drive_gain() {
   e.title = "Gain of the drive";
   e.cause = "The amplifier's gain or the actuator's sensitivity differs from the value in the model.";
   e.equation = "y = f(gain*u)";
-  e.source = "IEEE Std 176-1987 (piezoelectric coefficients of one material spread from part to part)";
+  e.source = "data sheets of multilayer stacks, e.g. PiezoDrive SA series: travel +-10 % from part to part";
   e.residual = "The same share of every output that the drive moves, at all frequencies and amplitudes.";
   e.needs = "Two measured outputs or more behind one drive: of one alone a calibration says the same.";
   e.way = Way::insert;
@@ -20,7 +20,7 @@ Effect drive_gain() {
   e.places = {"command"};
   e.least_outputs = 2;
   e.parameters = {
-      {"gain", "", "true over written drive", "0.9 .. 1.1: amplifiers 1 %, piezo coefficients 10 % or more"}};
+      {"gain", "", "true over written drive", "0.9 .. 1.1 usually: the travel of a stack is known to 10 %"}};
   e.look_alikes = {{"calibration", "reference_sensor", "a sensor's gain changes its own reading only"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
     return fmt::format("gain {:.5g}", values.empty() ? 1.0 : values[0]);
@@ -36,7 +36,7 @@ Effect drive_gain() {
     gain.path = "gain";
     gain.start = 1;
     gain.scan = {0.9, 1, 1.1};
-    gain.plausible_lower = 0.8;
+    gain.plausible_lower = 0.8;  // twice that, so that only a real surprise is flagged
     gain.plausible_upper = 1.25;
     law.free.push_back(gain);
     laws.push_back(std::move(law));

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "discover/effects/library.h"
 #include "discover/effects/travel.h"
@@ -42,7 +40,7 @@ Effect overflow() {
     law.free = {brim};
     return std::vector<Law>{law};
   };
-  e.unseen = level_stands;
+  e.unseen = [](const Circumstances& at) { return stands(at, "the level"); };
   return e;
 }
 

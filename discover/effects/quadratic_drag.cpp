@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "discover/effects/library.h"
 #include "discover/effects/travel.h"
@@ -44,9 +43,7 @@ Effect quadratic_drag() {
     law.free = {c};
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";
-  };
+  e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
   return e;
 }
 

@@ -1,7 +1,6 @@
 // The effect sqrt_outflow: the outlet of a tank follows the root of the level.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,7 +52,7 @@ Effect sqrt_outflow() {
     return std::vector<Law>{law};
   };
   e.unseen = [](const Circumstances& at) -> std::string {
-    if (auto still = level_stands(at); !still.empty()) return still;
+    if (auto still = stands(at, "the level"); !still.empty()) return still;
     const double share = at.travel_highest > 0 ? travelled(at) / at.travel_highest : 1;
     return at.from_data && share < 0.25
                ? fmt::format("the level spans {:.0f} % of its height, a root needs 25 %", 100 * share)

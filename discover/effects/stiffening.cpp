@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/effects/library.h"
+#include "discover/effects/travel.h"
 
 namespace hysteron::effects {
 
@@ -62,9 +63,7 @@ Effect stiffening() {
     further("quintic", unit / (x * x), "N/m^5");
     return std::vector<Law>{law, more};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
-    return at.from_data && !(at.travel_highest > at.travel_lowest) ? "the mass does not move" : "";
-  };
+  e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
   return e;
 }
 

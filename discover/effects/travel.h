@@ -7,17 +7,15 @@
 
 namespace hysteron::effects {
 
-/// [m] that the mass moves; a micrometre where nobody looked.
-inline double travel(const Circumstances& at) {
-  const double range = at.travel_highest - at.travel_lowest;
-  return range > 0 ? range : 1e-6;
-}
-
-/// Of a tank: how far its level moved.
+/// How far the block's output moved [SI].
 inline double travelled(const Circumstances& at) { return at.travel_highest - at.travel_lowest; }
 
-inline std::string level_stands(const Circumstances& at) {
-  return at.from_data && !(travelled(at) > 0) ? "the level does not move" : "";
+/// [m] that a mass moves; a micrometre where nobody looked.
+inline double travel(const Circumstances& at) { return travelled(at) > 0 ? travelled(at) : 1e-6; }
+
+/// Why the effects of what moves ("the mass") cannot be seen in these recordings; "" where they can.
+inline std::string stands(const Circumstances& at, const char* what) {
+  return at.from_data && !(travelled(at) > 0) ? std::string(what) + " does not move" : "";
 }
 
 }  // namespace hysteron::effects

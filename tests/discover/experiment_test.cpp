@@ -68,7 +68,6 @@ class Experiments : public Discoveries {
 };
 
 // --- what is told is what was simulated
-// -------------------------------------------------------------------------------
 
 TEST_F(Experiments, TheMultisineHasThreeRealisationsOfTwoPeriods) {
   const Device d = driven(1e-3, 10);
@@ -124,7 +123,6 @@ TEST_F(Experiments, WhatIsSlowStaysSlowInShortRecordings) {
 }
 
 // --- how fast, how far
-// -------------------------------------------------------------------------------------------------
 
 TEST_F(Experiments, TheFrequencyIsTheOneAtWhichTheModelsDiffer) {
   // A mode at 3.18 Hz, damped by 4 or 6 N s/m. Rows allow 9.55 Hz: usual are that, a fourth and a twentieth of it, and
@@ -157,7 +155,6 @@ TEST_F(Experiments, TheAmplitudeIsTheOneAtWhichTheModelsDiffer) {
 }
 
 // --- which input
-// -------------------------------------------------------------------------------------------------------
 
 struct Moved {
   std::vector<double> t, u, y;
@@ -204,20 +201,10 @@ DataSet on_two_axes(bool late_is_second) {
   return data;
 }
 
-Diagram two_axes() {
-  Diagram d = plain_gain();
-  d.inputs["u2"].unit = "V";
-  const Node stage = d.blocks["stage"];
-  d.blocks["stage2"] = stage;
-  d.blocks["stage2"].in = {{"", "u2"}};
-  d.outputs["y2"] = "stage2";
-  return d;
-}
-
 TEST_F(Experiments, ATieOnTheSecondAxisMovesTheSecondInputAndAnswersAsOnTheFirst) {
   const std::vector<std::string> lags{"amplifier_lag", "dead_time"};
-  const Discovery on_first = discovered(two_axes(), on_two_axes(false), lags),
-                  on_second = discovered(two_axes(), on_two_axes(true), lags);
+  const Discovery on_first = discovered(two_plain_axes(), on_two_axes(false), lags),
+                  on_second = discovered(two_plain_axes(), on_two_axes(true), lags);
   for (const auto* d : {&on_first, &on_second}) {
     EXPECT_EQ(to_text(d->verdict), "not_distinguishable") << tried(*d);
     ASSERT_TRUE(d->experiment) << d->headline;
@@ -248,7 +235,6 @@ TEST_F(Experiments, ATemperatureIsNotDrivenWhereAnotherInputMoves) {
 }
 
 // --- three and more
-// ----------------------------------------------------------------------------------------------------
 
 TEST_F(Experiments, OfThreeInATieItTellsAllApartThoughAnotherIsAskedForBetweenTwo) {
   // A triangle is slow against a delay of 1 ms, and tells the clamp only. Fast steps tell both.

@@ -43,17 +43,6 @@ Diagram gain_and_sensor() {
   return d;
 }
 
-/// Two axes without a word between them: u -> y, u2 -> y2.
-Diagram two_axes() {
-  Diagram d = plain_gain();
-  d.inputs["u2"].unit = "V";
-  const Node stage = d.blocks["stage"];
-  d.blocks["stage2"] = stage;
-  d.blocks["stage2"].in = {{"", "u2"}};
-  d.outputs["y2"] = "stage2";
-  return d;
-}
-
 struct Motion {
   Role role;
   std::vector<double> t, u;
@@ -117,7 +106,7 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
 
 TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const Diagram diagram = two_axes();
+  const Diagram diagram = two_plain_axes();
   const DataSet data = of_two_axes(1e-3, same, same);
   const DiscoverOptions options;
   Books books(diagram, data, registry, effects, options);
@@ -140,7 +129,7 @@ TEST_F(Rules, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
   const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
   const DataSet data = of_two_axes(1e-3, same, same);
   const DiscoverOptions options;
-  const Diagram diagram = two_axes();
+  const Diagram diagram = two_plain_axes();
   Books books(diagram, data, registry, effects, options);
   std::vector<Tried> tried(3);
   tried[0].effect = effects.find("dead_time");
@@ -184,7 +173,7 @@ TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
   data.notes["u2"].to = "u2";
   data.notes["y2"].to = "y2";
   data.notes["y2"].noise = data.notes["y"].noise;
-  const Discovery d = discovered(two_axes(), data, {"mains_interference", "saturation", "slew_limit"});
+  const Discovery d = discovered(two_plain_axes(), data, {"mains_interference", "saturation", "slew_limit"});
   ASSERT_EQ(d.steps.size(), 2U) << tried(d);
   for (const auto& s : d.steps) {
     EXPECT_EQ(s.winner.effect, "mains_interference") << tried(d);
@@ -200,7 +189,7 @@ TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
 
 TEST_F(Rules, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
   const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const Diagram diagram = two_axes();
+  const Diagram diagram = two_plain_axes();
   const DataSet data = of_two_axes(1e-3, same, same);
   const DiscoverOptions options;
   const Books books(diagram, data, registry, effects, options);
@@ -250,7 +239,8 @@ TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
 
 TEST_F(Rules, EachAxisHasALagOfItsOwnAndNoneHasTwo) {
   const auto lag = [](double tau) { return [tau](const auto& t, const auto& u) { return lagged(t, u, tau); }; };
-  const Discovery d = discovered(two_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
+  const Discovery d =
+      discovered(two_plain_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
   ASSERT_EQ(d.steps.size(), 2U) << tried(d);
   const auto is_second = [](const Candidate& c) { return c.place.ends_with("2"); };
   EXPECT_NE(is_second(d.steps[0].winner), is_second(d.steps[1].winner)) << tried(d);
@@ -268,7 +258,7 @@ TEST_F(Rules, WhatAnotherAxisLeavesIsNoReproachToTheEffectOfThisOne) {
     return y;
   };
   const Law lag = [](const auto& t, const auto& u) { return lagged(t, u, 1e-3); };
-  const Discovery d = discovered(two_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
+  const Discovery d = discovered(two_plain_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
   const auto at_first = std::find_if(d.candidates.begin(), d.candidates.end(),
                                      [](const Candidate& c) { return !c.place.ends_with("2"); });
   ASSERT_NE(at_first, d.candidates.end()) << tried(d);
@@ -399,7 +389,8 @@ TEST_F(Rules, AnOutputThatNothingFoundMovesIsJudgedAsIfItWereAlone) {
       return y;
     };
   };
-  const Discovery d = discovered(two_axes(), of_two_axes(white, times(1.03), times(1 + 0.55e-3)), {"calibration"});
+  const Discovery d =
+      discovered(two_plain_axes(), of_two_axes(white, times(1.03), times(1 + 0.55e-3)), {"calibration"});
   ASSERT_EQ(d.steps.size(), 2u) << tried(d);
   EXPECT_EQ(d.steps[0].winner.place, "stage");
   EXPECT_EQ(d.steps[1].winner.place, "stage2");

@@ -113,6 +113,17 @@ inline Diagram plain_gain() {
   return d;
 }
 
+/// Two axes without a word between them: u -> y, u2 -> y2.
+inline Diagram two_plain_axes() {
+  Diagram d = plain_gain();
+  d.inputs["u2"].unit = "V";
+  const Node stage = d.blocks["stage"];
+  d.blocks["stage2"] = stage;
+  d.blocks["stage2"].in = {{"", "u2"}};
+  d.outputs["y2"] = "stage2";
+  return d;
+}
+
 /// 1 kg on 400 N/m with 4 N s/m, driven by a force of some newtons: 3 Hz.
 inline Diagram mass_on_spring() {
   Diagram d;
