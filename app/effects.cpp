@@ -36,7 +36,9 @@ std::string varied_blocks(const Effect& effect) {
 
 /// What an effect varies instead of a wire: types of blocks, or a parameter.
 std::string varied(const Effect& effect) {
-  if (const auto types = varied_blocks(effect); !types.empty()) return types;
+  const std::string types = varied_blocks(effect);
+  // The first is the plain one; "hysteron effects ID" names the others.
+  if (!types.empty()) return types.find(',') == std::string::npos ? types : types.substr(0, types.find(',')) + " ...";
   return effect.way == Way::vary ? fmt::format("{} of a block", effect.parameter) : "";
 }
 
@@ -79,6 +81,11 @@ std::vector<Section> sections_of(const Effect& effect) {
   part("cause", effect.cause);
   part("law", effect.equation);
   part("how it enters", way_text(effect));
+  if (!effect.law_of.empty())
+    part("when it is tried",
+         fmt::format("It is a richer law of {0}, which discover tries: it is told as {0}. By itself "
+                     "where you name it: --only {1}.",
+                     effect.law_of, effect.id));
   Table parameters;
   for (const auto& p : effect.parameters)
     parameters.rows.push_back(

@@ -84,16 +84,24 @@ Table repeats_table(const Inspection& data) {
 std::vector<std::string> visible_ids(const Inspected& seen) {
   std::vector<std::string> ids;
   for (const auto& e : seen.effects)
-    if (e.can()) ids.push_back(e.effect);
+    if (e.can_well()) ids.push_back(e.effect);
+  return ids;
+}
+
+/// "hysteresis (swings of one size ...)": what these data show, though not well.
+std::vector<std::string> unsure_ids(const Inspected& seen) {
+  std::vector<std::string> ids;
+  for (const auto& e : seen.effects)
+    if (e.can() && !e.can_well()) ids.push_back(fmt::format("{} ({})", e.effect, e.unsure));
   return ids;
 }
 
 Table visible_table(const Inspected& seen) {
   Table table;
   table.title = "What these data can show";
-  table.columns = {"effect", "what it is", "where it could enter"};
+  table.columns = {"effect", "what it is", "where it could enter", "what they leave open"};
   for (const auto& e : seen.effects)
-    if (e.can()) table.rows.push_back({e.effect, e.title, fmt::format("{}", fmt::join(e.places, ", "))});
+    if (e.can()) table.rows.push_back({e.effect, e.title, fmt::format("{}", fmt::join(e.places, ", ")), e.unsure});
   return table;
 }
 
@@ -168,9 +176,11 @@ std::vector<std::string> inspection_sentences(const Inspected& seen) {
   std::vector<std::string> sentences = seen.data.sentences;
   sentences.insert(sentences.end(), seen.data.notes.begin(), seen.data.notes.end());
   if (seen.effects.empty()) return sentences;
-  const auto ids = visible_ids(seen);
-  sentences.push_back(ids.empty() ? "These data can show no effect."
-                                  : fmt::format("These data can show {}.", fmt::join(ids, ", ")));
+  const auto ids = visible_ids(seen), unsure = unsure_ids(seen);
+  if (ids.empty() && unsure.empty()) sentences.emplace_back("These data can show no effect.");
+  if (!ids.empty()) sentences.push_back(fmt::format("These data can show {}.", fmt::join(ids, ", ")));
+  if (!unsure.empty())
+    sentences.push_back(fmt::format("They can show, but not tell for sure: {}.", fmt::join(unsure, "; ")));
   std::vector<std::string> placeless;
   for (const auto& e : seen.effects)
     if (e.needs_block)
@@ -217,10 +227,13 @@ Facts inspection_facts(const Inspected& seen) {
                                      {"better", to_text(b.better)},
                                      {"error_share_removed", b.fall}}));
   for (const auto& e : seen.effects)
-    if (e.can())
-      can.push_back(Facts::object({{"effect", e.effect}, {"places", e.places}}));
-    else
+    if (e.can()) {
+      Facts facts = Facts::object({{"effect", e.effect}, {"places", e.places}});
+      if (!e.unsure.empty()) facts.set("leaves_open", e.unsure);
+      can.push_back(std::move(facts));
+    } else {
       cannot.push_back(Facts::object({{"effect", e.effect}, {"reason", e.reason}}));
+    }
   return Facts::object({{"columns", columns},
                         {"recordings", recordings},
                         {"repeats", repeats},

@@ -21,7 +21,7 @@ constexpr char help[] =
 
 int remove(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
-  const Diagram without = remove_effect(diagram, arguments.text("effect"));
+  const Diagram without = remove_effect(diagram, registry(), arguments.text("effect"));
   fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(without)));
   rewrite(arguments, without, {});
   return exit_code::done;

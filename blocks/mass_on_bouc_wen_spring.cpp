@@ -21,6 +21,7 @@ void MassOnBoucWenSpring::describe(Declaration& d) {
   d.parameter("beta", "1/m", "loop shape, dissipative part").optional("0 1/m").not_negative();
   d.parameter("gamma", "1/m", "loop shape, conservative part").optional("0 1/m");
   describe_start(d);
+  describe_beyond_linear(d);
 }
 
 Sizes MassOnBoucWenSpring::sizes(const Shape&) {

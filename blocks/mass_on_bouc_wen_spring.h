@@ -25,7 +25,20 @@ class HeldByBoucWen {
 };
 
 struct MassOnBoucWenSpring {
-  enum Parameter { mass, damping, stiffness, hysteretic_share, beta, gamma, initial_position, initial_velocity };
+  enum Parameter {
+    mass,
+    damping,
+    stiffness,
+    hysteretic_share,
+    beta,
+    gamma,
+    initial_position,
+    initial_velocity,
+    stiffening,
+    quadratic,
+    quintic,
+    drag
+  };
 
   static void describe(Declaration& d);
   static Sizes sizes(const Shape& shape);
@@ -47,8 +60,9 @@ struct MassOnBoucWenSpring {
   /// The mass on the rest of its spring.
   template <class T>
   static mass_spring_damper::Params<T> elastic(const View<T>& v) {
-    const T share = v.parameter(hysteretic_share);
-    return {v.parameter(mass), v.parameter(damping), T((T(1.0) - share) * v.parameter(stiffness)), T(0.0)};
+    auto law = bent_law<MassOnBoucWenSpring>(v);
+    law.stiffness = T((T(1.0) - v.parameter(hysteretic_share)) * v.parameter(stiffness));
+    return law;
   }
   template <class T>
   static void derivative(const View<T>& v) {

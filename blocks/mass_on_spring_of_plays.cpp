@@ -34,6 +34,7 @@ void MassOnSpringOfPlays::describe(Declaration& d) {
   d.parameter("lower", "m", "lower end of the travel; beyond, the plays are as strong as there");
   d.parameter("upper", "m", "its upper end");
   describe_start(d);
+  describe_beyond_linear(d);
 }
 
 Sizes MassOnSpringOfPlays::sizes(const Shape& shape) {
@@ -101,17 +102,17 @@ void HeldByPlays::move(double way, double* x) const {
 }
 
 MassOnSpringOfPlays::OwnStep::OwnStep(const View<double>& v)
-    : StepUnderMemory<HeldByPlays>(
-          {v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0},
-          {range(v), v.list(thresholds), v.list(at_lower), v.list(in_middle), v.list(at_upper)}) {}
+    : StepUnderMemory<HeldByPlays>(bent_law<MassOnSpringOfPlays>(v), {range(v), v.list(thresholds), v.list(at_lower),
+                                                                      v.list(in_middle), v.list(at_upper)}) {}
 
 /// Every play stands where the mass does: as after a long decaying motion.
 void MassOnSpringOfPlays::rest(const View<double>& v) {
-  const double k = v.parameter(stiffness);
-  double at = mass_spring_damper::rest({v.parameter(mass), v.parameter(damping), k, 0}, v.u[0]);
+  const auto law = bent_law<MassOnSpringOfPlays>(v);
+  const double k = law.stiffness;
+  double at = mass_spring_damper::rest(law, v.u[0]);
   if (k > 0)
-    at = mass_motion::end_position(at, 1 / k, at, [&](double place) {
-      mass_motion::Force force;
+    at = mass_motion::end_position(v.u[0] / k, 1 / k, at, [&](double place) {
+      mass_motion::Force force = BeyondLinear(law).behind_row(place, place, 1);
       for (std::size_t i = 0; i < v.list(thresholds).size(); ++i) {
         force.value += uneven_plays::passed_on(range(v), strength(v, i), place);
         force.slope += uneven_plays::strength(range(v), strength(v, i), place);

@@ -51,7 +51,11 @@ struct MassOnSpringOfPlays {
     lower,
     upper,
     initial_position,
-    initial_velocity
+    initial_velocity,
+    stiffening,
+    quadratic,
+    quintic,
+    drag
   };
 
   static void describe(Declaration& d);
@@ -79,9 +83,8 @@ struct MassOnSpringOfPlays {
       force += uneven_plays::passed_on(range(v), strength(v, i), T(v.x[i + 2]));
       v.out[i + 2] = uneven_plays::rate(T(radius[i]), T(v.x[i + 2]), T(v.x[0]), T(v.x[1]));
     }
-    const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
     v.out[0] = v.x[1];
-    v.out[1] = mass_spring_damper::acceleration(law, T(v.x[0]), T(v.x[1]), force);
+    v.out[1] = mass_spring_damper::acceleration(bent_law<MassOnSpringOfPlays>(v), T(v.x[0]), T(v.x[1]), force);
   }
   struct OwnStep : StepUnderMemory<HeldByPlays> {
     explicit OwnStep(const View<double>& v);

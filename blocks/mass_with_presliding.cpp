@@ -21,6 +21,7 @@ void describe_elements(Declaration& d) {
       .not_negative();
   d.parameter("stribeck_velocity", "m/s", "speed at which that is gone").optional("1 m/s").positive();
   describe_start(d);
+  describe_beyond_linear(d);
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ double time_of_contact(const View<double>& v) {
 
 template <class Element>
 MassWithElements<Element>::OwnStep::OwnStep(const View<double>& v)
-    : StepUnderMemory<HeldByElements<Element>>({v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0},
+    : StepUnderMemory<HeldByElements<Element>>(bent_law<MassWithElements>(v),
                                                {v.list(contact_stiffness), v.list(slip_distance), v.parameter(excess),
                                                 v.parameter(stribeck_velocity), time_of_contact<Element>(v)}) {}
 

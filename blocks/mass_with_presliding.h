@@ -66,6 +66,10 @@ struct MassWithElements {
     stribeck_velocity,
     initial_position,
     initial_velocity,
+    stiffening,
+    quadratic,
+    quintic,
+    drag,
     contact_time  ///< only of elements whose contact is damped
   };
 
@@ -88,9 +92,8 @@ struct MassWithElements {
       if constexpr (Element::damped) force -= k[i] * v.parameter(contact_time) * rate;
       v.out[i + 2] = rate;
     }
-    const mass_spring_damper::Params<T> law{v.parameter(mass), v.parameter(damping), v.parameter(stiffness), T(0.0)};
     v.out[0] = velocity;
-    v.out[1] = mass_spring_damper::acceleration(law, v.x[0], velocity, force);
+    v.out[1] = mass_spring_damper::acceleration(bent_law<MassWithElements>(v), v.x[0], velocity, force);
   }
   struct OwnStep : StepUnderMemory<HeldByElements<Element>> {
     explicit OwnStep(const View<double>& v);
@@ -98,7 +101,7 @@ struct MassWithElements {
 
   /// The elements at rest hold nothing: as after a long decaying motion.
   static void rest(const View<double>& v) {
-    v.out[0] = mass_spring_damper::rest({v.parameter(mass), v.parameter(damping), v.parameter(stiffness), 0}, v.u[0]);
+    v.out[0] = mass_spring_damper::rest(bent_law<MassWithElements>(v), v.u[0]);
     for (int i = 1; i < v.n_x; ++i) v.out[i] = 0;
   }
   static void initial_states(const View<double>& v) {

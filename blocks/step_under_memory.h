@@ -1,5 +1,5 @@
 // Decides how a mass steps through a row while its spring or guide remembers the way that it came: the linear motion
-// exactly, what they hold along the way. Does not decide what they hold.
+// exactly, what they and all that is not linear hold along the way. Does not decide what they hold.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,8 @@ namespace hysteron::blocks {
 template <class Held>
 class StepUnderMemory {
  public:
-  StepUnderMemory(const mass_spring_damper::Params<double>& law, Held held) : law_(law), held_(std::move(held)) {}
+  StepUnderMemory(const mass_spring_damper::Params<double>& law, Held held)
+      : law_(law), beyond_(law), held_(std::move(held)) {}
 
   bool takes(double) const { return true; }
 
@@ -64,8 +65,11 @@ class StepUnderMemory {
   mass_motion::Motion leg(const double* x, double from, double to, double h) {
     const mass_motion::Motion begin{x[0], x[1]};
     const auto at = [&](double place) { return held_.pull(place - x[0]); };
-    if (mass_motion::has_exact_step(law_.mass, law_.damping, law_.stiffness, h))
-      return mass_motion::step_under(row_.of(law_, h), half_row_.of(law_, h / 2), begin, from, to, at);
+    if (mass_motion::has_exact_step(law_.mass, law_.damping, law_.stiffness, h)) {
+      const auto &whole = row_.of(law_, h), &half = half_row_.of(law_, h / 2);
+      if (beyond_.is_none()) return mass_motion::step_under(whole, half, begin, from, to, at);
+      return mass_motion::step_under(whole, half, begin, from, to, at, beyond_, beyond_.rounds());
+    }
     std::array<double, 2> moved{x[0], x[1]};
     std::array<double, 10> work;
     block_detail::runge_kutta(2, moved.data(), h, work.data(), [&](double c, const double* now, double* rate) {
@@ -79,12 +83,14 @@ class StepUnderMemory {
   void long_row(double* x, double from, double to, double h) {
     const auto& step = row_.of(law_, h);
     const mass_motion::Motion begin{x[0], x[1]};
-    const double before = held_.pull_at(x);
+    const double beside = beyond_(begin), before = held_.pull_at(x) + beside;
     const double expected = step(begin, from + before, to + before).position;
     // Of the mean speed as it is expected: a force that falls while the speed rises would balance at several places.
     held_.place(x, (expected - x[0]) / h);
-    arrive(x, mass_motion::step_to_balance(step, begin, from, to,
-                                           [&](double place) { return held_.force(place - x[0]); }));
+    arrive(x, mass_motion::step_to_balance(step, begin, from, to, held_.force(0).value + beside, [&](double place) {
+             const auto held = held_.force(place - x[0]), more = beyond_.behind_row(x[0], place, h);
+             return mass_motion::Force{held.value + more.value, held.slope + more.slope};
+           }));
   }
 
   void arrive(double* x, const mass_motion::Motion& end) {
@@ -94,6 +100,7 @@ class StepUnderMemory {
   }
 
   mass_spring_damper::Params<double> law_;
+  BeyondLinear beyond_;
   Held held_;
   RowStep row_, half_row_;
 };

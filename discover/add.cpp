@@ -73,9 +73,6 @@ void place_node(Ordered<Node>& blocks, const std::string& source, const std::str
   blocks = std::move(reordered);
 }
 
-/// Marks an input that an effect brought into the diagram, so that it leaves with it.
-std::string side_remark(const std::string& effect) { return "read by " + effect; }
-
 /// An effect file as a diagram names it.
 std::string seen_from(const Diagram& diagram, const std::string& file) {
   namespace fs = std::filesystem;
@@ -140,12 +137,16 @@ std::string vary(Diagram& diagram, const Effect& effect, const Law& law, const s
   };
   if (!node->from.empty()) {
     // A choice already (an effect found before, or the user's own): one more candidate, named after this effect.
-    if (node->from.find(effect.id) != nullptr)
+    if (has_effect(*node, effect.id))
       fail("effect_there", block, fmt::format("\"{}\" has {} already", block, effect.id),
            "change its value, or remove it first");
-    const Node chosen = *node->from.find(node->choose);
-    node->from[effect.id] = with_law(chosen);
-    node->choose = effect.id;
+    Node with_both = with_law(*node->from.find(node->choose));
+    with_both.effect = effect.id;
+    with_both.upon = node->choose;
+    std::string name = effect.id;
+    for (int i = 2; node->from.find(name) != nullptr; ++i) name = fmt::format("{}_{}", effect.id, i);
+    node->from[name] = std::move(with_both);
+    node->choose = name;
     return block;
   }
   Node choice;
@@ -185,74 +186,6 @@ std::string add_at(Diagram& diagram, const Registry& registry, const Effect& eff
   added.nested.emplace_back(node->file, inner);
   node->nested = std::make_shared<const Diagram>(std::move(inner));
   return name;
-}
-
-void collect_effects(const Diagram& diagram, const std::string& prefix,
-                     std::vector<std::pair<std::string, std::string>>& list) {
-  for (const auto& [name, node] : diagram.blocks) {
-    if (!node.effect.empty()) list.emplace_back(prefix + name, node.effect);
-    // A vary effect inside a choice: the candidate is named after it.
-    if (!node.from.empty() && node.choose != "on" && node.choose != "off" && node.from.find("on") != nullptr &&
-        !node.effect.empty())
-      list.emplace_back(prefix + name, node.choose);
-    const Node* body = node.from.empty() ? &node : node.from.find(node.choose);
-    if (body != nullptr && body->nested) collect_effects(*body->nested, prefix + name + "/", list);
-  }
-}
-
-void take_out(Diagram& diagram, const std::string& name, const std::string& effect) {
-  Node& choice = *diagram.blocks.find(name);
-  if (choice.effect != effect) {  // a candidate of a choice that is somebody else's
-    choice.from.erase(effect);
-    choice.choose = "on";
-    return;
-  }
-  const Node off = *choice.from.find("off");
-  if (off.type != "pass" || off.nested) {
-    Node original = off;
-    original.in = choice.in;
-    original.origin = choice.origin;
-    choice = std::move(original);
-    return;
-  }
-  const std::string from = choice.in.front().from;
-  const std::string side = choice.in.size() > 1 ? choice.in[1].from : "";
-  const auto reads = [&](const std::string& wire) { return wire == name || wire.starts_with(name + "["); };
-  const auto put_back = [&](std::string& wire) {
-    if (reads(wire)) wire = from + wire.substr(name.size());
-  };
-  for (auto& [other, node] : diagram.blocks)
-    for (auto& wire : node.in) put_back(wire.from);
-  for (auto& [output, signal] : diagram.outputs) put_back(signal);
-  std::erase_if(diagram.record, reads);
-  diagram.blocks.erase(name);
-  const auto* input = side.empty() ? nullptr : diagram.inputs.find(side);
-  if (input == nullptr || input->remark != side_remark(effect)) return;
-  for (const auto& [other, node] : diagram.blocks)
-    for (const auto& wire : node.in)
-      if (wire.from == side) return;
-  diagram.inputs.erase(side);
-}
-
-void remove_at(Diagram& diagram, const std::string& path, const std::string& effect) {
-  const auto slash = path.find('/');
-  if (slash == std::string::npos) {
-    take_out(diagram, path, effect);
-    return;
-  }
-  Node* node = diagram.blocks.find(path.substr(0, slash));
-  if (!node->from.empty()) node = node->from.find(node->choose);
-  Diagram inner = *node->nested;
-  remove_at(inner, path.substr(slash + 1), effect);
-  // Back to the file that it was before, where the name tells.
-  const auto plain = [&](std::string file) {
-    const auto at = file.rfind("_" + effect + ".");
-    if (at != std::string::npos) file.erase(at, effect.size() + 1);
-    return file;
-  };
-  node->file = plain(node->file);
-  inner.file = plain(inner.file);
-  node->nested = std::make_shared<const Diagram>(std::move(inner));
 }
 
 }  // namespace
@@ -298,36 +231,6 @@ void refuse_new_loop(const Program& before, const Program& after, const std::str
     if (loop.needed) ways += (ways.empty() ? "" : "; ") + to_text(after, loop.path);
   fail("closes_loop", at, fmt::format("the effect would close an algebraic loop there: {}", ways),
        "put it at another place, or a block with a state into the loop (a lag: the amplifier's or sensor's dynamics)");
-}
-
-std::vector<std::pair<std::string, std::string>> effects_in(const Diagram& diagram) {
-  std::vector<std::pair<std::string, std::string>> list;
-  collect_effects(diagram, "", list);
-  return list;
-}
-
-Diagram remove_effect(const Diagram& diagram, const std::string& name) {
-  const auto standing = effects_in(diagram);
-  std::vector<std::pair<std::string, std::string>> meant;
-  for (const auto& e : standing)
-    if (e.first == name || e.second == name) meant.push_back(e);
-  std::vector<std::string> known;
-  for (const auto& [path, id] : standing) known.insert(known.end(), {path, id});
-  if (meant.empty())
-    fail("unknown_effect", name,
-         standing.empty() ? "the diagram has no effect" : fmt::format("the diagram has no effect \"{}\"", name),
-         standing.empty() ? "nothing is to be removed" : did_you_mean(name, known));
-  // A choice with two effects in it: the one that came last goes first.
-  if (meant.size() > 1 && meant.front().first == meant.back().first) meant = {meant.back()};
-  if (meant.size() > 1) {
-    std::vector<std::string> paths;
-    for (const auto& m : meant) paths.push_back(m.first);
-    fail("ambiguous_effect", name, fmt::format("\"{}\" stands {} times", name, meant.size()),
-         fmt::format("name one of: {}", fmt::join(paths, ", ")));
-  }
-  Diagram result = diagram;
-  remove_at(result, meant.front().first, meant.front().second);
-  return result;
 }
 
 }  // namespace hysteron

@@ -34,7 +34,10 @@ struct Added {
 ///   "drive_creep": {"choose": "on", "in": "drive", "from": {"off": {"type": "pass"}, "on": {...}}}
 /// right behind its source in the file; the readers of the wire (outputs included, `record` not) read it; a further
 /// effect on that wire comes after it. A vary effect turns its block into a choice between the block as it was and as
-/// it is now. Throws Error "unknown_place", "effect_there" (this effect stands at this place already).
+/// it is now; a further one adds a candidate that says upon which one it stands:
+///   "stage": {"choose": "friction", "effect": "stiffening", "in": "force",
+///             "from": {"off": {...}, "on": {...}, "friction": {"effect": "friction", "upon": "on", ...}}}
+/// Throws Error "unknown_place", "effect_there" (this effect stands at this place already).
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
                  const Place& place);
 
@@ -47,9 +50,14 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
 /// would be solved, but that is another diagram than the one that was asked about.
 void refuse_new_loop(const Program& before, const Program& after, const std::string& at);
 
-/// Takes out the choice `name` ("drive_creep"), or the only choice with this effect id ("creep"). Undoes add_effect
-/// exactly. Throws Error "unknown_effect" naming the effects that are there, or "ambiguous_effect".
-Diagram remove_effect(const Diagram& diagram, const std::string& name);
+/// Takes out the effect of the choice `name` ("drive_creep"), or the only one with this id ("creep"); where several
+/// stand in one choice, that with the id `effect`. Undoes add_effect exactly. Throws Error "unknown_effect" naming the
+/// effects that are there, or "ambiguous_effect".
+Diagram remove_effect(const Diagram& diagram, const Registry& registry, const std::string& name,
+                      const std::string& effect = "");
+
+/// Marks an input that an effect brought into the diagram, so that it leaves with it.
+inline std::string side_remark(const std::string& effect) { return "read by " + effect; }
 
 /// The effects that stand in a diagram: path of the choice and effect id, nested diagrams included.
 std::vector<std::pair<std::string, std::string>> effects_in(const Diagram& diagram);

@@ -131,11 +131,59 @@ std::vector<std::string> weights_behind(const Program& program, int signal) {
   return list;
 }
 
+/// Name of the output that this signal is; "" = none.
+std::string output_at(const Program& program, int signal) {
+  const auto output = std::find(program.output_signals.begin(), program.output_signals.end(), signal);
+  if (output == program.output_signals.end()) return "";
+  return program.output_names[static_cast<std::size_t>(output - program.output_signals.begin())];
+}
+
 /// Step of the levels of the output that this signal is; 0 = none, or no output.
 double resolution_at(const Program& program, const DataSet& data, int signal) {
-  const auto output = std::find(program.output_signals.begin(), program.output_signals.end(), signal);
-  if (output == program.output_signals.end()) return 0;
-  return finest_step(data, program.output_names[static_cast<std::size_t>(output - program.output_signals.begin())]);
+  const std::string output = output_at(program, signal);
+  return output.empty() ? 0 : finest_step(data, output);
+}
+
+/// Noise of the output that this signal is, where it is smoothest; 0 = no output.
+double roughness_at(const Program& program, const DataSet& data, int signal) {
+  const std::string output = output_at(program, signal);
+  double least = 0;
+  for (const auto& r : data.recordings) {
+    const auto column = r.columns.find(output);
+    if (r.role != Role::train || column == r.columns.end() || r.last < 2) continue;
+    const double noise = roughness(std::span(column->second).first(r.last));
+    least = least > 0 ? std::min(least, noise) : noise;
+  }
+  return least;
+}
+
+/// Values that differ by more than `apart`.
+int count_different(std::vector<double> values, double apart) {
+  std::sort(values.begin(), values.end());
+  int n = 0;
+  double last = 0;
+  for (const double v : values)
+    if (n == 0 || v - last > apart) {
+      ++n;
+      last = v;
+    }
+  return n;
+}
+
+Swings told(const std::vector<Swing>& swings, double range) {
+  if (swings.empty()) return {0, 1, 0, 1};
+  std::vector<double> sizes, middles;
+  double smallest = range, largest = 0, slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+  for (const auto& s : swings) {
+    sizes.push_back(s.size);
+    middles.push_back(s.middle);
+    smallest = std::min(smallest, s.size);
+    largest = std::max(largest, s.size);
+    slowest = std::min(slowest, s.fastest);
+    fastest = std::max(fastest, s.fastest);
+  }
+  return {count_different(sizes, 0.1 * range), largest / smallest, count_different(middles, 0.1 * range),
+          slowest > 0 ? fastest / slowest : 1};
 }
 
 void look_at_row_times(const DataSet& data, Circumstances& c) {
@@ -177,6 +225,7 @@ class Observer {
       in_series.look(signal, c);
       c.weights = weights_behind(*program_, signal);
       c.resolution = resolution_at(*program_, data_, signal);
+      c.roughness = roughness_at(*program_, data_, signal);
       c.by = places_[i].by;
       const std::string stiffness = places_[i].at + ".stiffness";
       const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
@@ -266,13 +315,17 @@ class Observer {
   }
 
   void look_at_moves(std::size_t place, Circumstances& c) const {
+    std::vector<Swing> swings;
     for (const auto& seen : trains_) {
       const auto& v = seen.rows[place];
+      const auto here = swings_of(seen.recording->t, v, 0.05 * c.range());
+      swings.insert(swings.end(), here.begin(), here.end());
       if (c.range() > 0) c.reversals += static_cast<int>(turning_points(v, 0.02 * c.range()).size());
       c.starts_away_from_zero = c.starts_away_from_zero || std::abs(v.front()) > 0.02 * c.range();
       for (std::size_t k = 1; k < v.size(); ++k) c.largest_jump = std::max(c.largest_jump, std::abs(v[k] - v[k - 1]));
       c.quickest = std::max(c.quickest, quickest(seen, place, c.range()));
     }
+    if (c.range() > 0) c.swings = told(swings, c.range());
     c.quickest_of_all = c.quickest;
     for (const auto& seen : others_) c.quickest_of_all = std::max(c.quickest_of_all, quickest(seen, place, c.range()));
   }

@@ -72,7 +72,8 @@ std::size_t Books::side_by_side(std::size_t n, const std::function<bool(std::siz
 }
 
 bool Books::wanted(const Effect& effect) const {
-  return options.only.empty() || std::find(options.only.begin(), options.only.end(), effect.id) != options.only.end();
+  if (options.only.empty()) return effect.law_of.empty();
+  return std::find(options.only.begin(), options.only.end(), effect.id) != options.only.end();
 }
 
 void Books::settle(Contender& best) {

@@ -40,7 +40,7 @@ class Maker {
     p_.word = word;
     const double between = std::sqrt(fastest_ * slowest_);
     if (word == "triangle") triangle();
-    if (word == "sine_amplitudes") sines({between}, {0.05, 0.25, 1});
+    if (word == "sine_amplitudes") small_and_large(between);
     // What is slow stays slower than what is fast: these words say which it is.
     if (word == "low_frequencies") {
       fastest_ = std::max(between, fastest_ / 20);
@@ -51,6 +51,8 @@ class Maker {
     if (word == "step_hold")
       steps({0, 0.5, 1, 0.5, 0}, std::max(variant_.slower * device_.longest_recording / 4, 200 * step_));
     if (word == "fast_steps") steps({0, 0.1, 0, 0.5, 0, 1, 0}, variant_.slower * 200 * step_);
+    if (word == "zero_run") zero_run();
+    if (word == "precycle") precycle();
     p_.moves[drive_.name] = {p_.t, std::move(v_), Between::linear};
     return std::move(p_);
   }
@@ -95,24 +97,46 @@ class Maker {
          begin);
   }
 
+  static constexpr int periods = 3;  ///< of each sine
+
+  /// Sines from `begin` on; the answer: where they end.
+  double sines_from(double begin, double f, double amplitude, double about) {
+    const int rows = rows_in(1 / f, 40);
+    for (int k = 0; k < periods * rows; ++k)
+      row(begin + k / (rows * f), about + amplitude * std::sin(2 * pi * k / rows));
+    return begin + periods / f;
+  }
+  double frequency(double usual) const { return rounded(std::min(usual / variant_.slower, fastest_)); }
+
   void sines(const std::vector<double>& frequencies, const std::vector<double>& amplitudes) {
-    const int periods = 3;
     double begin = 0;
     std::vector<std::string> hertz, sizes;
     for (const double a : amplitudes) sizes.push_back(size(a * half_));
     for (const double usual : frequencies) {
-      const double f = rounded(std::min(usual / variant_.slower, fastest_));
+      const double f = frequency(usual);
       if (!hertz.empty() && hertz.back() == frequency_text(f)) continue;
       hertz.push_back(frequency_text(f));
-      const int rows = rows_in(1 / f, 40);
-      for (const double a : amplitudes) {
-        for (int k = 0; k < periods * rows; ++k)
-          row(begin + k / (rows * f), middle_ + a * half_ * std::sin(2 * pi * k / rows));
-        begin += periods / f;
-      }
+      for (const double a : amplitudes) begin = sines_from(begin, f, a * half_, middle_);
     }
     tell(fmt::format("sines of {} around {} at {}, three periods each, 10 rows or more in a period",
                      fmt::join(sizes, ", "), value(middle_), fmt::join(hertz, ", ")),
+         begin);
+  }
+
+  /// Small, middling and large ones about the middle, and the small one about other levels.
+  void small_and_large(double usual) {
+    const double f = frequency(usual), little = 0.05 * half_;
+    double begin = 0;
+    for (const double a : {0.05, 0.25, 1.0}) begin = sines_from(begin, f, a * half_, middle_);
+    std::vector<std::string> about;
+    for (const double bias : {-0.8, -0.4, 0.4, 0.8}) {
+      about.push_back(value(middle_ + bias * half_));
+      begin = sines_from(begin, f, little, middle_ + bias * half_);
+    }
+    tell(fmt::format("sines of {}, {}, {} around {}, then of {} around {}, all at {}, three periods each, 10 rows or "
+                     "more in a period",
+                     size(little), size(0.25 * half_), size(half_), value(middle_), size(little),
+                     fmt::join(about, ", "), frequency_text(f)),
          begin);
   }
 
@@ -165,6 +189,39 @@ class Maker {
          begin);
   }
 
+  /// Nothing moves: what the output does is noise, drift or picked up.
+  void zero_run() {
+    const double duration = rounded(std::max(device_.longest_recording, 1800.0));
+    const int fast = 100, slow = 300;
+    for (int k = 0; k < fast; ++k) row(k * step_, middle_);
+    for (int k = 1; k <= slow; ++k) row(fast * step_ + (duration - fast * step_) * k / slow, middle_);
+    tell(fmt::format("{} held still, rows every {} at first, later every {}", value(middle_), time_text(step_),
+                     time_text(rounded(duration / slow))),
+         duration);
+  }
+
+  /// What the device remembers is wiped out before it is recorded.
+  void precycle() {
+    const int count = 20, rows = 40;
+    const double period = rounded(std::max(rows * step_, device_.longest_recording / 40));
+    for (int k = 0; k < count * rows; ++k)
+      row(k * period / rows, middle_ + half_ * (1 - k / (1.0 * count * rows)) * std::sin(2 * pi * k / rows));
+    const double begin = count * period, first = device_.recorded_times.front();
+    // The others too begin as they are recorded.
+    for (const auto& [name, series] : device_.recorded) {
+      if (name == drive_.name) continue;
+      Series later = series;
+      for (double& t : later.t) t += begin - first;
+      p_.moves[name] = std::move(later);
+    }
+    const Series& recorded = device_.recorded.at(drive_.name);
+    for (std::size_t k = 0; k < recorded.t.size(); ++k) row(begin + recorded.t[k] - first, recorded.v[k]);
+    tell(fmt::format("a sine around {} that decays from {} to nothing in {} periods of {}, then the longest recording "
+                     "again",
+                     value(middle_), size(half_), count, time_text(period)),
+         begin + device_.longest_recording);
+  }
+
   const Device& device_;
   const Drive& drive_;
   Variant variant_;
@@ -177,12 +234,14 @@ class Maker {
 
 const std::vector<std::string>& drive_words() {
   static const std::vector<std::string> words{"triangle",  "sine_amplitudes", "low_frequencies", "high_frequencies",
-                                              "multisine", "step_hold",       "fast_steps"};
+                                              "multisine", "step_hold",       "fast_steps",      "zero_run"};
   return words;
 }
 
 const std::vector<double>& paces(const std::string& word) {
   static const std::vector<double> faster{1, 1.0 / 3, 1.0 / 9}, slower{1, 3, 9}, either{1, 3, 1.0 / 3};
+  static const std::vector<double> as_it_is{1};
+  if (word == "zero_run" || word == "precycle") return as_it_is;
   if (word == "high_frequencies" || word == "multisine") return slower;
   return word == "sine_amplitudes" || word == "fast_steps" ? either : faster;
 }

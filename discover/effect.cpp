@@ -86,6 +86,7 @@ Number per_second(double si, const Unit& unit) {
 
 std::string time_text(double seconds) {
   if (seconds >= 3600) return fmt::format("{:.3g} h", seconds / 3600);
+  if (seconds >= 999.5) return fmt::format("{:.3g} min", seconds / 60);  // 1.8e+03 s is nobody's half hour
   if (seconds >= 1 || seconds == 0) return fmt::format("{:.3g} s", seconds);
   if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.3g} us", seconds * 1e6);
@@ -98,6 +99,17 @@ Number level(double si, const Unit& unit) { return {rounded(unit.from_si(si)), u
 Number level_within(double range, double si, const Unit& unit) {
   const double per_unit = std::pow(10, 1 - std::floor(std::log10(std::abs(unit.difference_from_si(range)))));
   return {std::round(unit.from_si(si) * per_unit) / per_unit + 0.0, unit_text(unit)};  // no "-0"
+}
+
+std::string few_sizes(const Circumstances& at, const char* what) {
+  if (!at.from_data || at.swings.sizes >= 3) return "";
+  return fmt::format("swings of {} size{}, three would {}", at.swings.sizes, at.swings.sizes == 1 ? "" : "s", what);
+}
+
+std::string one_speed(const Circumstances& at, double ratio, const char* what) {
+  if (!at.from_data || at.swings.speed_ratio >= ratio) return "";
+  return fmt::format("the fastest swing is {:.2g} times as fast as the slowest, {:.2g} times would {}",
+                     at.swings.speed_ratio, ratio, what);
 }
 
 std::string stands_still(const Circumstances& at) {

@@ -40,6 +40,14 @@ enum class Side {
                 ///< moves nor follows
 };
 
+/// How differently a signal swings between its turning points; as it stands here, as differently as any effect asks.
+struct Swings {
+  int sizes = 3;             ///< that differ by a tenth of the range or more
+  double size_ratio = 10;    ///< largest over smallest
+  int middles = 3;           ///< of the swings, that differ so
+  double speed_ratio = 100;  ///< of the fastest change on each, largest over smallest
+};
+
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
 /// the train recordings, and how finely and how long it was recorded. Numbers in SI.
 struct Circumstances {
@@ -59,6 +67,7 @@ struct Circumstances {
   double longest_hold = 0;             ///< [s] at one level after a move of at least 5 % of the range
   double step_at_longest_hold = 1e-3;  ///< [s] between rows in that hold
   int reversals = 0;                   ///< turning points that come back by at least 2 % of the range
+  Swings swings;
   int recordings = 0;                  ///< train recordings
   double quickest = 0;                 ///< [1/s] largest change per second over the range
   double quickest_of_all = 0;          ///< [1/s] the same, validation included
@@ -69,6 +78,7 @@ struct Circumstances {
   std::vector<std::string> zeros;
   std::vector<std::string> weights;        ///< program paths of the weights of operators behind the place
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
+  double roughness = 0;                    ///< noise of the measured output that this wire is; 0 = none, or no output
   double resolution = 0;  ///< step between the levels of the measured output that this wire is; 0 = none, or no output
   Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
@@ -153,6 +163,8 @@ struct Effect {
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;
+  /// The effect whose richer law says the same: that one is tried, this one where the user names it. "" = none.
+  std::string law_of{};
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
   std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
   std::vector<std::string> leaves;    ///< effects that look like what its laws leave of their own, not being exact
@@ -161,6 +173,9 @@ struct Effect {
   std::function<std::vector<Law>(const Circumstances&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
   std::function<std::string(const Circumstances&)> unseen;
+  /// Why it can be seen in this data but not well told from others, or not in full: which of its needs are not met; ""
+  /// = they are. May be empty.
+  std::function<std::string(const Circumstances&)> unsure{};
   /// Where it cannot be seen: true if it may have acted all the same, alike in all recordings, so that a look-alike
   /// would be taken for it. May be empty: then it has not.
   std::function<bool(const Circumstances&)> may_hide;

@@ -58,7 +58,8 @@ struct Variant {
 };
 
 /// Experiments that move one drive, the others held: triangle, sine_amplitudes, low_frequencies, high_frequencies,
-/// multisine, step_hold, fast_steps.
+/// multisine, step_hold, fast_steps, and zero_run, in which it does not. Besides these there is precycle, before the
+/// longest recording once more.
 const std::vector<std::string>& drive_words();
 /// Variant::slower to try, the usual one first: slow experiments faster, fast ones slower, those between both.
 const std::vector<double>& paces(const std::string& word);

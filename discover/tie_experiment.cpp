@@ -28,7 +28,8 @@ Rival rival_of(const Books& books, const Tried& t) {
   Rival r;
   r.effect = t.effect->id;
   r.program = compile(c.diagram, books.registry);
-  if (is_of_sensor(*t.effect)) r.motion = compile(remove_effect(c.diagram, c.standing.back().name), books.registry);
+  if (is_of_sensor(*t.effect))
+    r.motion = compile(remove_effect(c.diagram, books.registry, c.standing.back().name), books.registry);
   if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
   r.look_alikes = t.effect->look_alikes;
   r.inputs = inputs_before(books, t);

@@ -54,7 +54,7 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
   std::vector<Place> places;
   std::vector<std::size_t> of;  // per place: its effect in `list`
   for (const auto& e : effects.list()) {
-    list.push_back({e.id, e.title, {}, {}, false});
+    list.push_back({e.id, e.title, {}, {}, {}, false});
     for (auto& p : places_of(e, diagram, registry, &data)) {
       of.push_back(list.size() - 1);
       places.push_back(std::move(p));
@@ -65,21 +65,29 @@ std::vector<Visible> visible_effects(const Diagram& diagram, const DataSet& data
   }
   if (places.empty()) return list;
   std::vector<int> nearest(list.size(), -1);  // of the place that gave the reason
+  std::vector<bool> well(list.size(), false);
   const auto seen = circumstances_at(diagram, registry, data, places, free_paths);
   for (std::size_t i = 0; i < places.size(); ++i) {
     Visible& v = list[of[i]];
     const std::string why = effects.list()[of[i]].unseen(seen[i]);
     const bool known = std::find(v.places.begin(), v.places.end(), places[i].where()) != v.places.end();
     if (why.empty() && !known) v.places.push_back(places[i].where());
-    if (why.empty()) continue;
+    if (why.empty()) {
+      const Effect& e = effects.list()[of[i]];
+      v.unsure = e.unsure ? e.unsure(seen[i]) : "";
+      well[of[i]] = well[of[i]] || v.unsure.empty();
+      continue;
+    }
     const int near = nearness(effects.list()[of[i]], seen[i]);
     if (near > nearest[of[i]]) {
       nearest[of[i]] = near;
       v.reason = why;
     }
   }
-  for (auto& v : list)
-    if (v.can()) v.reason.clear();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].can()) list[i].reason.clear();
+    if (well[i]) list[i].unsure.clear();
+  }
   return list;
 }
 

@@ -16,9 +16,11 @@ namespace hysteron {
 struct Visible {
   std::string effect, title;
   std::vector<std::string> places;  ///< where it could be seen; none = it cannot
+  std::string unsure;               ///< which of its needs these data do not meet, at all these places; "" = none
   std::string reason;               ///< why it cannot at the place that comes nearest, and what it needs; "" = it can
   bool needs_block = false;         ///< it cannot because the diagram lacks a block that it varies
   bool can() const { return !places.empty(); }
+  bool can_well() const { return can() && unsure.empty(); }
 };
 
 /// Every effect, in the order of the library. Throws where the diagram does not compile or run.

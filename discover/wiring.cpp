@@ -45,6 +45,23 @@ bool is_of_output(const std::string& name, const std::string& output) {
   return name == output || name.starts_with(output + "[");
 }
 
+std::vector<Layer> layers(const Node& choice) {
+  std::vector<Layer> list;
+  std::string name = choice.choose;
+  for (const Node* c = choice.from.find(name); c != nullptr; c = choice.from.find(name)) {
+    list.insert(list.begin(), {name, c->upon.empty() && name != "off" ? choice.effect : c->effect});
+    if (c->upon.empty()) break;
+    name = c->upon;
+  }
+  return list;
+}
+
+bool has_effect(const Node& choice, const std::string& effect) {
+  return choice.effect == effect || std::any_of(choice.from.begin(), choice.from.end(), [&](const auto& candidate) {
+           return candidate.second.effect == effect;
+         });
+}
+
 Wiring::Wiring(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
 
 const Node* Wiring::body(const std::string& block) const {

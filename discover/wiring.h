@@ -27,6 +27,15 @@ std::string program_signal(const Diagram& diagram, const Registry& registry, con
 /// The compiled program's output `name` is this output of the diagram, or an element of it: "y[1]" of "y".
 bool is_of_output(const std::string& name, const std::string& output);
 
+/// A candidate of a choice and the effect that put it there; "" = it is the user's own, or the block as it was.
+struct Layer {
+  std::string candidate, effect;
+};
+/// What the candidate in use is made of: the first is a block as it is, each further one that with one effect more.
+std::vector<Layer> layers(const Node& choice);
+/// Some candidate of the choice, in use or not, is there for this effect.
+bool has_effect(const Node& choice, const std::string& effect);
+
 class Wiring {
  public:
   Wiring(const Diagram& diagram, const Registry& registry);

@@ -26,6 +26,14 @@ std::string place_text(const Tried& t) {
   return fmt::format("at {} (these places cannot be told apart)", fmt::join(all, " or "));
 }
 
+/// What would tell effects apart that are one finding in these recordings; "" where nobody says.
+std::string what_tells_places(const Tried& t) {
+  for (const auto& l : t.effect->look_alikes)
+    if (std::find(t.same_effects.begin(), t.same_effects.end(), l.effect) != t.same_effects.end())
+      return fmt::format("; which of them, \"{}\" tells: {}", l.experiment, l.deciding);
+  return "";
+}
+
 std::string remark_of(const ParameterOfEffect& p, const Circumstances& at) {
   const ParameterEstimate& e = *p.estimate;
   if (!e.determined) return "the data do not determine it";
@@ -206,7 +214,7 @@ std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, co
   const Candidate c = candidate_of(t, 1);
   std::string text = fmt::format("{} {}", effect_words(t), place_text(t));
   if (!c.summary.empty()) text += ": " + c.summary;
-  text += "; " + error_fall(before, after);
+  text += what_tells_places(t) + "; " + error_fall(before, after);
   if (!ties.empty()) {
     std::vector<std::string> names;
     for (const auto& tie : ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));

@@ -113,7 +113,8 @@ struct Node {
 
   std::string choose{};  ///< name of the candidate in use
   Ordered<Node> from{};  ///< the candidates of a choice; their inputs are the choice's own
-  std::string effect{};  ///< id of the effect that put this choice here ("" = the user's own)
+  std::string effect{};  ///< id of the effect that put this choice or this candidate here ("" = the user's own)
+  std::string upon{};    ///< of a candidate that an effect put here: the one that it is with that effect besides
 
   std::string file{};                       ///< nested diagram: the file as written
   std::shared_ptr<const Diagram> nested{};  ///< nested diagram: its content

@@ -138,6 +138,25 @@ std::vector<double> swing_sizes(std::span<const double> u) {
   return sizes;
 }
 
+std::vector<Swing> swings_of(std::span<const double> t, std::span<const double> u, double threshold) {
+  std::vector<Swing> list;
+  if (u.size() < 2) return list;
+  auto ends = turning_points(u, threshold);
+  if (ends.size() < 2) {
+    ends.insert(ends.begin(), 0);
+    ends.push_back(u.size() - 1);
+  }
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    const double from = u[ends[k - 1]], to = u[ends[k]];
+    Swing swing{std::abs(to - from), 0.5 * (from + to), 0};
+    if (!(swing.size > threshold)) continue;
+    for (std::size_t i = ends[k - 1] + 1; i <= ends[k]; ++i)
+      if (t[i] > t[i - 1]) swing.fastest = std::max(swing.fastest, std::abs(u[i] - u[i - 1]) / (t[i] - t[i - 1]));
+    list.push_back(swing);
+  }
+  return list;
+}
+
 Period period_of(std::span<const double> u) {
   const double range = range_of(u);
   if (u.size() < 64 || !(range > 0)) return {};

@@ -26,6 +26,14 @@ Band band_of(std::span<const double> u, double step);
 /// Sizes of swings between turning points that differ by more than 10 % of the range, smallest first.
 std::vector<double> swing_sizes(std::span<const double> u);
 
+/// The way of a signal from one turning point to the next; where it turns less than twice, from end to end too.
+struct Swing {
+  double size = 0, middle = 0;  ///< [u]
+  double fastest = 0;           ///< [u/s] largest change from row to row on the way
+};
+/// A turn counts once the signal has come back by more than `threshold`.
+std::vector<Swing> swings_of(std::span<const double> t, std::span<const double> u, double threshold);
+
 /// A part of a signal that comes again.
 struct Period {
   double rows = 0;                  ///< length of one period in rows; not whole where the clock does not divide it

@@ -156,7 +156,12 @@ class DiagramReader {
                                     : "write \"type\": \"...\" (hysteron blocks lists them)");
     if (type) node.type = type->text().value_or("");
     if (node.type == "diagram") nest(place, node);
-    for (const auto& [key, member] : place.members()) node_member(node, key, member);
+    if (!is_block) {
+      node.effect = text_member(place, "effect");
+      node.upon = text_member(place, "upon");
+    }
+    for (const auto& [key, member] : place.members())
+      if (is_block || (key != "effect" && key != "upon")) node_member(node, key, member);
     if (node.type == "recorded") load_samples(place, node);
     return node;
   }
@@ -188,7 +193,23 @@ class DiagramReader {
     if (node.from.empty())
       from->add("missing_key", "there is no candidate to choose from",
                 "write at least one: \"off\": {\"type\": \"pass\"}");
+    check_upon(*from, node);
     return node;
+  }
+
+  /// Each candidate that an effect put here says which one, and stands upon one before it: no circles.
+  static void check_upon(const JsonPlace& from, const Node& choice) {
+    std::vector<std::string> before;
+    for (const auto& [name, candidate] : choice.from) {
+      if (candidate.effect.empty() != candidate.upon.empty())
+        from.find(name)->add("missing_key", "\"effect\" and \"upon\" go together",
+                             "write both: which effect put this candidate here, upon which other candidate");
+      else if (!candidate.upon.empty() && std::find(before.begin(), before.end(), candidate.upon) == before.end())
+        from.find(name)->find("upon")->add("bad_choice",
+                                           fmt::format("no candidate \"{}\" stands before it", candidate.upon),
+                                           did_you_mean(candidate.upon, before));
+      before.push_back(name);
+    }
   }
 
   /// "a", ["a", "b"] or {"port": "a", "other": ["b", "c"]}.

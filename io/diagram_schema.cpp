@@ -65,7 +65,8 @@ Json body_of(const Declaration& d) {
     properties["column"] = text("name of the column in it");
     required.insert(required.end(), {"file", "column"});
   }
-  properties["in"] = true;  // whether inputs may stand here, the block or the choice says
+  // Whether these may stand here, the block or the choice says.
+  for (const char* key : {"in", "effect", "upon"}) properties[key] = true;
   Json body{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!required.empty()) body["anyOf"] = Json::array({{{"required", required}}, {{"required", {"parameters"}}}});
   return body;
@@ -107,9 +108,11 @@ Json typed_node(const Registry& registry, bool with_inputs) {
             {"properties", {{"type", choice_of("type of the block", type_names(registry))}}},
             {"required", {"type"}}};
   if (with_inputs)
-    node["properties"]["in"] = {{"$ref", "#/definitions/wires"}};
+    node["properties"].update({{"in", {{"$ref", "#/definitions/wires"}}}, {"effect", false}, {"upon", false}});
   else
-    node["properties"]["in"] = false;
+    node["properties"].update({{"in", false},
+                               {"effect", text("id of the effect that put this candidate here")},
+                               {"upon", text("the candidate before it that this one is, with that effect besides")}});
   node["allOf"] = by_type(registry);
   return node;
 }
@@ -209,7 +212,12 @@ void add_definitions(Json& definitions, const Registry& registry) {
   Json nested{
       {"type", "object"},
       {"description", "another diagram; further keys set its parameters (kp) or those of its blocks (controller.kp)"},
-      {"properties", {{"type", {{"const", "diagram"}}}, {"file", text("the diagram's file")}, {"in", true}}},
+      {"properties",
+       {{"type", {{"const", "diagram"}}},
+        {"file", text("the diagram's file")},
+        {"in", true},
+        {"effect", true},
+        {"upon", true}}},
       {"required", {"file"}}};
   definitions["nested diagram"] = std::move(nested);
   for (const auto& type : registry.types())

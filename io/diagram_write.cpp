@@ -170,7 +170,9 @@ class DiagramWriter {
   }
 
   Members members(const std::string& name, const Node& node, bool with_inputs) const {
-    Members m{{"type", json_quoted(node.type)}};
+    Members m;
+    if (!node.upon.empty()) m = {{"effect", json_quoted(node.effect)}, {"upon", json_quoted(node.upon)}};
+    m.emplace_back("type", json_quoted(node.type));
     if (!node.file.empty()) m.emplace_back("file", json_quoted(node.file));
     if (node.nested && node.file.empty())
       fail("not_writable", "/blocks/" + name, "a nested diagram that stands in no file cannot be written",

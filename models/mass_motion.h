@@ -106,10 +106,10 @@ double end_position(double free, double yield, double x, const Law& force) {
 }
 
 /// A long step under a force from outside that goes straight from `begin` to `end` [N] and one that hangs on the place,
-/// force(x), taken as a straight line from its value at the start to that at the end, which is found.
+/// force(x), taken as a straight line from `before` [N] at the start to its value at the end, which is found.
 template <class Law>
-Motion step_to_balance(const ExactStep& step, const Motion& start, double begin, double end, const Law& force) {
-  const double before = force(start.position).value;
+Motion step_to_balance(const ExactStep& step, const Motion& start, double begin, double end, double before,
+                       const Law& force) {
   const double free = step(start, begin + before, end).position;
   const double reached = end_position(free, step.yield(), free + step.yield() * before, force);
   return {reached, step(start, begin + before, end + force(reached).value).velocity};
@@ -132,33 +132,43 @@ struct NearPlaces {
   }
 };
 
-/// A step under a force from outside that goes straight from `begin` to `end` [N] and one that hangs on the place,
-/// pull(x) [N], taken as the parabola through its values at the start, in the middle and at the end: twice around,
-/// which is right to the fourth power of the length. The second time the places have hardly moved, and the pull there
-/// follows from the first one's. half: the step of half the length. Source: exponential time differencing, Cox,
-/// Matthews, J. Comput. Phys. 176 (2002) 430-455.
-template <class Pull>
+/// No force besides.
+struct NoForce {
+  double operator()(const Motion&) const { return 0; }
+};
+
+/// A step under a force from outside that goes straight from `begin` to `end` [N] and one that hangs on the motion,
+/// taken as the parabola through its values at the start, in the middle and at the end. It has two parts: pull(x) [N]
+/// of the place, which is dear, and besides(motion) [N], which is not. Twice around, which is right to the fourth power
+/// of the length for a force of the place, and three times where one of the velocity may be among the second part. From
+/// the second time on the places have hardly moved, and the pull there follows from the first one's. half: the step of
+/// half the length. Source: exponential time differencing, Cox, Matthews, J. Comput. Phys. 176 (2002) 430-455.
+template <class Pull, class Besides = NoForce>
 Motion step_under(const ExactStep& whole, const ExactStep& half, const Motion& start, double begin, double end,
-                  const Pull& pull) {
-  const double first = pull(start.position), rise = end - begin;
+                  const Pull& pull, const Besides& besides = {}, int rounds = 2) {
+  const double held = pull(start.position), first = held + besides(start), rise = end - begin;
   double middle = first, last = first;
   const auto turn = [&] { return 4 * middle - 3 * first - last; };
   const auto bend = [&] { return 2 * (first - 2 * middle + last); };
-  const auto halfway = [&] { return half(start, begin + first, 0.5 * (rise + turn()), 0.25 * bend()).position; };
-  const auto behind = [&] { return whole(start, begin + first, rise + turn(), bend()).position; };
-  const double x_middle = halfway();
-  middle = pull(x_middle);
+  const auto halfway = [&] { return half(start, begin + first, 0.5 * (rise + turn()), 0.25 * bend()); };
+  const auto behind = [&] { return whole(start, begin + first, rise + turn(), bend()); };
+  const Motion in_middle = halfway();
+  const double held_middle = pull(in_middle.position);
+  middle = held_middle + besides(in_middle);
   last = 2 * middle - first;
-  const double x_last = behind();
-  last = pull(x_last);
-  const NearPlaces known{{start.position, x_middle, x_last}, {first, middle, last}};
-  const auto pull_near = [&](double place, double near) {
-    const double force = known.at(place, near);
-    return std::isnan(force) ? pull(place) : force;
+  const Motion at_end = behind();
+  const double held_last = pull(at_end.position);
+  last = held_last + besides(at_end);
+  const NearPlaces known{{start.position, in_middle.position, at_end.position}, {held, held_middle, held_last}};
+  const auto again = [&](const Motion& now, const Motion& near) {
+    const double force = known.at(now.position, near.position);
+    return (std::isnan(force) ? pull(now.position) : force) + besides(now);
   };
-  middle = pull_near(halfway(), x_middle);
-  last = pull_near(behind(), x_last);
-  return whole(start, begin + first, rise + turn(), bend());
+  for (int round = 1; round < rounds; ++round) {
+    middle = again(halfway(), in_middle);
+    last = again(behind(), at_end);
+  }
+  return behind();
 }
 
 /// Whether ExactStep is exact but for rounding; [kg], [N s/m], [N/m], [s]. Its answer to a parabola is what is left of

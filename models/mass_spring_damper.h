@@ -1,5 +1,5 @@
-// Decides the motion of one mass on a spring, linear or stiffening, with a damper. Does not decide friction
-// (friction.h) nor stops (hard_stop.h).
+// Decides the motion of one mass on a spring, linear or stiffening, with a damper and the drag of a fluid. Does not
+// decide friction (friction.h) nor stops (hard_stop.h).
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,7 @@ struct Params {
   T stiffening{0};  ///< [N/m^3]  cubic part of the spring; negative = softening
   T quadratic{0};   ///< [N/m^2]  part by which it is harder one way than the other
   T quintic{0};     ///< [N/m^5]  part of large travel
+  T drag{0};        ///< [N s^2/m^2]  of a fast flow: rho A C_d/2
 };
 
 /// k x + k_2 x^2 + k_3 x^3 + k_5 x^5 [N]. Source: Duffing's oscillator; Nayfeh, Mook, Nonlinear Oscillations (1979).
@@ -30,18 +31,18 @@ T slope(const Params<T>& p, const T& x) {
   return p.stiffness + 2.0 * p.quadratic * x + square * (3.0 * p.stiffening + 5.0 * p.quintic * square);
 }
 
-/// dv/dt: m v' = F - d v - spring(x) [m/s^2]; dx/dt = v.
-template <class T>
-T acceleration(const Params<T>& p, const T& position, const T& velocity, const T& force) {
-  return (force - p.damping * velocity - spring(p, position)) / p.mass;
-}
-
 /// Drag c_2 v |v| [N] of a fast flow; c_2 [N s^2/m^2] = rho A C_d/2. Source: Batchelor, An Introduction to Fluid
 /// Dynamics (1967), section 5.11.
 template <class T>
 T drag(const T& coefficient, const T& velocity) {
   using std::abs;
   return coefficient * velocity * abs(velocity);
+}
+
+/// dv/dt: m v' = F - d v - drag - spring(x) [m/s^2]; dx/dt = v.
+template <class T>
+T acceleration(const Params<T>& p, const T& position, const T& velocity, const T& force) {
+  return (force - p.damping * velocity - drag(p.drag, velocity) - spring(p, position)) / p.mass;
 }
 
 /// Position [m] at which the spring balances the force: Newton from the linear spring's answer, kept in the bracket

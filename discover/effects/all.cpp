@@ -30,6 +30,7 @@ Effects all_effects() {
       sensor_drift(),
       rectification(),
       friction(),
+      stribeck_friction(),
       quadratic_drag(),
       stiffening(),
       quantization(),

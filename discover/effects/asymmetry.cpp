@@ -23,6 +23,10 @@ Effect asymmetry() {
   e.source = "Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
   e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
   e.needs = "Full drive, and small motion about two or more levels.";
+  e.unsure = [](const Circumstances& at) -> std::string {
+    return at.from_data && at.swings.middles < 2 ? "all swings are about one level, two would tell it from the loop"
+                                                 : "";
+  };
   e.places = {"core"};
   e.before_sensor = true;
   e.laws = [](const Circumstances& at) {

@@ -44,6 +44,11 @@ Effect backlash() {
     law.free = {gap};
     return std::vector<Law>{law};
   };
+  e.unsure = [](const Circumstances& at) -> std::string {
+    if (!at.from_data || at.swings.size_ratio >= 5) return "";
+    return fmt::format("the largest swing is {:.2g} times the smallest, five times would tell it from hysteresis",
+                       at.swings.size_ratio);
+  };
   e.unseen = [](const Circumstances& at) -> std::string {
     return at.from_data && at.reversals < 2
                ? fmt::format("{} reversal{}, lost motion needs two", at.reversals, at.reversals == 1 ? "" : "s")

@@ -5,32 +5,11 @@
 #include <cmath>
 
 #include "discover/effects/library.h"
+#include "discover/effects/presliding.h"
 #include "discover/effects/travel.h"
 
 namespace hysteron::effects {
 namespace {
-
-/// Holds more before it slides fast. `fast`: the whole travel in a row, from which speeds are tried downwards.
-Law with_excess(Law law, double fast, const Unit& speed_unit) {
-  give(law.block, "excess", 0.0);
-  LawParameter excess;
-  excess.path = "excess";
-  excess.lower = 0;
-  excess.upper = 3;
-  excess.scan = {0.2, 0.7};
-  excess.plausible_upper = 1;  // breakaway over Coulomb friction: 1 .. 2
-  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, speed_unit));
-  LawParameter speed;
-  speed.path = "stribeck_velocity";
-  speed.start = 1e-3 * fast;
-  speed.lower = 1e-8 * fast;
-  speed.upper = fast;
-  speed.log_scale = true;
-  speed.scan = {1e-5 * fast, 1e-4 * fast, 1e-3 * fast, 1e-2 * fast};
-  law.free.push_back(excess);
-  law.free.push_back(speed);
-  return law;
-}
 
 /// The contact resists its own motion while it sticks (LuGre's s1/s0): a time, of which nobody knows more than that
 /// rows must show it.
@@ -79,39 +58,6 @@ Law on_a_speed(const Circumstances& at, bool flows) {
   give(law.block, "crossover", with_unit(crossover.start, at.unit));
   law.free.push_back(crossover);
   return law;
-}
-
-/// In the guide of something that moves without a mass of its own: what the guide holds back is missing from the
-/// motion. `sticky`: it holds more before it slides fast.
-Law on_a_motion(const Circumstances& at, bool sticky) {
-  Law law;
-  law.name = sticky ? "holds the motion back, with Stribeck's excess (LuGre)" : "holds the motion back (Dahl)";
-  law.block.type = "guide_friction";
-  const double range = at.range() > 0 ? at.range() : 1;
-  LawParameter level;
-  level.path = "level";
-  level.start = 0.01 * range;
-  level.lower = 0;                  // it takes energy
-  level.upper = short_way * range;  // see the slip distance: it slides once the pull is above this
-  level.scan = {0.001 * range, 0.01 * range};
-  give(law.block, "level", with_unit(level.start, at.unit));
-  LawParameter slip;
-  slip.path = "slip_distance";
-  slip.start = 0.03 * range;
-  // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
-  slip.upper = short_way * range;
-  slip.lower = 1e-7 * range;
-  slip.log_scale = true;
-  slip.scan = per_decade(1e-3 * range, short_way * range, 2);
-  give(law.block, "slip_distance", with_unit(slip.start, at.unit));
-  law.free = {level, slip};
-  return sticky ? with_excess(law, range / std::max(at.shortest_step, 1e-9),
-                              parse_unit(fmt::format("({})/s", unit_text(at.unit))))
-                : law;
-}
-
-bool is_motion(const Unit& unit) {
-  return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
 }
 
 bool is_speed(const Unit& unit) {
@@ -168,35 +114,12 @@ Effect friction() {
                        100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
   };
   e.laws = [](const Circumstances& at) {
-    if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{on_a_motion(at, false), on_a_motion(at, true)};
+    if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
-    Law law;
-    law.name = "presliding (Dahl)";
-    law.block.type = "mass_with_presliding";
-    const double range = travel(at), force = at.range() > 0 ? at.range() : 1;
-    give(law.block, "contact_stiffness", NumberList{with_unit(0.5 * force / range, parse_unit("N/m"))});
-    give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit("um"))});
-    LawParameter k;
-    k.path = element("contact_stiffness", 0);
-    k.start = 0.5 * force / range;
-    k.lower = 1e-5 * force / range;
-    k.upper = 1e4 * force / range;
-    k.log_scale = true;
-    for (const double f : {0.1, 1.0, 10.0}) k.scan.push_back(f * force / range);
-    LawParameter d;
-    d.path = element("slip_distance", 0);
-    d.start = 0.02 * range;
-    d.lower = 1e-4 * range;
-    d.upper = 10 * range;
-    d.log_scale = true;
-    for (const double f : {0.003, 0.02, 0.1}) d.scan.push_back(f * range);
-    d.plausible_upper = 50e-6;
-    law.free = {k, d};
-    Law sticky = with_excess(law, range / std::max(at.shortest_step, 1e-9), parse_unit("m/s"));
-    sticky.name = "presliding with Stribeck's excess (LuGre)";
+    const Law sticky = presliding_with_excess(at);
     Law damped = with_contact_time(sticky, at);
     damped.name = "presliding with excess and a damped contact (LuGre)";
-    return std::vector<Law>{law, sticky, damped};
+    return std::vector<Law>{presliding(at), sticky, damped};
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
     if (law.block.type != "guide_friction") return "";
@@ -206,6 +129,7 @@ Effect friction() {
     // Dry friction without presliding and a gap obey one law, the play operator.
     return slip < 0.1 * level ? "it sticks fully until it slides: that is lost motion" : "";
   };
+  e.unsure = [](const Circumstances& at) { return one_speed(at, 3, "tell it from what grows with the speed"); };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",

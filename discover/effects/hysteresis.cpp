@@ -381,6 +381,7 @@ Effect hysteresis() {
       for (const int cells : {6, 10}) laws.push_back(relays(at, cells));
     return laws;
   };
+  e.unsure = [](const Circumstances& at) { return few_sizes(at, "tell its loop from a lag and from lost motion"); };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.springless) return "the mass is on no spring: what remembers its turning points there is friction";
     if (!at.memory_blocks.empty())

@@ -28,7 +28,7 @@ Effect quadratic_drag() {
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "square of the speed";
-    law.block.type = "mass_with_drag";
+    law.block.type = at.by.empty() ? "mass_with_drag" : at.by;
     // As much force as the drive has, at the whole travel in ten rows.
     const double speed = travel(at) / std::max(10 * at.shortest_step, 1e-9);
     const double unit = std::max(at.range(), 1e-30) / (speed * speed);
@@ -43,6 +43,7 @@ Effect quadratic_drag() {
     law.free = {c};
     return std::vector<Law>{law};
   };
+  e.unsure = [](const Circumstances& at) { return one_speed(at, 3, "tell it from a damper"); };
   e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
   return e;
 }

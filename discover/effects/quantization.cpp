@@ -41,6 +41,10 @@ Effect quantization() {
     law.free = {step};
     return std::vector<Law>{law};
   };
+  e.unsure = [](const Circumstances& at) -> std::string {
+    if (!at.from_data || at.resolution >= 2 * at.roughness) return "";
+    return fmt::format("its steps are {:.2g} times the noise, from two on they show", at.resolution / at.roughness);
+  };
   e.unseen = [](const Circumstances& at) -> std::string {
     if (!at.from_data) return "";
     if (at.resolution <= 0) return "the values of the column are no multiples of one step";

@@ -83,6 +83,10 @@ Effect rate_dependence() {
                             late(at, "times that grow with the threshold", true, false),
                             late(at, "a share, with times that grow", true, true)};
   };
+  e.unsure = [](const Circumstances& at) -> std::string {
+    if (at.from_data && at.swings.sizes < 2) return "swings of one size, two would tell it from a lag";
+    return one_speed(at, 30, "tell it from a wider loop");
+  };
   e.unseen = stands_still;
   return e;
 }

@@ -33,8 +33,9 @@ Effect stiffening() {
   e.laws = [](const Circumstances& at) {
     Law law;
     law.name = "cubic";
-    law.block.type = "mass_on_stiffening_spring";
-    const double x = std::max({std::abs(at.travel_lowest), std::abs(at.travel_highest), 1e-12});
+    law.block.type = at.by.empty() ? "mass_on_stiffening_spring" : at.by;
+    const double reach = std::max(std::abs(at.travel_lowest), std::abs(at.travel_highest));
+    const double x = reach > 0 ? reach : travel(at);
     const double unit =
         std::max(at.range(), 1e-30) / (x * x * x);  // as much force as the drive has, at the largest travel
     give(law.block, "stiffening", with_unit(0.01 * unit, parse_unit("N/m^3")));
@@ -63,6 +64,7 @@ Effect stiffening() {
     further("quintic", unit / (x * x), "N/m^5");
     return std::vector<Law>{law, more};
   };
+  e.unsure = [](const Circumstances& at) { return few_sizes(at, "tell it from a wrong stiffness"); };
   e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
   return e;
 }

@@ -29,16 +29,33 @@ struct Example {
   std::string unit;
   Parameters parameters;
 };
+/// The same mass with what else it needs.
+Example mass_with(Parameters more) {
+  more.insert(more.begin(), {{"mass", "0.2 kg"},
+                             {"damping", "0.8 N s/m"},
+                             {"stiffness", "50 N/m"},
+                             {"initial_position", "0.03 m"},
+                             {"initial_velocity", "-0.2 m/s"}});
+  return {"N", std::move(more)};
+}
+
 const std::map<std::string, Example>& examples() {
+  const std::pair<std::string, Value> stiff{"contact_stiffness", list({20, 9}, "N/m")},
+      slip{"slip_distance", list({10, 40}, "mm")};
   static const std::map<std::string, Example> all{
       {"gain", {"V", {{"gain", "-1.7 um/V"}}}},
-      {"mass_spring_damper",
-       {"N",
-        {{"mass", "0.2 kg"},
-         {"damping", "0.8 N s/m"},
-         {"stiffness", "50 N/m"},
-         {"initial_position", "0.03 m"},
-         {"initial_velocity", "-0.2 m/s"}}}},
+      {"mass_spring_damper", mass_with({})},
+      {"mass_on_stiffening_spring", mass_with({{"stiffening", "700 N/m^3"}, {"quadratic", "30 N/m^2"}})},
+      {"mass_with_drag", mass_with({{"drag", "0.6 N s^2/m^2"}})},
+      {"mass_with_presliding", mass_with({stiff, slip})},
+      {"mass_on_hysteretic_spring", mass_with({stiff, slip})},
+      {"mass_on_bouc_wen_spring", mass_with({{"hysteretic_share", 0.4}, {"beta", "7 1/m"}, {"gamma", "-3 1/m"}})},
+      {"mass_on_spring_of_plays", mass_with({{"thresholds", list({10, 40}, "mm")},
+                                             {"at_lower", list({4, 2}, "N/m")},
+                                             {"in_middle", list({1, 3}, "N/m")},
+                                             {"at_upper", list({5, 1}, "N/m")},
+                                             {"lower", "-0.1 m"},
+                                             {"upper", "0.1 m"}})},
       {"prandtl_ishlinskii",
        {"V", {{"thresholds", list({0, 0.8, 2}, "V")}, {"weights", list({1, 0.3, 0.2}, "um/V")}, {"before", "2 V"}}}},
       {"tank", {"l/min", {{"area", "2 m^2"}, {"outlet", "0.2 l/min"}, {"reference", "1 m"}, {"initial", "1.5 m"}}}},

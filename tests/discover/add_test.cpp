@@ -5,6 +5,7 @@
 #include "blocks/register_all.h"
 #include "engine/program.h"
 #include "io/diagram_file.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
@@ -107,7 +108,7 @@ TEST_F(AddedEffect, OnAVectorStandsBeforeTheReadersOfItsElementsToo) {
   EXPECT_EQ(a.diagram.blocks.find("monitor")->in.front().from, a.name + "[1]");
   EXPECT_EQ(*a.diagram.outputs.find("y"), a.name);
   EXPECT_NO_THROW(compile(a.diagram, registry));
-  const Diagram back = remove_effect(a.diagram, a.name);
+  const Diagram back = remove_effect(a.diagram, registry, a.name);
   EXPECT_EQ(diagram_text(back), diagram_text(two_axes()));
 }
 
@@ -148,9 +149,9 @@ TEST_F(AddedEffect, IsTakenOutWithoutATrace) {
       Circumstances at;
       at.unit = parse_unit("V");
       const Added a = add_effect(before, registry, effect, effect.laws(at).front(), place);
-      EXPECT_EQ(diagram_text(remove_effect(a.diagram, a.name)), diagram_text(before))
+      EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, a.name)), diagram_text(before))
           << effect.id << " at " << place.at;
-      EXPECT_EQ(diagram_text(remove_effect(a.diagram, effect.id)), diagram_text(before))
+      EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, effect.id)), diagram_text(before))
           << effect.id << " at " << place.at;
     }
   }
@@ -159,9 +160,9 @@ TEST_F(AddedEffect, IsTakenOutWithoutATrace) {
 TEST_F(AddedEffect, OfTwoOnOneWireEitherCanBeTakenOut) {
   const Added lag = add_effect(stage(), registry, effects.get("amplifier_lag"), "u");
   const Added both = add_effect(lag.diagram, registry, effects.get("dead_time"), "u");
-  EXPECT_EQ(diagram_text(remove_effect(both.diagram, "dead_time")), diagram_text(lag.diagram));
+  EXPECT_EQ(diagram_text(remove_effect(both.diagram, registry, "dead_time")), diagram_text(lag.diagram));
   const Added delay_alone = add_effect(stage(), registry, effects.get("dead_time"), "u");
-  EXPECT_EQ(diagram_text(remove_effect(both.diagram, "amplifier_lag")), diagram_text(delay_alone.diagram));
+  EXPECT_EQ(diagram_text(remove_effect(both.diagram, registry, "amplifier_lag")), diagram_text(delay_alone.diagram));
 }
 
 TEST_F(AddedEffect, ThatVariesABlockKeepsItsNameAndItsReaders) {
@@ -196,6 +197,76 @@ TEST_F(AddedEffect, OfAMassIsItsRicherTypeAndOnASpeedABlockOfItsOwn) {
   EXPECT_NO_THROW(compile(a.diagram, registry));
 }
 
+/// A mass on a spring, moved by a force.
+Diagram body_on_spring() {
+  Diagram d;
+  d.title = "body";
+  d.inputs["force"].unit = "N";
+  d.blocks["body"] = node("mass_spring_damper", {{"", "force"}});
+  d.blocks["body"].parameters["mass"] = Value("1 kg");
+  d.blocks["body"].parameters["stiffness"] = Value("100 N/m");
+  d.outputs["x"] = "body.position";
+  return d;
+}
+
+TEST_F(AddedEffect, OfThreeInOneBlockAnyCanBeTakenOutAndWhatStaysIsAsIfItHadNeverBeenThere) {
+  const std::vector<std::string> three{"friction", "quadratic_drag", "stiffening"};
+  for (const std::vector<int>& order : {std::vector{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {2, 1, 0}}) {
+    const auto with = [&](int leaving) {
+      Diagram d = body_on_spring();
+      for (const int i : order)
+        if (i != leaving) d = add_effect(d, registry, effects.get(three[i]), "body").diagram;
+      return d;
+    };
+    const Diagram all = with(-1);
+    EXPECT_NO_THROW(compile(all, registry)) << diagram_text(all);
+    EXPECT_EQ(effects_in(all).size(), 3u) << diagram_text(all);
+    for (int leaving = 0; leaving < 3; ++leaving) {
+      const Diagram rest = remove_effect(all, registry, three[leaving]);
+      EXPECT_EQ(diagram_text(rest), diagram_text(with(leaving))) << three[leaving] << " out of\n" << diagram_text(all);
+      EXPECT_NO_THROW(compile(rest, registry));
+    }
+  }
+}
+
+TEST_F(AddedEffect, OfABlockSaysUponWhichCandidateItStandsAndReadsBackSo) {
+  Diagram d = add_effect(body_on_spring(), registry, effects.get("stiffening"), "body").diagram;
+  d = add_effect(d, registry, effects.get("friction"), "body").diagram;
+  const Node& choice = *d.blocks.find("body");
+  EXPECT_EQ(choice.choose, "friction");
+  const Node& both = *choice.from.find("friction");
+  EXPECT_EQ(both.upon, "on");
+  EXPECT_EQ(both.effect, "friction");
+  EXPECT_EQ(both.type, "mass_with_presliding");
+  EXPECT_NE(both.parameters.find("stiffening"), nullptr) << "what was found before stays";
+  TemporaryFolder folder;
+  EXPECT_EQ(diagram_text(read_diagram(folder.write("body.json", diagram_text(d)))), diagram_text(d));
+  EXPECT_THROW(add_effect(d, registry, effects.get("stiffening"), "body"), Error) << "it is there";
+  try {
+    remove_effect(d, registry, "body");
+    FAIL() << "two of them";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "ambiguous_effect");
+    EXPECT_NE(e.problems.front().cure.find("friction"), std::string::npos);
+  }
+}
+
+TEST_F(AddedEffect, OfABlockThatIsAChoiceOfTheUsersLeavesThatChoiceWhenItGoes) {
+  Diagram d = body_on_spring();
+  Node& body = *d.blocks.find("body");
+  Node choice;
+  choice.in = body.in;
+  body.in.clear();
+  choice.from["light"] = choice.from["heavy"] = body;
+  choice.from["heavy"].parameters["mass"] = Value("3 kg");
+  choice.choose = "heavy";
+  body = choice;
+  const Diagram with = add_effect(d, registry, effects.get("stiffening"), "body").diagram;
+  EXPECT_EQ(with.blocks.find("body")->from.find("stiffening")->upon, "heavy");
+  EXPECT_EQ(effects_in(with).size(), 1u);
+  EXPECT_EQ(diagram_text(remove_effect(with, registry, "stiffening")), diagram_text(d));
+}
+
 TEST_F(AddedEffect, InsideADiagramChangesThatDiagramAndNamesItsNewFile) {
   auto inner = std::make_shared<Diagram>(stage());
   Diagram outer;
@@ -214,7 +285,7 @@ TEST_F(AddedEffect, InsideADiagramChangesThatDiagramAndNamesItsNewFile) {
   EXPECT_EQ(a.diagram.blocks.find("rig")->file, "stages/stage_creep.json");
   const auto program = compile(a.diagram, registry);
   EXPECT_GE(program->block_index("rig/drive_creep"), 0);
-  const Diagram back = remove_effect(a.diagram, "rig/drive_creep");
+  const Diagram back = remove_effect(a.diagram, registry, "rig/drive_creep");
   EXPECT_EQ(back.blocks.find("rig")->file, "stages/stage.json");
   EXPECT_EQ(diagram_text(*back.blocks.find("rig")->nested), diagram_text(*inner));
 }
@@ -222,7 +293,7 @@ TEST_F(AddedEffect, InsideADiagramChangesThatDiagramAndNamesItsNewFile) {
 TEST_F(AddedEffect, ThatIsNotThereCannotBeRemovedAndTheMessageSaysWhatIs) {
   const Added a = add_effect(stage(), registry, effects.get("creep"), "drive");
   try {
-    remove_effect(a.diagram, "hysteresis");
+    remove_effect(a.diagram, registry, "hysteresis");
     FAIL() << "nothing to remove";
   } catch (const Error& e) {
     EXPECT_EQ(e.problems.front().code, "unknown_effect");
@@ -234,12 +305,12 @@ TEST_F(AddedEffect, AddedTwiceIsAmbiguousByIdAndClearByName) {
   const Added one = add_effect(stage(), registry, effects.get("creep"), "drive");
   const Added two = add_effect(one.diagram, registry, effects.get("creep"), "actuator");
   try {
-    remove_effect(two.diagram, "creep");
+    remove_effect(two.diagram, registry, "creep");
     FAIL() << "two of them";
   } catch (const Error& e) {
     EXPECT_EQ(e.problems.front().code, "ambiguous_effect");
   }
-  EXPECT_EQ(diagram_text(remove_effect(two.diagram, two.name)), diagram_text(one.diagram));
+  EXPECT_EQ(diagram_text(remove_effect(two.diagram, registry, two.name)), diagram_text(one.diagram));
 }
 
 TEST_F(AddedEffect, IsRefusedWhereItClosesALoopThatTheDiagramDidNotHave) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discover/rows.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -152,6 +153,59 @@ TEST_F(Experiments, TheAmplitudeIsTheOneAtWhichTheModelsDiffer) {
   ASSERT_TRUE(e);
   EXPECT_EQ(e->word, "multisine");
   EXPECT_NE(e->text.find("peak 0.225 V"), std::string::npos) << e->text;
+}
+
+TEST_F(Experiments, ADriftIsToldFromNothingWhereNothingMoves) {
+  // 5 um/s: 9 mm in half an hour, against noise of 1 mm.
+  const auto drifting = gain_then("sensor_drift", {{"rate", Value("0.005 mm/s")}});
+  const auto e =
+      chosen({asking(rival("sensor_drift", drifting), "none", "zero_run"), rival("none", plain())}, driven(1, 1000));
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->word, "zero_run");
+  EXPECT_NE(e->text.find("0 V held still"), std::string::npos) << e->text;
+  EXPECT_NE(e->text.find("30 min in all"), std::string::npos) << e->text;
+  // A ramp to 9 mm has rms 5.2 mm; a hundred of the 400 rows lie in its first 100 s.
+  EXPECT_NEAR(e->separation, 4.6, 0.1);
+}
+
+TEST_F(Experiments, ABiasMovesTheSmallSineToWhereTheSlopeIsAnotherOne) {
+  const Device d = driven(1e-3, 10);
+  const Protocol p = drive_protocol(d, d.drives[0], "sine_amplitudes");
+  EXPECT_NE(p.text.find("then of 0.05 V around -0.8 V, -0.4 V, 0.4 V, 0.8 V"), std::string::npos) << p.text;
+  const auto& v = p.moves.at("u").v;
+  EXPECT_NEAR(*std::max_element(v.end() - 30, v.end()), 0.85, 1e-3);
+  EXPECT_NEAR(*std::min_element(v.end() - 30, v.end()), 0.75, 1e-3);
+}
+
+TEST_F(Experiments, WhatTheDeviceRemembersIsWipedOutByADecayingSine) {
+  // Two-sided plays that start as after -1 V, or not: in the recording they differ until all of them have been
+  // carried along; behind the decaying sine they do not.
+  Device d = driven(0.01, 4);
+  d.recorded_times = rows(400, 0.01);
+  d.recorded["u"] = {d.recorded_times, sampled(d.recorded_times, [](double x) { return 0.5 * std::sin(x); }),
+                     Between::linear};
+  const Protocol p = drive_protocol(d, d.drives[0], "precycle");
+  EXPECT_NE(p.text.find("decays from 1 V to nothing in 20 periods of 400 ms"), std::string::npos) << p.text;
+  const auto plays = [&](const char* before, double weight) {
+    return gain_then("prandtl_ishlinskii", {{"thresholds", Value(NumberList{{0, "m"}, {0.3, "m"}})},
+                                            {"weights", Value(NumberList{{1, ""}, {weight, ""}})},
+                                            {"sides", Value("two")},
+                                            {"before", Value(before)}});
+  };
+  const auto a = plays("-1 m", 0.5), b = plays("0 m", 0.5);
+  const auto answer = [&](const ProgramPointer& program) {
+    const auto u = std::make_shared<const Series>(p.moves.at("u"));
+    return simulate_rows(program, {u}, p.t, program->output_signals, true).front();
+  };
+  const auto with = answer(a), without = answer(b);
+  EXPECT_GT(std::abs(with.front() - without.front()), 0.1) << "they differ where they start";
+  for (std::size_t k = p.t.size() - 400; k < p.t.size(); ++k)
+    EXPECT_NEAR(with[k], without[k], 1e-12) << "and not behind the sine, but for rounding";
+  // Who asks for it gets it where it tells.
+  const auto e = chosen(
+      {asking(rival("initial_remanence", a), "hysteresis", "precycle"), rival("hysteresis", plays("0 m", 0.6))}, d);
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->word, "precycle");
 }
 
 // --- which input

@@ -87,7 +87,7 @@ TEST_F(MoreEffects, ThermalExpansionIsNamedWithItsDelayAndBringsTheColumnIn) {
   const auto* input = d.final_diagram.inputs.find("T");
   ASSERT_NE(input, nullptr);
   EXPECT_EQ(input->unit, "degC");
-  const Diagram without = remove_effect(d.final_diagram, "thermal_expansion");
+  const Diagram without = remove_effect(d.final_diagram, registry, "thermal_expansion");
   EXPECT_EQ(without.inputs.find("T"), nullptr) << "the column leaves with the effect";
   EXPECT_EQ(without.blocks.names(), plain_gain().blocks.names());
 }
@@ -356,7 +356,7 @@ TEST_F(MoreEffects, WhatTheFittedRecordingsDoNotReachLimitsNothingInTheOthers) {
     }
 }
 
-/// The mass with a further force(x, v), by small semi-implicit Euler steps.
+/// The mass with a further force(x, v), by small steps of which the middle counts.
 template <class Force>
 DataSet moving_mass(Force force) {
   std::vector<Recording> list;
@@ -368,8 +368,9 @@ DataSet moving_mass(Force force) {
     for (std::size_t k = 0; k < m.t.size(); ++k) {
       for (int i = 0; k > 0 && i < 200; ++i) {
         const double h = (m.t[k] - m.t[k - 1]) / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 0.5) / 200;
+        x += 0.5 * h * v;
         v += h * (10 * u - 400 * x - 4 * v - f(x, v, h));
-        x += h * v;
+        x += 0.5 * h * v;
       }
       y[k] += x;
     }
@@ -390,6 +391,34 @@ TEST_F(MoreEffects, AStiffeningSpringIsNamedAndReplacesTheBlock) {
   ASSERT_NE(stage->from.find("on"), nullptr);
   EXPECT_EQ(stage->from.find("on")->type, "mass_on_stiffening_spring");
   EXPECT_EQ(stage->from.find("off")->type, "mass_spring_damper");
+}
+
+TEST_F(MoreEffects, AStiffeningSpringInAGuideWithFrictionIsTwoEffectsOfOneBlock) {
+  // 1.2 N of cubic force and 0.4 N of dry friction, of 10 N; a contact of 2e4 N/m, its own law solved along each step.
+  struct Both {
+    double z = 0;
+    double operator()(double x, double v, double h) {
+      const double held = std::copysign(0.4 / 2e4, v);
+      z = held + (z - held) * std::exp(-std::abs(v * h / held));
+      return 2e4 * z + 8e4 * x * x * x;
+    }
+  };
+  const Discovery d =
+      discovered(mass_on_spring(), moving_mass(Both{}), {"friction", "stiffening", "sensor_nonlinearity"});
+  ASSERT_EQ(d.steps.size(), 2u) << tried(d);
+  std::vector<std::string> names{d.steps[0].winner.effect, d.steps[1].winner.effect};
+  std::sort(names.begin(), names.end());
+  ASSERT_EQ(names, (std::vector<std::string>{"friction", "stiffening"})) << tried(d);
+  const auto value = [&](const char* path) {
+    for (const auto& f : d.steps[1].winner.found)
+      if (f.estimate.path == path) return f.estimate.used;
+    return std::nan("");
+  };
+  // N/m^3 and N: steps of 0.1 ms leave less than a hundredth of either.
+  EXPECT_NEAR(value("stage.stiffening"), 8e4, 8e2);
+  EXPECT_NEAR(value("stage.contact_stiffness[0]") * value("stage.slip_distance[0]"), 0.4, 0.004);
+  EXPECT_NEAR(d.final_error.rms_validate, 1e-5, 1e-6);
+  EXPECT_EQ(effects_in(d.final_diagram).size(), 2u);
 }
 
 TEST_F(MoreEffects, FrictionOfAGuideIsNamedWithItsForce) {

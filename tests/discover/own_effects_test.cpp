@@ -146,7 +146,7 @@ TEST_F(OwnEffects, OneThatTheLibraryLacksIsNamedAndItsDiagramRunsFromItsFile) {
   const std::string file = folder.write("final.json", diagram_text(d.final_diagram));
   const Diagram again = read_diagram(file, {of_project("")});
   EXPECT_NO_THROW((void)compile(again, registry));
-  EXPECT_EQ(remove_effect(again, "quadratic_memory").blocks.names(), plain_gain().blocks.names());
+  EXPECT_EQ(remove_effect(again, registry, "quadratic_memory").blocks.names(), plain_gain().blocks.names());
 }
 
 TEST_F(OwnEffects, AKneeOfTheirOwnIsTakenForAKneeAndNotWhereNothingIsHidden) {

@@ -210,7 +210,8 @@ TEST_F(Places, OfCouplingsBothWaysReadEachAxisOwnMotion) {
   const Added crept = with_beside(one.diagram, "creep", "stage", "", "um");
   EXPECT_EQ(crept.diagram.blocks.find("stage2_cross_coupling")->in.back().from, "stage_creep")
       << "the other axis gets the motion as it is";
-  EXPECT_EQ(remove_effect(both.diagram, "stage_cross_coupling").blocks.find("sensor")->in.front().from, "stage");
+  EXPECT_EQ(remove_effect(both.diagram, registry, "stage_cross_coupling").blocks.find("sensor")->in.front().from,
+            "stage");
 }
 
 TEST_F(Places, OfABundleAreThoseOfItsWires) {

@@ -1,4 +1,5 @@
 // Discovery on recordings that nobody here made. Skipped, visibly, where ../shared is absent.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,6 +78,32 @@ TEST_F(LongRecordings, Case002LacksHysteresisInItsSpring) {
   // Six elements of another law than the hidden one: less than a hundredth of what was there (its rms is 187 times the
   // noise) may be left.
   EXPECT_LT(d.final_error.rms_validate, 0.05 * d.base.rms_validate);
+}
+
+/// Verdict, and for each step who may be it: names in a tie change places without any difference.
+std::vector<std::string> answer_of(const Discovery& d) {
+  std::vector<std::string> answer{to_text(d.verdict)};
+  for (const auto& step : d.steps) {
+    std::vector<std::string> names{step.winner.effect};
+    for (const auto& tie : step.ties) names.push_back(tie.effect);
+    std::sort(names.begin(), names.end());
+    answer.push_back(fmt::format("{}", fmt::join(names, " or ")));
+  }
+  return answer;
+}
+
+// Of each plant one, all effects: linear rows, a memory, nonlinear states, two inputs.
+TEST_F(LongRecordings, TheAnswerIsTheSameWithTenTimesLooserOrTighterTolerances) {
+  for (const char* id : {"001", "003", "008", "011", "013", "015", "016"}) {
+    const Case c = dev_case(id);
+    const auto with = [&](double looser) {
+      DiscoverOptions options;
+      options.looser = looser;
+      return answer_of(discover(c.diagram, c.data, registry, effects, options));
+    };
+    const auto usual = with(1);
+    for (const double looser : {10.0, 0.1}) EXPECT_EQ(with(looser), usual) << id << ", " << looser << " times looser";
+  }
 }
 
 TEST_F(Recordings, Case001CannotTellExpansionFromCreepUnlessTheTemperatureIsHeld) {

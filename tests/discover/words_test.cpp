@@ -51,6 +51,20 @@ std::string all_of(const std::vector<std::string>& sentences) {
   return text;
 }
 
+TEST(Words, WhatWouldTellTwoPlacesApartIsSaidWithTheFinding) {
+  const Effects effects = all_effects();
+  Tried t;
+  t.effect = effects.find("amplifier_lag");
+  t.place.at = "u";
+  const ModelError e = errors_of({error_of("y", "um", 0.03)});
+  EXPECT_EQ(step_sentence(t, {}, e, e).find("monitor"), std::string::npos) << "it is at one place alone";
+  t.same_effects = {"sensor_lag"};
+  t.same_places = {"y"};
+  EXPECT_NE(step_sentence(t, {}, e, e).find("\"monitor\" tells: the drive measured behind the amplifier decides"),
+            std::string::npos)
+      << step_sentence(t, {}, e, e);
+}
+
 TEST(Words, EachOutputIsToldInItsOwnUnit) {
   Discovery d = a_lag_was_missing();
   d.base = errors_of({error_of("y", "um", 0.03), error_of("s", "mm/s", 0.06)});

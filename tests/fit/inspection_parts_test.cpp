@@ -197,6 +197,26 @@ TEST(SwingSizes, AreCountedOncePerTenthOfTheRange) {
   EXPECT_EQ(swing_sizes(u).size(), 5U);  // 0.6, 0.9, 1.2, 1.6, 2: those across a change are sizes of their own
 }
 
+TEST(SwingsOf, AreToldWithSizeMiddleAndSpeed) {
+  // Triangles between 0 and 1 at 1/s, then between 1 and 0.5 at 2/s.
+  const auto t = rows(601, [](std::size_t i) { return 0.01 * static_cast<double>(i); });
+  const auto u = rows(601, [](std::size_t i) {
+    const double x = 0.01 * static_cast<double>(i);
+    return x < 3 ? 1 - std::abs(1 - std::fmod(x, 2)) : 1 - 2 * (0.25 - std::abs(0.25 - std::fmod(x - 3, 0.5)));
+  });
+  const auto swings = swings_of(t, u, 0.05);
+  ASSERT_EQ(swings.size(), 13U);  // down, up; then six times down and up, the last one cut off
+  EXPECT_NEAR(swings[0].size, 1, 1e-9);
+  EXPECT_NEAR(swings[0].middle, 0.5, 1e-9);
+  EXPECT_NEAR(swings[0].fastest, 1, 1e-9);
+  EXPECT_NEAR(swings[5].size, 0.5, 1e-9);
+  EXPECT_NEAR(swings[5].middle, 0.75, 1e-9);
+  EXPECT_NEAR(swings[5].fastest, 2, 1e-9);
+  const auto ramp = swings_of(t, t, 0.05);
+  ASSERT_EQ(ramp.size(), 1U);
+  EXPECT_NEAR(ramp[0].size, 6, 1e-9);
+}
+
 // --- repeatability ----------------------------------------------------------------------------------------------
 
 TEST(Repeatability, BetweenPeriodsIsTheNoise) {

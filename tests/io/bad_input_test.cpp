@@ -157,6 +157,16 @@ INSTANTIATE_TEST_SUITE_P(
              "{\"format\": 1, \"blocks\": {\"a\": {\"choose\": \"x\", \"from\": {\"x\": {\"type\": \"pass\",\n\"in\": "
              "\"b\"}}}}}",
              "unknown_key", "/blocks/a/from/x/in", 2},
+        Case{"EffectUponNothing",
+             "{\"format\": 1, \"blocks\": {\n\"a\": {\"choose\": \"x\", \"from\": {\"x\": {\"type\": \"pass\", "
+             "\"effect\": "
+             "\"friction\"}}}}}",
+             "missing_key", "/blocks/a/from/x", 2},
+        Case{"EffectUponALaterOne",
+             "{\"format\": 1, \"blocks\": {\n\"a\": {\"choose\": \"x\", \"from\": {\"x\": {\"type\": \"pass\", "
+             "\"effect\": "
+             "\"friction\", \"upon\": \"off\"},\"off\": {\"type\": \"pass\"}}}}}",
+             "bad_choice", "/blocks/a/from/x/upon", 2},
         Case{"ParameterIsNull", "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"gain\",\n\"gain\": null}}}",
              "wrong_type", "/blocks/a/gain", 2},
         Case{"ParameterIsTrue", "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"gain\",\n\"gain\": true}}}",

@@ -81,6 +81,22 @@ TEST(MassMotion, AForceThatHangsOnThePlaceIsRightToTheFourthPowerOfTheStep) {
   EXPECT_NEAR(std::log2(error(10) / error(20)), 4, 0.6);
 }
 
+TEST(MassMotion, AForceThatHangsOnTheVelocityIsRightToTheFourthPowerOfTheStepToo) {
+  // A damper of 3 N s/m more, as a force beside a linear one of 0.5; against the exact motion with 3.5.
+  const auto error = [](int steps) {
+    const double h = 1.0 / steps;
+    const ExactStep whole(2, 0.5, 50, h), half(2, 0.5, 50, h / 2);
+    const auto none = [](double) { return 0.0; };
+    const auto damper = [](const Motion& at) { return -3 * at.velocity; };
+    Motion x{0.01, -0.3};
+    for (int i = 0; i < steps; ++i)
+      x = mass_motion::step_under(whole, half, x, 0.2 * i * h, 0.2 * (i + 1) * h, none, damper, 3);
+    return std::fabs(x.velocity - ExactStep(2, 3.5, 50, 1)(Motion{0.01, -0.3}, 0, 0.2).velocity);
+  };
+  EXPECT_LT(error(10), 5e-5 * 0.3);  // of the amplitude: a few hundredths of (3/2 0.1)^4
+  EXPECT_GT(std::log2(error(10) / error(20)), 3.5);
+}
+
 TEST(MassMotion, APullNearKnownPlacesIsThatOfTheParabolaThroughThem) {
   const auto pull = [](double x) { return 3 - 2 * x + 5 * x * x; };
   const mass_motion::NearPlaces known{{0.1, 0.3, 0.4}, {pull(0.1), pull(0.3), pull(0.4)}};

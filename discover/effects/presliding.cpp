@@ -1,0 +1,106 @@
+#include "discover/effects/presliding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discover/effects/library.h"
+#include "discover/effects/travel.h"
+
+namespace hysteron::effects {
+namespace {
+
+/// Holds more before it slides fast. `fast`: the whole travel in a row, from which speeds are tried downwards.
+Law with_excess(Law law, double fast, const Unit& speed_unit) {
+  give(law.block, "excess", 0.0);
+  LawParameter excess;
+  excess.path = "excess";
+  excess.lower = 0;
+  excess.upper = 3;
+  excess.scan = {0.2, 0.7};
+  excess.plausible_upper = 1;  // breakaway over Coulomb friction: 1 .. 2
+  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, speed_unit));
+  LawParameter speed;
+  speed.path = "stribeck_velocity";
+  speed.start = 1e-3 * fast;
+  speed.lower = 1e-8 * fast;
+  speed.upper = fast;
+  speed.log_scale = true;
+  speed.scan = {1e-5 * fast, 1e-4 * fast, 1e-3 * fast, 1e-2 * fast};
+  law.free.push_back(excess);
+  law.free.push_back(speed);
+  return law;
+}
+
+}  // namespace
+
+bool is_motion(const Unit& unit) {
+  return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
+}
+
+Law presliding(const Circumstances& at) {
+  Law law;
+  law.name = "presliding (Dahl)";
+  law.block.type = "mass_with_presliding";
+  const double range = travel(at), force = at.range() > 0 ? at.range() : 1;
+  give(law.block, "contact_stiffness", NumberList{with_unit(0.5 * force / range, parse_unit("N/m"))});
+  give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit("um"))});
+  LawParameter k;
+  k.path = element("contact_stiffness", 0);
+  k.start = 0.5 * force / range;
+  k.lower = 1e-5 * force / range;
+  k.upper = 1e4 * force / range;
+  k.log_scale = true;
+  for (const double f : {0.1, 1.0, 10.0}) k.scan.push_back(f * force / range);
+  LawParameter d;
+  d.path = element("slip_distance", 0);
+  d.start = 0.02 * range;
+  d.lower = 1e-4 * range;
+  d.upper = 10 * range;
+  d.log_scale = true;
+  for (const double f : {0.003, 0.02, 0.1}) d.scan.push_back(f * range);
+  d.plausible_upper = 50e-6;
+  law.free = {k, d};
+  return law;
+}
+
+Law presliding_with_excess(const Circumstances& at) {
+  Law law = with_excess(presliding(at), travel(at) / std::max(at.shortest_step, 1e-9), parse_unit("m/s"));
+  law.name = "presliding with Stribeck's excess (LuGre)";
+  return law;
+}
+
+Law guided(const Circumstances& at) {
+  Law law;
+  law.name = "holds the motion back (Dahl)";
+  law.block.type = "guide_friction";
+  const double range = at.range() > 0 ? at.range() : 1;
+  LawParameter level;
+  level.path = "level";
+  level.start = 0.01 * range;
+  level.lower = 0;                  // it takes energy
+  level.upper = short_way * range;  // see the slip distance: it slides once the pull is above this
+  level.scan = {0.001 * range, 0.01 * range};
+  give(law.block, "level", with_unit(level.start, at.unit));
+  LawParameter slip;
+  slip.path = "slip_distance";
+  slip.start = 0.03 * range;
+  // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
+  slip.upper = short_way * range;
+  slip.lower = 1e-7 * range;
+  slip.log_scale = true;
+  slip.scan = per_decade(1e-3 * range, short_way * range, 2);
+  give(law.block, "slip_distance", with_unit(slip.start, at.unit));
+  law.free = {level, slip};
+  return law;
+}
+
+Law guided_with_excess(const Circumstances& at) {
+  const double range = at.range() > 0 ? at.range() : 1;
+  Law law = with_excess(guided(at), range / std::max(at.shortest_step, 1e-9),
+                        parse_unit(fmt::format("({})/s", unit_text(at.unit))));
+  law.name = "holds the motion back, with Stribeck's excess (LuGre)";
+  return law;
+}
+
+}  // namespace hysteron::effects
