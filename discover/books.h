@@ -1,7 +1,7 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
-// begun_anew.cpp, idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict
+// idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict
 // (conclude.cpp).
 #pragma once
 
@@ -138,11 +138,6 @@ int best_admitted(const std::vector<Tried>& tried);
 void compare_all(Books& books, std::vector<Tried>& tried, As as);
 /// Further effects were screened with the earlier ones held: the best few are fitted together with them.
 void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar);
-/// Where more than noise is left: each law that stands, but the last, begins anew beside the others, and stays where
-/// that is better.
-Contender begun_anew(const Books& books, const Workshop& shop, Contender contender);
-/// The same with the best few candidates.
-void let_others_begin_anew(Books& books, std::vector<Tried>& tried, double bar);
 /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
 /// effect that was found they are screened with that one held, and fitted together only where that brings something.
 void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar);

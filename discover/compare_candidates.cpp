@@ -230,7 +230,6 @@ void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
     if (better.ok) t.contender = std::move(better);
     return false;
   });
-  let_others_begin_anew(books, tried, bar);
   compare_all(books, tried, as);
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }

@@ -126,7 +126,7 @@ std::vector<std::string> free_anyway(const Workshop& shop, const Contender& c) {
   return paths;
 }
 
-Contender refit(const Workshop& shop, const Contender& contender, Effort effort, int anew) {
+Contender refit(const Workshop& shop, const Contender& contender, Effort effort) {
   Contender c;
   c.diagram = contender.diagram;
   c.standing = contender.standing;
@@ -134,7 +134,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort,
   c.change = contender.change;
   c.zero_held = contender.zero_held;
   c.fit.estimates = contender.fit.estimates;  // of what is held
-  return guarded(shop, std::move(c), effort, anew, 0);
+  return guarded(shop, std::move(c), effort, -1, 0);
 }
 
 Contender without(const Workshop& shop, const Contender& contender, std::size_t standing) {

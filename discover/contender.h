@@ -86,9 +86,8 @@ Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort ef
 /// `before` with one more effect.
 Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
                       const Place& place, const Circumstances& at, Effort effort);
-/// The same model fitted again with more effort, from where it stands; `anew`: but for this effect, which begins where
-/// its law does.
-Contender refit(const Workshop& shop, const Contender& contender, Effort effort, int anew = -1);
+/// The same model fitted again with more effort, from where it stands.
+Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
 /// The same model without one of its effects, with the values that were found together with it; not simulated.
 Contender without(const Workshop& shop, const Contender& contender, std::size_t standing);
 /// What stood before the last effect, with the values that were found together with it.

@@ -130,16 +130,6 @@ bool is_as_good(const Books& books, const Tried& t) {
   return t.contender.tie_score() - books.current.tie_score() < rules::tie;
 }
 
-/// The best of those that could be, the others beside it begun anew.
-std::optional<Contender> best_of_them_anew(const Books& books, const std::vector<Tried>& fitted, double bar) {
-  const Tried* best = nullptr;
-  for (const auto& t : fitted)
-    if (t.admitted && (best == nullptr || t.contender.score() < best->contender.score())) best = &t;
-  if (best == nullptr) return std::nullopt;
-  books.progress("the others anew beside " + best->effect->id, bar);
-  return begun_anew(books, books.shop, best->contender);
-}
-
 InPlace look_alikes_of(const Books& books, const Contender& rest, const Member& m, double bar) {
   const Effect& member = *m.effect;
   const auto list = choices_on(
@@ -162,11 +152,6 @@ InPlace look_alikes_of(const Books& books, const Contender& rest, const Member& 
   InPlace found;
   if (first < list.size()) {
     found.better = std::move(fitted[first].contender);
-    return found;
-  }
-  if (auto best = best_of_them_anew(books, fitted, bar);
-      best && best->score() < books.current.score() - rules::exchange) {
-    found.better = std::move(best);
     return found;
   }
   std::erase_if(fitted, [&](const Tried& t) { return !t.admitted || !is_as_good(books, t); });
