@@ -1,15 +1,15 @@
 // The exact advance, row by row.
 //
-// Blocks fall into sources (recorded inputs, constants), sampled blocks (sources that jump at their instants), linear
-// blocks, and nonlinear ones (static blocks, memory, dead time, states of their own). The nonlinear depth of a block is
-// the largest number of nonlinear blocks on a path to it. Linear blocks of one depth that are wired together are one
-// linear system (LinearPart): between them no nonlinear block can stand, so cascades and loops of linear blocks,
-// algebraic ones too, are exact. A row is one pass over the depths: the linear systems step with their inputs moving
-// linearly, then the nonlinear blocks of that depth follow, their states by the Runge-Kutta formula of order four
-// (rows.h). Feedback loops with nonlinear blocks move as a whole, by the same formula along the program's own steps,
-// and count as one nonlinear block. A signal behind a nonlinear block is taken as linear between substeps, which, with
-// that formula, is the only approximation; the caller doubles the substeps until nothing changes. What stands still
-// between the instants of sampled blocks stands still behind a nonlinear block, too: no substeps.
+// Blocks fall into sources (recorded inputs, what a dead time makes of one, constants), sampled blocks (sources that
+// jump at their instants), linear blocks, and nonlinear ones (static blocks, memory, dead time, states of their own).
+// The nonlinear depth of a block is the largest number of nonlinear blocks on a path to it. Linear blocks of one depth
+// that are wired together are one linear system (LinearPart): between them no nonlinear block can stand, so cascades
+// and loops of linear blocks, algebraic ones too, are exact. A row is one pass over the depths: the linear systems step
+// with their inputs moving linearly, then the nonlinear blocks of that depth follow, their states by the Runge-Kutta
+// formula of order four (rows.h). Feedback loops with nonlinear blocks move as a whole, by the same formula along the
+// program's own steps, and count as one nonlinear block. A signal behind a nonlinear block is taken as linear between
+// substeps, which, with that formula, is the only approximation; the caller doubles the substeps until nothing changes.
+// What stands still between the instants of sampled blocks stands still behind a nonlinear block, too: no substeps.
 //
 // At a point (a row, a sampling instant, an echo of one behind a dead time), in the order of events.h: step up to it;
 // sources jump; sampled blocks that are due run (sampling.h); their jumps reach everything behind them at once, and
@@ -75,6 +75,12 @@ struct Advance::Content {
   AdvanceRows rows;
   Sampling sampling;
   std::optional<Schedule> schedule;
+  struct Late {
+    SeriesPointer of{};
+    double by = 0, start = 0;  ///< [s]
+    SeriesPointer made{};
+  };
+  std::vector<Late> late;  ///< per place in AdvancePlan::series
   // Made when several runs come at once.
   std::vector<std::unique_ptr<AdvanceState>> beside;
   std::optional<AdvanceRows> wide;
@@ -82,9 +88,23 @@ struct Advance::Content {
   Content(ProgramPointer program, std::vector<int> signals)
       : plan(std::move(program), std::move(signals)), state(plan), rows(plan, 1), sampling(*plan.program) {}
 
-  std::vector<SeriesPointer> series_of(const Run& run) const {
+  /// The sources of a run that starts then; what came as late in the last one is the same.
+  std::vector<SeriesPointer> series_of(const Run& run, double start) {
     std::vector<SeriesPointer> list;
-    for (const int b : plan.series) list.push_back(run.series[at(plan.block(b).series_index)]);
+    late.resize(plan.series.size());
+    for (std::size_t s = 0; s < plan.series.size(); ++s) {
+      const int b = plan.series[s];
+      const SeriesPointer& recorded = plan.recording(run, b);
+      if (plan.graph.late_of[at(b)] < 0) {
+        list.push_back(recorded);
+        continue;
+      }
+      const double by = plan.lateness(run, b);
+      Late& known = late[s];
+      if (known.of != recorded || known.by != by || known.start != start)
+        known = {recorded, by, start, later(*recorded, by, start)};
+      list.push_back(known.made);
+    }
     return list;
   }
 
@@ -108,12 +128,12 @@ struct Advance::Content {
   }
 
   void keep_schedule(const Run& run, const Instants& instants) {
-    auto series = series_of(run);
+    auto series = series_of(run, instants->front());
     if (!schedule || !schedule->is_for(instants, series)) schedule.emplace(instants, std::move(series));
   }
 
   void start_rows(AdvanceState& s, const Run& run, const AdvanceOptions& options) {
-    s.take(run, path_steps * std::max(1, options.substeps));
+    s.take(run, schedule->series, path_steps * std::max(1, options.substeps));
     s.start({}, schedule->t.front(), schedule->start_branch, options.at_rest, sampling);
   }
 
@@ -153,10 +173,10 @@ struct Advance::Content {
 void Advance::Content::advance_points(const Run& start, std::span<const double> instants, const AdvanceOptions& options,
                                       Values& values) {
   const int substeps = std::max(1, options.substeps);
-  state.take(start, path_steps * substeps);
+  const auto series = series_of(start, instants.front());
+  state.take(start, series, path_steps * substeps);
   Run& run = state.run;
   const bool jumps = plan.sources_jump(run);
-  const auto series = series_of(run);
   Points points(*plan.program, run, rows_between(instants, series), plan.delays_of(run));
   std::optional<Corners> corners;
   if (plan.has_corners()) corners.emplace(*plan.program, run, instants.front());
@@ -205,7 +225,11 @@ bool Advance::Content::can_go_side_by_side(std::span<const Run* const> runs) con
   const Run& first = *runs.front();
   const auto bound = [](const SeriesPointer& s) { return s != nullptr; };
   return std::all_of(first.series.begin(), first.series.end(), bound) && plan.is_plain(first) &&
-         std::all_of(runs.begin(), runs.end(), [&](const Run* run) { return run->series == first.series; });
+         std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
+           return run->series == first.series && std::all_of(plan.series.begin(), plan.series.end(), [&](int b) {
+                    return plan.lateness(*run, b) == plan.lateness(first, b);
+                  });
+         });
 }
 
 /// As many runs as there are lanes, or fewer: the lanes that are left carry the numbers of the first.

@@ -64,10 +64,20 @@ class Builder {
     graph_.in_the_way = b.path;
   }
 
+  /// What comes late of a recording is a recording: where it turns is known. Sampled blocks hand their jumps on at
+  /// points of their own.
+  int recording_of(const BlockInstance& b) const {
+    if (b.kernel->reach_back == nullptr || b.source.size() != 1 || !program_.sampled_blocks.empty()) return -1;
+    const int from = block_of(b.source.front());
+    return block(from).series_index >= 0 ? from : -1;
+  }
+
   void give_roles() {
     for (const auto& b : program_.blocks) {
       refuse(b, why_not_block(b));
-      graph_.role.push_back(b.kernel->is_sampled()            ? AdvanceRole::sampled
+      graph_.late_of.push_back(recording_of(b));
+      graph_.role.push_back(graph_.late_of.back() >= 0        ? AdvanceRole::source
+                            : b.kernel->is_sampled()          ? AdvanceRole::sampled
                             : is_function_of_time(b)          ? AdvanceRole::momentary
                             : b.n_u == 0                      ? AdvanceRole::source
                             : b.kernel->declaration.is_linear ? AdvanceRole::linear

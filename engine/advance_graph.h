@@ -10,7 +10,7 @@
 namespace hysteron {
 
 enum class AdvanceRole {
-  source,     ///< recorded inputs and constants
+  source,     ///< recorded inputs, these as a dead time hands them on, and constants
   sampled,    ///< holds between its instants: a source that jumps
   linear,     ///< linear time-invariant, with or without states
   nonlinear,  ///< static, memory, dead time, states of their own
@@ -22,6 +22,7 @@ struct AdvanceGraph {
   std::string why_not{};                  ///< "" or the block that stands in the way and why; then the rest is empty
   std::string in_the_way{};               ///< path of that block
   std::vector<AdvanceRole> role{};        ///< per block
+  std::vector<int> late_of{};             ///< per block: the recorded input that a dead time hands on late; -1 = none
   std::vector<std::vector<int>> loops{};  ///< blocks of each feedback loop with nonlinear blocks
   std::vector<int> depth{};               ///< per block: nonlinear blocks in a row before it, see advance.cpp
   std::vector<bool> jumps{};              ///< per signal: may jump at a sampling instant

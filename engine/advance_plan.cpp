@@ -55,8 +55,11 @@ void AdvancePlan::build_levels() {
   for (const int b : order) {
     switch (role(b)) {
       case AdvanceRole::source:
-        (block(b).series_index >= 0 ? series : constants).push_back(b);
-        if (block(b).series_index < 0) break;
+        if (block(b).series_index < 0 && graph.late_of[at(b)] < 0) {
+          constants.push_back(b);
+          break;
+        }
+        series.push_back(b);
         add_signals(b, series_signals);
         series_turn = series_turn || turns[at(b)];
         break;
@@ -241,8 +244,16 @@ bool AdvancePlan::is_plain(const Run& run) const {
 }
 
 bool AdvancePlan::sources_jump(const Run& run) const {
-  return std::any_of(series.begin(), series.end(),
-                     [&](int b) { return run.series[at(block(b).series_index)]->between == Between::hold; });
+  return std::any_of(series.begin(), series.end(), [&](int b) { return recording(run, b)->between == Between::hold; });
+}
+
+const SeriesPointer& AdvancePlan::recording(const Run& run, int b) const {
+  const int of = graph.late_of[at(b)];
+  return run.series[at(block(of >= 0 ? of : b).series_index)];
+}
+
+double AdvancePlan::lateness(const Run& run, int b) const {
+  return graph.late_of[at(b)] >= 0 ? block(b).kernel->reach_back(view_of(*program, run, b)) : 0;
 }
 
 std::vector<double> AdvancePlan::delays_of(const Run& run) const {

@@ -35,7 +35,7 @@ struct AdvancePlan {
   ProgramPointer program;
   std::vector<int> signals;  ///< what is returned
   AdvanceGraph graph;
-  std::vector<int> series, constants;            ///< sources
+  std::vector<int> series, constants;            ///< sources; what comes late of a recording counts as one
   std::vector<int> delays;                       ///< dead times that hand jumps of sampled blocks on
   std::vector<int> momentary, momentary_behind;  ///< in value order; those that read what sampled blocks hold
   std::vector<int> series_signals, sampled_signals;
@@ -66,6 +66,10 @@ struct AdvancePlan {
   bool is_plain(const Run& run) const;
   /// Some recording is held between its samples.
   bool sources_jump(const Run& run) const;
+  /// The recording that a source in `series` reads, itself or late.
+  const SeriesPointer& recording(const Run& run, int b) const;
+  /// [s] by which a source in `series` comes late.
+  double lateness(const Run& run, int b) const;
   std::vector<double> delays_of(const Run& run) const;
   /// Functions of time with corners of their own.
   bool has_corners() const;

@@ -40,8 +40,9 @@ AdvanceState::AdvanceState(const AdvancePlan& plan)
 
 AdvanceState::~AdvanceState() = default;
 
-void AdvanceState::take(const Run& start, int path_steps) {
+void AdvanceState::take(const Run& start, std::vector<SeriesPointer> series, int path_steps) {
   run = start;
+  sources = std::move(series);
   x = run.x;
   path_steps_ = path_steps;
   hits = 0;
@@ -50,8 +51,8 @@ void AdvanceState::take(const Run& start, int path_steps) {
 void AdvanceState::at_time(double t, double branch) {
   run.branch = branch;
   steps::begin(program_, run, work, t);
-  for (const int b : plan_.series)
-    y[at(plan_.block(b).y_begin)] = run.series[at(plan_.block(b).series_index)]->value(t, branch);
+  for (std::size_t s = 0; s < plan_.series.size(); ++s)
+    y[at(plan_.block(plan_.series[s]).y_begin)] = sources[s]->value(t, branch);
 }
 
 void AdvanceState::steps_value(int block) { steps::value(program_, work, block, x.data()); }

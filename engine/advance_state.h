@@ -19,7 +19,8 @@ class AdvanceState {
   AdvanceState& operator=(const AdvanceState&) = delete;
 
   /// Goes on with a copy of `start`; path_steps: Runge-Kutta steps of a rate-independent law along a jump.
-  void take(const Run& start, int path_steps);
+  /// series: of AdvancePlan::series.
+  void take(const Run& start, std::vector<SeriesPointer> series, int path_steps);
 
   /// `due`, here as below: places in Program::sampled_blocks of those that run at t.
   void start(std::span<const int> due, double t, double branch, bool at_rest, Sampling& sampling);
@@ -41,6 +42,7 @@ class AdvanceState {
 
   // Of the run, read and written row by row, too (advance_rows.h).
   Run run;
+  std::vector<SeriesPointer> sources;  ///< of AdvancePlan::series
   Work work;
   std::vector<double>& y;  ///< per signal
   std::vector<double> x;   ///< states of nonlinear blocks, in the order of the program

@@ -71,6 +71,18 @@ std::vector<double> rows_between(std::span<const double> instants, std::span<con
   return times;
 }
 
+SeriesPointer later(const Series& series, double by, double start) {
+  auto late = std::make_shared<Series>();
+  late->between = series.between;
+  late->t.push_back(start + by);
+  late->v.push_back(series.value(start, start));
+  for (auto i = static_cast<std::size_t>(series.piece(start) + 1); i < series.t.size(); ++i) {
+    late->t.push_back(series.t[i] + by);
+    late->v.push_back(series.v[i]);
+  }
+  return late;
+}
+
 double next_sample(std::span<const SeriesPointer> series, double t) {
   double next = std::numeric_limits<double>::infinity();
   for (const auto& s : series) next = std::min(next, s->next_corner(t));

@@ -29,6 +29,9 @@ struct Schedule {
   bool is_for(const Instants& other, std::span<const SeriesPointer> others) const;
 };
 
+/// A recording as it comes `by` seconds later to one that knows nothing of it before `start` [s].
+SeriesPointer later(const Series& series, double by, double start);
+
 /// First sample of any of them behind t [s], or infinity.
 double next_sample(std::span<const SeriesPointer> series, double t);
 

@@ -117,6 +117,60 @@ TEST(DataModel, RowsAreCutWhereTheirErrorIsMade) {
   EXPECT_LT(model.steps(0), before);
 }
 
+TEST(DataModel, ARecordingThatComesLateTurnsWhereItIsKnownTo) {
+  // Three eighths of a row late, before a plant: rows are cut where it turns, and nowhere else. Straight and held
+  // between its samples.
+  Diagram d = lab::diagram("y");
+  lab::add(d, "late", "dead_time", "u").parameters["delay"] = "3.75 ms";
+  auto& lag = lab::add(d, "plant", "lag", "late");
+  lag.parameters["times"] = NumberList{{15, "ms"}, {4, "ms"}};
+  lab::add(d, "y", "gain", "plant").parameters["gain"] = "1 um/V";
+  const auto program = compile(d, lab::registry());
+  for (const auto between : {Between::linear, Between::hold}) {
+    DataSet data = recordings(0.01, 300);
+    data.notes["u"].between = between;
+    lab::measure(data, program, 0, 26);
+    DataModelOptions options;
+    options.relative_tolerance = 1e-9;
+    DataModel model(program, lab::shared(data), options);
+    const std::vector<int> both{0, 1};
+    ASSERT_TRUE(model.predict({}, both).ok);
+    EXPECT_EQ(model.why_not_exact(), "");
+    EXPECT_FALSE(model.goes_by_points()) << "many rows pass at once";
+    EXPECT_EQ(model.substeps(0), 1) << to_text(between);
+    EXPECT_LT(model.cross_check({}, both)[0], 1e-7) << to_text(between);  // BDF at 1e-9 a step
+  }
+}
+
+TEST(DataModel, ADelayThatIsFittedIsFoundWhereverItBegins) {
+  // y = u(t - 3.75 ms) of a straight input is linear in pieces: shifted by hand.
+  Diagram d = lab::diagram("y");
+  lab::add(d, "late", "dead_time", "u").parameters["delay"] = "1 ms";
+  lab::add(d, "y", "gain", "late").parameters["gain"] = "1 um/V";
+  const auto program = compile(d, lab::registry());
+  DataSet data = recordings(0.01, 300);
+  for (auto& r : data.recordings) {
+    const auto& u = r.columns.at("u");
+    auto& y = r.columns["y"];
+    y.assign(u.size(), 0.0);
+    r.units["y"] = parse_unit("um");
+    for (std::size_t k = 0; k < u.size(); ++k) y[k] = 1e-6 * (k == 0 ? u[0] : u[k] + (u[k - 1] - u[k]) * 0.375);
+  }
+  DataModel model(program, lab::shared(data));
+  const int delay = parameter_index(*program, "late.delay");
+  for (const double other : {0.0, 0.02, 3.75e-3}) {  // several in a row: nothing is kept of the one before
+    const auto prediction = model.predict(Trial{{delay, other, -1}}, std::vector<int>{0});
+    ASSERT_TRUE(prediction.ok) << prediction.error;
+    const auto& y = model.recording(0).columns.at("y");
+    double off = 0;
+    for (std::size_t k = 0; k < y.size(); ++k) off = std::max(off, std::abs(prediction.y[0][0][k] - y[k]));
+    if (other == 3.75e-3)
+      EXPECT_LT(off, 1e-14);  // rounding of 6 um
+    else
+      EXPECT_GT(off, 1e-8);
+  }
+}
+
 TEST(DataModel, APlayKeepsHowFarThePlantRangBetweenTwoRows) {
   // Of 200 Hz, damped by a tenth, in rows of 50 ms: at each of them it is at rest again, whether rows are halved or
   // not.
