@@ -8,18 +8,10 @@
 #include "app/load.h"
 #include "app/numbers.h"
 #include "discover/check.h"
+#include "engine/time_text.h"
 
 namespace hysteron {
 namespace {
-
-std::string time_text(double s) {
-  if (s == 0) return "0 s";
-  const double a = std::abs(s);
-  return a >= 3600   ? number_text(s / 3600, 3) + " h"
-         : a >= 1    ? number_text(s, 3) + " s"
-         : a >= 1e-3 ? number_text(s * 1e3, 3) + " ms"
-                     : number_text(s * 1e6, 3) + " us";
-}
 
 std::string clock_text(const Clock& clock) {
   if (!clock.regular) return fmt::format("not uniform, {} .. {}", time_text(clock.shortest), time_text(clock.longest));

@@ -84,14 +84,6 @@ Number per_second(double si, const Unit& unit) {
   return {rounded(unit.difference_from_si(si)), text.find('/') == std::string::npos ? text + "/s" : "(" + text + ")/s"};
 }
 
-std::string time_text(double seconds) {
-  if (seconds >= 3600) return fmt::format("{:.3g} h", seconds / 3600);
-  if (seconds >= 999.5) return fmt::format("{:.3g} min", seconds / 60);  // 1.8e+03 s is nobody's half hour
-  if (seconds >= 1 || seconds == 0) return fmt::format("{:.3g} s", seconds);
-  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
-  return fmt::format("{:.3g} us", seconds * 1e6);
-}
-
 std::string unit_text(const Unit& unit) { return unit.text.empty() ? to_text(unit.dimension) : unit.text; }
 
 Number level(double si, const Unit& unit) { return {rounded(unit.from_si(si)), unit_text(unit)}; }

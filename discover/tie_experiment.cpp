@@ -29,7 +29,7 @@ Rival rival_of(const Books& books, const Tried& t) {
   r.effect = t.effect->id;
   r.program = compile(c.diagram, books.registry);
   if (is_of_sensor(*t.effect))
-    r.motion = compile(remove_effect(c.diagram, books.registry, c.standing.back().name), books.registry);
+    r.motion = compile(remove_effect(c.diagram, books.registry, c.standing.back().name, t.effect->id), books.registry);
   if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
   r.look_alikes = t.effect->look_alikes;
   r.inputs = inputs_before(books, t);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/time_text.h"
 #include "fit/median.h"
 
 namespace hysteron {
@@ -103,13 +104,6 @@ DelayKind kind_of(const std::vector<Shifted>& list, DelayFinding& f) {
   if (samples.spread < agree && samples.spread < seconds.spread / 2) return DelayKind::samples;
   if (seconds.spread < agree && seconds.spread < samples.spread / 2) return DelayKind::seconds;
   return DelayKind::unclear;
-}
-
-std::string time_text(double s) {
-  const double a = std::abs(s);
-  return a >= 1      ? fmt::format("{:.3g} s", s)
-         : a >= 1e-3 ? fmt::format("{:.3g} ms", 1e3 * s)
-                     : fmt::format("{:.3g} us", 1e6 * s);
 }
 
 std::string sentence_of(const DelayFinding& f, const std::string& name) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "engine/time_text.h"
 #include "fit/branches.h"
 #include "fit/median.h"
 #include "fit/score.h"
@@ -64,12 +65,6 @@ std::string size_text(double si, const Unit& unit) { return in_unit(unit.differe
 std::string level_text(double si, const Unit& unit) { return in_unit(unit.from_si(si), unit); }
 std::string range_text(double low, double high, const Unit& unit) {
   return fmt::format("{:.3g} .. {}", unit.from_si(low), level_text(high, unit));
-}
-std::string time_text(double s) {
-  return s >= 3600             ? fmt::format("{:.3g} h", s / 3600)
-         : s >= 1              ? fmt::format("{:.3g} s", s)
-         : s >= 1e-3 || s == 0 ? fmt::format("{:.3g} ms", s * 1e3)
-                               : fmt::format("{:.3g} us", s * 1e6);
 }
 std::string count(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 std::string share_text(double share) { return fmt::format("{:.2g} %", 100 * share); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "discover/effect.h"
+#include "engine/time_text.h"
 
 namespace hysteron::effects {
 
@@ -49,8 +50,7 @@ std::vector<double> per_decade(double from, double to, double per_decade);
 double rounded(double value);
 /// A rate [SI per second] of a signal in `unit`, as a parameter.
 Number per_second(double si, const Unit& unit);
-/// "0.2 ms", "16 s": a time for people.
-std::string time_text(double seconds);
+using hysteron::time_text;
 /// What the law's block has written; nullptr if nothing, or something else.
 template <class T>
 const T* written(const Law& law, const char* parameter) {

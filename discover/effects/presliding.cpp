@@ -85,7 +85,7 @@ Law guided(const Circumstances& at) {
   LawParameter slip;
   slip.path = "slip_distance";
   slip.start = 0.03 * range;
-  // A guide slides within a third of the stroke; what bends over all of it is the actuator's own hysteresis.
+  // A guide slides within a tenth of the stroke; what bends over all of it is the actuator's own hysteresis.
   slip.upper = short_way * range;
   slip.lower = 1e-7 * range;
   slip.log_scale = true;
