@@ -40,6 +40,14 @@ bool explains(const ModelError& now, const ModelError& was, double share) {
          now.excess_validate() < (1 - share) * was.excess_validate();
 }
 
+/// What a gain and a zero of each output would leave beside the prediction: a wrong gain is as much too small at every
+/// frequency as straight lines are at one.
+ModelError beside_a_calibration(const Books& books, Prediction prediction) {
+  for (int o = 0; o < static_cast<int>(books.base_model->outputs().size()); ++o)
+    prediction = books.evidence->calibrated(std::move(prediction), o);
+  return books.evidence->error(prediction);
+}
+
 /// How far a cubic through the samples lies beside straight lines, rms over all recordings, over what they vary: an
 /// eighth of the second difference in the middle between two.
 double bend_of(const DataSet& data, const std::string& input) {
@@ -104,7 +112,9 @@ std::optional<SmoothInput> find_smooth_input(const Books& books) {
     Contender present = books.current;
     present.prediction = {};  // it is of the data as they were said to be
     const Contender c = refit(shop, present, Effort::screen);
-    if (c.ok && explains(c.error_of, was, rules::share_of_rest))
+    if (c.ok && explains(c.error_of, was, rules::share_of_rest) &&
+        explains(beside_a_calibration(books, c.prediction), beside_a_calibration(books, books.current.prediction),
+                 rules::share_of_rest))
       return SmoothInput{input, was.nrmse_validate, c.error_of.nrmse_validate};
   }
   return {};

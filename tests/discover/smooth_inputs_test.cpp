@@ -27,12 +27,18 @@ class SmoothInputs : public Discoveries {
   /// 1 kg on 400 N/m + cubic x^2 with 4 N s/m under 10 N/V, sampled at 25 Hz.
   /// The drive moves as it does, or along straight lines between the samples.
   DataSet measured(double cubic, bool straight) const {
+    return measured({{Role::train, sines(0.7, {0.5, 0.9, 1.5, 2.1})},
+                     {Role::train, sines(1, {0.7, 1.2, 1.9})},
+                     {Role::validate, sines(0.9, {0.6, 1.1, 1.7, 2.0})}},
+                    cubic, straight, 1);
+  }
+  /// The same by these drives; the sensor reads so many times the motion.
+  DataSet measured(const std::vector<std::pair<Role, Drive>>& drives, double cubic, bool straight,
+                   double sensor_gain) const {
     std::vector<Recording> list;
     std::uint64_t seed = 5200;
     const double step = 0.04;
-    for (const auto& [role, drive] :
-         {std::pair(Role::train, sines(0.7, {0.5, 0.9, 1.5, 2.1})), std::pair(Role::train, sines(1, {0.7, 1.2, 1.9})),
-          std::pair(Role::validate, sines(0.9, {0.6, 1.1, 1.7, 2.0}))}) {
+    for (const auto& [role, drive] : drives) {
       const auto t = rows(1000, step);
       const auto u = sampled(t, drive);
       auto y = noise(t.size(), 1e-5, 1e-6, seed);
@@ -54,7 +60,7 @@ class SmoothInputs : public Discoveries {
           x += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
           v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
         }
-        y[k] += x;
+        y[k] += sensor_gain * x;
       }
       list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
     }
@@ -109,6 +115,18 @@ TEST_F(SmoothInputs, WhatWasFoundIsKeptWhereTheSearchWithItIsBrokenOff) {
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
     return w.starts_with("u moves smoothly between its samples, it seems");
   }));
+}
+
+TEST_F(SmoothInputs, AWrongGainIsNoBendOfTheInput) {
+  // Straight lines through 25 samples a second of 2 Hz are 2 % too small, (2 pi f h)^2 / 12, and so is such a sensor.
+  const DataSet data = measured({{Role::train, sines(0.7, {1.9, 2.0})},
+                                 {Role::train, sines(1, {1.95, 2.1})},
+                                 {Role::validate, sines(0.9, {1.9, 2.05})}},
+                                0, true, 1.02);
+  const Discovery d = discovered(mass_on_spring(), data, {"calibration", "structural_resonance"});
+  EXPECT_TRUE(d.smooth_inputs.empty()) << tried(d);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.effect, "calibration") << tried(d);
 }
 
 TEST_F(SmoothInputs, StraightLinesThatAreStraightStayStraight) {
