@@ -133,6 +133,17 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
   EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, "hysteresis", "friction").admitted) << "beyond a tenth";
 }
 
+TEST_F(Judging, WhatAPolynomialLeavesOfACurveIsNoFurtherCurve) {
+  const ModelError before = error(1500, 1500, 1500, 1500), after = error(1400, 1400, 1400, 1400);
+  const std::vector<double> left(4, 50);  // of 1.5 %; ten more in a hundred of the curve would be 44 times that
+  EXPECT_FALSE(judged(before, after, left, "sensor_nonlinearity", "asymmetry").admitted);
+  EXPECT_FALSE(judged(before, after, left, "asymmetry", "sensor_nonlinearity").admitted);
+  EXPECT_FALSE(judged(before, after, left, "saturation", "sensor_nonlinearity").admitted);
+  const ModelError noise_left = error(1000, 1000, 1000, 1000);
+  EXPECT_TRUE(judged(before, noise_left, std::vector<double>(4, 5), "sensor_nonlinearity", "asymmetry").admitted)
+      << "twice as much as that";
+}
+
 TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {
   // Domains that switch unevenly bend the loops about their middle, as a curve does.
   const std::vector<double> left{0, 450, 0, 450};
