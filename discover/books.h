@@ -172,9 +172,17 @@ void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner
 /// Into the record of what was tried. `winner`, `ties`: indices of tried; -1 = nobody.
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner, const std::vector<int>& ties);
 
+/// What the recordings show at places of the model, with what is free anyway and how the user's model rings.
+std::vector<Circumstances> circumstances_on(const Books& books, const Contender& model,
+                                            const std::vector<Place>& places);
+
 /// What a gain and a zero alone take away nearly all of is theirs first, whatever the winner's law holds besides:
 /// index of the calibration, or `winner`.
 int calibration_first(const std::vector<Tried>& tried, int winner);
+
+/// Of what explains as much as the winner the effect that is plainer goes first (Effect::plainer: a gain that is wrong
+/// needs no story, one that changes with use does), though it may need a number more. Its index, or `winner`.
+int plainer_first(const std::vector<Tried>& tried, int winner);
 
 /// Could the law describe this effect, or what looks like it, besides its own (Law::holds)?
 bool could_hold(const Books& books, const Law& law, const Effect& e);

@@ -7,6 +7,7 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
+#include "discover/own_resonances.h"
 #include "discover/parts.h"
 #include "discover/residual_parts.h"
 #include "discover/structures.h"
@@ -145,8 +146,7 @@ std::vector<Tried> everywhere(Books& books, int step, const Names& outputs, cons
     }
   }
   if (list.empty()) return list;
-  auto seen = circumstances_at(books.current.diagram, books.registry, *books.data, places,
-                               free_anyway(books.shop, books.current));
+  auto seen = circumstances_on(books, books.current, places);
   for (std::size_t i = 0; i < list.size(); ++i) list[i].circumstances = std::move(seen[i]);
   return list;
 }
@@ -163,6 +163,15 @@ void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
 }
 
 }  // namespace
+
+std::vector<Circumstances> circumstances_on(const Books& books, const Contender& model,
+                                            const std::vector<Place>& places) {
+  auto seen = circumstances_at(model.diagram, books.registry, *books.data, places, free_anyway(books.shop, model));
+  if (model.standing.empty() || books.base.program == nullptr) return seen;
+  const auto resonances = own_resonances(*books.base.program);
+  for (auto& c : seen) c.own_resonances = resonances;
+  return seen;
+}
 
 std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written) {
   const Program& p = *model.program;
@@ -226,8 +235,7 @@ std::vector<Choice> choices_on(const Books& books, const Contender& model,
     auto places = places_of(e, model.diagram, books.registry, books.data.get());
     std::erase_if(places, [&](const Place& p) { return standing_before(books, model, e, p); });
     if (places.empty()) continue;
-    const auto at =
-        circumstances_at(model.diagram, books.registry, *books.data, places, free_anyway(books.shop, model));
+    const auto at = circumstances_on(books, model, places);
     for (std::size_t p = 0; p < places.size(); ++p) {
       if (!e.unseen(at[p]).empty()) continue;
       for (auto& law : laws(e, at[p])) list.push_back({&e, std::move(law), places[p], at[p]});

@@ -144,7 +144,7 @@ int who_wins(Books& books, std::vector<Tried>& tried) {
     sharpen_rivals(books, tried, static_cast<std::size_t>(winner));
     winner = best_admitted(tried);
     if (winner < 0) break;
-    winner = held_one_first(books, tried, calibration_first(tried, winner));
+    winner = plainer_first(tried, held_one_first(books, tried, calibration_first(tried, winner)));
     if (stays_itself(books, tried[static_cast<std::size_t>(winner)])) return winner;
   }
   return -1;

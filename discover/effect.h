@@ -48,6 +48,12 @@ struct Swings {
   double speed_ratio = 100;  ///< of the fastest change on each, largest over smallest
 };
 
+/// A pair of complex poles.
+struct Resonance {
+  double frequency = 0;  ///< [Hz], undamped
+  double damping = 0;    ///< ratio
+};
+
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
 /// the train recordings, and how finely and how long it was recorded. Numbers in SI.
 struct Circumstances {
@@ -84,6 +90,8 @@ struct Circumstances {
   double side_lowest = 0, side_highest = 1;
   double side_highest_of_all = 1;  ///< validation included: it is known, not predicted
   double side_at_start = 0;        ///< median over the train recordings of the side signal's first value
+  /// Of the user's model, where effects stand in it already: what their laws leave rings there.
+  std::vector<Resonance> own_resonances;
   /// Correlation of the side signal with this wire over the train recordings, -1..1.
   double side_correlation = 0;
   double range() const { return highest - lowest; }
@@ -168,6 +176,8 @@ struct Effect {
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
   std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
   std::vector<std::string> leaves;    ///< effects that look like what its laws leave of their own, not being exact
+  /// Effects that ask for less to be believed: where they explain as much, they go first.
+  std::vector<std::string> plainer;
   /// Laws, simplest first; those behind the first are tried where the first is among the best, or where they stand
   /// apart.
   std::function<std::vector<Law>(const Circumstances&)> laws;

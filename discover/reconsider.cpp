@@ -43,7 +43,7 @@ std::optional<Tried> tried_at(const Books& books, const Workshop& shop, const Co
   Tried t;
   t.effect = m.effect;
   t.place = place;
-  t.circumstances = circumstances_at(model.diagram, books.registry, *books.data, place, free_anyway(shop, model));
+  t.circumstances = circumstances_on(books, model, {place}).front();
   if (line == Line::held && m.effect->of_the_sensor())
     t.circumstances.gain_is_free = t.circumstances.offset_is_free = true;
   t.laws = m.effect->laws(t.circumstances);

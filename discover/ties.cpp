@@ -75,6 +75,22 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
   return ties;
 }
 
+int plainer_first(const std::vector<Tried>& tried, int winner) {
+  const Tried& w = tried[static_cast<std::size_t>(winner)];
+  // Several sensors that are wrong at once are not plainer than a device that ages.
+  const auto elsewhere = [&](const Tried& t) { return t.effect == w.effect && t.admitted && t.outputs != w.outputs; };
+  const auto& plainer = w.effect->plainer;
+  if (std::any_of(tried.begin(), tried.end(), elsewhere)) return winner;
+  for (const std::size_t i : ranking(tried)) {
+    const Tried& t = tried[i];
+    if (t.admitted && t.outputs == w.outputs &&
+        std::find(plainer.begin(), plainer.end(), t.effect->id) != plainer.end() &&
+        t.contender.tie_score() - w.contender.tie_score() < rules::tie)
+      return static_cast<int>(i);
+  }
+  return winner;
+}
+
 void as_on_another_axis(const Books& books, std::vector<Tried>& tried, int& winner, std::vector<int>& ties) {
   const auto stands = [&](int i) {
     const std::string& id = tried[static_cast<std::size_t>(i)].effect->id;

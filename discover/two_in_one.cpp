@@ -26,8 +26,7 @@ std::optional<Contender> best_of(std::vector<Contender> fitted) {
 
 /// The effect of `mixed` on `before`, by its best law that holds no other one's.
 std::optional<Contender> by_a_plain_law(const Books& books, const Contender& before, const Standing& mixed) {
-  const auto at =
-      circumstances_at(before.diagram, books.registry, *books.data, mixed.place, free_anyway(books.shop, before));
+  const auto at = circumstances_on(books, before, {mixed.place}).front();
   auto laws = mixed.effect->laws(at);
   std::erase_if(laws, [](const Law& law) { return !law.holds.empty(); });
   std::vector<Contender> plain(laws.size());

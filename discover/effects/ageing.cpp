@@ -72,6 +72,7 @@ Effect ageing() {
   e.look_alikes = {{"temperature_gain", "repeat_after_cycles", "ageing follows the cycles, not the temperature"},
                    {"calibration", "repeat_after_cycles", "a calibration is the same in all recordings"},
                    {"asymmetry", "repeat_after_cycles", "a curve is the same in all recordings"}};
+  e.plainer = {"calibration"};  // a constant
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
     std::string text =
         fmt::format("{:.3g} % of the gain per decade of {}", 100 * values[0], by_hours(at) ? "time" : "cycles");

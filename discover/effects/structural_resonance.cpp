@@ -86,12 +86,18 @@ std::string tell_modes(const Law&, const std::vector<double>& values, const Circ
   return text;
 }
 
+/// Two that lie within their half widths are one.
+bool is_own(const Resonance& own, double frequency, double damping) {
+  return own.damping < most_damping && std::abs(frequency - own.frequency) < (damping + own.damping) * own.frequency;
+}
+
 /// The mode that adds most must ring; what one more does beside it refines the shape.
-std::string why_no_ringing(const Law&, const std::vector<double>& values, const Circumstances&) {
-  double most = -1, damping = 0;
+std::string why_no_mode(const Law&, const std::vector<double>& values, const Circumstances& at) {
+  double most = -1, damping = 0, frequency = 0;
   for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
     if (const double adds = std::hypot(values[k + 2], values[k + 3]); adds > most) {
       most = adds;
+      frequency = values[k];
       damping = values[k + 1];
     }
   if (damping > most_damping)
@@ -99,6 +105,12 @@ std::string why_no_ringing(const Law&, const std::vector<double>& values, const 
                        most_damping);
   if (damping < 1.01 * least_damping)
     return fmt::format("at its damping of {:.2g}, the limit, it would never stop ringing", damping);
+  for (const auto& own : at.own_resonances)
+    if (is_own(own, frequency, damping))
+      return fmt::format(
+          "at {:.4g} Hz it is the model's own resonance at {:.4g} Hz once more: what the laws that stand leave rings "
+          "there",
+          frequency, own.frequency);
   return "";
 }
 
@@ -133,7 +145,7 @@ Effect structural_resonance() {
   e.family = "structural_resonance";
   e.summary = tell_modes;
   e.laws = [](const Circumstances& at) { return std::vector<Law>{modes(at, 1), modes(at, 2)}; };
-  e.implausible = why_no_ringing;
+  e.implausible = why_no_mode;
   e.unseen = [](const Circumstances& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)
       return "a temperature does not ring: conduction of heat has real poles only";

@@ -87,6 +87,7 @@ Effect temperature_gain() {
                    {"calibration", "temperature_staircase", "a calibration does not change with temperature"},
                    {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};
   e.family = "temperature_gain";
+  e.plainer = {"calibration"};  // a constant
   e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
     std::string text = fmt::format("{:.3g} %/K", 100 * values[0]);
     for (std::size_t i = 1; i < law.free.size(); ++i)

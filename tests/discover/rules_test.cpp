@@ -5,6 +5,8 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
+#include "discover/own_resonances.h"
+#include "engine/program.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -103,6 +105,59 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
 }
 
 // --- axes ------------------------------------------------------------------------------------------------------------
+
+/// A sensor of this gain, in recordings of these strokes and ages: each of the gain that it had at its age.
+DataSet of_ages(const std::vector<std::pair<double, double>>& strokes_and_cycles,
+                const std::function<double(double cycles)>& gain) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 40;
+  for (const auto& [stroke, cycles] : strokes_and_cycles) {
+    const auto t = rows(800, 0.005);
+    const auto u = several_sines(t, stroke, {0.6 + 0.01 * static_cast<double>(seed), 5.2});
+    auto y = noise(t.size(), 1e-3, 1e-4, seed++);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += gain(cycles) * u[k];
+    const Role role = list.size() < 2 ? Role::train : Role::validate;
+    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, y));
+    list.back().columns[column_of_cycles].assign(t.size(), cycles);
+    list.back().units[column_of_cycles] = parse_unit("");
+  }
+  DataSet data = data_set(std::move(list), 1e-3);
+  data.notes[column_of_cycles].to = column_of_cycles;
+  return data;
+}
+
+TEST_F(Rules, AGainThatIsWrongIsPlainerThanOneThatChangesWithUse) {
+  const std::vector<std::string> both{"ageing", "calibration"};
+  const std::vector<std::pair<double, double>> runs{{0.02, 100}, {1, 1e4}, {1, 1e4}};
+  // Only what is too small to show anything was recorded early: both explain it, and ageing needs a number less.
+  const Discovery wrong = diagnosed(gain_and_sensor(), of_ages(runs, [](double) { return 0.9991; }), both);
+  EXPECT_EQ(winner(wrong), "calibration") << tried(wrong);
+  ASSERT_FALSE(wrong.steps.empty());
+  ASSERT_EQ(wrong.steps[0].ties.size(), 1u) << tried(wrong);
+  EXPECT_EQ(wrong.steps[0].ties[0].effect, "ageing");
+  // What was recorded early at full stroke tells.
+  const std::vector<std::pair<double, double>> told{{1, 100}, {1, 1e4}, {1, 1e6}};
+  const auto by_decades = [](double n) { return 1 - 5e-4 * std::log10(1 + n / 100); };
+  const Discovery aged = diagnosed(gain_and_sensor(), of_ages(told, by_decades), both);
+  EXPECT_EQ(winner(aged), "ageing") << tried(aged);
+}
+
+TEST_F(Rules, AModeAtTheModelsOwnResonanceIsNoFurtherOne) {
+  Diagram plant = mass_on_spring();  // 1 kg on 400 N/m
+  plant.blocks["stage"].parameters["damping"] = Value("2 N*s/m");
+  const auto own = own_resonances(*compile(plant, registry));
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_NEAR(own[0].frequency, 20 / (2 * pi), 1e-9);
+  EXPECT_NEAR(own[0].damping, 2 / (2 * 20.0), 1e-9);
+  const Effect& mode = *effects.find("structural_resonance");
+  Circumstances at;
+  const auto law = mode.laws(at).front();
+  const std::vector<double> near{3.3, 0.03, 0.01, 0}, far{3.8, 0.03, 0.01, 0};  // half widths: 0.25 Hz together
+  EXPECT_EQ(mode.implausible(law, near, at), "") << "a first effect may stand anywhere";
+  at.own_resonances = own;
+  EXPECT_NE(mode.implausible(law, near, at).find("the model's own resonance"), std::string::npos);
+  EXPECT_EQ(mode.implausible(law, far, at), "");
+}
 
 TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
