@@ -141,6 +141,9 @@ def fine_steps(plant, recording, hidden=()):
     if plant.base == "B4":  # 300 steps to a period: nonlinear forces are extrapolated over one
         return max(2, int(np.ceil(recording.h * plant.frequency * 300)))
     usual = 4 if plant.base == "B5" else 8 if recording.h > 1e-3 else 4
+    names = {e.name for e in hidden}
+    if names & {"saturation", "slew_limit"} and names & {"amplifier_lag", "dead_time"}:
+        usual = 32  # what is late behind a kink sees the last fine step before the row, not the row
     if plant.base == "B1" and recording.h < 0.1 and any(e.name in ("backlash", "friction") for e in hidden):
         # Plays keep how far the plant rings between two rows: 20 steps to its quickest period. Behind a ramp of a tenth of
         # a second it hardly rings.
