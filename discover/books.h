@@ -1,8 +1,8 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
-// idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the verdict
-// (conclude.cpp).
+// set_on_another_output.cpp, idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the
+// verdict (conclude.cpp).
 #pragma once
 
 #include <functional>
@@ -194,6 +194,14 @@ int held_one_first(const Books& books, const std::vector<Tried>& tried, int winn
 /// in one room. Each is claimed as a first effect would be there, unless another of those that were `tried` in its step
 /// explains that output better, and told as a step of its own.
 void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& tried, double bar);
+
+/// Of the laws of an effect that stands elsewhere the first, and that by which it stands; begun where it does, for one
+/// room has one frequency of its mains.
+std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const std::vector<Law>& laws);
+
+/// All effects that stand on the way to one output on that to another one, together, where none of them suffices alone:
+/// if most of what stands above the noise there goes, and nothing of it is needless, each is told as a step of its own.
+bool as_a_set_on_another_output(Books& books, double bar);
 
 /// Where nobody was admitted in the `first` step and only noise is left: one effect on the ways to several outputs at
 /// once, if the recordings speak for all of it together. Each output is told as a step of its own. False if there is

@@ -233,8 +233,10 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.
     const auto alone = untouched_outputs(books);
-    if (alone.empty() || !unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); }))
-      break;
+    if (!alone.empty() && unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); }))
+      continue;
+    if (!unless_it_fails(books, [&] { return as_a_set_on_another_output(books, 0.9); })) break;
+    --found;  // no further name
   }
   unless_it_fails(books, [&] { return a_wrong_zero(books), true; });
 }

@@ -2,7 +2,7 @@
 // and stand in one room, and one that is looked for on each axis in turn uses up the steps that others need.
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iterator>
 
 #include "discover/books.h"
 
@@ -13,26 +13,6 @@ const Effect* standing_effect(const Books& books, const std::string& id) {
   for (const auto& s : books.current.standing)
     if (s.effect->id == id) return s.effect;
   return nullptr;
-}
-
-/// Of the laws of a candidate: the one by which its effect stands elsewhere, else the first.
-std::size_t law_as_found(const Books& books, const Tried& t) {
-  for (const auto& s : books.current.standing)
-    for (std::size_t law = 0; s.effect == t.effect && law < t.laws.size(); ++law)
-      if (t.laws[law].name == s.law.name) return law;
-  return 0;
-}
-
-/// The law, begun where the effect stands: one room has one frequency of its mains.
-Law as_found(const Books& books, const Tried& t, Law law) {
-  for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
-    if (books.current.standing[i].effect != t.effect) continue;
-    for (const auto& p : parameters_of(books.current, static_cast<int>(i)))
-      for (auto& q : law.free)
-        if (p.estimate != nullptr && !p.estimate->linear && q.path == p.law->path) q.scan = {p.estimate->used, q.start};
-    return law;
-  }
-  return law;
 }
 
 /// Fall of the score by a candidate alone.
@@ -69,12 +49,13 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
   books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
     books.progress(t.effect->id + " at " + t.place.where(), bar);
-    for (const std::size_t law : std::set<std::size_t>{0, law_as_found(books, t)}) {
-      Contender c = with_effect(shop, books.current, *t.effect, as_found(books, t, t.laws[law]), t.place,
-                                t.circumstances, Effort::full);
-      if (law > 0 && (!c.ok || (t.contender.ok && c.score() >= t.contender.score()))) continue;
+    for (const Law& law : laws_as_found(books, *t.effect, t.laws)) {
+      Contender c = with_effect(shop, books.current, *t.effect, law, t.place, t.circumstances, Effort::full);
+      if (t.contender.ok && (!c.ok || c.score() >= t.contender.score())) continue;
       t.contender = std::move(c);
-      t.law = law;
+      t.law = static_cast<std::size_t>(
+          std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == law.name; }) -
+          t.laws.begin());
     }
     return false;
   });
@@ -100,6 +81,23 @@ int best_place(const Books& books, std::vector<Tried>& tried, const Effect& effe
 }
 
 }  // namespace
+
+std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const std::vector<Law>& laws) {
+  std::vector<Law> list{laws.begin(), laws.begin() + std::min<std::ptrdiff_t>(1, std::ssize(laws))};
+  for (const auto& s : books.current.standing)
+    for (std::size_t law = 1; s.effect == &effect && law < laws.size() && list.size() < 2; ++law)
+      if (laws[law].name == s.law.name) list.push_back(laws[law]);
+  for (Law& law : list)
+    for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
+      if (books.current.standing[i].effect != &effect) continue;
+      for (const auto& p : parameters_of(books.current, static_cast<int>(i)))
+        for (auto& q : law.free)
+          if (p.estimate != nullptr && !p.estimate->linear && q.path == p.law->path)
+            q.scan = {p.estimate->used, q.start};
+      break;
+    }
+  return list;
+}
 
 void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& others_tried, double bar) {
   if (books.base_model->outputs().size() < 2) return;

@@ -203,6 +203,59 @@ TEST_F(Rules, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
   EXPECT_EQ(winner, 2) << "it stands itself";
 }
 
+/// Two axes of which the first has a lag and a curve behind it, which stand in the present model already.
+struct FirstAxisIsKnown {
+  FirstAxisIsKnown(const Registry& registry, const Effects& effects, Law second)
+      : data(of_two_axes(1e-3, late_and_bent(4e-3, 0.05), std::move(second))),
+        books(diagram, data, registry, effects, options) {
+    fit_base(books);
+    for (const char* id : {"amplifier_lag", "asymmetry"}) {
+      const Effect& e = effects.get(id);
+      for (const auto& place : places_of(e, books.current.diagram, registry, &data)) {
+        if (outputs_moved(books, books.current, place.wire) != std::vector<std::string>{"y"}) continue;
+        const auto at = circumstances_on(books, books.current, {place}).front();
+        books.current = with_effect(books.shop, books.current, e, e.laws(at).front(), place, at, Effort::full);
+        break;
+      }
+    }
+    books.settle(books.current);
+  }
+  static Law late_and_bent(double tau, double bend) {
+    return [=](const std::vector<double>& t, const std::vector<double>& u) {
+      auto y = lagged(t, u, tau);
+      for (double& v : y) v += bend * v * v;
+      return y;
+    };
+  }
+  Diagram diagram = two_plain_axes();
+  DiscoverOptions options;
+  DataSet data;
+  Books books;
+};
+
+TEST_F(Rules, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
+  FirstAxisIsKnown both(registry, effects, FirstAxisIsKnown::late_and_bent(3e-3, 0.04));
+  ASSERT_EQ(both.books.current.standing.size(), 2u);
+  EXPECT_TRUE(as_a_set_on_another_output(both.books, 0));
+  EXPECT_EQ(both.books.current.standing.size(), 4u);
+  EXPECT_LT(both.books.current.error_of.over_floor(), 1.2) << "chi2 of 1600 rows is known to 4 %";
+  ASSERT_EQ(both.books.d.steps.size(), 2u);
+  EXPECT_EQ(both.books.d.steps[0].winner.effect, "amplifier_lag");
+  EXPECT_EQ(both.books.d.steps[1].winner.effect, "asymmetry");
+  EXPECT_FALSE(as_a_set_on_another_output(both.books, 0)) << "nothing is missing any more";
+  // Where one of them does nothing, or both, they are no set.
+  for (const auto& [tau, bend] : {std::pair{3e-3, 0.0}, {0.0, 0.04}, {0.0, 0.0}}) {
+    const Law law = tau > 0 ? FirstAxisIsKnown::late_and_bent(tau, bend) : [bend = bend](const auto&, const auto& u) {
+      auto y = u;
+      for (double& v : y) v += bend * v * v;
+      return y;
+    };
+    FirstAxisIsKnown one(registry, effects, law);
+    EXPECT_FALSE(as_a_set_on_another_output(one.books, 0)) << tau << " " << bend;
+    EXPECT_EQ(one.books.current.standing.size(), 2u);
+  }
+}
+
 TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
   // What a known line does beside being steady is left out, about its frequency: a line near by would cost nothing.
   constexpr double hertz = 59.95;
