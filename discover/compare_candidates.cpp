@@ -241,7 +241,9 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
   std::atomic<bool> any = false;
   books.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
     Tried& t = tried[order[k]];
-    if (step > 1 && !laws[k].empty() && fitted_to_its_end(shop, t)) any = true;
+    // A law that stands apart begins nowhere near the simple one.
+    const bool refines = std::any_of(laws[k].begin(), laws[k].end(), [&](std::size_t l) { return !t.laws[l].apart; });
+    if (step > 1 && refines && fitted_to_its_end(shop, t)) any = true;
     for (const std::size_t law : laws[k]) {
       if (books.stopped()) break;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
