@@ -117,9 +117,11 @@ Effect friction() {
     if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     const Law sticky = presliding_with_excess(at);
-    Law damped = with_contact_time(sticky, at);
-    damped.name = "presliding with excess and a damped contact (LuGre)";
-    return std::vector<Law>{presliding(at), sticky, damped};
+    Law damped = with_contact_time(presliding(at), at), all = with_contact_time(sticky, at);
+    damped.name = "presliding in a damped contact";
+    all.name = "presliding with excess and a damped contact (LuGre)";
+    // The contact first: without it an excess at no speed at all stands for it, and a search that begins there stays.
+    return std::vector<Law>{presliding(at), damped, all, sticky};
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
     if (law.block.type != "guide_friction") return "";

@@ -10,23 +10,26 @@
 namespace hysteron::effects {
 namespace {
 
-/// Holds more before it slides fast. `fast`: the whole travel in a row, from which speeds are tried downwards.
-Law with_excess(Law law, double fast, const Unit& speed_unit) {
+/// Holds more before it slides fast. `range`: of the motion. An excess at no speed at all is none, and looks best to
+/// begin with: a search from there ends at an excess without bound that nothing shows.
+Law with_excess(Law law, double range, const Circumstances& at, const Unit& speed_unit) {
+  const double rows = 1 / std::max(at.shortest_step, 1e-9);
+  const double fast = range * (at.quickest > 0 ? std::min(at.quickest, rows) : rows);
   give(law.block, "excess", 0.0);
   LawParameter excess;
   excess.path = "excess";
   excess.lower = 0;
   excess.upper = 3;
-  excess.scan = {0.2, 0.7};
+  excess.scan = {0.2};
   excess.plausible_upper = 1;  // breakaway over Coulomb friction: 1 .. 2
-  give(law.block, "stribeck_velocity", with_unit(1e-3 * fast, speed_unit));
+  give(law.block, "stribeck_velocity", with_unit(0.02 * fast, speed_unit));
   LawParameter speed;
   speed.path = "stribeck_velocity";
-  speed.start = 1e-3 * fast;
-  speed.lower = 1e-8 * fast;
-  speed.upper = fast;
+  speed.start = 0.02 * fast;
+  speed.lower = 1e-4 * fast;
+  speed.upper = 10 * fast;
   speed.log_scale = true;
-  speed.scan = {1e-5 * fast, 1e-4 * fast, 1e-3 * fast, 1e-2 * fast};
+  speed.scan = {2e-3 * fast, 0.02 * fast, 0.2 * fast};
   law.free.push_back(excess);
   law.free.push_back(speed);
   return law;
@@ -65,7 +68,7 @@ Law presliding(const Circumstances& at) {
 }
 
 Law presliding_with_excess(const Circumstances& at) {
-  Law law = with_excess(presliding(at), travel(at) / std::max(at.shortest_step, 1e-9), parse_unit("m/s"));
+  Law law = with_excess(presliding(at), travel(at), at, parse_unit("m/s"));
   law.name = "presliding with Stribeck's excess (LuGre)";
   return law;
 }
@@ -97,8 +100,7 @@ Law guided(const Circumstances& at) {
 
 Law guided_with_excess(const Circumstances& at) {
   const double range = at.range() > 0 ? at.range() : 1;
-  Law law = with_excess(guided(at), range / std::max(at.shortest_step, 1e-9),
-                        parse_unit(fmt::format("({})/s", unit_text(at.unit))));
+  Law law = with_excess(guided(at), range, at, parse_unit(fmt::format("({})/s", unit_text(at.unit))));
   law.name = "holds the motion back, with Stribeck's excess (LuGre)";
   return law;
 }
