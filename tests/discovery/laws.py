@@ -264,13 +264,14 @@ def mass_on_spring(pull, h, step, cubic, quadratic, friction, table, depth, slop
     y[0] = 0.0
     for k in range(1, n):
         before, after = pull[k - 1] - p, pull[k] - (2 * p - p_before)
+        v_before = v
         x, v = (step[0, 0] * x + step[0, 1] * v + step[0, 2] * before + step[0, 3] * after,
                 step[1, 0] * x + step[1, 1] * v + step[1, 2] * before + step[1, 3] * after)
         p_before = p
         p = cubic * x**3 / scale**2 + quadratic * x**2 / scale
         if friction[0] != 0:
             zeta_before = zeta
-            zeta = bristles(zeta, v, h, friction[1], friction[2], friction[3])
+            zeta = bristles(zeta, 0.5 * (v_before + v), h, friction[1], friction[2], friction[3])
             p += friction[0] * (zeta + friction[4] * (zeta - zeta_before) / h)
         if depth != 0:
             # What a lagging memory leaves of a straight line leads: pushed out it takes more force than coming back, as
