@@ -43,10 +43,11 @@ struct Books {
   std::unique_ptr<DataModel> base_model;
   std::unique_ptr<Evidence> evidence;
   Contender base, current;
-  std::optional<SmoothInput> smooth;  ///< found on the way: all begins anew with it
-  std::vector<Tried> hidden;          ///< of the present step: cannot be seen here, may have acted all the same
-  Prediction before_prediction;       ///< of the model before the present step; empty = the base
-  bool closing = false;               ///< what was found is looked at for the last time
+  std::optional<SmoothInput> smooth;      ///< found on the way: all begins anew with it
+  std::vector<Resonance> own_resonances;  ///< of the base
+  std::vector<Tried> hidden;              ///< of the present step: cannot be seen here, may have acted all the same
+  Prediction before_prediction;           ///< of the model before the present step; empty = the base
+  bool closing = false;                   ///< what was found is looked at for the last time
   Discovery d;
 
  private:

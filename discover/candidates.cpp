@@ -7,7 +7,6 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
-#include "discover/own_resonances.h"
 #include "discover/parts.h"
 #include "discover/residual_parts.h"
 #include "discover/structures.h"
@@ -167,9 +166,8 @@ void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
 std::vector<Circumstances> circumstances_on(const Books& books, const Contender& model,
                                             const std::vector<Place>& places) {
   auto seen = circumstances_at(model.diagram, books.registry, *books.data, places, free_anyway(books.shop, model));
-  if (model.standing.empty() || books.base.program == nullptr) return seen;
-  const auto resonances = own_resonances(*books.base.program);
-  for (auto& c : seen) c.own_resonances = resonances;
+  if (!model.standing.empty())
+    for (auto& c : seen) c.own_resonances = books.own_resonances;
   return seen;
 }
 

@@ -1,6 +1,7 @@
 // Decides what a discovery starts from: the user's own model, fitted.
 #include "discover/between_samples.h"
 #include "discover/books.h"
+#include "discover/own_resonances.h"
 #include "engine/error.h"
 
 namespace hysteron {
@@ -28,6 +29,7 @@ void fit_base(Books& books) {
                   "run `hysteron compare` or `hysteron run` on it and look at the first recording");
   books.settle(books.current);
   books.base = books.current;
+  books.own_resonances = own_resonances(*books.base.program);
   if (as_given.ok) books.d.as_given = books.evidence->error(as_given);
   books.d.base = books.current.error_of;
   books.d.base_parameters = found_parameters(books.current, {});

@@ -103,6 +103,7 @@ bool as_a_set_on_another_output(Books& books, double bar) {
     if (effects.size() < 2 || !(excess_on(books.current.error_of, output) > 0)) continue;
     auto set = all_on(books, effects, output, bar);
     if (set.empty() || !belongs_there(books, set, output, bar)) continue;
+    sharpen(books, set.back());
     for (auto& t : set) {
       const int step = static_cast<int>(books.d.steps.size()) + 1;
       take(books, step, t, {});

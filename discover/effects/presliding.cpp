@@ -13,8 +13,9 @@ namespace {
 /// Holds more before it slides fast. `range`: of the motion. An excess at no speed at all is none, and looks best to
 /// begin with: a search from there ends at an excess without bound that nothing shows.
 Law with_excess(Law law, double range, const Circumstances& at, const Unit& speed_unit) {
-  const double rows = 1 / std::max(at.shortest_step, 1e-9);
-  const double fast = range * (at.quickest > 0 ? std::min(at.quickest, rows) : rows);
+  // Largest speed of the motion, if that is as quick as what drives it; at most the whole range in a row.
+  const double row_rate = 1 / std::max(at.shortest_step, 1e-9);                                // [1/s]
+  const double fast = range * (at.quickest > 0 ? std::min(at.quickest, row_rate) : row_rate);  // in speed_unit's SI
   give(law.block, "excess", 0.0);
   LawParameter excess;
   excess.path = "excess";
@@ -29,6 +30,7 @@ Law with_excess(Law law, double range, const Circumstances& at, const Unit& spee
   speed.lower = 1e-4 * fast;
   speed.upper = 10 * fast;
   speed.log_scale = true;
+  // Guides lose their excess within a small part of the speeds of a swing (0.1 .. 10 mm/s: Armstrong-Helouvry 1994).
   speed.scan = {2e-3 * fast, 0.02 * fast, 0.2 * fast};
   law.free.push_back(excess);
   law.free.push_back(speed);

@@ -134,14 +134,17 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
 }
 
 TEST_F(Judging, WhatAPolynomialLeavesOfACurveIsNoFurtherCurve) {
-  const ModelError before = error(1500, 1500, 1500, 1500), after = error(1400, 1400, 1400, 1400);
-  const std::vector<double> left(4, 50);  // of 1.5 %; ten more in a hundred of the curve would be 44 times that
-  EXPECT_FALSE(judged(before, after, left, "sensor_nonlinearity", "asymmetry").admitted);
-  EXPECT_FALSE(judged(before, after, left, "asymmetry", "sensor_nonlinearity").admitted);
-  EXPECT_FALSE(judged(before, after, left, "saturation", "sensor_nonlinearity").admitted);
-  const ModelError noise_left = error(1000, 1000, 1000, 1000);
-  EXPECT_TRUE(judged(before, noise_left, std::vector<double>(4, 5), "sensor_nonlinearity", "asymmetry").admitted)
-      << "twice as much as that";
+  // As above: it takes 900 down to the noise, a tenth of the curve that stands would be 20 000.
+  const std::vector<double> left{0, 450, 0, 450};
+  const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
+  for (const auto& [curve, stands] : {std::pair{"sensor_nonlinearity", "asymmetry"},
+                                      {"saturation", "asymmetry"},
+                                      {"asymmetry", "sensor_nonlinearity"},
+                                      {"saturation", "sensor_nonlinearity"}}) {
+    EXPECT_FALSE(judged(before, after, left, curve, stands).admitted) << curve;
+    EXPECT_TRUE(judged(before, after, left, curve, "creep").admitted) << curve;
+    EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, curve, stands).admitted) << curve << " beyond a tenth";
+  }
 }
 
 TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {

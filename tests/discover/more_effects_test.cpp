@@ -457,7 +457,7 @@ TEST_F(MoreEffects, AContactThatIsDampedIsNoResonance) {
 }
 
 /// 1 kg on 400 N/m with 1.3 N s/m under 10 N/V, in a guide by LuGre's equations: 0.14 N after 0.54 mm, 11 % more
-/// below 0.19 m/s, a contact damped by 5.8 ms. Kutta's steps of a quarter of a millisecond.
+/// below 0.19 m/s, a contact damped by 5.8 ms. Eighty of Kutta's steps to a row.
 std::vector<double> in_a_damped_contact(const std::vector<double>& t, const std::vector<double>& u) {
   using State = std::array<double, 3>;  // place, speed, deflection
   const auto rate = [](const State& s, double volts) {

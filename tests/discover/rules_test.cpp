@@ -104,8 +104,6 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
   EXPECT_GE(left, 1) << "no law took the zero along: nothing was tested\n" << tried(d);
 }
 
-// --- axes ------------------------------------------------------------------------------------------------------------
-
 /// A sensor of this gain, in recordings of these strokes and ages: each of the gain that it had at its age.
 DataSet of_ages(const std::vector<std::pair<double, double>>& strokes_and_cycles,
                 const std::function<double(double cycles)>& gain) {
@@ -158,6 +156,8 @@ TEST_F(Rules, AModeAtTheModelsOwnResonanceIsNoFurtherOne) {
   EXPECT_NE(mode.implausible(law, near, at).find("the model's own resonance"), std::string::npos);
   EXPECT_EQ(mode.implausible(law, far, at), "");
 }
+
+// --- axes ------------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
