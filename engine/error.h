@@ -40,6 +40,7 @@ class Error : public std::runtime_error {
 /// Collects the problems of one stage, so that they are reported together (the first 20 in full).
 class Problems {
  public:
+  /// The same words about the same place are kept once.
   void add(std::string code, std::string path, std::string what, std::string cure);
   bool empty() const { return problems_.empty(); }
   const std::vector<Problem>& list() const { return problems_; }

@@ -2,7 +2,9 @@
 // Does not check physics: that is the block's own check() once all numbers are known.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/graph.h"
 #include "engine/parameter_values.h"
@@ -220,24 +222,32 @@ class Resolver {
         n.dimension = n.unit.dimension;
         n.si = p.is_difference ? n.unit.difference_to_si(number.value) : n.unit.to_si(number.value);
         const double factor = variable ? 1 : dimension_factor(n.unit.dimension, declared.dimension);
-        if (factor == 0)
+        if (factor == 0) {
           problems_.add(
               "wrong_unit", place(p.name),
               fmt::format("\"{}\" of {} is in {}, found \"{}\"", p.name, declaration_.type,
                           p.unit.empty() ? "no unit" : p.unit, *number.unit),
               p.unit.empty() ? "leave the unit out" : fmt::format("write it in {} or a multiple of it", p.unit));
-        n.si *= factor == 0 ? 1 : factor;
-        if (factor != 1 && factor != 0) n.unit.scale *= factor;
+          return nobody_knows(n);
+        }
+        n.si *= factor;
+        if (factor != 1) n.unit.scale *= factor;
       }
     } catch (const Error& e) {
       for (const auto& problem : e.problems) problems_.add(problem.code, place(p.name), problem.what, problem.cure);
-      return n;
+      return nobody_knows(n);
     }
     check_range(p, n.si);
     if (p.is_structural && (n.si != std::floor(n.si) || std::abs(n.si) > 1e6))
       problems_.add("bad_value", place(p.name),
                     fmt::format("\"{}\" of {} holds {}, which is no whole number", p.name, declaration_.type, n.si),
                     "write whole numbers");
+    return n;
+  }
+
+  // So that nothing that follows from a number without a valid unit is told as a second problem.
+  static ResolvedNumber nobody_knows(ResolvedNumber n) {
+    n.si = std::numeric_limits<double>::quiet_NaN();
     return n;
   }
 
@@ -255,7 +265,8 @@ class Resolver {
       const auto& p = declaration_.parameters[i];
       std::vector<double> numbers;
       for (const auto& n : list[i].numbers) numbers.push_back(n.si);
-      if (const auto k = first_that_does_not_increase(numbers); p.is_increasing && k > 0)
+      const bool known = std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
+      if (const auto k = first_that_does_not_increase(numbers); p.is_increasing && known && k > 0)
         problems_.add("bad_value", place(p.name),
                       fmt::format("\"{}\" of {} does not increase at its element {}", p.name, declaration_.type, k + 1),
                       "sort the list, each value once");

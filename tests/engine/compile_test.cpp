@@ -153,6 +153,17 @@ TEST(Compile, EveryProblemHasItsCodeItsPlaceAndACure) {
   }
 }
 
+TEST(Compile, AListInAWrongUnitIsOneProblemAndNothingThatFollowsFromIt) {
+  Diagram d = valid();
+  d.blocks["lag"] = node("lag", {"stage"}, {{"times", NumberList{{3, "V"}, {2, "V"}, {-1, "V"}}}});
+  d.outputs["y"] = "lag";
+  const auto problems = problems_of(d);
+  ASSERT_EQ(problems.size(), 1U) << to_text(problems);
+  EXPECT_EQ(problems.front().code, "wrong_unit");
+  d.blocks["lag"].parameters["times"] = NumberList{{3, "V"}, {2, "mm"}, {1, "s"}};
+  EXPECT_EQ(problems_of(d).size(), 2U) << "two units are two mistakes";
+}
+
 TEST(Compile, AllProblemsOfAStageAreReportedTogether) {
   Diagram d = valid();
   d.blocks["a"] = node("nonsense");
