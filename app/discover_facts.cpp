@@ -134,7 +134,7 @@ Facts facts_of(const Structure& s) {
                                {"output", s.output},
                                {"unit", unit_text(s.unit)},
                                {"intervals_s", intervals},
-                               {"fall_validate", s.fall_validate},
+                               {"fall_validate", s.fall.validate},
                                {"share_removed", s.share_removed},
                                {"sentence", s.sentence}});
   if (s.period > 0) facts.set("period", s.unit.difference_from_si(s.period));

@@ -11,21 +11,24 @@ namespace hysteron {
 namespace {
 
 /// What the effects take away of what a gain and an offset leave: a structure is counted from there too.
-double removed_beyond_calibration(const Books& books, const Structure& s) {
-  double left = 0;
+ByRole removed_beyond_calibration(const Books& books, const Structure& s) {
+  ByRole removed = s.beyond_calibration;
   for (const auto& r : books.current.error_of.recordings)
-    if (r.role == Role::validate && r.output == s.output) left += r.chi2;
-  return s.beyond_calibration - left;
+    if (r.role != Role::test && r.output == s.output) removed.of(r.role == Role::train) -= r.chi2;
+  return removed;
 }
 
 /// What a structure has to take away beyond the effects. A clamp is a kink at a level, too: where effects leave only
 /// noise a structure must be better by more than their laws may have left.
-double to_be_taken_beyond(const Books& books) {
-  if (books.d.steps.empty() || books.current.error_of.over_floor() > rules::floor_gate) return 0;
-  double left = rules::claim_fall;
+ByRole to_be_taken_beyond(const Books& books) {
+  ByRole left;
   const auto by_laws = left_by_laws_of(books, books.current);
   for (std::size_t i = 0; i < by_laws.size(); ++i)
-    if (books.current.error_of.recordings[i].role == Role::validate) left += by_laws[i];
+    left.of(books.current.error_of.recordings[i].role == Role::train) += by_laws[i];
+  if (!books.d.steps.empty() && books.current.error_of.over_floor() <= rules::floor_gate)
+    left.validate += rules::claim_fall;
+  else
+    left.validate = 0;
   return left;
 }
 
@@ -37,6 +40,22 @@ bool is_of_a_standing_law(const Books& books, const Structure& s) {
       for (const auto& [low, high] : p.line_bands)
         if (low * s.period <= 1 && 1 <= high * s.period) return true;
   return false;
+}
+
+/// Is it told in place of the effects: of the recordings where it was looked for it explains more than they do.
+bool wins(const Books& books, const Structure& s, Where where) {
+  if (!s.explains() || is_of_a_standing_law(books, s) || !(s.share_removed > rules::structure_share)) return false;
+  const ByRole removed = removed_beyond_calibration(books, s), beyond = to_be_taken_beyond(books);
+  const double needed = where == Where::validation ? removed.validate + beyond.validate : removed.all() + beyond.all();
+  return over(s.fall, where) > std::max(needed, rules::claim_fall);
+}
+
+/// Of all recordings, where one is left unexplained: what rings as a pump hums explains one recording that it is fitted
+/// to, and not the next; and those that judge may be too short to show the pump.
+std::optional<Structure> winner_in_all(const Books& books) {
+  if (books.evidence->over_usual_floor(books.current.prediction).one <= rules::floor_gate) return {};
+  auto s = find_structure(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
+  return s && wins(books, *s, Where::all_recordings) ? s : std::nullopt;
 }
 
 /// A structure that no effect describes explains more than the effects did: what they took away was part of it.
@@ -108,18 +127,16 @@ void conclude(Books& books) {
   const bool base_is_off = base_over > rules::floor_gate || base_over_usual > rules::slow_noise;
   std::optional<Structure> structure;
   if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction, books.shop.threads);
-  const bool structure_wins =
-      structure && structure->explains() && !is_of_a_standing_law(books, *structure) &&
-      structure->share_removed > rules::structure_share &&
-      structure->fall_validate >
-          std::max(removed_beyond_calibration(books, *structure) + to_be_taken_beyond(books), rules::claim_fall);
+  bool structure_wins = structure && wins(books, *structure, Where::validation);
+  if (!structure_wins && (base_is_off || !books.d.steps.empty()))
+    if (auto s = winner_in_all(books)) structure = std::move(s), structure_wins = true;
   if (structure_wins) {
     books.d.verdict = Verdict::unexplained;
     books.d.structure = structure;
     withdraw(books);
   } else if (books.d.steps.empty()) {
     // chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size lifts it too.
-    const bool told = structure && structure->fall_validate > rules::claim_fall;
+    const bool told = structure && structure->fall.validate > rules::claim_fall;
     const bool holds = told && structure->share_removed > rules::structure_share;
     const bool unexplained = base_is_off && (holds || std::max(base_over, base_over_usual) > rules::slow_noise);
     books.d.verdict = unexplained ? Verdict::unexplained : Verdict::adequate;
@@ -130,7 +147,7 @@ void conclude(Books& books) {
     books.d.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
     if (floor > rules::floor_gate && !books.stopped()) {
       auto left = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
-      if (left && left->share_removed > rules::structure_share && left->fall_validate > rules::claim_fall)
+      if (left && left->share_removed > rules::structure_share && left->fall.validate > rules::claim_fall)
         books.d.structure = left;
     }
   }

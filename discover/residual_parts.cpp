@@ -28,8 +28,8 @@ ResidualParts::ResidualParts(const Evidence& evidence, const Prediction& predict
     filters_.emplace_back(p.e.size(), noise.white, noise.one_over_f, model_.zero_per_recording(output_));
     parts_.push_back(std::move(p));
     parts_.back().w = whitened(parts_.back(), parts_.back().e);
-    before_ += parts_.back().train ? 0 : parts_.back().w.squaredNorm();
-    floor_ += parts_.back().train ? 0 : static_cast<double>(parts_.back().w.size());
+    before_.of(parts_.back().train) += parts_.back().w.squaredNorm();
+    floor_.of(parts_.back().train) += static_cast<double>(parts_.back().w.size());
   }
   read_levels(recordings, with_zeros);
   take_off_gain_and_offset();
@@ -132,8 +132,8 @@ Vector ResidualParts::solve_on_train(const WhitenedColumns& columns) const {
   return scale.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(Vector(scale.asDiagonal() * right));
 }
 
-double ResidualParts::judged(const Columns& columns, const WhitenedColumns& fixed) const {
-  if (!has_train()) return 0;
+ByRole ResidualParts::judged(const Columns& columns, const WhitenedColumns& fixed) const {
+  if (!has_train()) return {};
   WhitenedColumns all = whitened(columns);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     Matrix both(all[i].rows(), fixed[i].cols() + all[i].cols());
@@ -141,9 +141,8 @@ double ResidualParts::judged(const Columns& columns, const WhitenedColumns& fixe
     all[i] = std::move(both);
   }
   const Vector c = solve_on_train(all);
-  double fall = 0;
-  for (const auto& p : parts_)
-    if (!p.train) fall += p.w.squaredNorm() - (p.w - all[index(p)] * c).squaredNorm();
+  ByRole fall;
+  for (const auto& p : parts_) fall.of(p.train) += p.w.squaredNorm() - (p.w - all[index(p)] * c).squaredNorm();
   return fall;
 }
 
@@ -162,7 +161,7 @@ void ResidualParts::take_off_gain_and_offset() {
   for (auto& p : parts_) {
     for (std::size_t k = 0; k < p.e.size(); ++k) p.e[k] -= c[0] + c[1] * p.levels.front()[k];
     p.w = whitened(p, p.e);
-    beyond_ += p.train ? 0 : p.w.squaredNorm();
+    beyond_.of(p.train) += p.w.squaredNorm();
   }
 }
 

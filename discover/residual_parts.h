@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "discover/evidence.h"
+#include "discover/structure.h"
 #include "fit/whiten.h"
 
 namespace hysteron {
@@ -44,10 +45,10 @@ class ResidualParts {
   const std::vector<Level>& levels() const { return levels_; }
   const DataModel& model() const { return model_; }
   double white() const { return white_; }  ///< [SI] rms of the white noise
-  /// chi2 on validation: as the model leaves it, without the best gain and offset, of noise alone.
-  double before() const { return before_; }
-  double beyond() const { return beyond_; }
-  double floor() const { return floor_; }
+  /// chi2: as the model leaves it, without the best gain and offset, of noise alone.
+  const ByRole& before() const { return before_; }
+  const ByRole& beyond() const { return beyond_; }
+  const ByRole& floor() const { return floor_; }
 
   Eigen::VectorXd whitened(const ResidualPart& part, const Rows& rows) const;
   /// The whitened residual as rows in time, of unit variance where there is only noise.
@@ -57,9 +58,9 @@ class ResidualParts {
   /// The columns of every part, whitened.
   using WhitenedColumns = std::vector<Eigen::MatrixXd>;
   WhitenedColumns whitened(const Columns& columns) const;
-  /// Fall of chi2 on validation by columns with common weights, found on train; beside those of `fixed`, which are
-  /// the same in many trials, if it is not empty. 0 without train recordings.
-  double judged(const Columns& columns, const WhitenedColumns& fixed = {}) const;
+  /// Fall of chi2 by columns with common weights, found on train; beside those of `fixed`, which are the same in many
+  /// trials, if it is not empty. 0 without train recordings.
+  ByRole judged(const Columns& columns, const WhitenedColumns& fixed = {}) const;
 
  private:
   void read_levels(const std::vector<int>& recordings, const Prediction& with_zeros);
@@ -71,7 +72,8 @@ class ResidualParts {
 
   const DataModel& model_;
   int output_;
-  double white_ = 0, before_ = 0, beyond_ = 0, floor_ = 0;
+  double white_ = 0;
+  ByRole before_{}, beyond_{}, floor_{};
   std::vector<bool> zero_is_free_;
   std::vector<Whitener> filters_;
   std::vector<ResidualPart> parts_;

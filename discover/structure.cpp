@@ -16,9 +16,9 @@
 namespace hysteron {
 namespace {
 
-std::string sentence_of(const Structure& s) {
-  const std::string share =
-      fmt::format("{:.0f} % of what stands above the noise on validation recordings", 100 * s.share_removed);
+std::string sentence_of(const Structure& s, Where where) {
+  const std::string share = fmt::format("{:.0f} % of what stands above the noise {}", 100 * s.share_removed,
+                                        where == Where::validation ? "on validation recordings" : "in all recordings");
   if (s.kind == "line_in_time")
     return fmt::format("a line at {:.4g} Hz in the residual of {} holds {}", 1 / s.period, s.output, share);
   if (s.kind == "line_in_level")
@@ -40,23 +40,23 @@ std::string sentence_of(const Structure& s) {
 }
 
 /// Where a gain and an offset leave hardly more than noise, there is nothing that a structure could hold.
-void weigh(Structure& s, const ResidualParts& parts) {
+void weigh(Structure& s, const ResidualParts& parts, Where where) {
   s.beyond_calibration = parts.beyond();
-  const double excess = parts.beyond() > rules::floor_gate * parts.floor() ? parts.beyond() - parts.floor()
-                                                                           : parts.before() - parts.floor();
-  s.share_removed = excess > 0 ? std::min(1.0, s.fall_validate / excess) : 0;
+  const double beyond = over(parts.beyond(), where), floor = over(parts.floor(), where);
+  const double excess = (beyond > rules::floor_gate * floor ? beyond : over(parts.before(), where)) - floor;
+  s.share_removed = excess > 0 ? std::min(1.0, over(s.fall, where) / excess) : 0;
 }
 
 std::optional<Structure> best_of(const Evidence& evidence, const Prediction& prediction, int output,
-                                 const Threads& threads) {
+                                 const Threads& threads, Where where) {
   const ResidualParts parts(evidence, prediction, output);
   std::optional<Structure> best;
   const auto offer = [&](std::optional<Structure> s) {
-    if (!s || s->fall_validate <= (best ? best->fall_validate : 0)) return;
+    if (!s || over(s->fall, where) <= (best ? over(best->fall, where) : 0)) return;
     best = std::move(s);
-    weigh(*best, parts);
+    weigh(*best, parts, where);
   };
-  if (parts.list().empty() || parts.beyond() <= 0) return best;
+  if (parts.list().empty() || over(parts.beyond(), where) <= 0) return best;
   std::vector<std::function<std::optional<Structure>()>> kinds{[&] { return line_in_time(parts); }};
   for (std::size_t level = 0; level < parts.levels().size(); ++level) {
     kinds.emplace_back([&parts, level] { return line_in_level(parts, level); });
@@ -70,17 +70,18 @@ std::optional<Structure> best_of(const Evidence& evidence, const Prediction& pre
   if (!best || best->share_removed <= rules::structure_share) offer(bursts(parts));
   if (!best) return best;
   best->output = evidence.model().outputs()[static_cast<std::size_t>(output)];
-  best->sentence = sentence_of(*best);
+  best->sentence = sentence_of(*best, where);
   return best;
 }
 
 }  // namespace
 
-std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction,
-                                        const Threads& threads) {
+std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction, const Threads& threads,
+                                        Where where) {
   std::optional<Structure> best;
   for (int o = 0; o < static_cast<int>(evidence.model().outputs().size()); ++o)
-    if (auto s = best_of(evidence, prediction, o, threads); s && (!best || s->fall_validate > best->fall_validate))
+    if (auto s = best_of(evidence, prediction, o, threads, where);
+        s && (!best || over(s->fall, where) > over(best->fall, where)))
       best = std::move(s);
   return best;
 }

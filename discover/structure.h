@@ -13,6 +13,13 @@
 
 namespace hysteron {
 
+/// Train recordings and validation recordings, each taken together.
+struct ByRole {
+  double train = 0, validate = 0;
+  double& of(bool is_train) { return is_train ? train : validate; }
+  double all() const { return train + validate; }
+};
+
 /// A structure in the residual that no known effect describes.
 struct Structure {
   std::string kind;      ///< "line_in_time", "line_in_level", "kink_at_level", "jumps", "bursts"
@@ -23,16 +30,23 @@ struct Structure {
   bool has_threshold = false;
   Unit unit;                                                                              ///< of the variable
   std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
-  double fall_validate = 0;       ///< of chi2 on validation recordings, beyond a free gain and offset
-  double beyond_calibration = 0;  ///< chi2 there with the best gain and offset: what the fall is counted from
-  double share_removed = 0;       ///< of the excess over the noise there
+  /// Of chi2, beyond a free gain and offset.
+  ByRole fall{};
+  /// chi2 with the best gain and offset: what the fall is counted from.
+  ByRole beyond_calibration{};
+  double share_removed = 0;  ///< of the excess over the noise, where it was looked for
   std::string sentence;
   /// Bursts only say when: they do not compete with effects.
   bool explains() const { return kind != "bursts"; }
 };
 
-/// The structure that removes most of the validation chi2 of this model; nothing if none removes any.
+enum class Where { validation, all_recordings };
+inline double over(const ByRole& value, Where where) {
+  return where == Where::validation ? value.validate : value.all();
+}
+
+/// The structure that removes most of the chi2 that this model leaves on these recordings; nothing if none removes any.
 std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction,
-                                        const Threads& threads = 1);
+                                        const Threads& threads = 1, Where where = Where::validation);
 
 }  // namespace hysteron

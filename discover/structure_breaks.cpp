@@ -107,7 +107,7 @@ std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t l
   const auto line = parts.whitened([&](const Part& p) {
     return std::vector<Rows>{Rows(p.levels[level].size(), 1.0), p.levels[level]};
   });
-  const auto fall_at = [&](double at) {
+  const auto falls_at = [&](double at) {
     const auto kink = [&](const Part& p) {
       const Rows& x = p.levels[level];
       Rows step(x.size()), slope(x.size());
@@ -119,6 +119,7 @@ std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t l
     };
     return parts.judged(kink, line);
   };
+  const auto fall_at = [&](double at) { return falls_at(at).validate; };
   const double width = over.span() / 40;
   double best = 0, fall = 0;
   for (int i = 2; i < 39; ++i)
@@ -138,7 +139,7 @@ std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t l
   s.threshold = best;
   s.has_threshold = true;
   s.unit = over.unit;
-  s.fall_validate = fall;
+  s.fall = falls_at(best);
   return s;
 }
 
@@ -157,10 +158,9 @@ std::optional<Structure> jumps(const ResidualParts& parts) {
       for (std::size_t l = 0; l < at_level.size(); ++l) at_level[l].push_back(p.levels[l][k]);
     }
     s.intervals.emplace_back(parts.model().recording(p.recording).name, std::move(intervals));
-    if (p.train) continue;
     // Each jump is paid for by its place and its height.
-    s.fall_validate += p.w.squaredNorm() - parts.whitened(p, without_levels(p, at)).squaredNorm() -
-                       2 * std::log(static_cast<double>(p.e.size())) * static_cast<double>(at.size());
+    s.fall.of(p.train) += p.w.squaredNorm() - parts.whitened(p, without_levels(p, at)).squaredNorm() -
+                          2 * std::log(static_cast<double>(p.e.size())) * static_cast<double>(at.size());
   }
   if (s.intervals.empty()) return std::nullopt;
   for (std::size_t l = 0; l < at_level.size(); ++l) share_one_level(s, parts.levels()[l], std::move(at_level[l]));
@@ -188,7 +188,7 @@ std::optional<Structure> bursts(const ResidualParts& parts) {
     }
     if (intervals.empty() || rows * 2 > z.size()) continue;  // what lasts is no burst
     s.intervals.emplace_back(parts.model().recording(p.recording).name, std::move(intervals));
-    if (!p.train) s.fall_validate += fall;
+    s.fall.of(p.train) += fall;
   }
   if (s.intervals.empty()) return std::nullopt;
   return s;

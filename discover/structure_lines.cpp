@@ -26,13 +26,13 @@ std::vector<Rows> wave(const Rows& x, double origin, double k) {
 
 /// Fall of chi2 by a line of frequency f [Hz] in the recordings that can show it: not above the rows, one period at
 /// least.
-double line_fall(const ResidualParts& parts, double f, bool validate_only) {
-  double fall = 0;
+ByRole line_fall(const ResidualParts& parts, double f) {
+  ByRole fall;
   for (const auto& p : parts.list()) {
-    if (validate_only && p.train) continue;
     const double step = p.duration() / static_cast<double>(p.t.size() - 1);
     if (f * step > 0.45 || f * p.duration() < 1) continue;
-    fall += parts.own_fall(p, [f](const Part& q) { return wave(q.t, q.t.front(), 2 * std::numbers::pi * f); });
+    fall.of(p.train) +=
+        parts.own_fall(p, [f](const Part& q) { return wave(q.t, q.t.front(), 2 * std::numbers::pi * f); });
   }
   return fall;
 }
@@ -171,7 +171,7 @@ std::vector<double> strongest_lines(const ResidualParts& parts, const std::vecto
 }
 
 std::optional<Structure> line_in_time(const ResidualParts& parts) {
-  const auto fall_at = [&](double frequency) { return line_fall(parts, frequency, false); };
+  const auto fall_at = [&](double frequency) { return line_fall(parts, frequency).all(); };
   double f = 0, fall = 0, longest = 0;
   for (const double candidate : strongest_frequencies(parts))
     if (const double now = fall_at(candidate); now > fall) f = candidate, fall = now;
@@ -185,18 +185,18 @@ std::optional<Structure> line_in_time(const ResidualParts& parts) {
   s.variable = "t";
   s.period = 1 / f;
   s.unit = parse_unit("s");
-  const auto validating =
-      std::count_if(parts.list().begin(), parts.list().end(), [](const Part& p) { return !p.train; });
-  s.fall_validate = line_fall(parts, f, true) - 4.0 * static_cast<double>(validating);  // two numbers per recording
+  s.fall = line_fall(parts, f);
+  for (const auto& p : parts.list()) s.fall.of(p.train) -= 4;  // two numbers per recording
   return s;
 }
 
 std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t level) {
   const Level& over = parts.levels()[level];
   const auto wave_number = [&](double lines) { return 2 * std::numbers::pi * lines / over.span(); };
-  const auto fall_at = [&](double lines) {
+  const auto falls_at = [&](double lines) {
     return parts.judged([&](const Part& p) { return wave(p.levels[level], over.lowest, wave_number(lines)); });
   };
+  const auto fall_at = [&](double lines) { return falls_at(lines).validate; };
   // Screened on plain rows over the level, where a trial costs next to nothing; the best few are judged whitened.
   constexpr std::ptrdiff_t judged = 6;
   std::vector<std::pair<double, double>> screened;
@@ -213,7 +213,7 @@ std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t l
   s.variable = over.name;
   s.period = over.span() / best;
   s.unit = over.unit;
-  s.fall_validate = fall;
+  s.fall = falls_at(best);
   return s;
 }
 

@@ -1,5 +1,5 @@
 // Decides which kinds of generic structure are sought, one function each. Internal to discover; structure.cpp lets them
-// compete. Each fills `fall_validate` with the fall of chi2 on validation recordings less what its own numbers cost.
+// compete. Each fills `fall` with the fall of chi2 less what its own numbers cost.
 #pragma once
 
 #include <cstddef>

@@ -112,7 +112,7 @@ TEST_F(Structures, NoiseAloneHasNone) {
   const auto s = found_in([](double, double, int) { return 0.0; });
   // Something always fits by chance; what it takes away is what chance takes: some units of chi2 of 2100 rows.
   if (s) {
-    EXPECT_LT(s->fall_validate, 25);
+    EXPECT_LT(s->fall.validate, 25);
   }
 }
 

@@ -380,5 +380,37 @@ TEST_F(Verdicts, WithoutARecordingToJudgeOnThereIsNoDiscovery) {
   }
 }
 
+/// A pump hums once in nine seconds, with a new phase in each recording; those that judge are shorter than that.
+DataSet beside_a_pump() {
+  std::vector<Recording> list;
+  std::uint64_t seed = 7700;
+  const auto add = [&](Role role, double phase, int count, double step, const std::vector<double>& hertz) {
+    const auto t = rows(count, step);
+    const auto u = hertz.empty() ? decaying_triangle(t, 1, 4) : several_sines(t, 1, hertz);
+    auto y = noise(t.size(), 2e-4, 0, seed);
+    for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + 7e-4 * std::sin(2 * pi * t[k] / 8.9 + phase);
+    list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, y));
+  };
+  add(Role::train, 0.5, 2000, 0.0067, {1.0, 2.2});
+  add(Role::train, 2.0, 1100, 1.3, {0.004, 0.011});
+  add(Role::train, 4.0, 2000, 0.014, {0.11, 0.3});
+  add(Role::train, 5.5, 2000, 0.094, {});
+  add(Role::validate, 1.2, 1100, 0.0067, {1.0, 2.2});
+  add(Role::validate, 3.0, 1500, 0.00045, {9.0, 30.0});
+  return data_set(list, 2e-4, 0);
+}
+
+TEST_F(Verdicts, APumpTooSlowForTheRecordingsThatJudgeIsToldFromAllOfThem) {
+  DiscoverOptions options;
+  options.only = {"structural_resonance", "creep"};
+  const Discovery d = discover(plain_gain(), beside_a_pump(), registry, effects, options);
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.headline;
+  ASSERT_TRUE(d.structure.has_value());
+  EXPECT_EQ(d.structure->kind, "line_in_time");
+  // Cramer-Rao of the longest recording: sqrt(6/1100)/(pi 1430 s)/3.5 = 5e-6 Hz, 4e-4 s of the period.
+  EXPECT_NEAR(d.structure->period, 8.9, 2e-3);
+  EXPECT_NE(d.structure->sentence.find("in all recordings"), std::string::npos) << d.structure->sentence;
+}
+
 }  // namespace
 }  // namespace hysteron
