@@ -38,20 +38,16 @@ ResidualParts::ResidualParts(const Evidence& evidence, const Prediction& predict
 void ResidualParts::read_levels(const std::vector<int>& recordings, const Prediction& with_zeros) {
   const Program& program = model_.program();
   const auto add = [&](const std::string& name, const Unit& unit, const std::function<Rows(int)>& rows_of) {
-    Level level{name, unit, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0};
+    Level level{name, unit, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     std::vector<Rows> of_parts;
-    Rows all;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       of_parts.push_back(rows_of(recordings[i]));
       if (of_parts.back().size() != parts_[i].e.size()) return;  // not recorded everywhere
       const auto [low, high] = std::minmax_element(of_parts.back().begin(), of_parts.back().end());
       level.lowest = std::min(level.lowest, *low);
       level.highest = std::max(level.highest, *high);
-      all.insert(all.end(), of_parts.back().begin(), of_parts.back().end());
     }
     if (!(level.span() > 0)) return;
-    std::sort(all.begin(), all.end());
-    level.middle_half = all[all.size() * 3 / 4] - all[all.size() / 4];
     levels_.push_back(level);
     for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].levels.push_back(std::move(of_parts[i]));
   };

@@ -18,7 +18,6 @@ struct Level {
   std::string name;  ///< of an output, an input or a column
   Unit unit;
   double lowest = 0, highest = 0;  ///< [SI] over all recordings
-  double middle_half = 0;          ///< [SI] range of the middle half of all rows
   double span() const { return highest - lowest; }
 };
 

@@ -16,6 +16,8 @@
 namespace hysteron {
 namespace {
 
+constexpr double as_much = 0.01;  // of what a structure takes away
+
 std::string sentence_of(const Structure& s, Where where) {
   const std::string share = fmt::format("{:.0f} % of what stands above the noise {}", 100 * s.share_removed,
                                         where == Where::validation ? "on validation recordings" : "in all recordings");
@@ -47,12 +49,19 @@ void weigh(Structure& s, const ResidualParts& parts, Where where) {
   s.share_removed = excess > 0 ? std::min(1.0, over(s.fall, where) / excess) : 0;
 }
 
+/// Over a drive and over what follows it at once a structure is the same but for a few rows: then all recordings say
+/// which of the two it is.
+bool holds_more(const Structure& a, const Structure& b, Where where) {
+  const double more = over(a.fall, where) - over(b.fall, where);
+  return std::abs(more) > as_much * over(b.fall, where) ? more > 0 : a.fall.all() > b.fall.all();
+}
+
 std::optional<Structure> best_of(const Evidence& evidence, const Prediction& prediction, int output,
                                  const Threads& threads, Where where) {
   const ResidualParts parts(evidence, prediction, output);
   std::optional<Structure> best;
   const auto offer = [&](std::optional<Structure> s) {
-    if (!s || over(s->fall, where) <= (best ? over(best->fall, where) : 0)) return;
+    if (!s || over(s->fall, where) <= 0 || (best && !holds_more(*s, *best, where))) return;
     best = std::move(s);
     weigh(*best, parts, where);
   };

@@ -18,29 +18,76 @@ double span_of(const Rows& rows) {
   return *high - *low;
 }
 
-/// The drive moves by more than a tenth of its range next to this row.
-bool drive_jumps(const Part& p, std::size_t k, double span) {
+/// The drive moves by more than a tenth of its range within so many rows.
+bool drive_jumps(const Part& p, std::size_t k, std::size_t within, double span) {
   if (!(span > 0)) return false;
-  for (std::size_t j = k > 1 ? k - 1 : 1; j <= std::min(k + 1, p.drive.size() - 1); ++j)
+  for (std::size_t j = k > within ? k - within : 1; j <= std::min(k + within, p.drive.size() - 1); ++j)
     if (std::abs(p.drive[j] - p.drive[j - 1]) > 0.1 * span) return true;
   return false;
 }
 
-/// Rows behind which the residual jumps: by more than six times the noise, alone among its neighbours, and not with the
-/// drive.
-std::vector<std::size_t> jumps_of(const Part& p, double white) {
-  const std::size_t n = p.e.size();
-  const double span = span_of(p.drive);
-  std::vector<std::size_t> found;
-  for (std::size_t k = 1; k < n; ++k) {
-    const double d = std::abs(p.e[k] - p.e[k - 1]);
-    if (d < 6 * white || drive_jumps(p, k, span)) continue;
-    std::vector<double> around;
-    for (std::size_t j = k > 6 ? k - 6 : 1; j <= std::min(k + 6, n - 1); ++j)
-      if (j != k) around.push_back(std::abs(p.e[j] - p.e[j - 1]));
-    if (d > 4 * median(std::move(around))) found.push_back(k);
+/// By how much the mean over so many rows from row k on differs from that over as many before it; 0 at the ends.
+Rows differences(const Rows& e, std::size_t window) {
+  Rows list(e.size(), 0.0);
+  double behind = 0, before = 0;
+  for (std::size_t k = 0; k < std::min(window, e.size()); ++k) before += e[k];
+  for (std::size_t k = window; k < std::min(2 * window, e.size()); ++k) behind += e[k];
+  for (std::size_t k = window; k + window <= e.size(); ++k) {
+    list[k] = std::abs(behind - before) / static_cast<double>(window);
+    before += e[k] - e[k - window];
+    if (k + window < e.size()) behind += e[k + window] - e[k];
   }
-  if (found.size() * 10 > n) found.clear();  // that many are no jumps but a rough residual
+  return list;
+}
+
+/// Do two means explain the rows about row k better than a straight line: what swings slowly has steep places.
+bool is_steeper_than_a_line(const Rows& e, std::size_t k, std::size_t window, double jump) {
+  double along = 0, lengths = 0;
+  for (std::size_t j = k - window; j < k + window; ++j) {
+    const double x = static_cast<double>(j) + 0.5 - static_cast<double>(k);
+    along += x * e[j];
+    lengths += x * x;
+  }
+  return 0.5 * static_cast<double>(window) * jump * jump > along * along / lengths;
+}
+
+/// Of the white noise: six standard deviations of the difference of two means, for what is slow adds to it; of two rows
+/// four, for these it leaves alone.
+double jump_bar(std::size_t window) { return window == 1 ? 6 : 6 * std::sqrt(2 / static_cast<double>(window)); }
+
+/// Rows at which the mean over so many rows jumps, most there, alone among its neighbours, and not with the drive.
+std::vector<std::size_t> jumps_of_means(const Part& p, std::size_t window, double white) {
+  const Rows d = differences(p.e, window);
+  const double span = span_of(p.drive), bar = jump_bar(window) * white;
+  std::vector<std::size_t> found;
+  for (std::size_t k = 1; k < d.size(); ++k) {
+    if (d[k] < bar || drive_jumps(p, k, window, span)) continue;
+    bool most = true;
+    std::vector<double> around;
+    const std::size_t reach = window + 5;
+    for (std::size_t j = k > reach ? k - reach : 1; j <= std::min(k + reach, d.size() - 1); ++j) {
+      const std::size_t off = j > k ? j - k : k - j;
+      if (off >= window) around.push_back(d[j]);
+      if (off > 0 && off < window) most = most && (d[j] < d[k] || (d[j] == d[k] && j > k));
+    }
+    if (most && d[k] > 4 * median(std::move(around)) && (window == 1 || is_steeper_than_a_line(p.e, k, window, d[k])))
+      found.push_back(k);
+  }
+  return found;
+}
+
+/// Rows behind which the residual jumps: of single rows what stands out of their noise, of means what is smaller.
+std::vector<std::size_t> jumps_of(const Part& p, double white) {
+  std::vector<std::size_t> found;
+  for (const std::size_t window : {1, 4, 16}) {
+    std::vector<std::size_t> more;
+    for (const std::size_t k : jumps_of_means(p, window, white))
+      if (std::none_of(found.begin(), found.end(), [&](std::size_t j) { return (j > k ? j - k : k - j) <= window; }))
+        more.push_back(k);
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  std::sort(found.begin(), found.end());
+  if (found.size() * 10 > p.e.size()) found.clear();  // that many are no jumps but a rough residual
   return found;
 }
 
@@ -59,12 +106,33 @@ Rows without_levels(const Part& p, const std::vector<std::size_t>& at) {
   return left;
 }
 
-/// Jumps that all happen at one level belong to that level, a threshold, unless it is where the signal stays anyway.
-void share_one_level(Structure& s, const Level& level, std::vector<double> at) {
+/// What a level is at the jumps, and what it is anywhere in the recordings that jump, each as often as it jumps.
+struct AtJumps {
+  std::vector<double> at, anywhere;
+  void add(const Rows& level, const std::vector<std::size_t>& jumps) {
+    constexpr std::size_t looks = 16;
+    for (const std::size_t k : jumps) {
+      at.push_back(level[k]);
+      for (std::size_t i = 0; i < looks; ++i) anywhere.push_back(level[(2 * i + 1) * level.size() / (2 * looks)]);
+    }
+  }
+};
+
+double between(const std::vector<double>& sorted, double from, double to) {
+  const auto rank = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(sorted.size())); };
+  return sorted[rank(to)] - sorted[rank(from)];
+}
+
+/// Jumps that all happen at one level belong to that level, a threshold, unless it is where the signal stays anyway: a
+/// room that warms in one recording stands still in those that jump.
+void share_one_level(Structure& s, const Level& level, AtJumps jumps) {
+  auto& [at, anywhere] = jumps;
   if (at.size() < 4) return;
   std::sort(at.begin(), at.end());
-  const double middle_half = at[at.size() * 3 / 4] - at[at.size() / 4];
-  if (middle_half > 0.03 * level.span() || middle_half > 0.1 * level.middle_half) return;
+  std::sort(anywhere.begin(), anywhere.end());
+  const double middle_half = between(at, 0.25, 0.75);
+  if (between(anywhere, 0.1, 0.9) < 0.1 * level.span()) return;
+  if (middle_half > 0.03 * level.span() || middle_half > 0.1 * between(anywhere, 0.25, 0.75)) return;
   s.threshold = at[at.size() / 2];
   s.has_threshold = true;
   s.variable = level.name;
@@ -119,19 +187,19 @@ std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t l
     };
     return parts.judged(kink, line);
   };
-  const auto fall_at = [&](double at) { return falls_at(at).validate; };
+  // Where it is, all recordings say: it is one number.
+  const auto fall_at = [&](double at) { return falls_at(at).all(); };
   const double width = over.span() / 40;
   double best = 0, fall = 0;
   for (int i = 2; i < 39; ++i)
     if (const double f = fall_at(over.lowest + i * width); f > fall) best = over.lowest + i * width, fall = f;
-  // A step of many times the noise is placed to a row: half a division off, it explains half of itself.
-  for (double w = width / 2; fall > 0 && w > width / 200; w /= 2)
-    for (const int side : {-1, 1})
-      if (const double f = fall_at(best + side * w); f > fall) {
-        best += side * w;
-        fall = f;
-        break;
-      }
+  // A step of many times the noise is placed to a row: half a division off, it explains half of itself. From row to row
+  // the fall itself goes in steps: the next one up may lie behind one that goes down.
+  for (double w = width / 2; fall > 0 && w > width / 200; w /= 2) {
+    const double from = best;
+    for (const int side : {-1, 1, -2, 2, -3, 3})
+      if (const double f = fall_at(from + side * w); f > fall) best = from + side * w, fall = f;
+  }
   if (fall <= 0) return std::nullopt;
   Structure s;
   s.kind = "kink_at_level";
@@ -148,15 +216,15 @@ std::optional<Structure> jumps(const ResidualParts& parts) {
   s.kind = "jumps";
   s.variable = "t";
   s.unit = parse_unit("s");
-  std::vector<std::vector<double>> at_level(parts.levels().size());
+  std::vector<AtJumps> at_level(parts.levels().size());
   for (const auto& p : parts.list()) {
     const auto at = jumps_of(p, parts.white());
     if (at.empty()) continue;
     std::vector<std::pair<double, double>> intervals;
     for (const std::size_t k : at) {
       intervals.emplace_back(p.t[k - 1], p.t[k]);
-      for (std::size_t l = 0; l < at_level.size(); ++l) at_level[l].push_back(p.levels[l][k]);
     }
+    for (std::size_t l = 0; l < at_level.size(); ++l) at_level[l].add(p.levels[l], at);
     s.intervals.emplace_back(parts.model().recording(p.recording).name, std::move(intervals));
     // Each jump is paid for by its place and its height.
     s.fall.of(p.train) += p.w.squaredNorm() - parts.whitened(p, without_levels(p, at)).squaredNorm() -

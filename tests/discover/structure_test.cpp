@@ -18,26 +18,46 @@ class Structures : public ::testing::Test {
  protected:
   using Hidden = std::function<double(double t, double u, int recording)>;
 
-  /// Two train and two validate recordings of different length; noise 1 mm rms, u over 0 .. 1 V.
-  std::optional<Structure> found_in(const Hidden& hidden) {
+  /// Two train and two validate recordings of different length; noise 1 mm rms, u over 0 .. 1 V. The room stays at
+  /// 22 degC but for the recordings in which it warms by 10 K.
+  std::optional<Structure> found_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1}) {
     std::vector<Recording> list;
     for (int r = 0; r < 4; ++r) {
       const auto t = rows(800 + 100 * r, 0.01 * (1 + r % 2));
       const auto u = several_sines(t, 1, {0.13 + 0.02 * r, 0.31});
       auto y = noise(t.size(), 1e-3, 0, 10 + static_cast<std::uint64_t>(r));
-      for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + hidden(t[k], u[k], r);
+      const auto follows = behind_a_lag(t, u, lag);
+      for (std::size_t k = 0; k < t.size(); ++k) y[k] += follows[k] + hidden(t[k], u[k], r);
       list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, y));
-      // The room stays at 22 degC but for one recording, in which it warms by 10 K.
       auto& room = list.back().columns["T"] = noise(t.size(), 0.02, 0, 50 + static_cast<std::uint64_t>(r));
-      for (std::size_t k = 0; k < t.size(); ++k) room[k] += 295.15 + (r == 1 ? 10 * t[k] / t.back() : 0);
+      for (std::size_t k = 0; k < t.size(); ++k)
+        room[k] += 295.15 + (std::find(warm.begin(), warm.end(), r) != warm.end() ? 10 * t[k] / t.back() : 0);
       list.back().units["T"] = parse_unit("degC");
     }
     data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
-    DataModel model(compile(plain_gain(), registry), data_);
+    DataModel model(compile(lag > 0 ? lagging(lag) : plain_gain(), registry), data_);
     const Evidence evidence(model);
     return find_structure(evidence, model.predict({}, evidence.recordings()));
   }
 
+  /// One pole [s] behind straight lines between rows, from rest at the first of them.
+  static std::vector<double> behind_a_lag(const std::vector<double>& t, const std::vector<double>& u, double lag) {
+    std::vector<double> y = u;
+    for (std::size_t k = 1; lag > 0 && k < t.size(); ++k) {
+      const double h = t[k] - t[k - 1], slope = (u[k] - u[k - 1]) / h, keep = std::exp(-h / lag);
+      y[k] = u[k] - slope * lag + (y[k - 1] - u[k - 1] + slope * lag) * keep;
+    }
+    return y;
+  }
+  static Diagram lagging(double lag) {
+    Diagram d = plain_gain();
+    d.blocks["amplifier"].type = "transfer_function";
+    d.blocks["amplifier"].parameters["num"] = Value(NumberList{Number{1, {}}});
+    d.blocks["amplifier"].parameters["den"] = Value(NumberList{Number{lag, {}}, Number{1, {}}});
+    d.blocks["amplifier"].in = {{"", "u"}};
+    d.blocks["stage"].in = {{"", "amplifier"}};
+    return d;
+  }
   Registry registry = all_blocks();
   std::shared_ptr<const DataSet> data_;
 };
@@ -74,6 +94,45 @@ TEST_F(Structures, AStepAtALevelOfTheDriveIsAKinkThere) {
   EXPECT_EQ(s->kind, "kink_at_level");
   ASSERT_TRUE(s->has_threshold);
   EXPECT_NEAR(s->threshold, 0.437, 0.01);  // u passes it in steps of up to 0.02
+}
+
+TEST_F(Structures, AStepAtALevelOfTheDriveIsNotOneOfTheOutputThatLagsBehindIt) {
+  const auto s = found_in([](double, double u, int) { return u > 0.437 ? 0.01 : 0.0; }, 2e-3);
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "kink_at_level");
+  EXPECT_EQ(s->variable, "u") << "a fifth of a row apart: few rows tell";
+}
+
+TEST_F(Structures, JumpsOfThreeTimesTheNoiseStandOutOfTheMeansAboutThem) {
+  const std::vector<double> jumps{0.9, 2.3, 3.1, 4.8, 6.2, 7.0};
+  const auto s = found_in([&](double t, double, int r) {
+    const auto passed = std::count_if(jumps.begin(), jumps.end(), [&](double at) { return t > at + 0.11 * r; });
+    return passed % 2 == 0 ? 0.0 : 3e-3;
+  });
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "jumps");
+  ASSERT_EQ(s->intervals.size(), 4u);
+  std::size_t found = 0, all = 0;
+  for (const auto& [name, intervals] : s->intervals) {
+    all += intervals.size();
+    // Placed to a few rows (of up to 20 ms) by the rows next to it.
+    for (const double jump : jumps)
+      found += std::any_of(intervals.begin(), intervals.end(), [&](const auto& interval) {
+        return std::abs(interval.second - jump - 0.11 * std::stod(name)) < 0.08;
+      });
+  }
+  EXPECT_GE(found, 22u) << "of 24";
+  EXPECT_LE(all, found + 2);
+}
+
+TEST_F(Structures, JumpsWhileTheRoomStandsStillAreNoneOfItsTemperature) {
+  const auto s =
+      found_in([](double t, double,
+                  int r) { return r % 2 == 0 && std::fmod(t, 1.7) > 0.8 + 0.3 * std::sin(5 * t) ? 0.02 : 0.0; },
+               0, {1, 3});
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(s->kind, "jumps");
+  EXPECT_EQ(s->variable, "t");
 }
 
 TEST_F(Structures, BurstsSayWhenAndExplainNothing) {
