@@ -221,7 +221,9 @@ enum class Came { one_by_one, at_once };
 /// A set that was found one by one need not hold together: what another member has made needless is taken out, and what
 /// a look-alike does better beside the others is replaced. The steps are then told anew. Members that came at once were
 /// compared with nobody: each is asked, and look-alikes that explain the recordings as well in its place are ties.
-void reconsider(Books& books, double bar, Came came = Came::one_by_one);
+/// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
+/// output with it.
+void reconsider(Books& books, double bar, Came came = Came::one_by_one, const Contender* before = nullptr);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.

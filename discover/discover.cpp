@@ -171,12 +171,12 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     as_on_another_axis(books, tried, winner, ties);
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
-    Contender before = books.current;
+    const Contender before = books.current;
     claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
     unless_it_fails(books, [&] {
-      in_two(books, std::move(before), bar(0.92));
+      in_two(books, before, bar(0.92));
       on_other_outputs(books, id, tried, bar(0.93));
-      if (found_effects(books) > 1) reconsider(books, bar(0.95));
+      if (found_effects(books) > 1) reconsider(books, bar(0.95), Came::one_by_one, &before);
       return true;
     });
   }

@@ -7,6 +7,7 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
+#include "discover/parts.h"
 
 namespace hysteron {
 namespace {
@@ -88,11 +89,38 @@ std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::
   return rest;
 }
 
-/// What is left without each member; without the last only if `all`, for it was taken beside the others.
+/// By member: does it share an output with one that `before` does not have, by way of others perhaps.
+std::vector<bool> beside_new_ones(const Books& books, const Contender& before) {
+  const auto members = members_of(books.current), known = members_of(before);
+  const auto is_new = [&](const Member& m) {
+    return std::none_of(known.begin(), known.end(), [&](const Member& k) {
+      return k.effect == m.effect && k.law == m.law && k.place.where() == m.place.where();
+    });
+  };
+  std::vector<bool> beside(members.size(), false);
+  for (const auto& part : parts_of(books.current, books.shop.free_paths)) {
+    bool any = false;
+    for (std::size_t i = 0; i < members.size(); ++i) any = any || (part.has(i) && is_new(members[i]));
+    for (std::size_t i = 0; any && i < members.size(); ++i)
+      if (part.has(i)) beside[i] = true;
+  }
+  return beside;
+}
+
+/// Who is asked whether the others have made it needless, or a look-alike does better.
+struct Asked {
+  bool last = false;                  ///< it was taken beside the others, unless all came at once
+  const Contender* before = nullptr;  ///< see reconsider()
+};
+
+/// What is left without each member that is asked.
 using Rests = std::vector<std::optional<Contender>>;
-Rests rests_of(const Books& books, double bar, bool all) {
-  Rests rests(books.current.standing.size() - (all ? 0 : 1));
+Rests rests_of(const Books& books, double bar, const Asked& asked) {
+  Rests rests(books.current.standing.size() - (asked.last ? 0 : 1));
+  const auto beside = asked.before != nullptr ? beside_new_ones(books, *asked.before)
+                                              : std::vector<bool>(books.current.standing.size(), true);
   books.side_by_side(rests.size(), [&](std::size_t i, const Workshop& shop) {
+    if (!beside[i]) return false;
     books.progress("without " + books.current.standing[i].effect->id, bar);
     rests[i] = rest_of(books, shop, i);
     return false;
@@ -268,11 +296,12 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
 
 }  // namespace
 
-void reconsider(Books& books, double bar, Came came) {
+void reconsider(Books& books, double bar, Came came, const Contender* before) {
   const bool all_at_once = came == Came::at_once;
-  Rests rests = rests_of(books, bar, all_at_once);
+  const Asked asked{all_at_once, before};
+  Rests rests = rests_of(books, bar, asked);
   if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
-    rests = rests_of(books, bar, all_at_once);
+    rests = rests_of(books, bar, asked);
   const auto members = members_of(books.current);
   for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
     if (!rests[i]) continue;

@@ -14,6 +14,11 @@ from laws import lost_motion
 TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
 LAW_ERROR = 0.015  # of an effect's amplitude: no formula describes a device better
 
+# A smooth curve may have any shape; sums of so many drawn ones, with slopes and zeros of their own, come to a tenth of a
+# per cent of each other.
+CURVES = ("asymmetry", "sensor_nonlinearity")
+ANY_CURVE = 9
+
 # Pairs that are easily taken for each other; the deciding feature may be missing from the recordings.
 RIVALS = dict(
     hysteresis=("friction", "backlash", "amplifier_lag", "creep"),
@@ -47,12 +52,24 @@ def curves_of(plant, recordings, truth, name, size, rng):
     if name == "hysteresis" and plant.base == "B1":
         return loops(plant, recordings)
     columns = []
-    for _ in range(3):
+    for _ in range(ANY_CURVE if name in CURVES else 3):
         rival = draw(rng, name, plant, recordings)
         rival.axes = truth.axes
         rival = scale(plant, recordings, rival, size, accuracy=0.25)
         if rival is not None:
             columns.append(traces(plant, recordings, rival))
+    if columns and name in CURVES:
+        columns += lines(plant, recordings, truth.axes)
+    return columns
+
+
+def lines(plant, recordings, axes):
+    """A curve has a slope and a zero of its own: of each axis what it does, and one."""
+    columns = []
+    for axis in axes:
+        for part in (lambda y: y, np.ones_like):
+            columns.append([np.array([part(y) if j == axis else np.zeros_like(y) for j, y in enumerate(base_outputs(plant, r))])
+                            for r in recordings])
     return columns
 
 

@@ -19,6 +19,7 @@ except ImportError as missing:
     print("skipped: %s; Debian: apt install python3-numba python3-scipy" % missing)
     sys.exit(77)
 
+import alternatives
 import case_files
 import cases
 import excitations
@@ -202,6 +203,19 @@ class Cases(unittest.TestCase):
                     most = max(most, np.sqrt(np.mean((y - base) ** 2)))
             low, high = hidden.TARGETS[what[1]]  # the search stops within a per cent
             self.assertTrue(0.98 * low < most / case_files.total(case.sensor) < 1.02 * high, (what, most))
+
+    def test_a_curve_of_the_drive_is_one_of_the_sensor_where_nothing_moves_fast(self):
+        """Of a plant at rest in its own time the sensor's curve is the drive's, whatever shape was drawn; fast, it is not."""
+        rng = np.random.default_rng(11)
+        plant = draw_plant(rng, "B1")
+        slow = cases.draw_recordings(rng, plant, [], words=["triangle", "freq_low"])
+        fast = cases.draw_recordings(rng, plant, [], words=["chirp", "multisine", "freq_high"])
+        sensor = dict(white=1e-4, flicker=5e-5)
+        for recordings, told_apart in ((slow, False), (fast, True)):
+            e = hidden.scale(plant, recordings, hidden.draw(rng, "sensor_nonlinearity", plant, recordings), 3e-3)
+            gap = alternatives.gap(plant, recordings, e, "asymmetry", sensor)
+            whole = alternatives.whitened(hidden.traces(plant, recordings, e), sensor)
+            self.assertEqual(gap > max(alternatives.TIE, alternatives.LAW_ERROR**2 * float(whole @ whole)), told_apart)
 
     def test_effects_that_cannot_stand_together_are_refused(self):
         with self.assertRaisesRegex(cases.Impossible, "calibration, ageing go together"):
