@@ -56,6 +56,8 @@ constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only 
 constexpr double slow_noise =
     2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white
 constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms
+/// Change of chi2 per row, of the largest, up to which a candidate does not act in a recording.
+constexpr double at_rest = 0.25;
 /// The same for a candidate whose law can imitate a standing one's: what that one leaves of its own looks just like it.
 constexpr double imitated_left = 0.1;
 constexpr double screened_part =

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "discover/investigation.h"
 
@@ -133,6 +134,46 @@ bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
   });
 }
 
+/// Of one output: what stands above the noise, chance included, as a share of what the laws took away, in the worst of
+/// the recordings in which a candidate is at rest and the laws act half as much as anywhere; nullopt where none of
+/// these judges.
+std::optional<double> left_at_rest(const ModelError& was, const ModelError& is, const std::vector<double>& left_by_laws,
+                                   const std::string& output) {
+  const auto taken_per_row = [&](std::size_t i) {
+    return left_by_laws[i] / (rules::own_law_left * rules::own_law_left) / static_cast<double>(was.recordings[i].rows);
+  };
+  // The others are fitted with the candidate, and move a little everywhere.
+  const auto moved_per_row = [&](std::size_t i) {
+    return (was.recordings[i].chi2 - is.recordings[i].chi2) / static_cast<double>(was.recordings[i].rows);
+  };
+  double most = 0, moved_most = 0, worst = 0;
+  for (std::size_t i = 0; i < left_by_laws.size(); ++i) {
+    if (was.recordings[i].output != output) continue;
+    most = std::max(most, taken_per_row(i));
+    moved_most = std::max(moved_most, moved_per_row(i));
+  }
+  bool judged = false;
+  for (std::size_t i = 0; i < left_by_laws.size(); ++i) {
+    const RecordingError& r = was.recordings[i];
+    const bool at_rest = std::abs(moved_per_row(i)) < rules::at_rest * moved_most;
+    if (r.output != output || !at_rest || !(taken_per_row(i) > 0.5 * most)) continue;
+    const double rows = static_cast<double>(r.rows);
+    worst = std::max(worst, (std::max(0.0, r.excess() / rows) + 2 * std::sqrt(2 / rows)) / taken_per_row(i));
+    judged = judged || r.role == Role::validate;
+  }
+  return judged ? std::optional(worst) : std::nullopt;
+}
+
+/// A candidate that is at rest in some recordings leaves them to the laws that stand: these show how well they know
+/// their own effects, and need not have left more elsewhere.
+std::vector<double> as_seen_at_rest(const ModelError& was, const ModelError& is, std::vector<double> left_by_laws) {
+  const auto all = left_by_laws;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const auto seen = left_at_rest(was, is, all, was.recordings[i].output))
+      left_by_laws[i] *= std::min(1.0, *seen / (rules::own_law_left * rules::own_law_left));
+  return left_by_laws;
+}
+
 /// What the laws that stand may have left, as much more as one has to take away that looks like that.
 std::vector<double> left_for(const Effect& effect, const Contender& standing, std::vector<double> left_by_laws) {
   if (imitates_a_standing_law(effect, standing))
@@ -198,7 +239,7 @@ bool more_than_laws_leave(const Effect& effect, const Contender& before, const M
   if (left_by_laws.empty()) return true;
   const bool imitates = imitates_a_standing_law(effect, before);
   if (!imitates && takes_to_the_noise(before.error_of, after)) return true;
-  const auto left = left_for(effect, before, left_by_laws);
+  const auto left = left_for(effect, before, as_seen_at_rest(before.error_of, after, left_by_laws));
   return fall_beyond(before.error_of, after, left) >= rules::claim_fall &&
          (!imitates || more_in_all(before.error_of, after, left));
 }
@@ -236,7 +277,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_where_proved(c, before);
   tried.share = share_of_recordings(
-      share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, left_by_laws)), was, is, tried.outputs);
+      share_of_excess(was, is, tried.outputs, left_for(*tried.effect, before, as_seen_at_rest(was, is, left_by_laws))),
+      was, is, tried.outputs);
   const bool above_noise = was.over_floor() > rules::floor_gate;
   if (!(tried.fall_validate > rules::claim_fall) &&
       (above_noise || !left_by_laws.empty() || !all_agree(tried, before))) {

@@ -66,6 +66,23 @@ TEST_F(Judging, WhatALawMayHaveLeftCountsWhereThatLawActs) {
   EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
 }
 
+TEST_F(Judging, WhatALawLeavesIsSeenWhereTheCandidateIsAtRest) {
+  const std::vector<double> acts_alike(4, 300);  // 1.5 % of 1.3e6
+  // Noise alone in the slow recordings: the law leaves at most 0.8 % of its own effect, 90 of chi2.
+  const Tried right = judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), acts_alike);
+  EXPECT_TRUE(right.admitted) << right.reason;
+  // It leaves 1.2 % there, and may have left 190 in the fast ones.
+  const Tried wrong = judged(error(1100, 1130, 1100, 1130), error(1100, 1010, 1100, 1010), acts_alike);
+  EXPECT_FALSE(wrong.admitted);
+  EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
+  // Who acts in the fitted ones alone at rest is not seen by one that judges.
+  const Tried unseen = judged(error(1000, 1110, 1110, 1110), error(1000, 1010, 1010, 1010), acts_alike);
+  EXPECT_FALSE(unseen.admitted);
+  // Where the law hardly acts it shows nothing of what it leaves elsewhere.
+  const Tried elsewhere = judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), {100, 300, 100, 300});
+  EXPECT_FALSE(elsewhere.admitted);
+}
+
 /// A mains that was looked for at 50 Hz, in rows of 1 s and 1 ms; `without` it this is left.
 Tried a_line(const Effects& effects, const ModelError& after, const ModelError& without) {
   Tried t;
