@@ -106,6 +106,8 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
                                                         const std::vector<std::size_t>& order, int step, As as) {
   const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
   const auto left = left_by_laws(books, as);
+  const Tried& best = tried[order.front()];
+  const bool decided = best.admitted && best.share > rules::decided;
   std::vector<std::vector<std::size_t>> lists;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Tried& t = tried[order[k]];
@@ -113,8 +115,11 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
     // A law that brings nothing in its simple form has nothing to enrich.
     const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
                            (step == 1 || within_reach(books, t, left));
+    // What is not a refinement may bring what the simple form does not; where somebody takes almost all, it would have
+    // to look like that one.
+    const bool apart_too = !decided || t.effect == best.effect || look_alike(*t.effect, *best.effect);
     for (std::size_t law = 1; law < t.laws.size(); ++law)
-      if ((promising || t.laws[law].apart) && !has_too_many_numbers(t, law, tried)) list.push_back(law);
+      if ((promising || (t.laws[law].apart && apart_too)) && !has_too_many_numbers(t, law, tried)) list.push_back(law);
   }
   return lists;
 }

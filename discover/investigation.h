@@ -41,9 +41,10 @@ constexpr double claim_fall =
 /// Of a weak effect whose score falls by claim_fall in all recordings together: 48 cases with nothing hidden stayed at
 /// -4 there, wherever this fell.
 constexpr double agreed_fall = 2;
-constexpr double tie = 7;          ///< in evidence + 2p
-constexpr double pieces_tell = 2;  ///< standard deviations: with structure left, less is a tie (Vuong)
-constexpr double far_more = 4;     ///< times the squared error above the noise: twice the error is no tie
+constexpr double tie = 7;              ///< in evidence + 2p
+constexpr double lost_at_most = 0.02;  ///< of its fall, that a candidate is believed to have lost by the fit
+constexpr double pieces_tell = 2;      ///< standard deviations: with structure left, less is a tie (Vuong)
+constexpr double far_more = 4;         ///< times the squared error above the noise: twice the error is no tie
 /// Of the score: who needs fewer numbers for the same goes first, also where a spare one is held at a bound and not
 /// counted (a second pole of a lag beside a dead time).
 constexpr double alike = 1;
@@ -83,7 +84,9 @@ constexpr double structure_share = 0.3;  ///< a structure must remove more of th
 constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
 constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
 constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
-constexpr int enriched = 3;        ///< names whose richer laws are tried
+constexpr double decided =
+    0.9;                     ///< share of the excess beyond which only look-alikes are tried by laws that refine none
+constexpr int enriched = 3;  ///< names whose richer laws are tried
 /// By so many more numbers a law does not come near another effect's that leaves noise only: n of them cost 2n and take
 /// away n by chance, sqrt(2n) up or down; to come within a tie of 7 they would need one and a half times that.
 constexpr std::size_t too_many_numbers = 15;

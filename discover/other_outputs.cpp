@@ -25,7 +25,7 @@ double gain_of(const Books& books, const Tried& t) {
 const Tried* better_there(const Books& books, const Tried& t, const std::vector<Tried>& others) {
   for (const auto& o : others)
     if (o.admitted && o.effect->family != t.effect->family && o.outputs == t.outputs &&
-        gain_of(books, o) > gain_of(books, t) + rules::exchange)
+        gain_of(books, o) > gain_of(books, t) + rules::exchange + lost_by_the_fit(t))
       return &o;
   return nullptr;
 }

@@ -135,9 +135,11 @@ const Contender* without_a_needless_one(const Books& books, const Rests& rests) 
   return nullptr;
 }
 
-/// A law that finds the zero anew, and with its weights the gain, may have stood for these alone.
-bool may_stand_for(const Effect& member, const Effect& e) {
-  return look_alike(member, e) || (member.moves_zero && e.straight);
+/// A law that finds the zero anew, and with its weights the gain, may have stood for these alone; one that holds
+/// another effect's besides its own, for that one alone.
+bool may_stand_for(const Books& books, const Standing& member, const Effect& e) {
+  return look_alike(*member.effect, e) || (member.effect->moves_zero && e.straight) ||
+         (member.effect != &e && could_hold(books, member.law, e));
 }
 
 /// `other` has a gain and a zero alone in place of the member, which holds these besides its own and takes no more.
@@ -158,11 +160,11 @@ bool is_as_good(const Books& books, const Tried& t) {
   return t.contender.tie_score() - books.current.tie_score() < rules::tie;
 }
 
-InPlace look_alikes_of(const Books& books, const Contender& rest, const Member& m, double bar) {
+InPlace look_alikes_of(const Books& books, const Contender& rest, const Standing& m, double bar) {
   const Effect& member = *m.effect;
   const auto list = choices_on(
-      books, rest, [&](const Effect& e) { return may_stand_for(member, e); },
-      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law); });
+      books, rest, [&](const Effect& e) { return may_stand_for(books, m, e); },
+      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law.name); });
   std::vector<Tried> fitted(list.size());
   const std::size_t first = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
@@ -303,9 +305,10 @@ void reconsider(Books& books, double bar, Came came, const Contender* before) {
   if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
     rests = rests_of(books, bar, asked);
   const auto members = members_of(books.current);
+  const auto standing = books.current.standing;
   for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
     if (!rests[i]) continue;
-    auto in_place = look_alikes_of(books, *rests[i], members[i], bar);
+    auto in_place = look_alikes_of(books, *rests[i], standing[i], bar);
     if (in_place.better && tell_again(books, *in_place.better)) return;  // the members stand in another order now
     if (all_at_once) tell_ties(books, *rests[i], members[i], in_place.as_good);
   }

@@ -51,6 +51,12 @@ bool as_imperfect(const Books& books, const Tried& rival, const Tried& winner) {
                         books.evidence->pieces(winner.contender.prediction))) < rules::pieces_tell;
 }
 
+double lost_by_the_fit(const Tried& t) {
+  if (!(t.fall_train > rules::claim_fall) || !(t.fall_validate > t.fall_train)) return 0;
+  const double of_a_number = t.fall_validate / t.fall_train - 1;
+  return std::min(static_cast<double>(own_values(t).size()) * of_a_number, rules::lost_at_most * t.fall_validate);
+}
+
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner) {
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
   const Tried& w = tried[winner];
@@ -63,7 +69,10 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
     if (i == winner || t.effect->id == w.effect->id || !t.admitted) continue;
     if (std::find(t.effect->contains.begin(), t.effect->contains.end(), w.effect->id) != t.effect->contains.end())
       continue;
-    bool tied = t.contender.tie_score() - w.contender.tie_score() < rules::tie;
+    const double behind = t.contender.tie_score() - w.contender.tie_score();
+    bool tied = behind < rules::tie;
+    if (!tied && look_alike(*t.effect, *w.effect))
+      tied = behind < rules::tie + std::max(lost_by_the_fit(t), lost_by_the_fit(w));
     if (!tied && spare_gain && look_alike(*t.effect, *w.effect)) {
       if (!freed) own = tie_score(books, w, true);
       freed = true;

@@ -106,6 +106,21 @@ Tried a_line(const Effects& effects, const ModelError& after, const ModelError& 
   return t;
 }
 
+TEST_F(Judging, WhatTheFitLostWhereItHadLessToGoByIsNoLoss) {
+  Tried t = a_line(effects, error(1000, 1000, 1000, 1000), error(1000, 1000, 1000, 1000));
+  ASSERT_EQ(own_values(t).size(), 1u);
+  t.fall_train = 100;  // its one value is known to a tenth, and a tenth off leaves a hundredth of 6500
+  t.fall_validate = 6500;
+  EXPECT_NEAR(lost_by_the_fit(t), 64, 1e-9);
+  t.fall_validate = 100;
+  EXPECT_EQ(lost_by_the_fit(t), 0) << "those that judge show no more than those that were fitted";
+  t.fall_train = 5;
+  t.fall_validate = 6500;
+  EXPECT_EQ(lost_by_the_fit(t), 0) << "no more than chance says nothing of a value";
+  t.fall_train = 11;
+  EXPECT_NEAR(lost_by_the_fit(t), 130, 1e-9) << "two per cent at most";
+}
+
 TEST_F(Judging, ALineProvesItselfWhereRowsResolveIt) {
   Contender was;
   was.ok = true;

@@ -127,6 +127,39 @@ TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
   EXPECT_NE(books.d.steps.front().sentence.find("explained as well by dead_time"), std::string::npos);
 }
 
+TEST_F(Sets, WhoCouldHoldAnotherEffectBesideItsOwnMayHaveStoodForThatOneAlone) {
+  // Plays of a bent drive take a curve up and imitate a lag; beside the lag there is nothing left of their own.
+  const DataSet data = seen_through([](std::vector<double> u) {
+    for (auto& v : u) v += 0.05 * v * (1 - v);
+    return behind_a_lag(u, 0.6);
+  });
+  DiscoverOptions options;
+  options.only = {"hysteresis", "asymmetry", "amplifier_lag"};
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, options);
+  fit_base(books);
+  auto loops = list_candidates(books, 1);
+  std::erase_if(loops, [](const Tried& t) { return t.effect->id != "hysteresis"; });
+  ASSERT_FALSE(loops.empty());
+  Tried& loop = loops.front();
+  const auto mixed = std::find_if(loop.laws.begin(), loop.laws.end(), [](const Law& l) { return !l.holds.empty(); });
+  ASSERT_NE(mixed, loop.laws.end());
+  loop.law = static_cast<std::size_t>(mixed - loop.laws.begin());
+  loop.contender =
+      with_effect(books.shop, books.current, *loop.effect, *mixed, loop.place, loop.circumstances, Effort::full);
+  ASSERT_TRUE(loop.contender.ok && tell_again(books, loop.contender));
+  ASSERT_EQ(books.d.steps.front().winner.effect, "hysteresis");
+  auto lags = list_candidates(books, 2);
+  std::erase_if(lags, [](const Tried& t) { return t.effect->id != "amplifier_lag"; });
+  ASSERT_FALSE(lags.empty());
+  fit_candidates(books, lags, 2);
+  take(books, 2, lags.front(), {});
+  ASSERT_EQ(books.d.steps.size(), 2u);
+  reconsider(books, 0);
+  EXPECT_EQ(names(books.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}))
+      << books.current.error_of.over_floor();
+}
+
 TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
   const DataSet data = seen_through([](const auto& u) { return behind_a_lag(u, 0.6); });
   DiscoverOptions options;
