@@ -72,12 +72,13 @@ class Finder {
       add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
   }
 
-  /// Before and behind each block with memory; where there is none, before and behind the whole chain. Effects that
-  /// were added do not count: what was found says nothing about where else something may enter.
+  /// Before and behind each block of the user's with memory; where there is none, before and behind the whole chain.
+  /// What was found says nothing about where else something may enter: effects that were added do not count, and a
+  /// block that one gave another law counts as it was.
   void cores() {
     bool any = false;
     for (const auto& [name, node] : w_.diagram().blocks) {
-      if (!node.effect.empty() || !w_.has_memory(name) || node.in.empty() || w_.outputs_of(name).empty() ||
+      if (w_.is_inserted(name) || !w_.had_memory(name) || node.in.empty() || w_.outputs_of(name).empty() ||
           !w_.reaches_output(w_.outputs_of(name).front()))
         continue;
       any = true;

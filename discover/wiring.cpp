@@ -170,8 +170,15 @@ std::vector<std::string> Wiring::ports(const std::string& block) const {
   return list;
 }
 
-bool Wiring::has_memory(const std::string& block) const {
-  const Node* node = body(block);
+bool Wiring::has_memory(const std::string& block) const { return remembers(body(block)); }
+
+bool Wiring::had_memory(const std::string& block) const {
+  const Node* node = diagram_.blocks.find(block);
+  const Node* off = node == nullptr || node->effect.empty() ? nullptr : node->from.find("off");
+  return remembers(off != nullptr ? off : body(block));
+}
+
+bool Wiring::remembers(const Node* node) const {
   if (node == nullptr) return false;
   if (node->nested)
     return !all_blocks(*node->nested, registry_,

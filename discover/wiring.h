@@ -61,6 +61,8 @@ class Wiring {
 
   bool is_inserted(const std::string& block) const;  ///< an effect that was put on a wire
   bool has_memory(const std::string& block) const;
+  /// The same of the user's own block, before an effect that was found gave it another law.
+  bool had_memory(const std::string& block) const;
   bool is_linear(const std::string& block) const;     ///< declared so, nested diagrams block by block
   bool has_states(const std::string& block) const;    ///< states or a remembered past
   bool is_constant(const std::string& signal) const;  ///< made by a block without inputs whose signal never moves
@@ -79,6 +81,8 @@ class Wiring {
   /// Outputs that a signal moves; `beside`: also where another wire's effect only has it beside that wire.
   std::vector<std::string> outputs_behind(const std::string& signal, bool beside) const;
   bool passes(const std::string& block, Commutes law) const;
+  bool remembers(const Node* node) const;
+
   const Diagram& diagram_;
   const Registry& registry_;
 };

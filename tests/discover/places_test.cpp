@@ -134,6 +134,26 @@ TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
     EXPECT_EQ(where(effect, a.diagram), where(effect, linear_stage())) << effect;
 }
 
+TEST_F(Places, ABlockThatWasGivenAnotherLawIsStillTheCoreOfItsAxis) {
+  // Of two axes with plays, one comes late: the other one is not all that is left of the cores.
+  Diagram d = hysteretic_stage();
+  d.inputs["u2"] = d.inputs["u"];
+  for (const auto& [name, node] : hysteretic_stage().blocks) {
+    Node& second = d.blocks[name + "2"] = node;
+    for (auto& wire : second.in) wire.from += "2";
+  }
+  for (const auto& [name, from] : hysteretic_stage().outputs) d.outputs[name + "2"] = from + "2";
+  const auto& late = effects.get("rate_dependence");
+  const auto at = places_of(late, d, registry);
+  ASSERT_EQ(at.size(), 2u);
+  Circumstances c;
+  c.unit = parse_unit("um");
+  const Added found = add_effect(d, registry, late, late.laws(c).front(), at.front());
+  for (const char* effect :
+       {"asymmetry", "creep", "backlash", "cross_coupling", "temperature_gain", "structural_resonance"})
+    EXPECT_EQ(where(effect, found.diagram), where(effect, d)) << effect;
+}
+
 TEST_F(Places, WhatWasFoundDoesNotMoveWhereElseSomethingMayEnter) {
   // Both bring a memory; the model had none, so that its core is the whole way from the drive to what is measured.
   const auto with = [&](const char* effect, const char* at) {
