@@ -59,7 +59,7 @@ std::string MassOnSpringOfPlays::check(const View<double>& v) {
 HeldByPlays::HeldByPlays(uneven_plays::Range<double> range, std::span<const double> radius,
                          std::span<const double> at_lower, std::span<const double> in_middle,
                          std::span<const double> at_upper)
-    : range_(range), radius_(radius), places_(radius.size()) {
+    : range_(range), radius_(radius), places_(radius.size()), carried_(radius.size()) {
   for (std::size_t i = 0; i < radius.size(); ++i) {
     strength_.push_back({at_lower[i], in_middle[i], at_upper[i]});
     law_.emplace_back(range_, strength_.back());
@@ -75,30 +75,49 @@ double HeldByPlays::pull_at(const double* x) const {
 
 void HeldByPlays::place(const double* x, double) {
   from_ = x[0];
+  side_ = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     passed_[i] = passed_on(i, x[i + 2]);
     places_[i] = x[i + 2];
   }
 }
 
-double HeldByPlays::pull(double way) const {
+/// Most ways from one place lead in one direction.
+void HeldByPlays::turn(double way) {
+  const double side = way < 0 ? -1 : 1;
+  if (side == side_) return;
+  side_ = side;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    carried_[i] = uneven_plays::Carried(radius_[i], places_[i], from_, side);
+}
+
+double HeldByPlays::pull(double way) {
+  turn(way);
+  const double distance = std::fabs(way), to = from_ + way;
   double force = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i) force += passed_on(i, stands(i, way));
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    force += carried_[i].stays(distance) ? passed_[i] : law_[i](carried_[i].at(distance, to));
   return force;
 }
 
-mass_motion::Force HeldByPlays::force(double way) const {
+mass_motion::Force HeldByPlays::force(double way) {
   mass_motion::Force force{pull(way), 0};
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const double at = stands(i, way);
+    const double at = carried_[i].at(std::fabs(way), from_ + way);
     force.slope += uneven_plays::strength(range_, strength_[i], at) *
                    std::fabs(uneven_plays::rate(radius_[i], at, from_ + way, way < 0 ? -1.0 : 1.0));
   }
   return force;
 }
 
-void HeldByPlays::move(double way, double* x) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) x[i + 2] = stands(i, way);
+/// What is passed on there is kept: the next row begins there.
+void HeldByPlays::move(double way, double* x) {
+  turn(way);
+  const double distance = std::fabs(way), to = from_ + way;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (!carried_[i].stays(distance)) passed_[i] = law_[i](places_[i] = carried_[i].at(distance, to));
+    x[i + 2] = places_[i];
+  }
 }
 
 MassOnSpringOfPlays::OwnStep::OwnStep(const View<double>& v)

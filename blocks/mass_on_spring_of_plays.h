@@ -20,23 +20,23 @@ class HeldByPlays {
 
   double pull_at(const double* x) const;
   void place(const double* x, double speed);
-  double pull(double way) const;
-  mass_motion::Force force(double way) const;
-  void move(double way, double* x) const;
+  double pull(double way);
+  mass_motion::Force force(double way);
+  void move(double way, double* x);
 
  private:
-  double stands(std::size_t i, double way) const {
-    return uneven_plays::after(radius_[i], places_[i], from_, from_ + way);
-  }
+  void turn(double way);
   double passed_on(std::size_t i, double w) const { return w == places_[i] ? passed_[i] : law_[i](w); }
 
   uneven_plays::Range<double> range_;
   std::span<const double> radius_;
   std::vector<uneven_plays::Strength<double>> strength_;
   std::vector<uneven_plays::PassedOn> law_;
-  double from_ = 0;             ///< [m] the mass
-  std::vector<double> places_;  ///< [m] the plays
-  std::vector<double> passed_;  ///< [N] by each where it stands
+  double from_ = 0;                             ///< [m] the mass
+  double side_ = 0;                             ///< the direction in which it moves from there; 0: not asked yet
+  std::vector<double> places_;                  ///< [m] the plays
+  std::vector<double> passed_;                  ///< [N] by each where it stands
+  std::vector<uneven_plays::Carried> carried_;  ///< in that direction
 };
 
 struct MassOnSpringOfPlays {

@@ -87,16 +87,34 @@ T rate(const T& radius, const T& w, const T& u, const T& rate_of_u) {
   return touching < 1.0 ? T(touching * rate_of_u) : rate_of_u;
 }
 
-/// The same law behind a move of the input in one direction, from `before` to u: where the play stands that was at w.
+/// The same law behind a move of the input in one direction: where the play stands that was at w. What does not hang
+/// on how far the input moves is worked out once.
+class Carried {
+ public:
+  Carried() = default;
+  /// From the input `before`, in the direction of side (1 or -1).
+  Carried(double radius, double w, double before, double side) : radius_(radius), w_(w), side_(side) {
+    const double round = corner * radius, to_the_wall = radius - side * (before - w), way = to_the_wall - round;
+    free_ = way > 0 ? way : 0;
+    left_ = way > 0 ? round : to_the_wall;
+  }
+  /// Behind `distance` in that direction nothing has moved yet.
+  bool stays(double distance) const { return !(distance > free_); }
+  /// Behind `distance` in that direction, at the input u.
+  double at(double distance, double u) const {
+    if (stays(distance)) return w_;
+    // What is left of the corner falls by 1/e with every `round` of the way; behind forty of them nothing is.
+    const double round = corner * radius_, beyond = distance - free_;
+    if (!(left_ > 0)) return u - side_ * (radius_ - left_);
+    return u - side_ * (beyond < 40 * round ? radius_ - left_ * std::exp(-beyond / round) : radius_);
+  }
+
+ private:
+  double radius_ = 0, w_ = 0, side_ = 1, free_ = 0, left_ = 0;
+};
+
 inline double after(double radius, double w, double before, double u) {
-  const double side = u < before ? -1 : 1, round = corner * radius;
-  const double to_the_wall = radius - side * (before - w), free = to_the_wall - round;
-  const double beyond = std::fabs(u - before) - (free > 0 ? free : 0);
-  if (!(beyond > 0)) return w;
-  // What is left of the corner falls by 1/e with every `round` of the way; behind forty of them nothing is.
-  const double left = free > 0 ? round : to_the_wall;
-  if (!(left > 0)) return u - side * (radius - left);
-  return u - side * (beyond < 40 * round ? radius - left * std::exp(-beyond / round) : radius);
+  return Carried(radius, w, before, u < before ? -1 : 1).at(std::fabs(u - before), u);
 }
 
 }  // namespace hysteron::uneven_plays
