@@ -29,6 +29,17 @@ int spent(const Contender& c, int standing) {
   return n;
 }
 
+/// Values of single recordings, some of them silenced.
+Prediction predicted_with(const Workshop& shop, const Contender& c, Effort effort,
+                          const std::function<bool(const RecordingValue&)>& silent) {
+  Trial trial;
+  for (const auto& v : c.of_recordings)
+    trial.push_back({parameter_index(*c.program, v.path), silent(v) ? 0 : v.value, v.recording});
+  DataModel model(c.program, shop.data, accuracy(shop, effort));
+  if (shop.evidence != nullptr) model.choose_substeps(trial, noise_of(shop, model).white());
+  return model.predict(trial, train_and_validate(*shop.data));
+}
+
 /// See Contender::without_line; as accurate as `c` itself, for the two are compared.
 void look_without_line(const Workshop& shop, Contender& c, Effort effort) {
   c.without_line.reset();
@@ -38,14 +49,9 @@ void look_without_line(const Workshop& shop, Contender& c, Effort effort) {
   };
   const auto judged = train_and_validate(*shop.data);
   if (std::none_of(judged.begin(), judged.end(), coarse)) return;
-  Trial silent;
-  for (const auto& v : c.of_recordings) {
-    const bool newest = v.path.starts_with(c.standing.back().name + ".");
-    silent.push_back({parameter_index(*c.program, v.path), newest && !coarse(v.recording) ? 0 : v.value, v.recording});
-  }
-  DataModel model(c.program, shop.data, accuracy(shop, effort));
-  if (shop.evidence != nullptr) model.choose_substeps(silent, noise_of(shop, model).white());
-  c.without_line = model.predict(silent, judged);
+  c.without_line = predicted_with(shop, c, effort, [&](const RecordingValue& v) {
+    return v.path.starts_with(c.standing.back().name + ".") && !coarse(v.recording);
+  });
 }
 
 Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, int held_parameters) {
@@ -159,6 +165,13 @@ Contender without(const Workshop& shop, const Contender& contender, std::size_t 
 
 Contender before_last(const Workshop& shop, const Contender& contender) {
   return without(shop, contender, contender.standing.size() - 1);
+}
+
+Prediction without_lines(const Workshop& shop, const Contender& contender) {
+  return predicted_with(shop, contender, Effort::full, [&](const RecordingValue& v) {
+    return std::any_of(contender.standing.begin(), contender.standing.end(),
+                       [&](const Standing& s) { return has_line(s.law) && v.path.starts_with(s.name + "."); });
+  });
 }
 
 Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings) {

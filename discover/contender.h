@@ -102,6 +102,8 @@ std::vector<std::string> free_anyway(const Workshop& shop, const Contender& cont
 
 /// What the contender says of other recordings, those of the test: values of single recordings are found on them.
 Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings);
+/// The same of its train and validate recordings, with the lines of the mains silent and nothing fitted.
+Prediction without_lines(const Workshop& shop, const Contender& contender);
 
 /// The parameters of a contender's effects (`standing` = index, or all of them with -1), with remarks for people.
 struct ParameterOfEffect {

@@ -77,7 +77,7 @@ bool Books::wanted(const Effect& effect) const {
 }
 
 void Books::settle(Contender& best) {
-  evidence->known_lines(lines_of(*this, best));
+  evidence->known_lines(lines_of(*this, best), [&] { return without_lines(shop, best); });
   evidence->settle(best.prediction);
   best.error_of = evidence->error(best.prediction);
 }

@@ -95,18 +95,25 @@ Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fi
     if (base_.recording(r).role != Role::test) recordings_.push_back(r);
 }
 
-void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines) {
+void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines,
+                           const std::function<Prediction()>& without) {
   lines.resize(base_.outputs().size());
+  std::optional<Prediction> silent;
   lines_.resize(lines.size());
   spans_.resize(lines.size());
   for (std::size_t o = 0; o < lines.size(); ++o) {
     if (lines[o] == lines_[o]) continue;
     spans_[o].reset();
     if (!lines[o]) continue;
+    if (without && !silent) silent = without();
     auto of_recordings = std::make_shared<std::vector<LineSpan>>();
     for (int r = 0; r < base_.n_recordings(); ++r) {
       const bool measured = !base_.measured(r, static_cast<int>(o)).empty();
-      of_recordings->push_back(measured ? LineSpan(base_.times(r), *lines[o]) : LineSpan());
+      Rows shown;
+      if (measured && silent && silent->ok && !silent->y[static_cast<std::size_t>(r)].empty())
+        shown = residual_rows(base_, *silent, r, static_cast<int>(o));
+      const ShownLine beside{shown, noise().outputs[o].white};
+      of_recordings->push_back(measured ? LineSpan(base_.times(r), *lines[o], beside) : LineSpan());
     }
     spans_[o] = std::move(of_recordings);
   }

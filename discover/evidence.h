@@ -90,8 +90,8 @@ class Evidence {
   /// Corrects the noise by the residual of the best model so far (always from the data sheet or first guess).
   void settle(const Prediction& best);
   /// Lines that a model has found and follows as steady ones, per output (as DataModel::outputs()): how they wander is
-  /// no evidence, from the next settle() on.
-  void known_lines(std::vector<std::optional<WanderingLine>> lines);
+  /// no evidence, from the next settle() on. `without`: what that model predicts without them.
+  void known_lines(std::vector<std::optional<WanderingLine>> lines, const std::function<Prediction()>& without = {});
 
   ModelError error(const Prediction& prediction) const;
   /// Whitened residual of one recording, outputs one behind the other.

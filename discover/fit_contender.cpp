@@ -10,12 +10,12 @@
 #include "discover/parts.h"
 
 namespace hysteron {
-namespace {
 
-/// Does it look for a line: is one of its parameters the frequency of one.
 bool has_line(const Law& law) {
   return std::any_of(law.free.begin(), law.free.end(), [](const LawParameter& p) { return !p.line_bands.empty(); });
 }
+
+namespace {
 
 /// The frequency of a known line, while the others are fitted, or by itself.
 enum class KnownLines { held, tuned };

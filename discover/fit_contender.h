@@ -16,6 +16,9 @@ void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh)
 std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
                                        const std::vector<int>& recordings);
 
+/// Does it look for a line: is one of its parameters the frequency of one.
+bool has_line(const Law& law);
+
 /// How finely candidates are simulated.
 DataModelOptions accuracy(const Workshop& shop, Effort effort);
 std::vector<int> train_and_validate(const DataSet& data);

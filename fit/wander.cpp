@@ -10,6 +10,10 @@ namespace {
 
 constexpr double spacing = 2;            // [s] between knots
 constexpr double given_away = 1.0 / 20;  // of the rows, at most
+constexpr double given_to_turn =
+    1.0 / 6;                      // the same to one angle: by a twentieth, twenty seconds would be a straight line
+constexpr double slowest = 10;    // periods over a recording that an expansion has not
+constexpr double stands_out = 2;  // times the noise: the hundredths that a smaller line turns by are nobody's
 /// Of the squared length of a wave about one knot: what waves have in common to five digits (a line at a whole number
 /// of half samples has no sine) is nobody's, and costs no more than a rounding error of the rest.
 constexpr double in_common = 1e-10;
@@ -17,12 +21,22 @@ constexpr double in_common = 1e-10;
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// Knots over the duration of the rows; 0: rows are too few for two.
-std::size_t knots_over(std::span<const double> t, std::size_t waves) {
-  if (t.empty() || !(t.back() > t.front())) return 0;
-  const double most = given_away * static_cast<double>(t.size()) / static_cast<double>(waves);
-  if (most < 2) return 0;
-  return static_cast<std::size_t>(std::min(most, std::max(2.0, std::ceil((t.back() - t.front()) / spacing) + 1)));
+/// Knots that these rows call for.
+double wanted_over(std::span<const double> t) { return std::max(2.0, std::ceil((t.back() - t.front()) / spacing) + 1); }
+
+/// Knots over the duration of the rows, if these give so many numbers away; 0: they are too few for two knots.
+std::size_t knots_over(std::span<const double> t, double numbers) {
+  if (t.empty() || !(t.back() > t.front()) || numbers < 2) return 0;
+  return static_cast<std::size_t>(std::min(numbers, wanted_over(t)));
+}
+
+/// Rows too coarse for a line show it at another frequency; where that is so low, what turns the line slowly is all
+/// that is slow: an expansion, a drift.
+bool looks_slow(std::span<const double> t, double frequency, std::size_t knots) {
+  const double duration = t.back() - t.front(), step = duration / static_cast<double>(t.size() - 1);
+  const double seen = std::fabs(frequency - std::round(frequency * step) / step);
+  const double band = 0.5 * static_cast<double>(knots - 1) / duration;
+  return seen < band + slowest / duration;
 }
 
 }  // namespace
@@ -47,9 +61,10 @@ struct LineSpan::Factor {
   Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky;
 };
 
-LineSpan::LineSpan(std::span<const double> t, const WanderingLine& line)
-    : waves_(static_cast<std::size_t>(2 * line.harmonics)), knots_(knots_over(t, waves_)) {
-  if (knots_ == 0) return;
+LineSpan::LineSpan(std::span<const double> t, const WanderingLine& line, const ShownLine& shown)
+    : waves_(static_cast<std::size_t>(2 * line.harmonics)),
+      knots_(knots_over(t, given_away * static_cast<double>(t.size()) / static_cast<double>(waves_))) {
+  if (!turns(t, line, shown) && knots_ == 0) return;
   const double every = (t.back() - t.front()) / static_cast<double>(knots_ - 1);
   for (const double now : t) {
     for (std::size_t w = 0; w < waves_; ++w) {
@@ -61,6 +76,21 @@ LineSpan::LineSpan(std::span<const double> t, const WanderingLine& line)
     beyond_.push_back(place - static_cast<double>(knot_.back()));
   }
   make_factors();
+}
+
+/// Whether one angle is what the rows can follow; then it is made.
+bool LineSpan::turns(std::span<const double> t, const WanderingLine& line, const ShownLine& shown) {
+  const std::size_t knots = knots_over(t, given_to_turn * static_cast<double>(t.size()));
+  if (shown.rows.size() != t.size() || knots < 2 || 2 * static_cast<double>(knots_) >= wanted_over(t) ||
+      looks_slow(t, line.frequency, knots))
+    return false;
+  std::vector<bool> follows;
+  for (int k = 1; k <= line.harmonics; ++k) follows.push_back(!looks_slow(t, k * line.frequency, knots));
+  auto turning = std::make_shared<const TurningLine>(t, shown.rows, line.frequency, std::move(follows), knots);
+  if (!(turning->rms() > stands_out * shown.white)) return false;
+  turning_ = std::move(turning);
+  knots_ = knots;
+  return true;
 }
 
 void LineSpan::make_factors() {
@@ -89,12 +119,24 @@ void LineSpan::make_factors() {
       of_moving.emplace_back((k + 1) * waves_ + w, k * waves_ + v, next[k * block + e]);
     }
   }
-  moving_ = std::make_shared<const Factor>(of_moving, knots_ * waves_);
+  if (!turning_) moving_ = std::make_shared<const Factor>(of_moving, knots_ * waves_);
   steady_ = std::make_shared<const Factor>(of_steady, waves_);
+}
+
+void LineSpan::take_out_turning(std::span<double> rows, Part part) const {
+  std::vector<double> steady(waves_, 0.0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t w = 0; w < waves_; ++w) steady[w] += wave_[i * waves_ + w] * rows[i];
+  turning_->take_out(rows);
+  if (part == Part::all) return;
+  const auto amplitude = steady_->solve(steady);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t w = 0; w < waves_; ++w) rows[i] += wave_[i * waves_ + w] * amplitude[w];
 }
 
 void LineSpan::take_out(std::span<double> rows, Part part) const {
   if (knots_ == 0) return;
+  if (turning_) return take_out_turning(rows, part);
   std::vector<double> seen(knots_ * waves_, 0.0), seen_of_steady(waves_, 0.0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     double* here = seen.data() + knot_[i] * waves_;

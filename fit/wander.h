@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "fit/turning_line.h"
+
 namespace hysteron {
 
 /// A line and its harmonics: amplitude and phase of each move in straight lines between knots.
@@ -17,10 +19,18 @@ struct WanderingLine {
   bool operator==(const WanderingLine&) const = default;
 };
 
+/// What the rows of a recording hold beside all else that is known, and their white noise (rms); empty: not known.
+struct ShownLine {
+  std::span<const double> rows{};
+  double white = 0;
+};
+
 /// All that one such line may be in the rows of one recording, and how it is taken out of them. A knot every two
 /// seconds: a mains 8 mHz off its mean frequency turns by a tenth of a radian in that time, which straight lines follow
 /// to a few per mille. Fewer where rows are few: at most a twentieth of them are given away, and with them no more of
 /// what another effect takes away; none where there are too few for two knots.
+/// Where even half as many knots would be too many, one angle turns the line and its harmonics about what the rows show
+/// of it (turning_line.h), if that is known and more than noise: a sixth of the rows at most.
 /// Rows are cleared before they are whitened: noise is as white as can be about a line, and between knots each row
 /// belongs to two of them only, so that hours of a recording cost what its rows cost.
 class LineSpan {
@@ -31,7 +41,7 @@ class LineSpan {
   };
   LineSpan() = default;
   /// `t`: times of the rows [s], rising.
-  LineSpan(std::span<const double> t, const WanderingLine& line);
+  LineSpan(std::span<const double> t, const WanderingLine& line, const ShownLine& shown = {});
 
   std::size_t knots() const { return knots_; }  ///< 0: nothing is taken out
   /// Least squares, in place; as many rows as the recording has.
@@ -39,13 +49,16 @@ class LineSpan {
 
  private:
   struct Factor;
+  bool turns(std::span<const double> t, const WanderingLine& line, const ShownLine& shown);
   void make_factors();
+  void take_out_turning(std::span<double> rows, Part part) const;
 
   std::size_t waves_ = 0, knots_ = 0;  ///< waves: a cosine and a sine of each harmonic
   std::vector<double> wave_;           ///< [row][wave]
   std::vector<std::size_t> knot_;      ///< of each row, the one before it
   std::vector<double> beyond_;         ///< of each row, the part of the way to the next one
   std::shared_ptr<const Factor> moving_, steady_;
+  std::shared_ptr<const TurningLine> turning_;  ///< in place of moving_
 };
 
 /// What is no evidence of anything in the rows of one output.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 
@@ -133,6 +134,88 @@ TEST(Wander, RowsNeedNotBeEven) {
   const double before = squares_of(rows);
   LineSpan(t, {hertz, 1}).take_out(rows, Part::all);
   EXPECT_LT(squares_of(rows), 1e-12 * before) << "a straight line between all knots";
+}
+
+// --- rows too few for amplitude and phase: one angle ---------------------------------------------------------------
+
+/// Twenty minutes in rows of 0.89 s, which show 49.84 Hz as 0.4 Hz.
+std::vector<double> slow_times() {
+  std::vector<double> t;
+  for (int i = 0; i < 1350; ++i) t.push_back(0.89 * i);
+  return t;
+}
+
+/// A mains of two harmonics that turns to and fro by 0.13 rad every 21 s, 2 mHz off what all recordings together say.
+constexpr double of_all = 49.841, of_this = 49.8388;
+double turning(double t, double hertz_now = of_this) {
+  const double turn = 2 * pi * (hertz_now * t + 0.02 * std::sin(0.3 * t));
+  return std::sin(turn + 0.4) + 0.2 * std::sin(3 * turn + 1);
+}
+
+double left_of_slow(const std::function<double(double)>& line, const std::function<double(double)>& signal,
+                    double about = of_all, double white = 0) {
+  const auto t = slow_times();
+  std::vector<double> shown, rows;
+  for (const double x : t) {
+    shown.push_back(line(x));
+    rows.push_back(signal(x));
+  }
+  const double before = squares_of(rows);
+  LineSpan(t, {about, 3}, {shown, white}).take_out(rows, Part::all);
+  return squares_of(rows) / before;
+}
+
+double turning_here(double t) { return turning(t); }
+
+TEST(Wander, OneAngleFollowsALineThatItsRowsAreTooFewFor) {
+  const auto t = slow_times();
+  std::vector<double> shown, without, rows;
+  for (const double x : t) shown.push_back(turning(x));
+  rows = without = shown;
+  const LineSpan blind(t, {of_all, 3}), seeing(t, {of_all, 3}, {shown, 0.01});
+  blind.take_out(without, Part::all);
+  seeing.take_out(rows, Part::all);
+  EXPECT_GT(squares_of(without), 0.05 * squares_of(shown)) << "2.6 turns in eleven knots";
+  // Knots every 5.3 s: straight lines miss (0.3*5.3)^2/27 of an angle of 0.09 rad (rms), 0.8 % of the line, and of the
+  // third harmonic three times that of a fifth; the square of the angle is 0.4 %, half of which the waves have.
+  EXPECT_LT(squares_of(rows), std::pow(0.014, 2) * squares_of(shown));
+  EXPECT_LE(seeing.knots(), t.size() / 6);
+}
+
+TEST(Wander, WhatIsNotTheLineStaysInSlowRowsToo) {
+  EXPECT_GT(left_of_slow(turning_here, [](double t) { return std::exp(-t / 200); }), 0.99) << "an expansion";
+  EXPECT_GT(left_of_slow(turning_here, [](double t) { return t > 500 ? 1.0 : -1.0; }), 0.98);
+  std::uint32_t seed = 1;
+  const auto white = [&](double) {
+    return static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24) - 0.5;
+  };
+  // A sixth of the rows, and six waves.
+  EXPECT_NEAR(left_of_slow(turning_here, white), 1 - 1.0 / 6 - 6.0 / 1350, 0.03);
+}
+
+TEST(Wander, ALineThatLooksSlowOrIsNoMoreThanNoiseIsNotFollowed) {
+  const auto t = slow_times();
+  const auto knots = [&](double about, double white) {
+    std::vector<double> shown;
+    for (const double x : t) shown.push_back(turning(x, about));
+    return LineSpan(t, {about, 3}, {shown, white}).knots();
+  };
+  const std::size_t few = LineSpan(t, {of_all, 3}).knots();
+  EXPECT_GT(knots(of_all, 0.1), few);
+  EXPECT_EQ(knots(of_all, 0.5), few) << "of a line of 0.7 (rms)";
+  EXPECT_EQ(knots(56 / 0.89 - 12.36 + 0.001, 0.1), few) << "45 rows later it has turned 2000 times: a constant";
+}
+
+TEST(Wander, OfALineThatTurnsTheSteadyPartIsTheModelsOwn) {
+  const auto t = slow_times();
+  std::vector<double> shown, rows;
+  for (const double x : t) {
+    shown.push_back(turning(x));
+    rows.push_back(std::sin(2 * pi * of_all * x + 0.7));
+  }
+  const double before = squares_of(rows);
+  LineSpan(t, {of_all, 3}, {shown, 0.01}).take_out(rows, Part::wandering);
+  EXPECT_GT(squares_of(rows), 0.5 * before) << "what the model draws as steady is not taken out of it twice";
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+// Decides how a line turns in a recording whose rows are too few to follow amplitude and phase of every harmonic: all
+// of them by one angle. Does not decide which recordings these are (wander.h). Internal to fit/.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace hysteron {
+
+/// A line and its harmonics about a frequency of this recording's own, as its rows show it; what turns it from there is
+/// one angle, in straight lines between knots. A mains of 50 Hz, 2 mHz off, is two turns off behind twenty minutes.
+class TurningLine {
+ public:
+  /// `t`: times of the rows [s], rising; `shown`: what these hold beside everything else that is known; the line runs
+  /// at about `frequency` [Hz]. follows: for each harmonic (the line itself is the first), whether it may turn by a
+  /// little more or less than the rest; the others turn with it as far as is known here. knots: two or more.
+  TurningLine(std::span<const double> t, std::span<const double> shown, double frequency, std::vector<bool> follows,
+              std::size_t knots);
+
+  double frequency() const { return frequency_; }  ///< [Hz] of the recording's own
+  double rms() const { return rms_; }              ///< of the line, as it is shown
+  /// Takes the line out of the rows, and how it turns a little more or less: least squares, in place.
+  void take_out(std::span<double> rows) const;
+
+ private:
+  struct Factor;
+  void settle(std::span<const double> shown);
+  void follow(std::span<const double> shown);
+  std::vector<double> fitted(std::span<const double> rows) const;
+
+  std::vector<bool> follows_;
+  std::size_t waves_ = 0, knots_ = 0;
+  double frequency_ = 0, rms_ = 0;
+  std::vector<double> phase_;   ///< of each row [rad]
+  std::vector<double> wave_;    ///< [row][wave]
+  std::vector<double> turned_;  ///< of each row: change of the line per radian
+  std::vector<std::size_t> knot_;
+  std::vector<double> beyond_;  ///< of each row: its knot, and the part of the way to the next one
+  std::shared_ptr<const Factor> factor_;
+};
+
+}  // namespace hysteron
