@@ -51,11 +51,13 @@ bool wins(const Books& books, const Structure& s, Where where) {
 }
 
 /// Of all recordings, where one is left unexplained: what rings as a pump hums explains one recording that it is fitted
-/// to, and not the next; and those that judge may be too short to show the pump.
+/// to, and not the next; and those that judge may be too short to show the pump. Where these prove the effects, they
+/// decide.
 std::optional<Structure> winner_in_all(const Books& books) {
   if (books.evidence->over_usual_floor(books.current.prediction).one <= rules::floor_gate) return {};
   auto s = find_structure(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
-  return s && wins(books, *s, Where::all_recordings) ? s : std::nullopt;
+  if (!s || removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all()) return {};
+  return wins(books, *s, Where::all_recordings) ? s : std::nullopt;
 }
 
 /// A structure that no effect describes explains more than the effects did: what they took away was part of it.

@@ -80,6 +80,7 @@ constexpr double share_of_rest = 0.6;  ///< a further effect removes this share 
 constexpr double share_of_all = 0.3;
 constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording ...
 constexpr double share_to_noise = 0.5;   ///< ... where only noise is left behind it, this
+constexpr double hardly_shown = 0.1;     ///< of what a structure takes away in all recordings, in those that judge
 constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
 constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
 constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
