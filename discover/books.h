@@ -121,7 +121,7 @@ void join_twins(std::vector<Tried>& tried);
 double blur(const Contender& contender);
 /// Of chi2 on validation recordings, what a candidate may have lost there by the errors of its fit where these show it
 /// more than those that were fitted: a value known to 11 % leaves 1 % of its effect. Least squares with as many numbers
-/// p lose p times the ratio of the two on average, less what they lose among their like.
+/// p lose p times the ratio of the two on average; what that is in a usual split is not counted.
 double lost_by_the_fit(const Tried& tried);
 
 void fit_candidates(Books& books, std::vector<Tried>& tried, int step);

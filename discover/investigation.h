@@ -41,7 +41,9 @@ constexpr double claim_fall =
 /// Of a weak effect whose score falls by claim_fall in all recordings together: 48 cases with nothing hidden stayed at
 /// -4 there, wherever this fell.
 constexpr double agreed_fall = 2;
-constexpr double tie = 7;              ///< in evidence + 2p
+constexpr double tie = 7;  ///< in evidence + 2p
+/// How much more the recordings that judge may show than those that were fitted: what a fit loses then is in `tie`.
+constexpr double usual_split = 3;
 constexpr double lost_at_most = 0.02;  ///< of its fall, that a candidate is believed to have lost by the fit
 constexpr double pieces_tell = 2;      ///< standard deviations: with structure left, less is a tie (Vuong)
 constexpr double far_more = 4;         ///< times the squared error above the noise: twice the error is no tie

@@ -52,8 +52,8 @@ bool as_imperfect(const Books& books, const Tried& rival, const Tried& winner) {
 }
 
 double lost_by_the_fit(const Tried& t) {
-  if (!(t.fall_train > rules::claim_fall) || !(t.fall_validate > t.fall_train)) return 0;
-  const double of_a_number = t.fall_validate / t.fall_train - 1;
+  if (!(t.fall_train > rules::claim_fall)) return 0;
+  const double of_a_number = std::max(0.0, t.fall_validate / t.fall_train - rules::usual_split);
   return std::min(static_cast<double>(own_values(t).size()) * of_a_number, rules::lost_at_most * t.fall_validate);
 }
 
