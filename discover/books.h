@@ -228,6 +228,9 @@ enum class Came { one_by_one, at_once };
 /// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
 /// output with it.
 void reconsider(Books& books, double bar, Came came = Came::one_by_one, const Contender* before = nullptr);
+/// What is left of that where time has ended: a law that could hold another effect besides its own is slow, and beside
+/// what came later that other one, alone, may be all of it.
+void exchange_for_what_they_hold(Books& books, double bar);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.

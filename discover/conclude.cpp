@@ -120,7 +120,10 @@ void conclude(Books& books) {
   books.d.base = books.evidence->error(books.base.prediction);
   books.d.broken_off = books.stopped();
   books.closing = true;
-  if (books.d.broken_off) leave_out_idle(books);
+  if (books.d.broken_off) {
+    exchange_for_what_they_hold(books, 0.97);
+    leave_out_idle(books);
+  }
   const double floor = books.current.error_of.over_floor();
   // Where all that is left is slow, as much 1/f noise as would explain it is read off it: more than sensors have is
   // none.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "discover/books.h"
@@ -160,11 +161,12 @@ bool is_as_good(const Books& books, const Tried& t) {
   return t.contender.tie_score() - books.current.tie_score() < rules::tie;
 }
 
-InPlace look_alikes_of(const Books& books, const Contender& rest, const Standing& m, double bar) {
+/// `may`: who is tried.
+InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double bar,
+                    const std::function<bool(const Effect&)>& may) {
   const Effect& member = *m.effect;
   const auto list = choices_on(
-      books, rest, [&](const Effect& e) { return may_stand_for(books, m, e); },
-      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law.name); });
+      books, rest, may, [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law.name); });
   std::vector<Tried> fitted(list.size());
   const std::size_t first = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
@@ -308,9 +310,24 @@ void reconsider(Books& books, double bar, Came came, const Contender* before) {
   const auto standing = books.current.standing;
   for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
     if (!rests[i]) continue;
-    auto in_place = look_alikes_of(books, *rests[i], standing[i], bar);
+    auto in_place = in_place_of(books, *rests[i], standing[i], bar,
+                                [&](const Effect& e) { return may_stand_for(books, standing[i], e); });
     if (in_place.better && tell_again(books, *in_place.better)) return;  // the members stand in another order now
     if (all_at_once) tell_ties(books, *rests[i], members[i], in_place.as_good);
+  }
+}
+
+void exchange_for_what_they_hold(Books& books, double bar) {
+  for (std::size_t i = 0; i < books.current.standing.size() && !books.stopped(); ++i) {
+    const Standing member = books.current.standing[i];
+    if (member.law.holds.empty() || books.current.standing.size() == 1) continue;
+    const auto rest = rest_of(books, books.shop, i);
+    if (!rest) continue;
+    const auto in_place = in_place_of(books, *rest, member, bar, [&](const Effect& e) {
+      return member.effect != &e && could_hold(books, member.law, e);
+    });
+    if (!in_place.better || !tell_again(books, *in_place.better)) continue;
+    return reconsider(books, bar, Came::at_once);  // the others were found beside the slow law: now they cost little
   }
 }
 
