@@ -134,6 +134,7 @@ Facts facts_of(const Structure& s) {
                                {"output", s.output},
                                {"unit", unit_text(s.unit)},
                                {"intervals_s", intervals},
+                               {"fall_train", s.fall.train},
                                {"fall_validate", s.fall.validate},
                                {"share_removed", s.share_removed},
                                {"sentence", s.sentence}});
