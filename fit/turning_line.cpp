@@ -113,17 +113,23 @@ void TurningLine::settle(std::span<const double> shown) {
   rms_ = std::sqrt(squares / static_cast<double>(phase_.size()));
   // Columns of about one length: an angle is counted in turns of the line's own size.
   for (double& turned : turned_) turned /= rms_ > 0 ? rms_ : 1;
+  make_factor();
+}
 
-  std::vector<double> same(knots_, 0.0), next(knots_, 0.0), across(knots_ * waves_, 0.0);
+/// Products of the columns with each other: a knot has some with itself, with the next one, and with all waves.
+void TurningLine::make_factor() {
+  std::vector<double> same(knots_, 0.0), next(knots_, 0.0), across(knots_ * waves_, 0.0), waves(waves_ * waves_, 0.0);
   for (std::size_t i = 0; i < phase_.size(); ++i) {
+    const double* wave = wave_.data() + i * waves_;
     const double ahead = beyond_[i] * turned_[i], behind = (1 - beyond_[i]) * turned_[i];
     const std::size_t k = knot_[i];
     same[k] += behind * behind;
     same[k + 1] += ahead * ahead;
     next[k] += behind * ahead;
     for (std::size_t v = 0; v < waves_; ++v) {
-      across[k * waves_ + v] += behind * wave_[i * waves_ + v];
-      across[(k + 1) * waves_ + v] += ahead * wave_[i * waves_ + v];
+      across[k * waves_ + v] += behind * wave[v];
+      across[(k + 1) * waves_ + v] += ahead * wave[v];
+      for (std::size_t u = 0; u <= v; ++u) waves[v * waves_ + u] += wave[v] * wave[u];
     }
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -133,9 +139,8 @@ void TurningLine::settle(std::span<const double> shown) {
     if (k + 1 < knots_) entries.emplace_back(at(k + 1), at(k), next[k]);
     for (std::size_t v = 0; v < waves_; ++v) entries.emplace_back(at(knots_ + v), at(k), across[k * waves_ + v]);
   }
-  for (Eigen::Index v = 0; v < w; ++v)
-    for (Eigen::Index u = 0; u <= v; ++u)
-      entries.emplace_back(at(knots_) + static_cast<int>(v), at(knots_) + static_cast<int>(u), products(v, u));
+  for (std::size_t v = 0; v < waves_; ++v)
+    for (std::size_t u = 0; u <= v; ++u) entries.emplace_back(at(knots_ + v), at(knots_ + u), waves[v * waves_ + u]);
   const int size = at(knots_ + waves_);
   Eigen::SparseMatrix<double> normal(size, size);
   normal.setFromTriplets(entries.begin(), entries.end());

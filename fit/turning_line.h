@@ -27,6 +27,7 @@ class TurningLine {
  private:
   struct Factor;
   void settle(std::span<const double> shown);
+  void make_factor();
   void follow(std::span<const double> shown);
   std::vector<double> fitted(std::span<const double> rows) const;
 
