@@ -14,7 +14,8 @@ using std::numbers::pi;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// [Hz] that the mains of one recording may be off the mean of all: the grid of Europe keeps within 0.05 of 50.
+/// [Hz] that the mains of one recording may be off the mean of all: 0.05 Hz is the standard range of the grid of Europe
+/// (ENTSO-E).
 constexpr double astray = 0.05;
 /// Steps by which the angle is followed: what is left of it is squared in each.
 constexpr int rounds = 4;

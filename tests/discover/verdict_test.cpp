@@ -407,7 +407,7 @@ TEST_F(Verdicts, APumpTooSlowForTheRecordingsThatJudgeIsToldFromAllOfThem) {
   EXPECT_EQ(d.verdict, Verdict::unexplained) << d.headline;
   ASSERT_TRUE(d.structure.has_value());
   EXPECT_EQ(d.structure->kind, "line_in_time");
-  // Cramer-Rao of the longest recording: sqrt(6/1100)/(pi 1430 s)/3.5 = 5e-6 Hz, 4e-4 s of the period.
+  // Cramer-Rao of the longest recording: sqrt(6/1100)/(pi 1430 s)/3.5 = 5e-6 Hz, 4e-4 s of the period; five of these.
   EXPECT_NEAR(d.structure->period, 8.9, 2e-3);
   EXPECT_NE(d.structure->sentence.find("in all recordings"), std::string::npos) << d.structure->sentence;
 }
