@@ -95,6 +95,26 @@ Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fi
     if (base_.recording(r).role != Role::test) recordings_.push_back(r);
 }
 
+std::shared_ptr<const std::vector<LineSpan>> Evidence::spans_of(const WanderingLine& line, int output,
+                                                                const Prediction* without) const {
+  const double white = noise().outputs[static_cast<std::size_t>(output)].white;
+  std::vector<Rows> shown(static_cast<std::size_t>(base_.n_recordings()));
+  double known = 0;  // of the line's frequency
+  for (int r = 0; r < base_.n_recordings(); ++r) {
+    const auto i = static_cast<std::size_t>(r);
+    if (without == nullptr || base_.measured(r, output).empty() || without->y[i].empty()) continue;
+    shown[i] = residual_rows(base_, *without, r, output);
+    known += known_frequency(base_.times(r), shown[i], line.frequency, white);
+  }
+  const double astray = mains_astray + (known > 0 ? 3 / std::sqrt(known) : 0);
+  auto spans = std::make_shared<std::vector<LineSpan>>();
+  for (int r = 0; r < base_.n_recordings(); ++r) {
+    const ShownLine beside{shown[static_cast<std::size_t>(r)], white, astray};
+    spans->push_back(base_.measured(r, output).empty() ? LineSpan() : LineSpan(base_.times(r), line, beside));
+  }
+  return spans;
+}
+
 void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines,
                            const std::function<Prediction()>& without) {
   lines.resize(base_.outputs().size());
@@ -106,16 +126,7 @@ void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines,
     spans_[o].reset();
     if (!lines[o]) continue;
     if (without && !silent) silent = without();
-    auto of_recordings = std::make_shared<std::vector<LineSpan>>();
-    for (int r = 0; r < base_.n_recordings(); ++r) {
-      const bool measured = !base_.measured(r, static_cast<int>(o)).empty();
-      Rows shown;
-      if (measured && silent && silent->ok && !silent->y[static_cast<std::size_t>(r)].empty())
-        shown = residual_rows(base_, *silent, r, static_cast<int>(o));
-      const ShownLine beside{shown, noise().outputs[o].white};
-      of_recordings->push_back(measured ? LineSpan(base_.times(r), *lines[o], beside) : LineSpan());
-    }
-    spans_[o] = std::move(of_recordings);
+    spans_[o] = spans_of(*lines[o], static_cast<int>(o), silent && silent->ok ? &*silent : nullptr);
   }
   lines_ = std::move(lines);
 }

@@ -138,6 +138,9 @@ class Evidence {
   std::vector<Slice> slices(int recording) const;
   /// Names, rows, rms and NRMSE; nothing that is whitened.
   RecordingError plain_error(const Prediction& with_zeros, int recording, int output) const;
+  /// What a line of this output may be in each recording; `without`: see known_lines, nullptr where it is not known.
+  std::shared_ptr<const std::vector<LineSpan>> spans_of(const WanderingLine& line, int output,
+                                                        const Prediction* without) const;
   /// Of white noise and much 1/f noise [SI squared].
   double noisy_variance(int output) const;
 

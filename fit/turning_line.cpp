@@ -14,9 +14,6 @@ using std::numbers::pi;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// [Hz] that the mains of one recording may be off the mean of all: 0.05 Hz is the standard range of the grid of Europe
-/// (ENTSO-E).
-constexpr double astray = 0.05;
 /// Steps by which the angle is followed: what is left of it is squared in each.
 constexpr int rounds = 4;
 constexpr double farthest = 1;       ///< [rad] in one of them: the tangent turns no further
@@ -38,21 +35,30 @@ double power_at(std::span<const double> t, std::span<const double> rows, double 
   return (ss * c_row * c_row - 2 * cs * c_row * s_row + cc * s_row * s_row) / determinant;
 }
 
-/// The strongest frequency about this one. Rows tell frequencies apart by one over their duration.
-double strongest_about(std::span<const double> t, std::span<const double> rows, double frequency) {
-  const double apart = 1 / (t.back() - t.front());
-  double best = frequency, power = power_at(t, rows, frequency);
+}  // namespace
+
+ShownSine strongest_about(std::span<const double> t, std::span<const double> rows, double frequency, double astray,
+                          const std::function<bool(double)>& allowed) {
+  const double apart = 1 / (t.back() - t.front());  // Rows tell frequencies apart by one over their duration.
+  ShownSine best{frequency, allowed(frequency) ? power_at(t, rows, frequency) : 0};
   const auto look = [&](double at) {
-    if (const double now = power_at(t, rows, at); now > power) best = at, power = now;
+    if (!allowed(at)) return;
+    if (const double now = power_at(t, rows, at); now > best.squares) best = {at, now};
   };
   for (double off = apart / 4; off <= astray; off += apart / 4)
     for (const double side : {-1, 1}) look(frequency + side * off);
   for (double step = apart / 8; step > apart / 1000; step /= 2)
-    for (const double from = best; const double side : {-1, 1}) look(from + side * step);
+    for (const double from = best.frequency; const double side : {-1, 1}) look(from + side * step);
   return best;
 }
 
-}  // namespace
+double known_frequency(std::span<const double> t, std::span<const double> rows, double frequency, double white) {
+  if (t.size() < 2 || rows.size() != t.size() || !(white > 0)) return 0;
+  const double duration = t.back() - t.front();
+  if (2 * frequency * duration > static_cast<double>(t.size() - 1)) return 0;
+  const double turns = pi * duration / white;
+  return power_at(t, rows, frequency) * turns * turns / 3;
+}
 
 /// Of the normal equations: a band of the knots, and the waves beside it.
 struct TurningLine::Factor {
@@ -61,13 +67,10 @@ struct TurningLine::Factor {
 
 TurningLine::TurningLine(std::span<const double> t, std::span<const double> shown, double frequency,
                          std::vector<bool> follows, std::size_t knots)
-    : follows_(std::move(follows)),
-      waves_(2 * follows_.size()),
-      knots_(knots),
-      frequency_(strongest_about(t, shown, frequency)) {
+    : follows_(std::move(follows)), waves_(2 * follows_.size()), knots_(knots) {
   const double every = (t.back() - t.front()) / static_cast<double>(knots_ - 1);
   for (const double now : t) {
-    phase_.push_back(2 * pi * frequency_ * (now - t.front()));
+    phase_.push_back(2 * pi * frequency * (now - t.front()));
     const double place = (now - t.front()) / every;
     knot_.push_back(std::min(static_cast<std::size_t>(place), knots_ - 2));
     beyond_.push_back(place - static_cast<double>(knot_.back()));

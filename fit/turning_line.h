@@ -3,24 +3,37 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace hysteron {
 
-/// A line and its harmonics about a frequency of this recording's own, as its rows show it; what turns it from there is
-/// one angle, in straight lines between knots. A mains of 50 Hz, 2 mHz off, is two turns off behind twenty minutes.
+/// A sine in the rows of one recording.
+struct ShownSine {
+  double frequency = 0;  ///< [Hz]
+  double squares = 0;    ///< that it takes away, summed over the rows
+};
+/// The strongest sine in `rows` at times `t` [s] within `astray` [Hz] of a frequency, where that is `allowed`.
+ShownSine strongest_about(std::span<const double> t, std::span<const double> rows, double frequency, double astray,
+                          const std::function<bool(double)>& allowed);
+
+/// How well rows that resolve it know the frequency of a sine of this size beside white noise of this rms: one over the
+/// variance [1/Hz^2] (the bound of Cramer and Rao: Rife, Boorstyn, IEEE Trans. Inf. Theory 20 (1974) 591).
+double known_frequency(std::span<const double> t, std::span<const double> rows, double frequency, double white);
+
+/// A line and its harmonics about a frequency of this recording's own; what turns it from there is one angle, in
+/// straight lines between knots. A mains of 50 Hz, 2 mHz off, is two turns off behind twenty minutes.
 class TurningLine {
  public:
-  /// `t`: times of the rows [s], rising; `shown`: what these hold beside everything else that is known; the line runs
-  /// at about `frequency` [Hz]. follows: for each harmonic (the line itself is the first), whether it may turn by a
-  /// little more or less than the rest; the others turn with it as far as is known here. knots: two or more.
+  /// `t`: times of the rows [s], rising; `shown`: what these hold beside everything else that is known; frequency [Hz]:
+  /// of the line here. follows: for each harmonic (the line itself is the first), whether it may turn by a little more
+  /// or less than the rest; the others turn with it as far as is known here. knots: two or more.
   TurningLine(std::span<const double> t, std::span<const double> shown, double frequency, std::vector<bool> follows,
               std::size_t knots);
 
-  double frequency() const { return frequency_; }  ///< [Hz] of the recording's own
-  double rms() const { return rms_; }              ///< of the line, as it is shown
+  double rms() const { return rms_; }  ///< of the line, as it is shown
   /// Takes the line out of the rows, and how it turns a little more or less: least squares, in place.
   void take_out(std::span<double> rows) const;
 
@@ -33,7 +46,7 @@ class TurningLine {
 
   std::vector<bool> follows_;
   std::size_t waves_ = 0, knots_ = 0;
-  double frequency_ = 0, rms_ = 0;
+  double rms_ = 0;
   std::vector<double> phase_;   ///< of each row [rad]
   std::vector<double> wave_;    ///< [row][wave]
   std::vector<double> turned_;  ///< of each row: change of the line per radian

@@ -14,6 +14,7 @@ constexpr double given_to_turn =
     1.0 / 6;                      // the same to one angle: by a twentieth, twenty seconds would be a straight line
 constexpr double slowest = 10;    // periods over a recording that an expansion has not
 constexpr double stands_out = 2;  // times the noise: the hundredths that a smaller line turns by are nobody's
+constexpr double shows = 40;      // chi2 of a line that is there: of a thousand frequencies chance makes one of 14
 /// Of the squared length of a wave about one knot: what waves have in common to five digits (a line at a whole number
 /// of half samples has no sine) is nobody's, and costs no more than a rounding error of the rest.
 constexpr double in_common = 1e-10;
@@ -80,14 +81,18 @@ LineSpan::LineSpan(std::span<const double> t, const WanderingLine& line, const S
 
 /// Whether one angle is what the rows can follow; then it is made.
 bool LineSpan::turns(std::span<const double> t, const WanderingLine& line, const ShownLine& shown) {
-  const std::size_t knots = knots_over(t, given_to_turn * static_cast<double>(t.size()));
+  std::size_t knots = knots_over(t, given_to_turn * static_cast<double>(t.size()));
   if (shown.rows.size() != t.size() || knots < 2 || 2 * static_cast<double>(knots_) >= wanted_over(t) ||
       looks_slow(t, line.frequency, knots))
     return false;
+  const auto own =
+      strongest_about(t, shown.rows, line.frequency, shown.astray, [&](double f) { return !looks_slow(t, f, knots); });
+  if (!(own.squares > shows * shown.white * shown.white)) return false;
+  const double rms = std::sqrt(own.squares / static_cast<double>(t.size()));
+  if (!(rms > stands_out * shown.white)) knots = 2;  // a straight angle: its frequency
   std::vector<bool> follows;
-  for (int k = 1; k <= line.harmonics; ++k) follows.push_back(!looks_slow(t, k * line.frequency, knots));
-  auto turning = std::make_shared<const TurningLine>(t, shown.rows, line.frequency, std::move(follows), knots);
-  if (!(turning->rms() > stands_out * shown.white)) return false;
+  for (int k = 1; k <= line.harmonics; ++k) follows.push_back(!looks_slow(t, k * own.frequency, knots));
+  auto turning = std::make_shared<const TurningLine>(t, shown.rows, own.frequency, std::move(follows), knots);
   turning_ = std::move(turning);
   knots_ = knots;
   return true;

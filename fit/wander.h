@@ -19,10 +19,14 @@ struct WanderingLine {
   bool operator==(const WanderingLine&) const = default;
 };
 
+/// [Hz] that the mains of one recording may be off the mean of all: the standard range of the grid of Europe (ENTSO-E).
+constexpr double mains_astray = 0.05;
+
 /// What the rows of a recording hold beside all else that is known, and their white noise (rms); empty: not known.
 struct ShownLine {
   std::span<const double> rows{};
   double white = 0;
+  double astray = mains_astray;  ///< [Hz] that the line may be off here
 };
 
 /// All that one such line may be in the rows of one recording, and how it is taken out of them. A knot every two
@@ -30,7 +34,8 @@ struct ShownLine {
 /// to a few per mille. Fewer where rows are few: at most a twentieth of them are given away, and with them no more of
 /// what another effect takes away; none where there are too few for two knots.
 /// Where even half as many knots would be too many, one angle turns the line and its harmonics about what the rows show
-/// of it (turning_line.h), if that is known and more than noise: a sixth of the rows at most.
+/// of it (turning_line.h), if that is known and more than noise: a sixth of the rows at most. A line that hardly stands
+/// out has a frequency of its own and no more.
 /// Rows are cleared before they are whitened: noise is as white as can be about a line, and between knots each row
 /// belongs to two of them only, so that hours of a recording cost what its rows cost.
 class LineSpan {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <random>
 
 namespace hysteron {
 namespace {
@@ -200,8 +201,46 @@ TEST(Wander, ALineThatLooksSlowOrIsNoMoreThanNoiseIsNotFollowed) {
   };
   const std::size_t few = LineSpan(t, {of_all, 3}).knots();
   EXPECT_GT(knots(of_all, 0.1), few);
-  EXPECT_EQ(knots(of_all, 0.5), few) << "of a line of 0.7 (rms)";
+  EXPECT_EQ(knots(of_all, 0.5), 2u) << "a line of 0.7 (rms) has its own frequency, and no more";
+  EXPECT_EQ(knots(of_all, 5), few) << "its 1350 rows are 27 of chi2";
   EXPECT_EQ(knots(45 / 0.89 + 0.001, 0.1), few) << "45 turns to a row: it looks as if it turned once in 1000 s";
+}
+
+TEST(Wander, ALineMayBeAsFarOffAsTheOthersLeaveOpen) {
+  const auto t = slow_times();
+  std::vector<double> shown, rows;
+  for (const double x : t) shown.push_back(turning(x, of_all - 0.09));
+  const auto left = [&](double astray) {
+    rows = shown;
+    LineSpan(t, {of_all, 3}, {shown, 0.01, astray}).take_out(rows, Part::all);
+    return squares_of(rows) / squares_of(shown);
+  };
+  EXPECT_GT(left(mains_astray), 0.1);
+  EXPECT_LT(left(0.12), std::pow(0.02, 2));
+}
+
+TEST(Wander, HowWellRowsKnowAFrequencyIsTheScatterOfWhatTheySay) {
+  // A third of a second of a mains of 1.5 times the noise, 400 times.
+  constexpr double mains = 50, white = 0.7;
+  std::vector<double> t;
+  for (int i = 0; i < 1500; ++i) t.push_back(0.00022 * i);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0, white);
+  double squares = 0, known = 0;
+  constexpr int tries = 400;
+  for (int k = 0; k < tries; ++k) {
+    std::vector<double> rows;
+    for (const double x : t)
+      rows.push_back(1.5 * std::sqrt(2) * white * std::sin(2 * pi * mains * x + k) + noise(random));
+    const auto sine = strongest_about(t, rows, mains, 1, [](double) { return true; });
+    squares += std::pow(sine.frequency - mains, 2);
+    known += known_frequency(t, rows, mains, white);
+  }
+  // The standard deviation of 400 is known to 3.5 %.
+  EXPECT_NEAR(std::sqrt(squares / tries), 1 / std::sqrt(known / tries), 0.1 / std::sqrt(known / tries));
+  std::vector<double> slow;
+  for (int i = 0; i < 1500; ++i) slow.push_back(0.02 * i);
+  EXPECT_EQ(known_frequency(slow, std::vector<double>(1500, 1.0), mains, white), 0) << "rows that do not resolve it";
 }
 
 TEST(Wander, OfALineThatTurnsTheSteadyPartIsTheModelsOwn) {
