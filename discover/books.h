@@ -146,6 +146,8 @@ void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar);
 /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
 /// effect that was found they are screened with that one held, and fitted together only where that brings something.
 void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar);
+/// The same of one that stands beside others: the laws that refine its own.
+void refine(const Books& books, const Workshop& shop, Tried& t);
 /// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
 /// rival: that it was refused says nothing against it.
 void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as);

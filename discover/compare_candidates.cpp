@@ -38,7 +38,7 @@ Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tri
 /// that is not beyond what the laws that stand may have left.
 void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& left) {
   for (const auto& plain : tried) {
-    if (!plain.effect->straight || !plain.admitted) continue;
+    if (!plain.effect->straight || !plain.contender.ok) continue;  // also where the laws that stand may have left it
     for (auto& t : tried) {
       if (!t.admitted || !t.effect->moves_zero) continue;
       if (more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left)) continue;
@@ -257,6 +257,12 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
     return false;
   });
   if (any) compare_all(books, tried, as);
+}
+
+void refine(const Books& books, const Workshop& shop, Tried& t) {
+  const std::size_t begun = t.law;
+  for (std::size_t law = 1; law < t.laws.size() && !books.stopped(); ++law)
+    if (law != begun && !t.laws[law].apart) enriched(books, shop, t, law, 2);
 }
 
 void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as) {

@@ -41,6 +41,8 @@ constexpr double claim_fall =
 /// Of a weak effect whose score falls by claim_fall in all recordings together: 48 cases with nothing hidden stayed at
 /// -4 there, wherever this fell.
 constexpr double agreed_fall = 2;
+/// Chance takes as much away with that many numbers once in 2000 times: quantiles of chi2 for 1 to 4 of them, to 0.4.
+constexpr double by_chance(int numbers) { return claim_fall + 2.5 * numbers; }
 constexpr double tie = 7;  ///< in evidence + 2p
 /// How much more the recordings that judge may show than those that were fitted: what a fit loses then is in `tie`.
 constexpr double usual_split = 3;
@@ -55,7 +57,8 @@ constexpr double exchange = 6;  ///< fall of the score for which a look-alike is
 /// Standard deviations of chance in one octave of all recordings together, above which a further effect is looked for:
 /// 1/f noise of another shape than the whitener's reached 5 in cases with nothing left.
 constexpr double octave_gate = 6;
-constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double floor_gate = 1.12;       ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double data_sheet_wrong = 1.2;  ///< chi2/N of noise a tenth larger than stated
 constexpr double slow_noise =
     2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white
 constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms

@@ -122,6 +122,29 @@ double share_of_excess(const ModelError& was, const ModelError& is, const std::v
   return was.over_floor() > rules::floor_gate ? by_chi2 : std::max(by_chi2, share(true));
 }
 
+/// chi2/N of one output in the middle one of its recordings: noise is the same in all of them, and as far as its data
+/// sheet may be wrong, that is noise.
+double noise_level(const ModelError& error, const std::string& output) {
+  std::vector<double> levels;
+  for (const auto& r : error.recordings)
+    if (r.output == output && r.rows > 0) levels.push_back(r.chi2 / static_cast<double>(r.rows));
+  if (levels.empty()) return 1;
+  const auto middle = levels.begin() + static_cast<std::ptrdiff_t>((levels.size() - 1) / 2);
+  std::nth_element(levels.begin(), middle, levels.end());
+  return std::clamp(*middle, 1.0, rules::data_sheet_wrong);
+}
+
+/// Something is left above the noise on validation that is more than chance. A patch leaves most of it.
+bool leaves_more_than_noise(const ModelError& is, const std::vector<std::string>& outputs) {
+  double excess = 0, rows = 0;
+  for (const auto& r : is.recordings) {
+    if (!counts(r, outputs)) continue;
+    excess += r.chi2 - noise_level(is, r.output) * static_cast<double>(r.rows);
+    rows += static_cast<double>(r.rows);
+  }
+  return excess > 2 * std::sqrt(2 * rows);
+}
+
 bool lists(const std::vector<std::string>& ids, const Effect& effect) {
   return std::find(ids.begin(), ids.end(), effect.id) != ids.end();
 }
@@ -216,10 +239,20 @@ int found_where_proved(const Contender& c, const Contender& before) {
   return all > 0 ? static_cast<int>(found * some / all) : 0;
 }
 
+/// Where nothing stands that could have left it, and nothing was found on recordings that judge: chance takes that much
+/// of all recordings away with as many numbers once in two thousand times (chi2 of as many degrees of freedom). ln N
+/// for each is the price where they are known as well as N rows know a number: of a weak slow effect they know few.
+bool beyond_chance(const Tried& tried, const Contender& before, bool first) {
+  const int numbers = tried.contender.parameters - before.parameters;
+  return first && tried.contender.found_on_validation == before.found_on_validation &&
+         tried.fall_train + tried.fall_validate > rules::by_chance(numbers);
+}
+
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
 /// the price of every number that was fitted.
 bool all_agree(const Tried& tried, const Contender& before) {
-  return tried.fall_validate > rules::agreed_fall && before.score() - tried.contender.score() > rules::claim_fall;
+  return tried.fall_validate > rules::agreed_fall &&
+         (before.score() - tried.contender.score() > rules::claim_fall || beyond_chance(tried, before, true));
 }
 
 }  // namespace
@@ -287,7 +320,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
                     tried.fall_validate, rules::claim_fall);
     return;
   }
-  if (!(c.score() < before.score())) {
+  if (!(c.score() < before.score()) && !beyond_chance(tried, before, left_by_laws.empty())) {
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
     return;
   }
@@ -298,7 +331,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   }
   // Where only noise is left behind it, it need not take more than a structure would have to.
   const double enough = takes_to_the_noise(was, is) ? rules::structure_share : rules::share_of_first;
-  if (left_by_laws.empty() && above_noise && tried.share < enough && !owns_an_excitation(was, is)) {
+  if (left_by_laws.empty() && above_noise && tried.share < enough && !owns_an_excitation(was, is) &&
+      leaves_more_than_noise(is, tried.outputs)) {
     tried.patch = true;
     tried.reason =
         fmt::format("a patch: it takes away {} of what stands above the noise, and most of it in no kind of recording",

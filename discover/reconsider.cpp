@@ -161,6 +161,18 @@ bool is_as_good(const Books& books, const Tried& t) {
   return t.contender.tie_score() - books.current.tie_score() < rules::tie;
 }
 
+/// It came by one law, its simplest most often: what stands is refined before further effects are asked for.
+Contender refined(const Books& books, Tried t) {
+  if (t.contender.error_of.over_floor() <= rules::floor_gate) return std::move(t.contender);
+  const std::string by = t.laws.front().name;
+  t.laws = t.effect->laws(t.circumstances);
+  const auto same = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& law) { return law.name == by; });
+  if (same == t.laws.end()) return std::move(t.contender);
+  t.law = static_cast<std::size_t>(same - t.laws.begin());
+  refine(books, books.shop, t);
+  return std::move(t.contender);
+}
+
 /// `may`: who is tried.
 InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double bar,
                     const std::function<bool(const Effect&)>& may) {
@@ -183,7 +195,7 @@ InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m
   });
   InPlace found;
   if (first < list.size()) {
-    found.better = std::move(fitted[first].contender);
+    found.better = refined(books, std::move(fitted[first]));
     return found;
   }
   std::erase_if(fitted, [&](const Tried& t) { return !t.admitted || !is_as_good(books, t); });

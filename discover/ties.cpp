@@ -26,6 +26,13 @@ double tie_score(Books& books, const Tried& t, bool few) {
   return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
 }
 
+/// With spare numbers `t` is the winner itself: who explains no more is no rival of what it can imitate.
+bool is_the_winner_and_more(const Books& books, const Tried& t, const Effect& winner) {
+  const auto& contained = t.effect->contains;
+  return std::find(contained.begin(), contained.end(), winner.id) != contained.end() ||
+         could_hold(books, t.laws[t.law], winner);
+}
+
 }  // namespace
 
 void sharpen(Books& books, Tried& t) {
@@ -67,8 +74,7 @@ std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::siz
   for (const std::size_t i : ranking(tried)) {
     const Tried& t = tried[i];
     if (i == winner || t.effect->id == w.effect->id || !t.admitted) continue;
-    if (std::find(t.effect->contains.begin(), t.effect->contains.end(), w.effect->id) != t.effect->contains.end())
-      continue;
+    if (is_the_winner_and_more(books, t, *w.effect)) continue;
     const double behind = t.contender.tie_score() - w.contender.tie_score();
     bool tied = behind < rules::tie;
     if (!tied && look_alike(*t.effect, *w.effect))

@@ -89,6 +89,7 @@ Effect static_curve() {
   e.moves_zero = true;
   e.summary = curve_summary;
   e.unseen = stands_still;
+  e.contains = {"calibration"};  // its straight part
   e.parameters = {{"coefficients", "unit of the signal", "of (u/reference)^2 and ^3", ""}};
   e.look_alikes = {{"stiffening", "multisine", "a stiffening spring moves its resonance with the amplitude"},
                    {"saturation", "sine_amplitudes", "a clamp does nothing below its level"}};

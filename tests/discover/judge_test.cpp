@@ -38,10 +38,16 @@ class Judging : public ::testing::Test {
   /// A candidate that leaves `after`, on top of laws that left `before` and may have left so much of their own.
   Tried judged(const ModelError& before, const ModelError& after, const std::vector<double>& left,
                const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
+    return judged_with(0, before, after, left, effect, on_top_of);
+  }
+  /// The same with that many numbers more than the model before has.
+  Tried judged_with(int numbers, const ModelError& before, const ModelError& after, const std::vector<double>& left,
+                    const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
     Tried t;
     t.effect = effects.find(effect);
     t.laws.resize(1);
     t.contender.ok = true;
+    t.contender.parameters = numbers;
     t.contender.error_of = after;
     Contender was;
     was.ok = true;
@@ -190,6 +196,17 @@ TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {
   }
 }
 
+TEST_F(Judging, AChainOfRelaxationsLeavesALoopAndUseThatNobodyCountedAGain) {
+  const std::vector<double> left{0, 450, 0, 450};
+  const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
+  for (const auto& [effect, stands] :
+       {std::pair{"hysteresis", "creep"}, {"backlash", "creep"}, {"calibration", "ageing"}}) {
+    EXPECT_FALSE(judged(before, after, left, effect, stands).admitted) << effect;
+    EXPECT_TRUE(judged(before, after, left, effect, "dead_time").admitted) << effect;
+    EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, effect, stands).admitted) << effect << " beyond a tenth";
+  }
+}
+
 TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
   const ModelError before = error(1000, 1060, 1000, 1004), after = error(1000, 1020, 1000, 1000);
   const Tried t = judged(before, after, {});
@@ -199,6 +216,33 @@ TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
   EXPECT_FALSE(judged(before, after, {0, 1, 0, 1}).admitted) << "on top of laws each must prove it";
   EXPECT_FALSE(judged(error(1000, 1900, 1000, 1900), error(1000, 1000, 1000, 1896), {}).admitted)
       << "what stands above the noise can prove it there";
+}
+
+TEST_F(Judging, AWeakSlowEffectPaysForItsNumbersWhatChanceTakesAway) {
+  // 10 and 6 of chi2: two numbers take 15 away once in 2000 times, three 17.5; ln N of 4000 rows is 8.3 for each.
+  const ModelError before = error(1000, 1010, 1000, 1006), after = error(1000, 1000, 1000, 1000);
+  const Tried two = judged_with(2, before, after, {});
+  EXPECT_TRUE(two.admitted) << two.reason;
+  EXPECT_FALSE(judged_with(3, before, after, {}).admitted);
+  EXPECT_FALSE(judged_with(2, before, error(1000, 996, 1000, 1004.5), {}).admitted) << "others do not agree";
+  EXPECT_FALSE(judged_with(2, before, after, {0, 1, 0, 1}).admitted) << "a law that stands may have left it";
+  // What others prove is proved, whatever its numbers; unless they take as much by chance.
+  const ModelError proved = error(1000, 1004, 1000, 1014);
+  EXPECT_TRUE(judged_with(3, proved, after, {}).admitted);
+  EXPECT_FALSE(judged_with(4, proved, after, {}).admitted);
+}
+
+TEST_F(Judging, WhatEveryRecordingShowsAboveTheNoiseIsTheNoise) {
+  // A data sheet that says 7 % too little: 40 of 330 are a small share of what stands above it.
+  const ModelError before = error(1150, 1180, 1150, 1180), after = error(1150, 1140, 1150, 1140);
+  const Tried weak = judged(before, after, {});
+  EXPECT_TRUE(weak.admitted) << weak.reason;
+  // Half of the recordings know better: what stands above the noise in the others is there.
+  const Tried patch = judged(error(1000, 1330, 1000, 1330), error(1000, 1290, 1000, 1290), {});
+  EXPECT_FALSE(patch.admitted);
+  EXPECT_TRUE(patch.patch) << patch.reason;
+  // No sensor is as much noisier than it is said to be.
+  EXPECT_FALSE(judged(error(1400, 1440, 1400, 1440), error(1400, 1400, 1400, 1400), {}).admitted);
 }
 
 TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {

@@ -167,6 +167,26 @@ TEST_F(Sets, WhoCouldHoldAnotherEffectBesideItsOwnMayHaveStoodForThatOneAlone) {
       << books.current.error_of.over_floor();
 }
 
+TEST_F(Sets, WhatComesInAnothersPlaceIsRefinedAsAnyCandidateIs) {
+  // A curve that bends four times: the cubic that is tried first leaves most of it.
+  const DataSet data = seen_through([](std::vector<double> u) {
+    for (auto& v : u) v += 0.004 * v * (5 - v * v * (20 - 16 * v * v));
+    return behind_a_lag(u, 0.6);
+  });
+  DiscoverOptions options;
+  options.only = {"hysteresis", "asymmetry", "amplifier_lag"};
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_mixed_loops(books));
+  ASSERT_TRUE(goes_on_with_the_lag(books));
+  reconsider(books, 0);
+  ASSERT_EQ(names(books.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}));
+  const auto& standing = books.current.standing;
+  EXPECT_TRUE(
+      std::any_of(standing.begin(), standing.end(), [](const Standing& s) { return s.law.name == "of order 5"; }));
+  EXPECT_LT(books.current.error_of.over_floor(), rules::floor_gate);
+}
+
 TEST_F(Sets, WhatAMixedLawHoldsIsAskedForOnceItIsEnough) {
   const DataSet data = seen_through([](std::vector<double> u) {
     for (auto& v : u) v += 0.05 * v * (1 - v);

@@ -326,6 +326,41 @@ TEST_F(Rules, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
   EXPECT_EQ(held_one_first(books, tried, 0), 0) << "less than nine tenths on recordings not used for the fit";
 }
 
+TEST_F(Rules, WhoCouldHoldTheWinnerAndExplainsNoMoreIsNoRival) {
+  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
+  const Diagram diagram = two_plain_axes();
+  const DataSet data = of_two_axes(1e-3, same, same);
+  const DiscoverOptions options;
+  Books books(diagram, data, registry, effects, options);
+  fit_base(books);
+  std::vector<Tried> tried(2);
+  for (auto& t : tried) {
+    t.contender.ok = t.admitted = true;
+    t.laws.resize(1);
+  }
+  const auto rivals = [&](const char* winner, const char* other) {
+    tried[0].effect = &effects.get(winner);
+    tried[1].effect = &effects.get(other);
+    return ties_of(books, tried, 0);
+  };
+  EXPECT_EQ(rivals("stiffening", "hysteresis"), std::vector<int>{1});
+  EXPECT_EQ(rivals("ageing", "asymmetry"), std::vector<int>{1});
+  EXPECT_TRUE(rivals("calibration", "asymmetry").empty()) << "a curve without bend is a gain and a zero";
+  EXPECT_TRUE(rivals("calibration", "sensor_nonlinearity").empty());
+  tried[1].laws[0].holds = {"stiffening"};
+  EXPECT_TRUE(rivals("stiffening", "hysteresis").empty()) << "a spring that remembers little is a stiffening one";
+  EXPECT_EQ(rivals("creep", "hysteresis"), std::vector<int>{1});
+}
+
+TEST_F(Rules, ASmallGainBesideAnAgeingDeviceIsNoOtherEffects) {
+  // The counter may have begun when some use had gone by: an uncounted part of the first decade is a gain.
+  const std::vector<std::pair<double, double>> runs{{1, 0}, {1, 1e3}, {1, 1e4}, {1, 1e5}};
+  const auto gain = [](double n) { return 0.999 * (1 - 0.011 * std::log10(1 + n / 100)); };
+  const Discovery d = discovered(gain_and_sensor(), of_ages(runs, gain), {"ageing", "calibration", "asymmetry"});
+  EXPECT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(winner(d), "ageing") << tried(d);
+}
+
 // --- slow noise ------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
