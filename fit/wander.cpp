@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace hysteron {
 namespace {
@@ -18,6 +19,8 @@ constexpr double shows = 40;      // chi2 of a line that is there: of a thousand
 /// Of the squared length of a wave about one knot: what waves have in common to five digits (a line at a whole number
 /// of half samples has no sine) is nobody's, and costs no more than a rounding error of the rest.
 constexpr double in_common = 1e-10;
+
+constexpr double hardly = 1e-6;  // of the squared length of a wave: what is left of one that is another's
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
@@ -38,6 +41,12 @@ bool looks_slow(std::span<const double> t, double frequency, std::size_t knots) 
   const double seen = std::fabs(frequency - std::round(frequency * step) / step);
   const double band = 0.5 * static_cast<double>(knots - 1) / duration;
   return seen < band + slowest / duration;
+}
+
+/// Takes a wave of length one out of the rows.
+void take_out_of(std::span<double> rows, const std::vector<double>& wave) {
+  const double part = std::inner_product(rows.begin(), rows.end(), wave.begin(), 0.0);
+  for (std::size_t i = 0; i < wave.size(); ++i) rows[i] -= part * wave[i];
 }
 
 }  // namespace
@@ -126,6 +135,24 @@ void LineSpan::make_factors() {
   }
   if (!turning_) moving_ = std::make_shared<const Factor>(of_moving, knots_ * waves_);
   steady_ = std::make_shared<const Factor>(of_steady, waves_);
+  if (turning_) make_beside();
+}
+
+/// What the model's steady waves have that a line of another frequency, and a little turning of it, has not.
+void LineSpan::make_beside() {
+  auto beside = std::make_shared<std::vector<std::vector<double>>>();
+  for (std::size_t w = 0; w < waves_; ++w) {
+    std::vector<double> wave(knot_.size());
+    for (std::size_t i = 0; i < wave.size(); ++i) wave[i] = wave_[i * waves_ + w];
+    const double whole = std::inner_product(wave.begin(), wave.end(), wave.begin(), 0.0);
+    turning_->take_out(wave);
+    for (const auto& before : *beside) take_out_of(wave, before);
+    const double left = std::inner_product(wave.begin(), wave.end(), wave.begin(), 0.0);
+    if (!(left > hardly * whole)) continue;
+    for (double& x : wave) x /= std::sqrt(left);
+    beside->push_back(std::move(wave));
+  }
+  beside_ = std::move(beside);
 }
 
 void LineSpan::take_out_turning(std::span<double> rows, Part part) const {
@@ -133,6 +160,8 @@ void LineSpan::take_out_turning(std::span<double> rows, Part part) const {
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t w = 0; w < waves_; ++w) steady[w] += wave_[i * waves_ + w] * rows[i];
   turning_->take_out(rows);
+  // What the model draws is steady at a frequency that is not this recording's own: no small turning of the line.
+  for (const auto& wave : *beside_) take_out_of(rows, wave);
   if (part == Part::all) return;
   const auto amplitude = steady_->solve(steady);
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -56,6 +56,7 @@ class LineSpan {
   struct Factor;
   bool turns(std::span<const double> t, const WanderingLine& line, const ShownLine& shown);
   void make_factors();
+  void make_beside();
   void take_out_turning(std::span<double> rows, Part part) const;
 
   std::size_t waves_ = 0, knots_ = 0;  ///< waves: a cosine and a sine of each harmonic
@@ -63,7 +64,8 @@ class LineSpan {
   std::vector<std::size_t> knot_;      ///< of each row, the one before it
   std::vector<double> beyond_;         ///< of each row, the part of the way to the next one
   std::shared_ptr<const Factor> moving_, steady_;
-  std::shared_ptr<const TurningLine> turning_;  ///< in place of moving_
+  std::shared_ptr<const TurningLine> turning_;                      ///< in place of moving_
+  std::shared_ptr<const std::vector<std::vector<double>>> beside_;  ///< with it: see make_beside()
 };
 
 /// What is no evidence of anything in the rows of one output.

@@ -206,6 +206,18 @@ TEST(Wander, ALineThatLooksSlowOrIsNoMoreThanNoiseIsNotFollowed) {
   EXPECT_EQ(knots(45 / 0.89 + 0.001, 0.1), few) << "45 turns to a row: it looks as if it turned once in 1000 s";
 }
 
+TEST(Wander, WhatAModelHasDrawnAtItsOwnFrequencyGoesWithTheLine) {
+  const auto t = slow_times();
+  std::vector<double> shown, rows;
+  for (const double x : t) {
+    shown.push_back(turning(x));
+    rows.push_back(turning(x) - 0.5 * std::sin(2 * pi * of_all * x + 0.3));
+  }
+  const double before = squares_of(rows);
+  LineSpan(t, {of_all, 3}, {shown, 0.01}).take_out(rows, Part::all);
+  EXPECT_LT(squares_of(rows), std::pow(0.014, 2) * before) << "see OneAngleFollows";
+}
+
 TEST(Wander, ALineMayBeAsFarOffAsTheOthersLeaveOpen) {
   const auto t = slow_times();
   std::vector<double> shown, rows;
