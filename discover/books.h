@@ -230,6 +230,9 @@ enum class Came { one_by_one, at_once };
 /// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
 /// output with it.
 void reconsider(Books& books, double bar, Came came = Came::one_by_one, const Contender* before = nullptr);
+/// A law was chosen while others were missing. Each member is tried by its other laws beside the rest; the first that
+/// brings something on recordings not used for the fit is taken, and the set told anew. False: all are as they were.
+bool refine_what_stands(Books& books, double bar);
 /// What is left of that where time has ended: a law that could hold another effect besides its own is slow, and beside
 /// what came later that other one, alone, may be all of it.
 void exchange_for_what_they_hold(Books& books, double bar);

@@ -329,6 +329,52 @@ void reconsider(Books& books, double bar, Came came, const Contender* before) {
   }
 }
 
+namespace {
+
+/// The member on the rest by the law that fits best of those that it does not have, at its place.
+std::optional<Contender> by_another_law(const Books& books, const Contender& rest, const Standing& member, double bar) {
+  const auto list = choices_on(
+      books, rest, [&](const Effect& e) { return &e == member.effect; },
+      [&](const Effect& e, const Circumstances& at) {
+        auto laws = e.laws(at);
+        std::erase_if(laws, [&](const Law& law) { return law.name == member.law.name; });
+        return laws;
+      });
+  std::vector<Contender> fitted(list.size());
+  books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[i];
+    if (place.kind != member.place.kind || place.where() != member.place.where()) return false;
+    books.progress(fmt::format("{} beside the others: {}", effect->id, law.name), bar);
+    fitted[i] = with_effect(shop, rest, *effect, law, place, at, Effort::full);
+    fitted[i].ok = fitted[i].ok && why_implausible(*effect, law, fitted[i], at).empty();
+    return false;
+  });
+  std::optional<Contender> best;
+  for (auto& c : fitted)
+    if (c.ok && (!best || c.score() < best->score())) best = std::move(c);
+  return best;
+}
+
+}  // namespace
+
+bool refine_what_stands(Books& books, double bar) {
+  const auto standing = books.current.standing;
+  for (std::size_t i = 0; i < standing.size() && standing.size() > 1 && !books.stopped(); ++i) {
+    const auto rest = rest_of(books, books.shop, i);
+    if (!rest) continue;
+    const auto richer = by_another_law(books, *rest, standing[i], bar);
+    if (!richer) continue;
+    const double others_say = books.current.error_of.evidence_validate - richer->error_of.evidence_validate;
+    if (!(richer->error_of.nrmse_validate < books.current.error_of.nrmse_validate)) continue;
+    if (others_say > rules::exchange && richer->score() < books.current.score() - rules::exchange &&
+        tell_again(books, *richer)) {
+      reconsider(books, bar, Came::at_once);
+      return true;
+    }
+  }
+  return false;
+}
+
 void exchange_for_what_they_hold(Books& books, double bar) {
   for (std::size_t i = 0; i < books.current.standing.size() && !books.stopped(); ++i) {
     const Standing member = books.current.standing[i];
