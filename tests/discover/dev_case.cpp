@@ -1,13 +1,13 @@
 #include "tests/discover/dev_case.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/hidden_case.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron::testing {
 namespace {
@@ -32,11 +32,8 @@ std::string shared(const std::string& path) { return std::string(HYSTERON_SHARED
 bool shared_is_there() { return std::filesystem::is_directory(shared("hidden-effects/dev")); }
 
 DataSet data_from_json(const std::string& name, const std::string& text) {
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("hysteron_discover_{}", getpid());
-  std::filesystem::create_directories(folder);
-  const auto file = folder / (name + ".json");
-  std::ofstream(file) << text;
-  return read_dataset(file.string(), {shared("")});
+  const TemporaryFolder folder;
+  return read_dataset(folder.write(name + ".json", text), {shared("")});
 }
 
 Case dev_case(const std::string& id) {
