@@ -104,7 +104,7 @@ bool two_more(Books& books, const std::vector<Tried>& last) {
     books.current = refit(books.shop, t.contender, Effort::full);
     if (!books.current.ok) continue;
     books.settle(books.current);
-    const auto pair = with_one_more(books, t.effect->id);
+    const auto pair = with_one_more(books, "");  // the same, in another block, too
     books.settle(books.current);
     if (!pair || !leaves_only_noise(books, pair->contender) || !needs_both(books, t, *pair, last)) continue;
     if (!best || pair->contender.score() < best->score()) best = pair->contender;

@@ -55,8 +55,12 @@ void begin_at_lines(const Books& books, Tried& t) {
     }
 }
 
-/// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own.
-bool in_another_block(const Place& a, const Place& b) { return !a.by.empty() && !b.by.empty() && a.at != b.at; }
+/// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory its
+/// past.
+bool in_another_block(const Effect& a, const Place& at_a, const Effect& b, const Place& at_b) {
+  const auto varies = [](const Effect& e, const Place& at) { return e.way == Way::vary || !at.by.empty(); };
+  return varies(a, at_a) && varies(b, at_b) && at_a.at != at_b.at;
+}
 
 }  // namespace
 
@@ -70,7 +74,7 @@ bool standing_before(const Books& books, const Contender& model, const Effect& e
   if (e.side == Side::other_axis) return false;
   const auto here = outputs_moved(books, model, place.wire);
   return std::any_of(model.standing.begin(), model.standing.end(), [&](const Standing& s) {
-    if (s.effect->family != e.family || in_another_block(s.place, place)) return false;
+    if (s.effect->family != e.family || in_another_block(*s.effect, s.place, e, place)) return false;
     const auto there = outputs_moved(books, model, s.place.wire);
     return there.empty() || here.empty() ||
            std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });

@@ -361,6 +361,38 @@ TEST_F(Rules, ASmallGainBesideAnAgeingDeviceIsNoOtherEffects) {
   EXPECT_EQ(winner(d), "ageing") << tried(d);
 }
 
+TEST_F(Rules, EachBlockThatRemembersHasAPastOfItsOwn) {
+  Diagram d = plain_gain();
+  for (const auto& [name, from] : {std::pair{"joint", "stage"}, {"nut", "joint"}}) {
+    Node& block = d.blocks[name];
+    block.type = "backlash";
+    block.parameters["gap"] = Value("0.2 m");
+    block.in = {{"", from}};
+  }
+  d.outputs["y"] = "nut";
+  const auto t = rows(400, 0.005);
+  const auto u = several_sines(t, 1, {1.1});
+  std::vector<double> y = u;
+  for (double& v : y) v += 0.05;
+  const DataSet data =
+      data_set({recording("a.csv", Role::train, t, u, y), recording("b.csv", Role::validate, t, u, y)}, 1e-3);
+  DiscoverOptions options;
+  options.only = {"initial_remanence"};
+  Books books(d, data, registry, effects, options);
+  fit_base(books);
+  const auto where = [](const std::vector<Tried>& list) {
+    std::vector<std::string> places;
+    for (const Tried& one : list) places.push_back(one.place.where());
+    return places;
+  };
+  auto list = list_candidates(books, 1);
+  ASSERT_EQ(where(list), (std::vector<std::string>{"joint", "nut"}));
+  fit_candidates(books, list, 1);
+  ASSERT_TRUE(list[0].contender.ok) << list[0].contender.error;
+  take(books, 1, list[0], {});
+  EXPECT_EQ(where(list_candidates(books, 2)), std::vector<std::string>{"nut"});
+}
+
 // --- slow noise ------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
