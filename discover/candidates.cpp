@@ -55,8 +55,8 @@ void begin_at_lines(const Books& books, Tried& t) {
     }
 }
 
-/// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory its
-/// past.
+/// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory
+/// its past.
 bool in_another_block(const Effect& a, const Place& at_a, const Effect& b, const Place& at_b) {
   const auto varies = [](const Effect& e, const Place& at) { return e.way == Way::vary || !at.by.empty(); };
   return varies(a, at_a) && varies(b, at_b) && at_a.at != at_b.at;

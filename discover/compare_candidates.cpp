@@ -34,6 +34,13 @@ Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tri
   return best;
 }
 
+/// Not a line and more, but another shape of as many numbers that fits better: what laws may have left speaks for
+/// neither.
+bool in_place_of_a_line(const Tried& t, const Tried& line) {
+  return t.contender.parameters <= line.contender.parameters &&
+         line.contender.error_of.evidence() - t.contender.error_of.evidence() > rules::claim_fall;
+}
+
 /// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name; so is one
 /// that is not beyond what the laws that stand may have left.
 void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& left) {
@@ -41,7 +48,8 @@ void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& 
     if (!plain.effect->straight || !plain.contender.ok) continue;  // also where the laws that stand may have left it
     for (auto& t : tried) {
       if (!t.admitted || !t.effect->moves_zero) continue;
-      if (more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left)) continue;
+      if (in_place_of_a_line(t, plain) || more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left))
+        continue;
       t.admitted = false;
       t.reason = "a gain and a zero alone take away as much";
     }
