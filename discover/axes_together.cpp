@@ -37,14 +37,15 @@ std::vector<const Tried*> of_one_effect(const std::vector<Tried>& tried, const s
 
 /// Separate outputs: what each takes away adds up, and what cannot suffice is not fitted.
 bool could_suffice(const Books& books, const std::vector<const Tried*>& members) {
-  double score = 0, fall = 0;
+  double score = 0, fall = 0, beginnings = 1;
   int numbers = 0;
   for (const Tried* m : members) {
     score += books.current.score() - m->contender.score();
     fall += m->fall_train + m->fall_validate;
     numbers += m->contender.parameters - books.current.parameters;
+    beginnings *= beginnings_of(m->laws[m->law]);
   }
-  return members.size() > 1 && (score > 0 || fall > rules::by_chance(numbers));
+  return members.size() > 1 && (score > 0 || fall > rules::by_chance(numbers, beginnings));
 }
 
 /// The members in one model, and how they came into it.

@@ -2,6 +2,7 @@
 // Internal to discover; the rules of judging are in judge_step.cpp, the loop in discover.cpp, the words in words.cpp.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,10 @@ constexpr double claim_fall =
 /// -4 there, wherever this fell.
 constexpr double agreed_fall = 2;
 /// Chance takes as much away with that many numbers once in 2000 times: quantiles of chi2 for 1 to 4 of them, to 0.4.
-constexpr double by_chance(int numbers) { return claim_fall + 2.5 * numbers; }
+/// The best of n beginnings (frequencies of a mode) has n times as many chances, for 2 ln n more.
+inline double by_chance(int numbers, double beginnings) {
+  return claim_fall + 2.5 * numbers + 2 * std::log(beginnings);
+}
 constexpr double tie = 7;  ///< in evidence + 2p
 /// How much more the recordings that judge may show than those that were fitted: what a fit loses then is in `tie`.
 constexpr double usual_split = 3;
@@ -113,6 +117,9 @@ bool more_than_laws_leave(const Effect& effect, const Contender& before, const M
 /// `straight`, and more than the laws that stand may have left?
 bool more_than_a_line(const Effect& effect, const Contender& straight, const ModelError& after,
                       const std::vector<double>& left_by_laws);
+
+/// From how many beginnings a law is fitted, the best of which is kept.
+double beginnings_of(const Law& law);
 
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);

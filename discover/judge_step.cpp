@@ -239,23 +239,37 @@ int found_where_proved(const Contender& c, const Contender& before) {
   return all > 0 ? static_cast<int>(found * some / all) : 0;
 }
 
-/// Where nothing stands that could have left it, and nothing was found on recordings that judge: chance takes that much
-/// of all recordings away with as many numbers once in two thousand times (chi2 of as many degrees of freedom). ln N
-/// for each is the price where they are known as well as N rows know a number: of a weak slow effect they know few.
-bool beyond_chance(const Tried& tried, const Contender& before, bool first) {
+/// Where nothing stands that could have left it, and nothing was found on recordings that judge: chance takes less of
+/// all recordings away with as many numbers (chi2 of as many degrees of freedom). ln N for each is the price where they
+/// are known as well as N rows know a number: of a weak slow effect they know few.
+bool beyond_chance(const Tried& tried, const Contender& before, bool first, double beginnings) {
   const int numbers = tried.contender.parameters - before.parameters;
   return first && tried.contender.found_on_validation == before.found_on_validation &&
-         tried.fall_train + tried.fall_validate > rules::by_chance(numbers);
+         tried.fall_train + tried.fall_validate > rules::by_chance(numbers, beginnings);
 }
 
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
-/// the price of every number that was fitted.
+/// the price of every number that was fitted, and of every beginning that was tried.
 bool all_agree(const Tried& tried, const Contender& before) {
   return tried.fall_validate > rules::agreed_fall &&
-         (before.score() - tried.contender.score() > rules::claim_fall || beyond_chance(tried, before, true));
+         (before.score() - tried.contender.score() > rules::claim_fall ||
+          beyond_chance(tried, before, true, beginnings_of(tried.laws[tried.law])));
+}
+
+/// It is worth its numbers. Beginnings were compared on fitted recordings: where others prove it, they are paid for.
+bool is_worth_its_numbers(const Tried& tried, const Contender& before, bool first) {
+  const bool proved = tried.fall_validate > rules::claim_fall;
+  return tried.contender.score() < before.score() ||
+         beyond_chance(tried, before, first, proved ? 1 : beginnings_of(tried.laws[tried.law]));
 }
 
 }  // namespace
+
+double beginnings_of(const Law& law) {
+  double all = 1;
+  for (const auto& p : law.free) all *= std::max(1.0, static_cast<double>(p.scan.size()));
+  return all;
+}
 
 std::vector<double> own_values(const Tried& tried) {
   return values_of(tried.contender, tried.contender.standing.size() - 1);
@@ -320,7 +334,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
                     tried.fall_validate, rules::claim_fall);
     return;
   }
-  if (!(c.score() < before.score()) && !beyond_chance(tried, before, left_by_laws.empty())) {
+  if (!is_worth_its_numbers(tried, before, left_by_laws.empty())) {
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
     return;
   }

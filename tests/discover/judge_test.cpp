@@ -40,12 +40,14 @@ class Judging : public ::testing::Test {
                const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
     return judged_with(0, before, after, left, effect, on_top_of);
   }
-  /// The same with that many numbers more than the model before has.
+  /// The same with that many numbers more than the model before has, and with a law of so many beginnings.
   Tried judged_with(int numbers, const ModelError& before, const ModelError& after, const std::vector<double>& left,
-                    const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
+                    const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag",
+                    std::size_t beginnings = 0) const {
     Tried t;
     t.effect = effects.find(effect);
     t.laws.resize(1);
+    if (beginnings > 0) t.laws.front().free.emplace_back().scan.resize(beginnings);
     t.contender.ok = true;
     t.contender.parameters = numbers;
     t.contender.error_of = after;
@@ -226,9 +228,13 @@ TEST_F(Judging, AWeakSlowEffectPaysForItsNumbersWhatChanceTakesAway) {
   EXPECT_FALSE(judged_with(3, before, after, {}).admitted);
   EXPECT_FALSE(judged_with(2, before, error(1000, 996, 1000, 1004.5), {}).admitted) << "others do not agree";
   EXPECT_FALSE(judged_with(2, before, after, {0, 1, 0, 1}).admitted) << "a law that stands may have left it";
-  // What others prove is proved, whatever its numbers; unless they take as much by chance.
+  // The best of 20 beginnings has twenty chances: 6 more.
+  EXPECT_FALSE(judged_with(2, before, after, {}, "backlash", "amplifier_lag", 20).admitted);
+  EXPECT_TRUE(judged_with(2, error(1000, 1016, 1000, 1006), after, {}, "backlash", "amplifier_lag", 20).admitted);
+  // What others prove is proved, whatever its numbers and beginnings; unless they take as much by chance.
   const ModelError proved = error(1000, 1004, 1000, 1014);
   EXPECT_TRUE(judged_with(3, proved, after, {}).admitted);
+  EXPECT_TRUE(judged_with(3, proved, after, {}, "backlash", "amplifier_lag", 20).admitted);
   EXPECT_FALSE(judged_with(4, proved, after, {}).admitted);
 }
 
