@@ -61,8 +61,9 @@ constexpr double exchange = 6;  ///< fall of the score for which a look-alike is
 /// Standard deviations of chance in one octave of all recordings together, above which a further effect is looked for:
 /// 1/f noise of another shape than the whitener's reached 5 in cases with nothing left.
 constexpr double octave_gate = 6;
-constexpr double floor_gate = 1.12;       ///< chi2/N on validation below which only noise is left: 6 % in rms
-constexpr double data_sheet_wrong = 1.2;  ///< chi2/N of noise a tenth larger than stated
+constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
+constexpr double data_sheet_wrong =
+    1.2;  ///< chi2/N of noise a tenth larger than its data sheet says: as good are these
 constexpr double slow_noise =
     2;  ///< chi2/N up to which what no structure explains may be noise: as much 1/f noise as white
 constexpr double own_law_left = 0.015;  ///< share of its own effect that a simple law leaves, in rms

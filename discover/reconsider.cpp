@@ -365,6 +365,7 @@ bool refine_what_stands(Books& books, double bar) {
     const auto richer = by_another_law(books, *rest, standing[i], bar);
     if (!richer) continue;
     const double others_say = books.current.error_of.evidence_validate - richer->error_of.evidence_validate;
+    // Where nobody states the noise, what is slow is taken for some, and chi2 falls while the error grows.
     if (!(richer->error_of.nrmse_validate < books.current.error_of.nrmse_validate)) continue;
     if (others_say > rules::exchange && richer->score() < books.current.score() - rules::exchange &&
         tell_again(books, *richer)) {

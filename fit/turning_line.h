@@ -13,14 +13,16 @@ namespace hysteron {
 /// A sine in the rows of one recording.
 struct ShownSine {
   double frequency = 0;  ///< [Hz]
-  double squares = 0;    ///< that it takes away, summed over the rows
+  double squares = 0;    ///< that it takes away, summed over the rows [their unit squared]
 };
-/// The strongest sine in `rows` at times `t` [s] within `astray` [Hz] of a frequency, where that is `allowed`.
+/// The strongest sine in `rows` at times `t` [s] within `astray` [Hz] of `frequency` [Hz], among those that are
+/// `allowed`; no squares if none is.
 ShownSine strongest_about(std::span<const double> t, std::span<const double> rows, double frequency, double astray,
                           const std::function<bool(double)>& allowed);
 
-/// How well rows that resolve it know the frequency of a sine of this size beside white noise of this rms: one over the
-/// variance [1/Hz^2] (the bound of Cramer and Rao: Rife, Boorstyn, IEEE Trans. Inf. Theory 20 (1974) 591).
+/// How well `rows` at times `t` [s] know the frequency of the sine at `frequency` [Hz] in them, beside noise of the rms
+/// `white` [unit of the rows]: one over its variance [1/Hz^2], 0 where they do not resolve it (the bound of Cramer and
+/// Rao: Rife, Boorstyn, IEEE Trans. Inf. Theory 20 (1974) 591).
 double known_frequency(std::span<const double> t, std::span<const double> rows, double frequency, double white);
 
 /// A line and its harmonics about a frequency of this recording's own; what turns it from there is one angle, in

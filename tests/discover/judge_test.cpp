@@ -1,6 +1,8 @@
 // The rules of a claim on errors made by hand: what an imperfect law may have left, and where.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "discover/books.h"
 #include "discover/discover.h"
 #include "discover/investigation.h"
@@ -218,6 +220,16 @@ TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
   EXPECT_FALSE(judged(before, after, {0, 1, 0, 1}).admitted) << "on top of laws each must prove it";
   EXPECT_FALSE(judged(error(1000, 1900, 1000, 1900), error(1000, 1000, 1000, 1896), {}).admitted)
       << "what stands above the noise can prove it there";
+}
+
+TEST(ByChance, IsWhatChiSquaredReachesOnceInTwoThousandTimes) {
+  // Closed forms of the upper tail for 1, 2 and 4 degrees of freedom; a quarter of 1/2000 is 0.4 of chi2.
+  const auto near = [](double tail) { return std::abs(tail * 2000 - 1) < 0.25; };
+  const double one = rules::by_chance(1, 1), two = rules::by_chance(2, 1), four = rules::by_chance(4, 1);
+  EXPECT_TRUE(near(std::erfc(std::sqrt(one / 2)))) << one;
+  EXPECT_TRUE(near(std::exp(-two / 2))) << two;
+  EXPECT_TRUE(near(std::exp(-four / 2) * (1 + four / 2))) << four;
+  EXPECT_NEAR(20 * std::exp(-rules::by_chance(2, 20) / 2), std::exp(-two / 2), 1e-12) << "twenty chances";
 }
 
 TEST_F(Judging, AWeakSlowEffectPaysForItsNumbersWhatChanceTakesAway) {

@@ -293,64 +293,8 @@ TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
   }
 }
 
-// --- laws that could hold another effect -----------------------------------------------------------------------------
-
-TEST_F(Rules, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
-  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const Diagram diagram = two_plain_axes();
-  const DataSet data = of_two_axes(1e-3, same, same);
-  const DiscoverOptions options;
-  const Books books(diagram, data, registry, effects, options);
-  std::vector<Tried> tried(2);
-  for (auto& t : tried) {
-    t.contender.ok = t.admitted = true;
-    t.laws.resize(1);
-  }
-  tried[0].effect = &effects.get("hysteresis");
-  tried[0].fall_train = tried[0].fall_validate = 1000;
-  tried[1].effect = &effects.get("asymmetry");
-  tried[1].fall_train = tried[1].fall_validate = 950;
-  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "plays of a straight drive hold no curve";
-  tried[0].laws[0].holds = {"asymmetry"};
-  EXPECT_EQ(held_one_first(books, tried, 0), 1);
-  tried[1].effect = &effects.get("saturation");
-  EXPECT_EQ(held_one_first(books, tried, 0), 1) << "it looks like an asymmetry";
-  tried[1].effect = &effects.get("creep");
-  EXPECT_EQ(held_one_first(books, tried, 0), 0);
-  tried[0].laws[0].holds = {"stiffening"};
-  tried[1].effect = &effects.get("friction");
-  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "it looks like a stiffening spring, and remembers, as none does";
-  tried[0].laws[0].holds = {"asymmetry"};
-  tried[1].effect = &effects.get("asymmetry");
-  tried[1].fall_validate = 850;
-  EXPECT_EQ(held_one_first(books, tried, 0), 0) << "less than nine tenths on recordings not used for the fit";
-}
-
-TEST_F(Rules, WhoCouldHoldTheWinnerAndExplainsNoMoreIsNoRival) {
-  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const Diagram diagram = two_plain_axes();
-  const DataSet data = of_two_axes(1e-3, same, same);
-  const DiscoverOptions options;
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
-  std::vector<Tried> tried(2);
-  for (auto& t : tried) {
-    t.contender.ok = t.admitted = true;
-    t.laws.resize(1);
-  }
-  const auto rivals = [&](const char* winner, const char* other) {
-    tried[0].effect = &effects.get(winner);
-    tried[1].effect = &effects.get(other);
-    return ties_of(books, tried, 0);
-  };
-  EXPECT_EQ(rivals("stiffening", "hysteresis"), std::vector<int>{1});
-  EXPECT_EQ(rivals("ageing", "asymmetry"), std::vector<int>{1});
-  EXPECT_TRUE(rivals("calibration", "asymmetry").empty()) << "a curve without bend is a gain and a zero";
-  EXPECT_TRUE(rivals("calibration", "sensor_nonlinearity").empty());
-  tried[1].laws[0].holds = {"stiffening"};
-  EXPECT_TRUE(rivals("stiffening", "hysteresis").empty()) << "a spring that remembers little is a stiffening one";
-  EXPECT_EQ(rivals("creep", "hysteresis"), std::vector<int>{1});
-}
+// --- lines, curves and pasts
+// ------------------------------------------------------------------------------------------
 
 TEST_F(Rules, ACurveOfAsManyNumbersThatFitsBetterIsNoLine) {
   // A lag of 160 times the noise may leave 1.5 % of it, which is more than a gain and a zero leave of the curve before
