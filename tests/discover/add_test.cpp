@@ -257,7 +257,8 @@ TEST_F(AddedEffect, OfABlockThatIsAChoiceOfTheUsersLeavesThatChoiceWhenItGoes) {
   Node choice;
   choice.in = body.in;
   body.in.clear();
-  choice.from["light"] = choice.from["heavy"] = body;
+  choice.from["light"] = body;
+  choice.from["heavy"] = body;
   choice.from["heavy"].parameters["mass"] = Value("3 kg");
   choice.choose = "heavy";
   body = choice;

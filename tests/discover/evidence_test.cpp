@@ -79,7 +79,8 @@ class TwoUnits : public ::testing::Test {
     d.outputs["s"] = "speed";
     return d;
   }
-  DataModel model_{compile(stage_and_speed(), all_blocks()), std::make_shared<const DataSet>(read())};
+  const Registry registry_ = all_blocks();  // the program points to its blocks
+  DataModel model_{compile(stage_and_speed(), registry_), std::make_shared<const DataSet>(read())};
   const Evidence evidence_{model_};
 };
 

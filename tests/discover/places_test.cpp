@@ -137,7 +137,7 @@ TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
 TEST_F(Places, ABlockThatWasGivenAnotherLawIsStillTheCoreOfItsAxis) {
   // Of two axes with plays, one comes late: the other one is not all that is left of the cores.
   Diagram d = hysteretic_stage();
-  d.inputs["u2"] = d.inputs["u"];
+  d.inputs["u2"] = hysteretic_stage().inputs["u"];
   for (const auto& [name, node] : hysteretic_stage().blocks) {
     Node& second = d.blocks[name + "2"] = node;
     for (auto& wire : second.in) wire.from += "2";

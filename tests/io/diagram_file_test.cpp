@@ -253,7 +253,8 @@ TEST(DiagramFile, MatricesAndLengthsAreReadAndWrittenBack) {
 
 TEST(DiagramFile, TheTipTiltStageOfTheProjectIsThreeStacksOfOneKind) {
   const Diagram d = read_diagram(std::string(HYSTERON_SOURCE_DIR) + "/diagrams/stages/tip_tilt.json");
-  const auto program = compile(d, all_blocks());
+  const Registry registry = all_blocks();  // the program points to its blocks
+  const auto program = compile(d, registry);
   EXPECT_EQ(program->record_signals.size(), 9U);
   EXPECT_EQ(program->find_parameter("stacks.weights[1]")->slots.size(), 3U);
   EXPECT_EQ(program->signals[static_cast<std::size_t>(program->signal("pose[0]"))].unit.text, "urad");
