@@ -89,6 +89,16 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   return false;
 }
 
+bool no_patch_of_anything(Books& books, const std::vector<Tried>& first) {
+  if (books.stopped() || !books.d.steps.empty()) return false;
+  const auto order = ranking(first);
+  const auto patch = std::find_if(order.begin(), order.end(), [&](std::size_t i) { return first[i].patch; });
+  if (patch == order.end() || leaves_something_unexplained(books)) return false;
+  if (!tell_again(books, first[*patch].contender)) return false;
+  reconsider(books, 0.95, Came::at_once);
+  return true;
+}
+
 bool two_more(Books& books, const std::vector<Tried>& last) {
   if (books.stopped() || found_effects(books) + 2 > books.options.max_steps) return false;
   if (leaves_only_noise(books, books.current)) return false;

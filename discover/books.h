@@ -230,6 +230,9 @@ enum class Came { one_by_one, at_once };
 /// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
 /// output with it.
 void reconsider(Books& books, double bar, Came came = Came::one_by_one, const Contender* before = nullptr);
+/// Axes are built alike: a member that stands on another one too is left for an effect that does not only where the
+/// error in the outputs' units falls as well.
+bool may_leave(const Books& books, const Standing& member, const Tried& other);
 /// A law was chosen while others were missing. Each member is tried by its other laws beside the rest; the first that
 /// brings something on recordings not used for the fit is taken, and the set told anew. False: all are as they were.
 bool refine_what_stands(Books& books, double bar);
@@ -251,6 +254,12 @@ bool two_more(Books& books, const std::vector<Tried>& last);
 /// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had,
 /// or is not itself in it.
 bool tell_again(Books& books, const Contender& set);
+
+/// Where nobody was claimed: who was refused as a patch in the `first` step alone, though chance does not take so much,
+/// where nothing is left unexplained that it could be a patch of. True if it is claimed now.
+bool no_patch_of_anything(Books& books, const std::vector<Tried>& first);
+/// Would the verdict on the user's model as it stands, without any effect, be `unexplained`?
+bool leaves_something_unexplained(const Books& books);
 
 /// Verdict, remainder, words.
 void conclude(Books& books);

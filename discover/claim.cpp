@@ -15,6 +15,7 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
   const bool admitted = w.admitted;
   judge(evidence, w, was, {});
   w.admitted = admitted;
+  if (admitted && w.patch) w.reason = what_it_takes(w);  // by itself it is one, and not as it was claimed
 }
 
 }  // namespace

@@ -42,9 +42,20 @@ bool is_of_a_standing_law(const Books& books, const Structure& s) {
   return false;
 }
 
+/// What stands on the way to another output says nothing about it, nor it about that.
+bool has_a_rival(const Books& books, const Structure& s) {
+  const auto& outputs = books.base_model->outputs();
+  return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& standing) {
+    const auto moved = measured_moved(books, books.current, standing.place.wire);
+    return std::any_of(moved.begin(), moved.end(),
+                       [&](int o) { return outputs[static_cast<std::size_t>(o)] == s.output; });
+  });
+}
+
 /// Is it told in place of the effects: of the recordings where it was looked for it explains more than they do.
 bool wins(const Books& books, const Structure& s, Where where) {
   if (!s.explains() || is_of_a_standing_law(books, s) || !(s.share_removed > rules::structure_share)) return false;
+  if (!books.current.standing.empty() && !has_a_rival(books, s)) return false;
   const ByRole removed = removed_beyond_calibration(books, s), beyond = to_be_taken_beyond(books);
   const double needed = where == Where::validation ? removed.validate + beyond.validate : removed.all() + beyond.all();
   return over(s.fall, where) > std::max(needed, rules::claim_fall);
@@ -58,6 +69,29 @@ std::optional<Structure> winner_in_all(const Books& books) {
   auto s = find_structure(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
   if (!s || removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all()) return {};
   return wins(books, *s, Where::all_recordings) ? s : std::nullopt;
+}
+
+/// What the user's model leaves on recordings that judge.
+struct Left {
+  bool more_than_noise = false;
+  double most = 0;                     ///< chi2/N, or that over what the usual noise makes, whichever is more
+  std::optional<Structure> structure;  ///< looked for where more than noise is left
+  bool told() const { return structure && structure->fall.validate > rules::claim_fall; }
+  /// Where no effect stands. chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size
+  /// lifts it too, and where all that is left is slow, as much 1/f noise as would explain it is read off it: more than
+  /// sensors have is none.
+  bool is_unexplained() const {
+    return more_than_noise &&
+           ((told() && structure->share_removed > rules::structure_share) || most > rules::slow_noise);
+  }
+};
+
+Left left_by_base(const Books& books) {
+  const double over = books.evidence->error(books.base.prediction).over_floor();
+  const double over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
+  Left left{over > rules::floor_gate || over_usual > rules::slow_noise, std::max(over, over_usual), {}};
+  if (left.more_than_noise) left.structure = find_structure(*books.evidence, books.base.prediction, books.shop.threads);
+  return left;
 }
 
 /// A structure that no effect describes explains more than the effects did: what they took away was part of it.
@@ -114,6 +148,11 @@ void tell_noise(Books& books) {
 
 }  // namespace
 
+bool leaves_something_unexplained(const Books& books) {
+  const Left left = left_by_base(books);
+  return left.is_unexplained() || (left.more_than_noise && winner_in_all(books));
+}
+
 void conclude(Books& books) {
   books.progress("what is left", 0.97);
   books.settle(books.current);
@@ -125,35 +164,25 @@ void conclude(Books& books) {
     leave_out_idle(books);
   }
   const double floor = books.current.error_of.over_floor();
-  // Where all that is left is slow, as much 1/f noise as would explain it is read off it: more than sensors have is
-  // none.
-  const double base_over = books.d.base.over_floor();
-  const double base_over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
-  const bool base_is_off = base_over > rules::floor_gate || base_over_usual > rules::slow_noise;
-  std::optional<Structure> structure;
-  if (base_is_off) structure = find_structure(*books.evidence, books.base.prediction, books.shop.threads);
-  bool structure_wins = structure && wins(books, *structure, Where::validation);
-  if (!structure_wins && (base_is_off || !books.d.steps.empty()))
-    if (auto s = winner_in_all(books)) structure = std::move(s), structure_wins = true;
+  Left left = left_by_base(books);
+  bool structure_wins = left.structure && wins(books, *left.structure, Where::validation);
+  if (!structure_wins && (left.more_than_noise || !books.d.steps.empty()))
+    if (auto s = winner_in_all(books)) left.structure = std::move(s), structure_wins = true;
   if (structure_wins) {
     books.d.verdict = Verdict::unexplained;
-    books.d.structure = structure;
+    books.d.structure = left.structure;
     withdraw(books);
   } else if (books.d.steps.empty()) {
-    // chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size lifts it too.
-    const bool told = structure && structure->fall.validate > rules::claim_fall;
-    const bool holds = told && structure->share_removed > rules::structure_share;
-    const bool unexplained = base_is_off && (holds || std::max(base_over, base_over_usual) > rules::slow_noise);
-    books.d.verdict = unexplained ? Verdict::unexplained : Verdict::adequate;
-    if (unexplained && told) books.d.structure = structure;
+    books.d.verdict = left.is_unexplained() ? Verdict::unexplained : Verdict::adequate;
+    if (left.is_unexplained() && left.told()) books.d.structure = left.structure;
   } else {
     const bool certain = std::any_of(books.d.steps.begin(), books.d.steps.end(),
                                      [](const FoundStep& s) { return s.ties.empty() || !s.experiment_would_tell; });
     books.d.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
     if (floor > rules::floor_gate && !books.stopped()) {
-      auto left = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
-      if (left && left->share_removed > rules::structure_share && left->fall.validate > rules::claim_fall)
-        books.d.structure = left;
+      auto rest = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
+      if (rest && rest->share_removed > rules::structure_share && rest->fall.validate > rules::claim_fall)
+        books.d.structure = rest;
     }
   }
   books.d.remainder =

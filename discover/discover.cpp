@@ -249,6 +249,8 @@ void search(Books& books) {
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
   if (!books.smooth && unless_it_fails(books, [&] { return another_beginning(books, first); }))
     one_by_one(books, first);
+  if (!books.smooth && unless_it_fails(books, [&] { return no_patch_of_anything(books, first); }))
+    one_by_one(books, first);
   // Its law was chosen while others were missing: beside them a richer one may hold more, or a simpler one as much.
   const bool rest = !books.evidence->noise_known() || more_than_noise(books);
   if (!books.smooth && rest && unless_it_fails(books, [&] { return refine_what_stands(books, 0.96); }))

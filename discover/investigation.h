@@ -125,6 +125,9 @@ double beginnings_of(const Law& law);
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
 std::vector<double> own_values(const Tried& tried);
 
+/// Why it is claimed: what it takes away on recordings not used for the fit.
+std::string what_it_takes(const Tried& tried);
+
 /// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
 /// is.
 std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at);

@@ -275,10 +275,15 @@ std::vector<double> own_values(const Tried& tried) {
   return values_of(tried.contender, tried.contender.standing.size() - 1);
 }
 
+std::string what_it_takes(const Tried& tried) {
+  return fmt::format("takes away {:.0f} of chi2 on recordings not used for the fit, {} of what stands above the noise",
+                     tried.fall_validate, percent(std::clamp(tried.share, 0.0, 1.0)));
+}
+
 std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at) {
   if (!effect.implausible) return "";
   const auto values = values_of(fitted, fitted.standing.size() - 1);
-  return values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
+  return !values.empty() && values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
 }
 
 bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
@@ -369,9 +374,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     }
   }
   tried.admitted = true;
-  tried.reason =
-      fmt::format("takes away {:.0f} of chi2 on recordings not used for the fit, {} of what stands above the noise",
-                  tried.fall_validate, percent(std::clamp(tried.share, 0.0, 1.0)));
+  tried.reason = what_it_takes(tried);
 }
 
 }  // namespace hysteron

@@ -15,17 +15,17 @@ const Effect* standing_effect(const Books& books, const std::string& id) {
   return nullptr;
 }
 
-/// Fall of the score by a candidate alone.
-double gain_of(const Books& books, const Tried& t) {
-  const auto values = static_cast<double>(own_values(t).size());
-  return t.fall_train + t.fall_validate - values * std::log(std::max(books.current.error_of.witnesses, 2.0));
+/// Fall by a candidate alone, of what ties are counted in.
+double gain_of(const Tried& t) {
+  return t.fall_train + t.fall_validate - 2 * static_cast<double>(own_values(t).size());
 }
 
-/// Who else was tried on the same outputs and explains them better; nullptr if nobody does.
-const Tried* better_there(const Books& books, const Tried& t, const std::vector<Tried>& others) {
+/// Who else was tried on the same outputs and explains them better, by more than a tie: axes are built alike; nullptr
+/// if nobody does.
+const Tried* better_there(const Tried& t, const std::vector<Tried>& others) {
   for (const auto& o : others)
     if (o.admitted && o.effect->family != t.effect->family && o.outputs == t.outputs &&
-        gain_of(books, o) > gain_of(books, t) + rules::exchange + lost_by_the_fit(t))
+        gain_of(o) > gain_of(t) + rules::tie + lost_by_the_fit(t))
       return &o;
   return nullptr;
 }
@@ -69,8 +69,8 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
 int best_place(const Books& books, std::vector<Tried>& tried, const Effect& effect, const std::vector<Tried>& others) {
   for (auto& t : tried) {
     if (!t.admitted || t.effect != &effect) continue;
-    const Tried* other = better_there(books, t, others);
-    if (other == nullptr) other = better_there(books, t, tried);
+    const Tried* other = better_there(t, others);
+    if (other == nullptr) other = better_there(t, tried);
     if (other == nullptr) continue;
     t.admitted = false;
     t.reason = other->effect->id + " explains that output better";

@@ -173,16 +173,18 @@ Contender refined(const Books& books, Tried t) {
   return std::move(t.contender);
 }
 
-/// `may`: who is tried.
-InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double bar,
-                    const std::function<bool(const Effect&)>& may) {
-  const Effect& member = *m.effect;
+/// Who `may` stand in place of the member, each by its laws, fitted; those that are themselves are admitted. Ends with
+/// the first one for which `enough` holds.
+std::vector<Tried> fitted_in_place(
+    const Books& books, const Contender& rest, const Standing& m, double bar,
+    const std::function<bool(const Effect&)>& may,
+    const std::function<bool(const Tried&)>& enough = [](const Tried&) { return false; }) {
   const auto list = choices_on(
       books, rest, may, [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law.name); });
   std::vector<Tried> fitted(list.size());
-  const std::size_t first = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+  const std::size_t last = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
-    books.progress(fmt::format("{} in place of {}", effect->id, member.id), bar);
+    books.progress(fmt::format("{} in place of {}", effect->id, m.effect->id), bar);
     Tried& t = fitted[i];
     t.effect = effect;
     t.place = place;
@@ -190,12 +192,43 @@ InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m
     t.laws = {law};
     t.contender = with_effect(shop, rest, *effect, law, place, at, Effort::full);
     t.admitted = t.contender.ok && why_implausible(*effect, law, t.contender, at).empty();
-    return t.admitted && (t.contender.score() < books.current.score() - rules::exchange ||
-                          is_all_of_it(books, rest, member, *effect, t.contender));
+    return t.admitted && enough(t);
   });
+  fitted.resize(std::min(fitted.size(), last + 1));
+  return fitted;
+}
+
+/// Does this effect stand on another axis than the member?
+bool stands_on_another_axis(const Books& books, const Standing& member, const std::string& id) {
+  const auto own = measured_moved(books, books.current, member.place.wire);
+  const auto& standing = books.current.standing;
+  return std::any_of(standing.begin(), standing.end(), [&](const Standing& s) {
+    return s.effect->id == id && measured_moved(books, books.current, s.place.wire) != own;
+  });
+}
+
+}  // namespace
+
+bool may_leave(const Books& books, const Standing& member, const Tried& t) {
+  return !stands_on_another_axis(books, member, member.effect->id) ||
+         stands_on_another_axis(books, member, t.effect->id) ||
+         t.contender.error_of.nrmse_validate < books.current.error_of.nrmse_validate;
+}
+
+namespace {
+
+/// `may`: who is tried.
+InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double bar,
+                    const std::function<bool(const Effect&)>& may) {
+  const auto is_better = [&](const Tried& t) {
+    return (t.contender.score() < books.current.score() - rules::exchange ||
+            is_all_of_it(books, rest, *m.effect, *t.effect, t.contender)) &&
+           may_leave(books, m, t);
+  };
+  auto fitted = fitted_in_place(books, rest, m, bar, may, is_better);
   InPlace found;
-  if (first < list.size()) {
-    found.better = refined(books, std::move(fitted[first]));
+  if (!fitted.empty() && fitted.back().admitted && is_better(fitted.back())) {
+    found.better = refined(books, std::move(fitted.back()));
     return found;
   }
   std::erase_if(fitted, [&](const Tried& t) { return !t.admitted || !is_as_good(books, t); });
@@ -291,6 +324,8 @@ bool tell_again(Books& books, const Contender& set) {
 
 namespace {
 
+bool scores_less(const Tried& a, const Tried& b) { return a.contender.tie_score() < b.contender.tie_score(); }
+
 /// What is as good in place of a member becomes a tie of its step, by name once.
 void tell_ties(Books& books, const Contender& rest, const Member& member, std::vector<Tried>& as_good) {
   const auto step = std::find_if(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
@@ -299,8 +334,7 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
   if (as_good.empty() || step == books.d.steps.end() || !step->ties.empty()) return;
   auto winner = tried_again(books, books.shop, rest, member);
   if (!winner) return;
-  std::sort(as_good.begin(), as_good.end(),
-            [](const Tried& a, const Tried& b) { return a.contender.tie_score() < b.contender.tie_score(); });
+  std::sort(as_good.begin(), as_good.end(), scores_less);
   for (auto& t : as_good) {
     const auto same = [&](const Candidate& c) { return c.effect == t.effect->id; };
     if (same(step->winner) || std::any_of(step->ties.begin(), step->ties.end(), same)) continue;
@@ -310,9 +344,59 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
   step->sentence = step_sentence(*winner, step->ties, step->before, step->after);
 }
 
+/// Effects that the recordings could not tell from this one in its step.
+std::vector<std::string> ties_of_step(const Books& books, const Standing& member) {
+  std::vector<std::string> ids;
+  for (const auto& s : books.d.steps)
+    if (s.winner.effect == member.effect->id && s.winner.place == member.place.where())
+      for (const auto& tie : s.ties) ids.push_back(tie.effect);
+  return ids;
+}
+
+/// The best of these effects in place of the member, if it explains as much, or in the outputs' units more: laws that
+/// are not exact are no ties by chi2 alone.
+std::optional<Tried> as_good_as(const Books& books, const Contender& rest, const Standing& m,
+                                const std::vector<std::string>& ids, double bar) {
+  auto fitted = fitted_in_place(books, rest, m, bar,
+                                [&](const Effect& e) { return std::find(ids.begin(), ids.end(), e.id) != ids.end(); });
+  std::erase_if(fitted, [](const Tried& t) { return !t.admitted; });
+  const auto best = std::min_element(fitted.begin(), fitted.end(), scores_less);
+  if (best == fitted.end()) return std::nullopt;
+  const bool explains_more = best->contender.error_of.nrmse_validate < books.current.error_of.nrmse_validate;
+  if (!explains_more && !is_as_good(books, *best)) return std::nullopt;
+  return std::move(*best);
+}
+
+/// Axes are built alike: a member that could not be told from an effect which stands on another axis since then is that
+/// one, and the member becomes its tie.
+void as_on_later_axes(Books& books, double bar) {
+  if (books.base_model->outputs().size() < 2) return;
+  const auto standing = books.current.standing;
+  const auto members = members_of(books.current);
+  for (std::size_t i = 0; i < standing.size() && !books.stopped(); ++i) {
+    auto ids = ties_of_step(books, standing[i]);
+    if (stands_on_another_axis(books, standing[i], standing[i].effect->id)) continue;
+    std::erase_if(ids, [&](const std::string& id) { return !stands_on_another_axis(books, standing[i], id); });
+    if (ids.empty()) continue;
+    const auto rest = rest_of(books, books.shop, i);
+    if (!rest) continue;
+    auto alike = as_good_as(books, *rest, standing[i], ids, bar);
+    if (!alike) continue;
+    const Contender set = refined(books, std::move(*alike));
+    if (!tell_again(books, set)) continue;
+    if (auto was = tried_again(books, books.shop, *rest, members[i])) {
+      std::vector<Tried> rivals;
+      rivals.push_back(std::move(*was));
+      tell_ties(books, *rest, members_of(set).back(), rivals);
+    }
+    return;  // the members stand in another order now
+  }
+}
+
 }  // namespace
 
 void reconsider(Books& books, double bar, Came came, const Contender* before) {
+  as_on_later_axes(books, bar);
   const bool all_at_once = came == Came::at_once;
   const Asked asked{all_at_once, before};
   Rests rests = rests_of(books, bar, asked);

@@ -4,6 +4,11 @@
 #include "discover/effects/library.h"
 
 namespace hysteron::effects {
+namespace {
+
+constexpr double no_gap = 1e-6;  // of the range: what a fit leaves where it does not need any
+
+}  // namespace
 
 Effect backlash() {
   Effect e;
@@ -43,6 +48,9 @@ Effect backlash() {
     gap.plausible_upper = 0.04 * range;
     law.free = {gap};
     return std::vector<Law>{law};
+  };
+  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances& at) -> std::string {
+    return values[0] < no_gap * at.range() ? "without lost motion it is only a zero" : "";
   };
   e.unsure = [](const Circumstances& at) -> std::string {
     if (!at.from_data || at.swings.size_ratio >= 5) return "";

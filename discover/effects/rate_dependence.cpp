@@ -8,6 +8,8 @@
 namespace hysteron::effects {
 namespace {
 
+constexpr double least_ahead = -0.5;
+
 /// The operators come late, or how far they are behind the input (ahead = 1); richer: wide loops later than small ones,
 /// and only a share.
 Law late(const Circumstances& at, const char* name, bool spread, bool shared) {
@@ -29,7 +31,7 @@ Law late(const Circumstances& at, const char* name, bool spread, bool shared) {
   LawParameter ahead;
   ahead.path = "ahead";
   ahead.start = 1;
-  ahead.lower = -0.5;
+  ahead.lower = least_ahead;
   ahead.upper = 1.5;
   ahead.scan = {1, 0};
   law.free = {time, ahead};
@@ -82,6 +84,11 @@ Effect rate_dependence() {
     return std::vector<Law>{late(at, "one time", false, false),
                             late(at, "times that grow with the threshold", true, false),
                             late(at, "a share, with times that grow", true, true)};
+  };
+  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
+    if (values[1] > 0.99 * least_ahead) return "";
+    return fmt::format("with {:.2g} of the input ahead, the limit, small motion is late too, as behind a lag",
+                       values[1]);
   };
   e.unsure = [](const Circumstances& at) -> std::string {
     if (at.from_data && at.swings.sizes < 2) return "swings of one size, two would tell it from a lag";

@@ -105,6 +105,9 @@ std::string why_no_mode(const Law&, const std::vector<double>& values, const Cir
                        most_damping);
   if (damping < 1.01 * least_damping)
     return fmt::format("at its damping of {:.2g}, the limit, it would never stop ringing", damping);
+  if (frequency > 0.99 * fastest(at))
+    return fmt::format("at {:.4g} Hz, sampled no more than four times a period, it would not be seen to ring",
+                       frequency);
   for (const auto& own : at.own_resonances)
     if (is_own(own, frequency, damping))
       return fmt::format(

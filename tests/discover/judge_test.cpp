@@ -175,14 +175,16 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
   EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, "hysteresis", "friction").admitted) << "beyond a tenth";
 }
 
-TEST_F(Judging, WhatAPolynomialLeavesOfACurveIsNoFurtherCurve) {
+TEST_F(Judging, WhatALawLeavesOfACurveIsNoFurtherCurve) {
   // As above: it takes 900 down to the noise, a tenth of the curve that stands would be 20 000.
   const std::vector<double> left{0, 450, 0, 450};
   const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
   for (const auto& [curve, stands] : {std::pair{"sensor_nonlinearity", "asymmetry"},
                                       {"saturation", "asymmetry"},
                                       {"asymmetry", "sensor_nonlinearity"},
-                                      {"saturation", "sensor_nonlinearity"}}) {
+                                      {"saturation", "sensor_nonlinearity"},
+                                      {"asymmetry", "saturation"},
+                                      {"sensor_nonlinearity", "saturation"}}) {
     EXPECT_FALSE(judged(before, after, left, curve, stands).admitted) << curve;
     EXPECT_TRUE(judged(before, after, left, curve, "creep").admitted) << curve;
     EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, curve, stands).admitted) << curve << " beyond a tenth";

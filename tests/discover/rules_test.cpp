@@ -8,7 +8,7 @@
 #include "discover/own_resonances.h"
 #include "engine/program.h"
 #include "tests/discover/discoveries.h"
-#include "tests/discover/synthetic.h"
+#include "tests/discover/two_axes.h"
 
 namespace hysteron {
 namespace {
@@ -17,21 +17,6 @@ using namespace testing;
 using std::numbers::pi;
 
 class Rules : public Discoveries {};
-
-std::vector<double> plus(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
-  return a;
-}
-
-/// A lag tau y' = u - y of a signal that moves linearly between rows, exactly.
-std::vector<double> lagged(const std::vector<double>& t, const std::vector<double>& u, double tau) {
-  std::vector<double> y{u.front()};
-  for (std::size_t k = 1; k < u.size(); ++k) {
-    const double h = t[k] - t[k - 1], slope = (u[k] - u[k - 1]) / h;
-    y.push_back(u[k] - slope * tau + (y.back() - u[k - 1] + slope * tau) * std::exp(-h / tau));
-  }
-  return y;
-}
 
 /// u -> gain 1 m/V -> sensor with a gain and a zero of its own -> y, exact.
 Diagram gain_and_sensor() {
@@ -43,44 +28,6 @@ Diagram gain_and_sensor() {
   sensor.in = {{"", "stage"}};
   d.outputs["y"] = "sensor";
   return d;
-}
-
-struct Motion {
-  Role role;
-  std::vector<double> t, u;
-};
-
-std::vector<Motion> motions() {
-  std::vector<Motion> list;
-  for (const auto& [role, hertz] : {std::pair{Role::train, std::vector<double>{1.1, 3.7}},
-                                    {Role::train, {0.6, 7.3}},
-                                    {Role::validate, {1.7, 5.2}}}) {
-    const auto t = rows(800, 0.005);
-    list.push_back({role, t, several_sines(t, 1, hertz)});
-  }
-  return list;
-}
-
-/// One data set of both axes; y and y2 from u and u2 by `first` and `second`.
-using Law = std::function<std::vector<double>(const std::vector<double>& t, const std::vector<double>& u)>;
-DataSet of_two_axes(double white, const Law& first, const Law& second) {
-  std::vector<Recording> list;
-  std::uint64_t seed = 900;
-  for (auto& m : motions()) {
-    const auto other = several_sines(m.t, 0.8, {0.9 + 0.01 * static_cast<double>(seed - 900), 4.4});
-    list.push_back(recording(std::to_string(seed) + ".csv", m.role, m.t, m.u,
-                             plus(first(m.t, m.u), noise(m.t.size(), white, 0.1 * white, seed))));
-    list.back().columns["u2"] = other;
-    list.back().units["u2"] = parse_unit("V");
-    list.back().columns["y2"] = plus(second(m.t, other), noise(m.t.size(), white, 0.1 * white, seed + 50));
-    list.back().units["y2"] = parse_unit("m");
-    ++seed;
-  }
-  DataSet data = data_set(std::move(list), white);
-  data.notes["u2"].to = "u2";
-  data.notes["y2"].to = "y2";
-  data.notes["y2"].noise = data.notes["y"].noise;
-  return data;
 }
 
 // --- calibration -----------------------------------------------------------------------------------------------------
@@ -155,142 +102,6 @@ TEST_F(Rules, AModeAtTheModelsOwnResonanceIsNoFurtherOne) {
   at.own_resonances = own;
   EXPECT_NE(mode.implausible(law, near, at).find("the model's own resonance"), std::string::npos);
   EXPECT_EQ(mode.implausible(law, far, at), "");
-}
-
-// --- axes ------------------------------------------------------------------------------------------------------------
-
-TEST_F(Rules, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
-  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const Diagram diagram = two_plain_axes();
-  const DataSet data = of_two_axes(1e-3, same, same);
-  const DiscoverOptions options;
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
-  const Effect& clamp = effects.get("saturation");
-  const auto places = places_of(clamp, diagram, registry, &data);
-  const auto on = [&](const std::string& wire) {
-    return *std::find_if(places.begin(), places.end(), [&](const Place& p) { return p.wire == wire; });
-  };
-  const auto at = circumstances_at(diagram, registry, data, on("u2"), {});
-  const Contender model =
-      with_effect(books.shop, books.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
-  ASSERT_TRUE(model.ok) << model.error;
-  EXPECT_TRUE(standing_before(books, model, clamp, on("u2")));
-  EXPECT_FALSE(standing_before(books, model, clamp, on("u")));
-  EXPECT_FALSE(standing_before(books, model, effects.get("asymmetry"), on("u2")));
-}
-
-TEST_F(Rules, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
-  const auto same = [](const std::vector<double>&, const std::vector<double>& u) { return u; };
-  const DataSet data = of_two_axes(1e-3, same, same);
-  const DiscoverOptions options;
-  const Diagram diagram = two_plain_axes();
-  Books books(diagram, data, registry, effects, options);
-  std::vector<Tried> tried(3);
-  tried[0].effect = effects.find("dead_time");
-  tried[1].effect = effects.find("rate_dependence");
-  tried[2].effect = effects.find("amplifier_lag");
-  int winner = 0;
-  std::vector<int> ties{1, 2};
-  as_on_another_axis(books, tried, winner, ties);
-  EXPECT_EQ(winner, 0) << "nothing stands";
-  books.current.standing.emplace_back().effect = effects.find("amplifier_lag");
-  as_on_another_axis(books, tried, winner, ties);
-  EXPECT_EQ(winner, 2);
-  EXPECT_EQ(ties, (std::vector<int>{1, 0}));
-  books.current.standing.emplace_back().effect = effects.find("rate_dependence");
-  as_on_another_axis(books, tried, winner, ties);
-  EXPECT_EQ(winner, 2) << "it stands itself";
-}
-
-/// Two axes of which the first has a lag and a curve behind it, which stand in the present model already.
-struct FirstAxisIsKnown {
-  FirstAxisIsKnown(const Registry& registry, const Effects& effects, Law second)
-      : data(of_two_axes(1e-3, late_and_bent(4e-3, 0.05), std::move(second))),
-        books(diagram, data, registry, effects, options) {
-    fit_base(books);
-    for (const char* id : {"amplifier_lag", "asymmetry"}) {
-      const Effect& e = effects.get(id);
-      for (const auto& place : places_of(e, books.current.diagram, registry, &data)) {
-        if (outputs_moved(books, books.current, place.wire) != std::vector<std::string>{"y"}) continue;
-        const auto at = circumstances_on(books, books.current, {place}).front();
-        books.current = with_effect(books.shop, books.current, e, e.laws(at).front(), place, at, Effort::full);
-        break;
-      }
-    }
-    books.settle(books.current);
-  }
-  static Law late_and_bent(double tau, double bend) {
-    return [=](const std::vector<double>& t, const std::vector<double>& u) {
-      auto y = lagged(t, u, tau);
-      for (double& v : y) v += bend * v * v;
-      return y;
-    };
-  }
-  Diagram diagram = two_plain_axes();
-  DiscoverOptions options;
-  DataSet data;
-  Books books;
-};
-
-TEST_F(Rules, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
-  FirstAxisIsKnown both(registry, effects, FirstAxisIsKnown::late_and_bent(3e-3, 0.04));
-  ASSERT_EQ(both.books.current.standing.size(), 2u);
-  EXPECT_TRUE(as_a_set_on_another_output(both.books, 0));
-  EXPECT_EQ(both.books.current.standing.size(), 4u);
-  EXPECT_LT(both.books.current.error_of.over_floor(), 1.2) << "chi2 of 1600 rows is known to 4 %";
-  ASSERT_EQ(both.books.d.steps.size(), 2u);
-  EXPECT_EQ(both.books.d.steps[0].winner.effect, "amplifier_lag");
-  EXPECT_EQ(both.books.d.steps[1].winner.effect, "asymmetry");
-  EXPECT_FALSE(as_a_set_on_another_output(both.books, 0)) << "nothing is missing any more";
-  // Where one of them does nothing, or both, they are no set.
-  for (const auto& [tau, bend] : {std::pair{3e-3, 0.0}, {0.0, 0.04}, {0.0, 0.0}}) {
-    const Law law = tau > 0 ? FirstAxisIsKnown::late_and_bent(tau, bend) : [bend = bend](const auto&, const auto& u) {
-      auto y = u;
-      for (double& v : y) v += bend * v * v;
-      return y;
-    };
-    FirstAxisIsKnown one(registry, effects, law);
-    EXPECT_FALSE(as_a_set_on_another_output(one.books, 0)) << tau << " " << bend;
-    EXPECT_EQ(one.books.current.standing.size(), 2u);
-  }
-}
-
-TEST_F(Rules, TheFrequencyOfAKnownLineStaysWhenOneOfTheOtherAxisComes) {
-  // What a known line does beside being steady is left out, about its frequency: a line near by would cost nothing.
-  constexpr double hertz = 59.95;
-  constexpr double white = 1e-3;
-  std::vector<Recording> list;
-  std::uint64_t seed = 710;  // noise by which it would move
-  for (const auto& [role, n] : {std::pair{Role::train, 1600}, {Role::train, 2000}, {Role::validate, 1800}}) {
-    const auto t = rows(n, 0.0045);
-    const auto line = [&, of = static_cast<double>(seed)](double part) {
-      return sampled(t, [=](double x) { return part * white * std::cos(2 * pi * hertz * x + of); });
-    };
-    const auto u = several_sines(t, 1, {0.4, 0.9});
-    Recording r = recording(std::to_string(seed) + ".csv", role, t, u,
-                            plus(plus(u, line(0.4)), noise(t.size(), white, 0.6 * white, seed)));
-    r.columns["u2"] = u;
-    r.units["u2"] = parse_unit("V");
-    r.columns["y2"] = plus(plus(u, line(0.4)), noise(t.size(), white, 0.6 * white, seed + 50));
-    r.units["y2"] = parse_unit("m");
-    list.push_back(std::move(r));
-    ++seed;
-  }
-  DataSet data = data_set(std::move(list), white);
-  data.notes["u2"].to = "u2";
-  data.notes["y2"].to = "y2";
-  data.notes["y2"].noise = data.notes["y"].noise;
-  const Discovery d = discovered(two_plain_axes(), data, {"mains_interference", "saturation", "slew_limit"});
-  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
-  for (const auto& s : d.steps) {
-    EXPECT_EQ(s.winner.effect, "mains_interference") << tried(d);
-    for (const auto& f : s.winner.found) {
-      if (!f.estimate.path.ends_with(".frequency")) continue;
-      EXPECT_NEAR(f.estimate.used, hertz, 0.01) << f.estimate.path;
-    }
-    EXPECT_GT(s.winner.fall_validate, 50) << tried(d);
-  }
 }
 
 // --- lines, curves and pasts
@@ -383,38 +194,6 @@ TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
   EXPECT_GT(d.base.over_floor(), 1.12) << "the noise is not slow enough to be taken for structure";
   EXPECT_TRUE(d.steps.empty()) << tried(d);
   EXPECT_EQ(to_text(d.verdict), "adequate") << d.headline;
-}
-
-// --- axes ------------------------------------------------------------------------------------------------------------
-
-TEST_F(Rules, EachAxisHasALagOfItsOwnAndNoneHasTwo) {
-  const auto lag = [](double tau) { return [tau](const auto& t, const auto& u) { return lagged(t, u, tau); }; };
-  const Discovery d =
-      discovered(two_plain_axes(), of_two_axes(1e-3, lag(8e-3), lag(3e-3)), {"amplifier_lag", "sensor_lag"});
-  ASSERT_EQ(d.steps.size(), 2U) << tried(d);
-  const auto is_second = [](const Candidate& c) { return c.place.ends_with("2"); };
-  EXPECT_NE(is_second(d.steps[0].winner), is_second(d.steps[1].winner)) << tried(d);
-  for (const auto& c : d.candidates)
-    if (c.step == 2) {
-      EXPECT_NE(is_second(c), is_second(d.steps[0].winner)) << "tried again at " << c.place;
-    }
-}
-
-TEST_F(Rules, WhatAnotherAxisLeavesIsNoReproachToTheEffectOfThisOne) {
-  // The second axis wanders by a tenth of its stroke, which nothing in the list explains: ten times what the lag does.
-  const Law wanders = [](const auto& t, const auto& u) {
-    std::vector<double> y = u;
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.1 * std::sin(2 * pi * 0.3 * t[k] * t[k] / t.back());
-    return y;
-  };
-  const Law lag = [](const auto& t, const auto& u) { return lagged(t, u, 1e-3); };
-  const Discovery d = discovered(two_plain_axes(), of_two_axes(1e-3, lag, wanders), {"amplifier_lag"});
-  const auto at_first = std::find_if(d.candidates.begin(), d.candidates.end(),
-                                     [](const Candidate& c) { return !c.place.ends_with("2"); });
-  ASSERT_NE(at_first, d.candidates.end()) << tried(d);
-  // All but noise of its own axis; of both together it is less than a tenth.
-  EXPECT_GT(at_first->share_removed, 0.9) << tried(d);
-  EXPECT_LT(at_first->share_removed, 1.1) << tried(d);
 }
 
 // --- look-alikes -----------------------------------------------------------------------------------------------------
