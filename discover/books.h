@@ -236,6 +236,9 @@ bool may_leave(const Books& books, const Standing& member, const Tried& other);
 /// A law was chosen while others were missing. Each member is tried by its other laws beside the rest; the first that
 /// brings something on recordings not used for the fit is taken, and the set told anew. False: all are as they were.
 bool refine_what_stands(Books& books, double bar);
+/// A tie of a step was told while others were missing. Where the question is open in all steps, and only noise is left,
+/// a rival that does not explain the recordings as well beside what came later is none any more.
+void ties_beside_what_came_later(Books& books, double bar);
 /// What is left of that where time has ended: a law that could hold another effect besides its own is slow, and beside
 /// what came later that other one, alone, may be all of it.
 void exchange_for_what_they_hold(Books& books, double bar);

@@ -255,6 +255,8 @@ void search(Books& books) {
   const bool rest = !books.evidence->noise_known() || more_than_noise(books);
   if (!books.smooth && rest && unless_it_fails(books, [&] { return refine_what_stands(books, 0.96); }))
     one_by_one(books, first);
+  if (!books.smooth && !books.stopped())
+    unless_it_fails(books, [&] { return ties_beside_what_came_later(books, 0.96), true; });
 }
 
 }  // namespace

@@ -179,11 +179,16 @@ InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m
 
 bool scores_less(const Tried& a, const Tried& b) { return a.contender.tie_score() < b.contender.tie_score(); }
 
-/// What is as good in place of a member becomes a tie of its step, by name once.
-void tell_ties(Books& books, const Contender& rest, const Member& member, std::vector<Tried>& as_good) {
-  const auto step = std::find_if(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
+/// The step in which the member is told.
+std::vector<FoundStep>::iterator step_of(Books& books, const Member& member) {
+  return std::find_if(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
     return s.winner.effect == member.effect->id && s.winner.place == member.place.where();
   });
+}
+
+/// What is as good in place of a member becomes a tie of its step, by name once.
+void tell_ties(Books& books, const Contender& rest, const Member& member, std::vector<Tried>& as_good) {
+  const auto step = step_of(books, member);
   if (as_good.empty() || step == books.d.steps.end() || !step->ties.empty()) return;
   auto winner = tried_again(books, books.shop, rest, member);
   if (!winner) return;
@@ -198,11 +203,11 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
 }
 
 /// Effects that the recordings could not tell from this one in its step.
-std::vector<std::string> ties_of_step(const Books& books, const Standing& member) {
+std::vector<std::string> ties_of_step(Books& books, const Member& member) {
   std::vector<std::string> ids;
-  for (const auto& s : books.d.steps)
-    if (s.winner.effect == member.effect->id && s.winner.place == member.place.where())
-      for (const auto& tie : s.ties) ids.push_back(tie.effect);
+  const auto step = step_of(books, member);
+  if (step != books.d.steps.end())
+    for (const auto& tie : step->ties) ids.push_back(tie.effect);
   return ids;
 }
 
@@ -227,7 +232,7 @@ void as_on_later_axes(Books& books, double bar) {
   const auto standing = books.current.standing;
   const auto members = members_of(books.current);
   for (std::size_t i = 0; i < standing.size() && !books.stopped(); ++i) {
-    auto ids = ties_of_step(books, standing[i]);
+    auto ids = ties_of_step(books, members[i]);
     if (stands_on_another_axis(books, standing[i], standing[i].effect->id)) continue;
     std::erase_if(ids, [&](const std::string& id) { return !stands_on_another_axis(books, standing[i], id); });
     if (ids.empty()) continue;
@@ -311,6 +316,53 @@ bool refine_what_stands(Books& books, double bar) {
     }
   }
   return false;
+}
+
+namespace {
+
+/// Does the rival of a step explain the recordings as well as the member beside all the others, by its simplest law or
+/// that by which it was tied?
+bool is_tied_beside(const Books& books, const Contender& rest, const Candidate& rival, double bar) {
+  const Effect& effect = books.effects.get(rival.effect);
+  const auto list = choices_on(
+      books, rest, [&](const Effect& e) { return &e == &effect; },
+      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, rival.law); });
+  std::vector<char> as_good(list.size(), 0);
+  books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+    const auto& [e, law, place, at] = list[i];
+    books.progress(fmt::format("is it {} beside what came later", e->id), bar);
+    Contender c = with_effect(shop, rest, *e, law, place, at, Effort::full);
+    if (c.ok) c = refit(shop, c, Effort::final);
+    if (!c.ok) return false;
+    c.error_of = books.evidence->error(c.prediction);
+    as_good[i] = c.tie_score() - books.current.tie_score() < rules::tie;
+    return false;
+  });
+  return std::find(as_good.begin(), as_good.end(), 1) != as_good.end();
+}
+
+bool leaves_the_question_open(const FoundStep& step) { return !step.ties.empty() && step.experiment_would_tell; }
+
+}  // namespace
+
+void ties_beside_what_came_later(Books& books, double bar) {
+  auto& steps = books.d.steps;
+  if (steps.size() < 2 || books.current.error_of.over_floor() > rules::floor_gate) return;
+  if (!std::all_of(steps.begin(), steps.end(), leaves_the_question_open)) return;
+  const auto members = members_of(books.current);
+  for (std::size_t i = 0; i < members.size() && !books.stopped(); ++i) {
+    const auto step = step_of(books, members[i]);
+    if (step == steps.end()) continue;
+    const auto rest = rest_of(books, books.shop, i);
+    const auto winner = rest ? tried_again(books, books.shop, *rest, members[i]) : std::nullopt;
+    if (!winner) continue;
+    std::erase_if(step->ties, [&](const Candidate& c) { return !is_tied_beside(books, *rest, c, bar); });
+    if (step->ties.empty()) {
+      step->experiment.reset();
+      step->experiment_would_tell = false;
+    }
+    step->sentence = step_sentence(*winner, step->ties, step->before, step->after);
+  }
 }
 
 void exchange_for_what_they_hold(Books& books, double bar) {
