@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -64,11 +66,66 @@ void check_curves(const Document& document, const std::string& folder) {
       }
 }
 
-/// Empty, or written by an earlier run: such a folder may be replaced.
-bool ours(const fs::path& folder) {
-  if (fs::is_empty(folder)) return true;
+/// What an earlier run wrote.
+struct Earlier {
+  std::string verb;
+  std::set<std::string> files;  ///< relative to the folder
+};
+
+/// nullopt where no result of hysteron lies there.
+std::optional<Earlier> earlier_result(const fs::path& folder) {
   const fs::path result = folder / "result.json";
-  return fs::is_regular_file(result) && is_result(read_file(result.string()));
+  if (!fs::is_regular_file(result)) return std::nullopt;
+  const std::string text = read_file(result.string());
+  if (!is_result(text)) return std::nullopt;
+  const auto j = nlohmann::json::parse(text);
+  const auto names = [&](const char* key) {
+    std::vector<std::string> list;
+    if (j.contains(key) && j[key].is_array())
+      for (const auto& name : j[key])
+        if (name.is_string()) list.push_back(name.get<std::string>());
+    return list;
+  };
+  Earlier earlier{j.value("verb", ""), {"result.json", "report.html", "result.schema.json"}};
+  for (const auto& trace : names("traces")) earlier.files.insert("traces/" + trace);
+  for (const auto& file : names("files")) earlier.files.insert(file);
+  return earlier;
+}
+
+/// Files in the folder that no run wrote: notes, or a diagram that was worked on.
+std::vector<fs::path> files_of_others(const fs::path& folder, const Earlier& earlier) {
+  std::vector<fs::path> list;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (const auto name = entry.path().lexically_relative(folder);
+        !entry.is_directory() && !earlier.files.contains(name.generic_string()))
+      list.push_back(name);
+  return list;
+}
+
+/// A folder is replaced by results of the same kind only, and what others put there stays.
+void check_replaceable(const fs::path& target, const std::string& folder, const std::string& verb) {
+  if (fs::is_empty(target)) return;
+  const auto earlier = earlier_result(target);
+  if (!earlier)
+    fail("folder_in_use", folder, "the folder holds other files and no result of hysteron, so it is not replaced",
+         "choose another folder with -o, or empty this one");
+  if (!earlier->verb.empty() && earlier->verb != verb)
+    fail("folder_in_use", folder,
+         fmt::format("the folder holds what \"hysteron {}\" found, so it is not replaced", earlier->verb),
+         "choose another folder with -o, or remove this one");
+}
+
+/// Puts what others left in the folder into the one that takes its place; a name that is taken there is not theirs.
+void keep_files_of_others(const fs::path& target, const fs::path& partial, const std::string& folder) {
+  const auto earlier = earlier_result(target);
+  if (!earlier) return;
+  for (const auto& name : files_of_others(target, *earlier)) {
+    if (fs::exists(partial / name))
+      fail("folder_in_use", folder, fmt::format("\"{}\" would be replaced, which no run has written", name.string()),
+           "choose another folder with -o, or call that file something else");
+    fs::create_directories((partial / name).parent_path());
+    fs::copy(target / name, partial / name, fs::copy_options::copy_symlinks);
+  }
 }
 
 void write_files(const fs::path& folder, const Document& document, const std::string& report_html) {
@@ -142,14 +199,13 @@ void write_result(const std::string& folder, const Document& document, const std
     fs::path target = fs::weakly_canonical(fs::absolute(folder));
     if (!target.has_filename()) target = target.parent_path();  // "out/"
     if (fs::exists(target) && !fs::is_directory(target)) cannot_write(folder, "there is a file of that name");
-    if (fs::exists(target) && !ours(target))
-      fail("folder_in_use", folder, "the folder holds other files and no result of hysteron, so it is not replaced",
-           "choose another folder with -o, or empty this one");
+    if (fs::exists(target)) check_replaceable(target, folder, document.verb);
     fs::create_directories(target.parent_path());
     const Partial partial{fmt::format("{}.partial-{}", target.string(), getpid())};
     fs::remove_all(partial.path);
     fs::create_directory(partial.path);
     write_files(partial.path, document, report_html);
+    if (fs::exists(target)) keep_files_of_others(target, partial.path, folder);
     put_in_place(partial.path, target);
   } catch (const fs::filesystem_error& e) {
     cannot_write(folder, e.code().message());

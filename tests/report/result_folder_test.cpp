@@ -56,11 +56,39 @@ TEST_F(ResultFolder, HoldsResultReportSchemaTracesAndFiles) {
 TEST_F(ResultFolder, IsReplacedWholeByTheNextRun) {
   write_result(out(), example::discovery(), "<!doctype html>");
   Document second;
-  second.verb = "compare";
+  second.verb = "discover";
+  second.title = "again";
   write_result(out() + "/", second, "");
-  EXPECT_EQ(read_result(out()).verb, "compare");
+  EXPECT_EQ(read_result(out()).title, "again");
   EXPECT_FALSE(fs::exists(root_ / "out/traces"));
   EXPECT_FALSE(fs::exists(root_ / "out/step1.json"));
+  EXPECT_EQ(names(), std::vector<std::string>{"out"});
+}
+
+TEST_F(ResultFolder, WhatAnotherVerbFoundIsNotReplaced) {
+  write_result(out(), example::discovery(), "");
+  Document second;
+  second.verb = "compare";
+  EXPECT_EQ(code_of([&] { write_result(out(), second, ""); }), "folder_in_use");
+  EXPECT_EQ(read_result(out()).verb, "discover");
+  EXPECT_TRUE(fs::exists(root_ / "out/step1.json"));
+}
+
+TEST_F(ResultFolder, KeepsWhatOthersPutThere) {
+  write_result(out(), example::discovery(), "");
+  put(root_ / "out/notes.txt", "mind the third step");
+  fs::create_directories(root_ / "out/mine");
+  put(root_ / "out/mine/final.json", "{}");
+  Document second;
+  second.verb = "discover";
+  write_result(out(), second, "");
+  EXPECT_EQ(read_file((root_ / "out/notes.txt").string()), "mind the third step");
+  EXPECT_EQ(read_file((root_ / "out/mine/final.json").string()), "{}");
+  EXPECT_FALSE(fs::exists(root_ / "out/step1.json")) << "of the earlier run";
+  // A name that the next run needs is not taken from them.
+  second.files.emplace_back("notes.txt", "of a run");
+  EXPECT_EQ(code_of([&] { write_result(out(), second, ""); }), "folder_in_use");
+  EXPECT_EQ(read_file((root_ / "out/notes.txt").string()), "mind the third step");
   EXPECT_EQ(names(), std::vector<std::string>{"out"});
 }
 
