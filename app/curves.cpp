@@ -236,7 +236,8 @@ void add_split_figures(Section& section, const DataModel& model, const Compariso
         Bar bar;
         bar.label = part.label;
         bar.value = 100 * part.error;
-        bar.text = fmt::format("{} in {} of the rows, rms {}", percent_text(part.error), percent_text(part.rows),
+        bar.text = fmt::format("{} in {} of the {}, rms {}", percent_text(part.error), percent_text(part.rows),
+                               split.variable == "frequency" ? "spectrum" : "rows",
                                difference_text(part.rms, unit_of_differences(output_unit(model, of_output.output)), 3));
         figure.bars.push_back(std::move(bar));
       }

@@ -33,7 +33,7 @@ struct SplitPart {
   std::string label;  ///< "falling", "0.2 .. 1.4 V", "first cycle" ...
   double error = 0;   ///< share of the squared error; the shares of a split add up to 1
   double rows = 0;    ///< share of the rows
-  double rms = 0;     ///< of the residual in this part [SI]
+  double rms = 0;     ///< of the residual in this part [SI]; of a frequency band what it adds to the whole's
 };
 
 struct Split {

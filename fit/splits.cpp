@@ -29,6 +29,13 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+/// A part that holds hardly more of the error than of the rows says nothing of where it lies.
+constexpr double tells_nothing = 0.05;
+
+std::string share_text(double share) {
+  return share > 0 && share < 0.005 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
   Split s;
   s.variable = d.variable;
@@ -55,9 +62,12 @@ Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
     s.parts.push_back(std::move(part));
     if (s.parts[p].error - s.parts[p].rows > s.parts[top].error - s.parts[top].rows) top = p;
   }
-  if (n > 0)
-    s.sentence = fmt::format("{:.0f} % of the squared error lies {}, which holds {:.0f} % {}", 100 * s.parts[top].error,
-                             d.phrases[top], 100 * s.parts[top].rows, d.counted);
+  if (n == 0) return s;
+  const SplitPart& most = s.parts[top];
+  s.sentence = most.error - most.rows < tells_nothing
+                   ? fmt::format("Split {}, the squared error lies where the rows lie", d.title)
+                   : fmt::format("{:.0f} % of the squared error lies {}, which holds {} {}", 100 * most.error,
+                                 d.phrases[top], share_text(most.rows), d.counted);
   return s;
 }
 
@@ -83,7 +93,7 @@ Draft by_time(const std::vector<SplitInput>& recordings) {
       d.phrases.push_back("in the time " + d.labels.back());
     } else {
       d.labels.push_back(fmt::format("{} fifth", ordinals[k]));
-      d.phrases.push_back(fmt::format("in the {} fifth of each recording", ordinals[k]));
+      d.phrases.push_back(fmt::format("in the {} fifth of the recordings' time, all together", ordinals[k]));
     }
   }
   for (const auto& r : recordings) {
@@ -365,9 +375,10 @@ void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>
   if (moving.error > moving.rows) return;  // it is not in the holds that the error lies
   const std::string growth = growth_of(holds, recordings);
   if (growth.empty()) return;
-  split.sentence =
-      fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {}{}", 100 * (1 - moving.error),
-                  holds.longest, holds.after_step >= holds.after_motion ? "a step" : name + " has stopped", growth);
+  split.sentence = fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {} ({} of the rows){}",
+                               100 * (1 - moving.error), holds.longest,
+                               holds.after_step >= holds.after_motion ? "a step" : name + " has stopped",
+                               share_text(1 - moving.rows), growth);
 }
 
 /// By frequency, in decades: the squares of the cosines of each recording's residual add up to those of its rows. The
@@ -398,7 +409,13 @@ Split by_frequency(const std::vector<SplitInput>& recordings) {
     d.part.push_back(std::move(part));
     spectra[r].residual = &cosines[r];
   }
-  return finish(d, spectra);
+  Split split = finish(d, spectra);
+  // Of a band the rms is what it adds to that of the whole residual.
+  double squares = 0, rows = 0;
+  for (const auto& r : recordings)
+    for (const double e : *r.residual) squares += e * e, rows += 1;
+  for (auto& part : split.parts) part.rms = rows > 0 ? std::sqrt(part.error * squares / rows) : 0;
+  return split;
 }
 
 /// Parts that hold rows.

@@ -96,6 +96,34 @@ Case holds(double (*residual)(double age), double noise) {
   return c;
 }
 
+TEST(Splits, WhatIsSpreadAsTheRowsAreIsNotSaidToLieAnywhere) {
+  Case c;
+  for (int i = 0; i < 400; ++i) {
+    c.t.push_back(0.1 * i);
+    c.u.push_back(i % 40 < 20 ? i % 40 : 40 - i % 40);
+    c.residual.push_back(i % 2 == 0 ? 1 : -1);
+  }
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
+  EXPECT_EQ(split(splits, "branch").sentence, "Split by branch of u, the squared error lies where the rows lie");
+}
+
+TEST(Splits, OfABandTheRmsIsWhatItAddsToTheWhole) {
+  Case c;
+  for (int i = 0; i < 1000; ++i) {
+    c.t.push_back(0.01 * i);
+    c.u.push_back(i % 100);
+    c.residual.push_back(0.3 + 0.4 * std::sin(2 * 3.14159265358979 * 5 * 0.01 * i));
+  }
+  const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
+  double squares = 0, largest = 0;
+  for (const auto& part : split(splits, "frequency").parts) {
+    squares += part.rms * part.rms;
+    largest = std::max(largest, part.rms);
+  }
+  EXPECT_NEAR(squares, 0.09 + 0.08, 1e-6) << "mean square of a constant and a sine of whole periods";
+  EXPECT_LT(largest, 0.31) << "no band holds more than the constant, 0.3, or the sine, 0.28";
+}
+
 std::string said_of_holds(const Case& c) {
   return split(splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V")), "hold_time").sentence;
 }
@@ -103,7 +131,7 @@ std::string said_of_holds(const Case& c) {
 TEST(Splits, WhatGrowsDuringHoldsIsToldApartFromWhatIsThere) {
   const auto creep = [](double age) { return 0.1 * std::log10(1 + age / 0.1); };
   EXPECT_EQ(said_of_holds(holds(creep, 0.02)),
-            "100 % of the squared error lies in the 39.9 s after a step, growing with log time");
+            "100 % of the squared error lies in the 39.9 s after a step (100 % of the rows), growing with log time");
   EXPECT_NE(said_of_holds(holds([](double age) { return 0.01 * age; }, 0.02)).find(", growing with time"),
             std::string::npos);
   // What settles, what stands still and what is noise do not grow.
