@@ -55,6 +55,10 @@ std::vector<Tolerance> read_tolerances(const Arguments& arguments) {
     tolerance.unit = parse_unit(unit, "--tolerance");
     tolerance.is_share = tolerance.unit.dimension.none();
     tolerance.limit = tolerance.unit.difference_to_si(tolerance.limit);
+    if (unit.empty() && tolerance.limit > 1)
+      fail("bad_command_line", "--tolerance",
+           fmt::format("\"{}\" would be {:.0f} % of NRMSE, more than the whole signal", written, 100 * tolerance.limit),
+           fmt::format("write --tolerance={}% for a share, or an RMS with its unit", written));
     list.push_back(tolerance);
   }
   return list;

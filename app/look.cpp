@@ -58,6 +58,9 @@ int look(const std::string& verb, const Arguments& arguments) {
   settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
   const auto begun = std::chrono::steady_clock::now();
   const std::chrono::duration<double> within{arguments.seconds("--within", std::numeric_limits<double>::infinity())};
+  if (!(within.count() > 0))
+    fail("bad_command_line", "--within", fmt::format("\"{}\" leaves no time", arguments.text("--within")),
+         "write a time such as --within=\"2 min\", or leave it out");
   if (is_check && arguments.has("--within"))
     fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
          "leave out --within, or --check");

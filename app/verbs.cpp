@@ -56,7 +56,7 @@ double Arguments::seconds(const std::string& name, double otherwise) const {
   const std::string written = text(name);
   double value = 0;
   std::string unit;
-  const std::string cure = "write a time such as " + name + "=\"5 ms\"";
+  const std::string cure = fmt::format("write a time such as {0}=\"5 ms\" or {0}=\"2 min\"", name);
   if (!split_quantity(written, value, unit) || !std::isfinite(value))
     fail("bad_command_line", name, "\"" + written + "\" is no time", cure);
   if (unit.empty()) return value;

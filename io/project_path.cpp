@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/error.h"
+
 namespace hysteron {
 namespace {
 
@@ -36,7 +38,12 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 
 ProjectPaths::ProjectPaths(const std::string& file, const std::vector<std::string>& allowed) {
   folders_.push_back(project_of(real_path(file).parent_path()).string());
-  for (const auto& folder : allowed) folders_.push_back(real_path(folder).string());
+  for (const auto& folder : allowed) {
+    if (!fs::is_directory(folder))
+      fail("bad_command_line", "--allow", fmt::format("there is no folder \"{}\"", folder),
+           "name a folder that exists");
+    folders_.push_back(real_path(folder).string());
+  }
 }
 
 std::optional<std::string> ProjectPaths::resolve(const std::string& from_file, const std::string& written) const {
