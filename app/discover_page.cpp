@@ -183,6 +183,12 @@ Section next_section(const Discovery& found) {
                                        number_text(found.experiment->separation, 3)));
   for (const auto& names : untold)
     section.text.push_back(fmt::format("No experiment that was simulated sets {} apart.", names));
+  for (const auto& s : found.steps)
+    if (!s.winner.same_effects.empty())
+      section.text.push_back(
+          fmt::format("{} and {} are one finding in these recordings: see what tells them apart at the "
+                      "step above.",
+                      s.winner.effect, fmt::join(s.winner.same_effects, ", ")));
   if (found.structure || found.verdict == Verdict::unexplained)
     section.text.push_back(what_to_record(found.structure ? &*found.structure : nullptr));
   if (section.text.empty()) section.text.emplace_back("No experiment is needed to separate what was found.");

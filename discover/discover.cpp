@@ -269,6 +269,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   for (;;) {
     auto books = std::make_unique<Books>(diagram, as_found(data, with), registry, effects, options);
     books->d.smooth_inputs = with.smooth_inputs;
+    books->d.asked_for = options.only;
     search(*books);
     runs += books->shop.notes->runs();
     if (books->smooth && !books->stopped()) {

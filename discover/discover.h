@@ -110,6 +110,7 @@ struct Discovery {
   bool noise_guessed = false;              ///< no data sheet: taken from the residual
   std::optional<Experiment> experiment;    ///< what to record next
   bool broken_off = false;                 ///< by DiscoverOptions::stop: not everything was tried
+  std::vector<std::string> asked_for;      ///< DiscoverOptions::only
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   Diagram base_diagram, final_diagram;
   ModelError final_error;

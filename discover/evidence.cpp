@@ -17,29 +17,48 @@ namespace {
 
 constexpr double deviations_of_chance = 4;  // once in tens of thousands of recordings
 
+double mean_of(const Rows& rows) {
+  double sum = 0;
+  for (const double v : rows) sum += v;
+  return sum / static_cast<double>(std::max<std::size_t>(rows.size(), 1));
+}
+
 double deviation(const Rows& rows) {
-  double mean = 0;
-  for (const double v : rows) mean += v;
-  mean /= static_cast<double>(std::max<std::size_t>(rows.size(), 1));
+  const double mean = mean_of(rows);
   double sum = 0;
   for (const double v : rows) sum += (v - mean) * (v - mean);
   return rows.empty() ? 0 : std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
+/// Squares of one output about its mean over several recordings, added up one by one (Chan, Golub, LeVeque 1979).
+struct AboutMean {
+  double rows = 0, mean = 0, squares = 0;
+  void add(const RecordingError& e) {
+    const auto n = static_cast<double>(e.rows);
+    const double off = e.mean - mean;
+    squares += n * e.deviation * e.deviation + off * off * rows * n / (rows + n);
+    mean += off * n / (rows + n);
+    rows += n;
+  }
+};
+
 /// Sums over several outputs; squares may be added up only where these are of one dimension, shares always.
 struct Pool {
-  double squares = 0, variance = 0, rows = 0, shares = 0, moving_rows = 0;
+  double squares = 0, rows = 0, shares = 0, moving_rows = 0;
+  std::map<std::string, AboutMean> measured;  ///< by output
   void add(const RecordingError& e) {
     const auto n = static_cast<double>(e.rows);
     squares += n * e.rms * e.rms;
     rows += n;
+    if (e.rows > 0) measured[e.output].add(e);
     if (!(e.deviation > 0)) return;
-    variance += n * e.deviation * e.deviation;
     shares += n * e.nrmse * e.nrmse;
     moving_rows += n;
   }
   double rms() const { return rows > 0 ? std::sqrt(squares / rows) : 0; }
   double nrmse(bool one_dimension) const {
+    double variance = 0;
+    for (const auto& [output, about] : measured) variance += about.squares;
     if (one_dimension) return variance > 0 ? std::sqrt(squares / variance) : 0;
     return moving_rows > 0 ? std::sqrt(shares / moving_rows) : 0;
   }
@@ -182,6 +201,7 @@ RecordingError Evidence::plain_error(const Prediction& with_zeros, int recording
   one.rows = measured.size();
   one.rms = rms(base_, with_zeros, std::span<const int>(&recording, 1), output);
   one.deviation = deviation(measured);
+  one.mean = base_.zero_per_recording(output) ? 0 : mean_of(measured);
   one.nrmse = one.deviation > 0 ? one.rms / one.deviation : 0;
   return one;
 }

@@ -24,6 +24,7 @@ struct RecordingError {
   double step = 0;       ///< [s] between rows
   double rms = 0;        ///< [SI of the output]
   double deviation = 0;  ///< standard deviation of what was measured [SI of the output]
+  double mean = 0;       ///< of what was measured [SI of the output]; 0 where its zero is found anew in each recording
   double nrmse = 0;      ///< rms over that
   double chi2 = 0;       ///< sum of squared whitened residuals, in units of the noise
   double evidence = 0;   ///< what falls are counted in: chi2 where the noise is known (see Evidence)
@@ -35,7 +36,8 @@ struct RecordingError {
 };
 
 /// One model against all recordings. `rms` over several outputs is only given where they are of one dimension (else 0);
-/// `nrmse` there is that of the summed squares, else the root of the mean square of the outputs' own.
+/// `nrmse` there is that of the summed squares, about an output's mean over all recordings as `compare` has it, else
+/// the root of the mean square of the outputs' own.
 struct ModelError {
   bool ok = true;
   std::vector<RecordingError> recordings;    ///< train and validate

@@ -28,6 +28,9 @@ struct Structure {
   double period = 0;     ///< in units of the variable [SI]; 0 = none
   double threshold = 0;  ///< [SI]
   bool has_threshold = false;
+  /// The threshold is passed once in each recording, at about the same time [s] after its start: nobody can tell
+  /// whether it is that level or that time. 0 = no such thing.
+  double passed_once_at = 0;
   Unit unit;                                                                              ///< of the variable
   std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> intervals;  ///< per recording [s]
   /// Of chi2, beyond a free gain and offset.

@@ -168,6 +168,29 @@ std::vector<std::pair<std::size_t, std::size_t>> shaken(const Rows& z) {
   return list;
 }
 
+/// The time [s] after its start at which each recording passes the level, if it does so once and everywhere at about
+/// the same one (to a twentieth of the shortest); 0 = no such thing. Noise about the level is no passing.
+double one_passing(const ResidualParts& parts, std::size_t level, double at) {
+  const double about = 0.02 * parts.levels()[level].span();
+  double first = std::numeric_limits<double>::infinity(), last = 0, shortest = first;
+  for (const auto& p : parts.list()) {
+    shortest = std::min(shortest, p.duration());
+    int side = 0, passings = 0;
+    double when = 0;
+    for (std::size_t k = 0; k < p.t.size(); ++k) {
+      const double off = p.levels[level][k] - at;
+      const int now = off > about ? 1 : off < -about ? -1 : side;
+      if (side != 0 && now != side) ++passings, when = p.t[k] - p.t.front();
+      side = now;
+    }
+    if (passings > 1) return 0;
+    if (passings == 0) continue;
+    first = std::min(first, when);
+    last = std::max(last, when);
+  }
+  return last > 0 && last - first < shortest / 20 ? last : 0;
+}
+
 }  // namespace
 
 std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t level) {
@@ -207,6 +230,7 @@ std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t l
   s.threshold = best;
   s.has_threshold = true;
   s.unit = over.unit;
+  s.passed_once_at = one_passing(parts, level, best);
   s.fall = falls_at(best);
   return s;
 }

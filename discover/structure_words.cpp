@@ -69,6 +69,12 @@ std::string follows(const Structure& s) {
     return fmt::format(
         "It repeats every {} of {}: found on the recordings for fitting, it lies at the same levels in the others.",
         difference_text(s.period, s.unit), s.variable);
+  if (s.kind == "kink_at_level" && s.passed_once_at > 0)
+    return fmt::format(
+        "{} is passed once in each recording, about {:.3g} s after its start: whether it is that level or that time, "
+        "these "
+        "recordings cannot tell.",
+        level_text(s), s.passed_once_at);
   if (s.kind == "kink_at_level")
     return fmt::format(
         "The step and the change of slope at {} were found on the recordings for fitting and hold in the others: they "

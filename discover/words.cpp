@@ -229,7 +229,9 @@ std::string headline_of(const Discovery& d) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < d.steps.size(); ++i) names.push_back(names_of(d.steps, i));
   const std::string fall = error_fall(d.base, d.final_error);
-  const std::string tried = d.broken_off ? " that was tried until the search was broken off" : "";
+  const std::string asked =
+      d.asked_for.empty() ? "" : fmt::format(" of those asked for ({})", fmt::join(d.asked_for, ", "));
+  const std::string tried = asked + (d.broken_off ? " that was tried until the search was broken off" : "");
   switch (d.verdict) {
     case Verdict::adequate:
       return fmt::format(
@@ -264,6 +266,10 @@ void tell_what_is_left(Discovery& d) {
                       ? fmt::format("What is left ({}) is noise.", left_text(d.final_error))
                       : fmt::format("What is left ({}) still has structure: {:.2g} times the noise.",
                                     left_text(d.final_error), std::sqrt(std::max(d.final_error.over_floor(), 0.0))));
+  for (const auto& r : d.refused)
+    if (std::find(d.asked_for.begin(), d.asked_for.end(), r.effect) != d.asked_for.end())
+      say.push_back(
+          fmt::format("{}{} was not tried: {}.", r.effect, r.place.empty() ? "" : " at " + r.place, r.reason));
   if (!d.steps.empty() && d.structure) say.push_back("In what is left " + d.structure->sentence + ".");
   if (d.structure)
     for (auto& sentence : structure_sentences(*d.structure)) say.push_back(std::move(sentence));

@@ -51,6 +51,30 @@ TEST_F(EvidenceOf, WhatIsInFewCosinesStandsOutInItsOctave) {
   EXPECT_LT(without.octave, 4);
 }
 
+TEST(EvidenceOfSeveralRecordings, NrmseIsAboutTheMeanOfAllOfThemAsInCompare) {
+  // 10 mm off everywhere; one recording about half a meter, one about four.
+  std::vector<Recording> list;
+  double n = 0, sum = 0, squares = 0;
+  for (const double level : {0.0, 0.0, 4.0}) {
+    const auto t = rows(500, 0.01);
+    auto u = several_sines(t, 1, {0.4});
+    auto y = u;
+    for (std::size_t k = 0; k < u.size(); ++k) y[k] = (u[k] += level) + 0.01;
+    if (!list.empty())
+      for (const double v : y) n += 1, sum += v, squares += v * v;
+    list.push_back(
+        recording(std::to_string(list.size()) + ".csv", list.empty() ? Role::train : Role::validate, t, u, y));
+  }
+  const Registry registry = all_blocks();
+  DataModel model(compile(plain_gain(), registry), std::make_shared<const DataSet>(data_set(list, white, 0)));
+  const Evidence evidence(model);
+  const ModelError e = evidence.error(model.predict({}, evidence.recordings()));
+  const double deviation = std::sqrt(squares / n - (sum / n) * (sum / n));
+  EXPECT_NEAR(e.nrmse_validate, 0.01 / deviation, 1e-9);
+  EXPECT_NEAR(by_output(e, Role::validate).front().nrmse, 0.01 / deviation, 1e-9);
+  EXPECT_NEAR(e.recordings.back().nrmse, 0.01 / (std::sqrt(1.0 / 8)), 1e-4) << "of one alone about its own";
+}
+
 /// u -> 1 m/V -> y and u -> 1 m/(s V) -> s, which read 3 and 4 % more, without noise; one recording for each role.
 class TwoUnits : public ::testing::Test {
  protected:

@@ -4,6 +4,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/evidence.h"
+#include "discover/words.h"
 #include "engine/program.h"
 #include "tests/discover/synthetic.h"
 
@@ -94,6 +95,29 @@ TEST_F(Structures, AStepAtALevelOfTheDriveIsAKinkThere) {
   EXPECT_EQ(s->kind, "kink_at_level");
   ASSERT_TRUE(s->has_threshold);
   EXPECT_NEAR(s->threshold, 0.437, 0.01);  // u passes it in steps of up to 0.02
+}
+
+TEST_F(Structures, ALevelThatIsPassedOnceAtOneTimeMayBeThatTime) {
+  for (const bool alike : {true, false}) {
+    std::vector<Recording> list;
+    for (const Role role : {Role::train, Role::validate}) {
+      const auto t = rows(1000, 0.01);
+      // A ramp; one that begins higher passes the level earlier.
+      const double from = alike || role == Role::train ? 0 : 0.2;
+      const auto u = sampled(t, [from](double x) { return from + 0.08 * x; });
+      auto y = noise(t.size(), 1e-3, 0, 70 + list.size());
+      for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + (u[k] > 0.4 ? 0.01 : 0);
+      list.push_back(recording(std::to_string(list.size()) + ".csv", role, t, u, y));
+    }
+    data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
+    DataModel model(compile(plain_gain(), registry), data_);
+    const Evidence evidence(model);
+    const auto found = find_structure(evidence, model.predict({}, evidence.recordings()));
+    ASSERT_TRUE(found.has_value());
+    ASSERT_EQ(found->kind, "kink_at_level") << found->sentence;
+    EXPECT_NEAR(found->passed_once_at, alike ? 5 : 0, 0.3);
+    EXPECT_EQ(structure_sentences(*found).front().find("recordings cannot tell") != std::string::npos, alike);
+  }
 }
 
 TEST_F(Structures, AStepAtALevelOfTheDriveIsNotOneOfTheOutputThatLagsBehindIt) {

@@ -51,6 +51,26 @@ std::string all_of(const std::vector<std::string>& sentences) {
   return text;
 }
 
+TEST(Words, OfEffectsThatWereNotAskedForNothingIsSaid) {
+  Discovery d;
+  d.verdict = Verdict::unexplained;
+  d.refused.push_back({"mains_interference", "sensor", "no recording is sampled above 120 Hz"});
+  d.refused.push_back({"creep", "stage", "no hold"});
+  put_into_words(d, DataSet{});
+  EXPECT_NE(d.headline.find("no known effect takes it away"), std::string::npos) << d.headline;
+  EXPECT_EQ(all_of(d.sentences).find("was not tried"), std::string::npos);
+  d.asked_for = {"mains_interference"};
+  d.sentences.clear();
+  put_into_words(d, DataSet{});
+  EXPECT_NE(d.headline.find("no known effect of those asked for (mains_interference) takes it away"), std::string::npos)
+      << d.headline;
+  EXPECT_NE(
+      all_of(d.sentences).find("mains_interference at sensor was not tried: no recording is sampled above 120 Hz."),
+      std::string::npos)
+      << all_of(d.sentences);
+  EXPECT_EQ(all_of(d.sentences).find("creep"), std::string::npos);
+}
+
 TEST(Words, WhatWouldTellTwoPlacesApartIsSaidWithTheFinding) {
   const Effects effects = all_effects();
   Tried t;
