@@ -27,8 +27,12 @@ const OutputError* find(const std::vector<OutputError>& judged, const std::strin
   return found == judged.end() ? nullptr : &*found;
 }
 
-/// What the lines are, and what it means to be below them.
-std::string floor_text(const Floor& floor, const Unit& unit, double reached) {
+/// How far below what the device repeats to an error is no chance: of some hundred rows rms is known to some per cent.
+constexpr double clearly_below = 0.9;
+
+/// What the lines are, and what it means to be below them. `begun`, `reached`: errors of the base and of the last
+/// model.
+std::string floor_text(const Floor& floor, const Unit& unit, double begun, double reached) {
   const std::string noise = floor.noise > 0 ? fmt::format("noise of the sensor, {} rms ({})",
                                                           difference_text(floor.noise, unit), floor.noise_from)
                                             : "";
@@ -36,7 +40,7 @@ std::string floor_text(const Floor& floor, const Unit& unit, double reached) {
     return noise.empty() ? "" : fmt::format("Nothing was recorded twice, so the floor is the {}.", noise);
   std::string text = fmt::format("The floor is what the device itself repeats to: {}, {} rms.", floor.repeats,
                                  difference_text(floor.repeatability, unit));
-  if (reached < floor.repeatability)
+  if (reached < clearly_below * floor.repeatability && begun > floor.repeatability)
     text += " The model lies below it: it tells why the takes differ (creep, drift, the start).";
   if (!noise.empty()) text += fmt::format(" Judged against the {}.", noise);
   return text;
@@ -71,7 +75,9 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
   };
   line("repeatability", floor.repeatability);
   if (!(floor.repeatability > 0) || reached < floor.repeatability) line("noise of the sensor", floor.noise);
-  figure.caption = floor_text(floor, unit, reached);
+  const auto at_first = by_output(found.base, Role::validate);
+  const OutputError* first = find(at_first, name);
+  figure.caption = floor_text(floor, unit, first == nullptr ? 0 : first->rms, reached);
   return figure;
 }
 

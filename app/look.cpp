@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -13,6 +14,7 @@
 #include "app/load.h"
 #include "app/progress.h"
 #include "app/publish.h"
+#include "discover/add.h"
 #include "discover/check.h"
 #include "engine/error.h"
 
@@ -28,14 +30,34 @@ std::vector<std::string> wanted_effects(const Arguments& arguments, const Effect
 /// What --json prints: the answer; all its numbers stand in result.json.
 Facts short_answer(const Document& document, const Discovery& found, const Check* answer, const std::string& folder) {
   std::vector<std::string> effects;
-  for (const auto& step : found.steps) effects.push_back(step.winner.effect);
+  Facts::List ties;
+  for (const auto& step : found.steps) {
+    effects.push_back(step.winner.effect);
+    std::vector<std::string> as_good = step.winner.same_effects;
+    for (const auto& tie : step.ties) as_good.push_back(tie.effect);
+    ties.push_back(as_good);
+  }
   Facts facts = Facts::object({{"verdict", document.verdict},
                                {"headline", document.headline},
                                {"effects", effects},
+                               {"ties", ties},
                                {"warnings", document.warnings},
                                {"result", folder + "/result.json"}});
   if (answer != nullptr) facts.set("check", check_facts(*answer));
   return facts;
+}
+
+/// Numbers of an effect that stands in the diagram are the user's, found or guessed.
+void tell_held_effects(const Diagram& diagram, const std::vector<std::string>& free,
+                       std::vector<std::string>& warnings) {
+  for (const auto& [name, effect] : effects_in(diagram)) {
+    const std::string& path = name;
+    if (std::any_of(free.begin(), free.end(), [&](const std::string& f) { return f.starts_with(path); })) continue;
+    warnings.push_back(
+        fmt::format("{} stands in the diagram ({}) and is held as it is written there. If its numbers were not fitted "
+                    "yet, run \"hysteron fit\" first, or name them with --free {}",
+                    effect, path, path));
+  }
 }
 
 }  // namespace
@@ -78,6 +100,7 @@ int look(const std::string& verb, const Arguments& arguments) {
                                  : diagnose(diagram, data, registry(), effects, settings);
     }
   });
+  if (!is_check) tell_held_effects(diagram, settings.free_paths, found.warnings);
   progress.clear();
   data = as_found(std::move(data), found);
   const bool stopped = interrupted();

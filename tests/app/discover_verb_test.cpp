@@ -90,6 +90,25 @@ TEST_F(DiscoverVerb, DiscoverCheckHoldsWhatIsFreeAndSaysItToPrograms) {
   EXPECT_TRUE(folder_.has("out/result.json"));
 }
 
+TEST_F(DiscoverVerb, DiscoverSaysWhoElseItMayBeToProgramsAndWhichEffectsItHeld) {
+  record(3, 0.02);
+  const Outcome added = hysteron(folder_.path(), {"add", "creep", "diagram.json", "-o", "with_creep.json"});
+  ASSERT_EQ(added.code, 0) << added.err;
+  const std::vector<std::string> words{
+      "discover", "with_creep.json", "--data", "dataset.json", "--only", "amplifier_lag",
+      "--only",   "dead_time",       "--json", "-o",           "out"};
+  const Outcome out = hysteron(folder_.path(), words);
+  ASSERT_EQ(out.code, 0) << out.err;
+  const json answer = json::parse(out.out);
+  ASSERT_EQ(answer["ties"].size(), answer["effects"].size()) << out.out;
+  std::set<std::string> held;
+  for (const auto& w : answer["warnings"])
+    if (const auto text = w.get<std::string>(); text.find("creep stands in the diagram") != std::string::npos)
+      held.insert(text);
+  EXPECT_EQ(held.size(), 1U) << out.out;
+  EXPECT_NE(held.begin()->find("--free"), std::string::npos);
+}
+
 TEST_F(DiscoverVerb, DiscoverHoldsTheErrorAgainstWhatTheDeviceRepeatsTo) {
   record(5, 0.02);
   const json all = looked_for_a_lag();
