@@ -211,7 +211,7 @@ void add_residual_figures(Section& section, const Beside& view, const std::vecto
         by_rate.add(branch[i], rate_unit(u_unit).from_si(rate[i]), e);
       }
     }
-    const std::string rows = stride == 1 ? "Every row judged." : fmt::format("Every {}th row judged.", stride);
+    const std::string rows = stride == 1 ? "Every row judged." : fmt::format("One of {} rows judged.", stride);
     Figure level =
         figure_of(name + ": residual against level and branch", axis_text(u_name, u_unit), axis_text("residual", unit));
     level.caption = rows + " A lens that opens between rising and falling is memory; one single curve is a static law.";

@@ -24,11 +24,12 @@ constexpr char help[] =
     "--check holds every parameter of the model (only a sensor's zero per recording, where the data set says so, is\n"
     "found anew) and judges as above. Where the recordings are not explained it says what is new: \"parameters\" "
     "where\n"
-    "other values of the free ones would do, else the effects; \"check\" in result.json has explained, named.\n"
+    "other values of the free ones would do, else the effects; \"facts\", \"check\" in result.json has explained, "
+    "named.\n"
     "Recordings that all have one role are cut in time: 60 % for fitting what is new, the rest to judge it.\n\n"
     "Writes into the folder: result.json (every decision with its numbers), traces/*.csv, report.html, and the\n"
-    "diagram of each step (step1_creep.json ... final.json), and pictures of it: base.svg,\n"
-    "final.svg.\n"
+    "diagram of each step (step1_creep.json ... final.json), and pictures of it: base.svg and, where something was\n"
+    "found, final.svg. An earlier result of discover in that folder is replaced; what else lies there stays.\n"
     "Ctrl-C, or the time given by --within, ends with the steps found so far.\n"
     "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";
@@ -39,7 +40,7 @@ int discover(const Arguments& arguments) { return look("discover", arguments); }
 
 Verb discover_verb() {
   auto list = look_options();
-  list.push_back({"--steps", "N", "add at most so many effects (default 3)", false, false});
+  list.push_back({"--steps", "N", "add at most so many effects, 1 .. 20 (default 3)", false, false});
   list.push_back({"--check", "",
                   "do the recordings still follow the model as it stands? Exit code 1 if not, and the name", false,
                   false});

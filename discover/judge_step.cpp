@@ -335,8 +335,14 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   if (!(tried.fall_validate > rules::claim_fall) &&
       (above_noise || !left_by_laws.empty() || !all_agree(tried, before))) {
     tried.reason =
-        fmt::format("on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
-                    tried.fall_validate, rules::claim_fall);
+        tried.fall_validate < -rules::claim_fall
+            ? fmt::format(
+                  "on recordings not used for the fit it adds {:.0f} to chi2: what it says of those that were "
+                  "fitted does not hold there",
+                  -tried.fall_validate)
+            : fmt::format(
+                  "on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
+                  tried.fall_validate, rules::claim_fall);
     return;
   }
   if (!is_worth_its_numbers(tried, before, left_by_laws.empty())) {
