@@ -51,8 +51,9 @@ Facts short_answer(const Document& document, const Discovery& found, const Check
 void tell_held_effects(const Diagram& diagram, const std::vector<std::string>& free,
                        std::vector<std::string>& warnings) {
   for (const auto& [name, effect] : effects_in(diagram)) {
-    const std::string& path = name;
-    if (std::any_of(free.begin(), free.end(), [&](const std::string& f) { return f.starts_with(path); })) continue;
+    const std::string path = name;
+    const auto is_of_it = [&](const std::string& f) { return f == path || f.starts_with(path + "."); };
+    if (std::any_of(free.begin(), free.end(), is_of_it)) continue;
     warnings.push_back(
         fmt::format("{} stands in the diagram ({}) and is held as it is written there. If its numbers were not fitted "
                     "yet, run \"hysteron fit\" first, or name them with --free {}",

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "discover/books.h"
+#include "discover/members.h"
 #include "discover/structures.h"
 
 namespace hysteron {
@@ -71,6 +71,11 @@ std::optional<Structure> winner_in_all(const Books& books) {
   return wins(books, *s, Where::all_recordings) ? s : std::nullopt;
 }
 
+/// Other recordings show more of it than chance, and it holds a good part of what is left.
+bool stands_out(const Structure& s) {
+  return s.fall.validate > rules::claim_fall && s.share_removed > rules::structure_share;
+}
+
 /// What the user's model leaves on recordings that judge.
 struct Left {
   bool more_than_noise = false;
@@ -81,8 +86,7 @@ struct Left {
   /// lifts it too, and where all that is left is slow, as much 1/f noise as would explain it is read off it: more than
   /// sensors have is none.
   bool is_unexplained() const {
-    return more_than_noise &&
-           ((told() && structure->share_removed > rules::structure_share) || most > rules::slow_noise);
+    return more_than_noise && ((structure && stands_out(*structure)) || most > rules::slow_noise);
   }
 };
 
@@ -176,13 +180,11 @@ void conclude(Books& books) {
     books.d.verdict = left.is_unexplained() ? Verdict::unexplained : Verdict::adequate;
     if (left.is_unexplained() && left.told()) books.d.structure = left.structure;
   } else {
-    const bool certain = std::any_of(books.d.steps.begin(), books.d.steps.end(),
-                                     [](const FoundStep& s) { return s.ties.empty() || !s.experiment_would_tell; });
-    books.d.verdict = certain ? Verdict::missing_effect : Verdict::not_distinguishable;
+    const bool open = std::all_of(books.d.steps.begin(), books.d.steps.end(), leaves_the_question_open);
+    books.d.verdict = open ? Verdict::not_distinguishable : Verdict::missing_effect;
     if (floor > rules::floor_gate && !books.stopped()) {
       auto rest = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
-      if (rest && rest->share_removed > rules::structure_share && rest->fall.validate > rules::claim_fall)
-        books.d.structure = rest;
+      if (rest && stands_out(*rest)) books.d.structure = rest;
     }
   }
   books.d.remainder =

@@ -24,6 +24,9 @@ std::vector<Member> members_of(const Contender& contender);
 /// back.
 enum class Line { of_a_curve, held };
 
+/// Something else explains the step as well, and an experiment would tell.
+inline bool leaves_the_question_open(const FoundStep& step) { return !step.ties.empty() && step.experiment_would_tell; }
+
 /// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
 /// one; nullopt if it cannot be had.
 std::optional<Tried> tried_again(const Books& books, const Workshop& shop, const Contender& model, const Member& m,

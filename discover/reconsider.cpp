@@ -133,9 +133,12 @@ std::vector<Tried> fitted_in_place(
 /// Does this effect stand on another axis than the member?
 bool stands_on_another_axis(const Books& books, const Standing& member, const std::string& id) {
   const auto own = measured_moved(books, books.current, member.place.wire);
+  const auto is_own = [&](int output) { return std::find(own.begin(), own.end(), output) != own.end(); };
   const auto& standing = books.current.standing;
   return std::any_of(standing.begin(), standing.end(), [&](const Standing& s) {
-    return s.effect->id == id && measured_moved(books, books.current, s.place.wire) != own;
+    if (s.effect->id != id) return false;
+    const auto moved = measured_moved(books, books.current, s.place.wire);
+    return std::none_of(moved.begin(), moved.end(), is_own);
   });
 }
 
@@ -335,13 +338,11 @@ bool is_tied_beside(const Books& books, const Contender& rest, const Candidate& 
     if (c.ok) c = refit(shop, c, Effort::final);
     if (!c.ok) return false;
     c.error_of = books.evidence->error(c.prediction);
-    as_good[i] = c.tie_score() - books.current.tie_score() < rules::tie;
+    as_good[i] = c.tie_score() - books.current.tie_score() < rules::tie && why_implausible(*e, law, c, at).empty();
     return false;
   });
   return std::find(as_good.begin(), as_good.end(), 1) != as_good.end();
 }
-
-bool leaves_the_question_open(const FoundStep& step) { return !step.ties.empty() && step.experiment_would_tell; }
 
 }  // namespace
 

@@ -86,7 +86,8 @@ std::optional<Earlier> earlier_result(const fs::path& folder) {
         if (name.is_string()) list.push_back(name.get<std::string>());
     return list;
   };
-  Earlier earlier{j.value("verb", ""), {"result.json", "report.html", "result.schema.json"}};
+  const bool has_verb = j.contains("verb") && j["verb"].is_string();
+  Earlier earlier{has_verb ? j["verb"].get<std::string>() : "", {"result.json", "report.html", "result.schema.json"}};
   for (const auto& trace : names("traces")) earlier.files.insert("traces/" + trace);
   for (const auto& file : names("files")) earlier.files.insert(file);
   return earlier;
@@ -97,15 +98,16 @@ std::vector<fs::path> files_of_others(const fs::path& folder, const Earlier& ear
   std::vector<fs::path> list;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (const auto name = entry.path().lexically_relative(folder);
-        !entry.is_directory() && !earlier.files.contains(name.generic_string()))
+        !fs::is_directory(entry.symlink_status()) && !earlier.files.contains(name.generic_string()))
       list.push_back(name);
   return list;
 }
 
-/// A folder is replaced by results of the same kind only, and what others put there stays.
-void check_replaceable(const fs::path& target, const std::string& folder, const std::string& verb) {
-  if (fs::is_empty(target)) return;
-  const auto earlier = earlier_result(target);
+/// A folder is replaced by results of the same kind only, and what others put there stays: what an earlier run wrote.
+/// Throws Error "folder_in_use".
+Earlier replaceable(const fs::path& target, const std::string& folder, const std::string& verb) {
+  if (!fs::exists(target) || fs::is_empty(target)) return {};
+  auto earlier = earlier_result(target);
   if (!earlier)
     fail("folder_in_use", folder, "the folder holds other files and no result of hysteron, so it is not replaced",
          "choose another folder with -o, or empty this one");
@@ -113,13 +115,14 @@ void check_replaceable(const fs::path& target, const std::string& folder, const 
     fail("folder_in_use", folder,
          fmt::format("the folder holds what \"hysteron {}\" found, so it is not replaced", earlier->verb),
          "choose another folder with -o, or remove this one");
+  return std::move(*earlier);
 }
 
 /// Puts what others left in the folder into the one that takes its place; a name that is taken there is not theirs.
-void keep_files_of_others(const fs::path& target, const fs::path& partial, const std::string& folder) {
-  const auto earlier = earlier_result(target);
-  if (!earlier) return;
-  for (const auto& name : files_of_others(target, *earlier)) {
+void keep_files_of_others(const fs::path& target, const Earlier& earlier, const fs::path& partial,
+                          const std::string& folder) {
+  if (!fs::exists(target)) return;
+  for (const auto& name : files_of_others(target, earlier)) {
     if (fs::exists(partial / name))
       fail("folder_in_use", folder, fmt::format("\"{}\" would be replaced, which no run has written", name.string()),
            "choose another folder with -o, or call that file something else");
@@ -199,13 +202,13 @@ void write_result(const std::string& folder, const Document& document, const std
     fs::path target = fs::weakly_canonical(fs::absolute(folder));
     if (!target.has_filename()) target = target.parent_path();  // "out/"
     if (fs::exists(target) && !fs::is_directory(target)) cannot_write(folder, "there is a file of that name");
-    if (fs::exists(target)) check_replaceable(target, folder, document.verb);
+    const Earlier earlier = replaceable(target, folder, document.verb);
     fs::create_directories(target.parent_path());
     const Partial partial{fmt::format("{}.partial-{}", target.string(), getpid())};
     fs::remove_all(partial.path);
     fs::create_directory(partial.path);
     write_files(partial.path, document, report_html);
-    if (fs::exists(target)) keep_files_of_others(target, partial.path, folder);
+    keep_files_of_others(target, earlier, partial.path, folder);
     put_in_place(partial.path, target);
   } catch (const fs::filesystem_error& e) {
     cannot_write(folder, e.code().message());

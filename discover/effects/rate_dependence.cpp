@@ -8,7 +8,8 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double least_ahead = -0.5;
+constexpr double least_ahead =
+    -0.5;  // of the input; below 0 it is late itself, and a lag that must be looked for there
 
 /// The operators come late, or how far they are behind the input (ahead = 1); richer: wide loops later than small ones,
 /// and only a share.

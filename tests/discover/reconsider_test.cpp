@@ -89,6 +89,17 @@ class Sets : public ::testing::Test {
     take(books, 2, lags.front(), {});
     return books.d.steps.size() == 2;
   }
+  /// The books of a search for a curve, its loops and a lag in a plain gain, before anything was tried.
+  struct Search {
+    Search(const Sets& of, const DataSet& data) : books(user, data, of.registry, of.effects, options) {}
+    const DiscoverOptions options = [] {
+      DiscoverOptions o;
+      o.only = {"hysteresis", "asymmetry", "amplifier_lag"};
+      return o;
+    }();
+    const Diagram user = plain_gain();
+    Books books;
+  };
   static std::set<std::string> names(const Discovery& d) {
     std::set<std::string> list;
     for (const auto& s : d.steps) list.insert(s.winner.effect);
@@ -159,10 +170,8 @@ TEST_F(Sets, WhoCouldHoldAnotherEffectBesideItsOwnMayHaveStoodForThatOneAlone) {
     for (auto& v : u) v += 0.05 * v * (1 - v);
     return behind_a_lag(u, 0.6);
   });
-  DiscoverOptions options;
-  options.only = {"hysteresis", "asymmetry", "amplifier_lag"};
-  const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
+  Search search(*this, data);
+  Books& books = search.books;
   ASSERT_TRUE(begins_with_mixed_loops(books));
   ASSERT_TRUE(goes_on_with_the_lag(books));
   reconsider(books, 0);
@@ -183,10 +192,8 @@ bool has_law(const Books& books, const std::string& name) {
 
 TEST_F(Sets, WhatComesInAnothersPlaceIsRefinedAsAnyCandidateIs) {
   const DataSet data = seen_through(curved_and_late);
-  DiscoverOptions options;
-  options.only = {"hysteresis", "asymmetry", "amplifier_lag"};
-  const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
+  Search search(*this, data);
+  Books& books = search.books;
   ASSERT_TRUE(begins_with_mixed_loops(books));
   ASSERT_TRUE(goes_on_with_the_lag(books));
   reconsider(books, 0);

@@ -79,11 +79,13 @@ TEST_F(ResultFolder, KeepsWhatOthersPutThere) {
   put(root_ / "out/notes.txt", "mind the third step");
   fs::create_directories(root_ / "out/mine");
   put(root_ / "out/mine/final.json", "{}");
+  fs::create_directory_symlink(root_, root_ / "out/link");
   Document second;
   second.verb = "discover";
   write_result(out(), second, "");
   EXPECT_EQ(read_file((root_ / "out/notes.txt").string()), "mind the third step");
   EXPECT_EQ(read_file((root_ / "out/mine/final.json").string()), "{}");
+  EXPECT_TRUE(fs::is_symlink(root_ / "out/link"));
   EXPECT_FALSE(fs::exists(root_ / "out/step1.json")) << "of the earlier run";
   // A name that the next run needs is not taken from them.
   second.files.emplace_back("notes.txt", "of a run");
