@@ -172,19 +172,34 @@ std::vector<std::vector<double>> Fitting::grid(const std::vector<std::vector<dou
   return points;
 }
 
+/// Where the best value of one depends on another (two limits of a drive before a stage that still rings), one sweep
+/// ends beside the valley: all are tried again from where the others are by now. Less than half is nothing between
+/// values as far apart.
 void Fitting::scan_one_by_one(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points) {
-  auto base = projection_->start();
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  constexpr int sweeps = 3;
+  constexpr double much_better = 0.5;
+  PointPointer base = points.empty() ? nullptr : points.front();
+  auto z = projection_->start();
+  std::size_t settled = 0;  // so many in a row are best beside the others as they are
+  for (std::size_t k = 0; k < sweeps * values.size() && settled < values.size(); ++k) {
+    const std::size_t axis = k % values.size();
     std::vector<std::vector<double>> wanted;
-    for (const double v : values[k]) {
-      wanted.push_back(base);
-      wanted.back()[k] = v;
+    for (const double v : values[axis]) {
+      if (k >= values.size() && v == z[axis]) continue;
+      wanted.push_back(z);
+      wanted.back()[axis] = v;
     }
     std::vector<PointPointer> line;
     try_points(wanted, line);
-    points.insert(points.end(), line.begin(), line.end());
     const auto best = std::min_element(line.begin(), line.end(), [](auto& a, auto& b) { return a->chi2 < b->chi2; });
-    if (best != line.end()) base = (*best)->z;
+    const bool first = k < values.size();
+    const bool moves = best != line.end() && (first || base == nullptr || (*best)->chi2 < much_better * base->chi2);
+    // Where a value moves no row, those that were tried first stand for all.
+    if (first || moves) points.insert(points.end(), line.begin(), line.end());
+    settled = moves && (*best)->z != z ? 1 : settled + 1;
+    if (!moves) continue;
+    base = *best;
+    z = base->z;
   }
 }
 
