@@ -37,6 +37,15 @@ struct Prediction {
   std::vector<std::vector<std::vector<Rows>>> initial{};
 };
 
+/// How the way to a row is cut: into parts of one length, or, where `per_octave` is not 0, into so many to each
+/// doubling of the time since the row before, the first as fine as if all were of one length.
+struct RowCut {
+  int into = 1;
+  int per_octave = 0;
+  int parts() const;
+};
+using Cuts = std::vector<std::vector<RowCut>>;  ///< [recording][instant]; empty: not cut
+
 struct DataModelOptions {
   Threads threads{};                 ///< recordings side by side; the numbers do not depend on it
   int max_substeps = 64;             ///< per row, in the mean, where rows have to be split at all
@@ -45,6 +54,8 @@ struct DataModelOptions {
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
   bool bdf_otherwise = true;         ///< where max_substeps do not suffice; else the finest rows are taken as they are
+  /// Cuts of a model of the same recordings with which a choice of substeps begins: what it holds is in this one, too.
+  std::shared_ptr<const Cuts> begin_with{};
 };
 
 /// A program bound to a data set. Holds everything that stays the same from trial to trial: series, instants, plans.
@@ -107,6 +118,7 @@ class DataModel {
                                            bool only_finer = false);
   int substeps(int recording) const;  ///< of the row that is cut into most
   long steps(int recording) const;    ///< of one simulation: the substeps of all its rows
+  Cuts cuts() const;                  ///< that were chosen
 
   /// Largest difference between the exact advance and BDF on these recordings, per output, over its span. Once per fit.
   std::vector<double> cross_check(std::span<const ParameterValue> values, std::span<const int> recordings);

@@ -21,7 +21,7 @@ struct BoundRecording {
   std::vector<Rows> measured;                ///< [output][judged row]
   Rows times;
   Advance::Instants rows;          ///< the instants, as the advance knows them again, and what they are cut into
-  std::vector<int> pieces;         ///< per instant: into how many parts the way to it is cut; empty: nothing is
+  std::vector<RowCut> pieces;      ///< per instant: how the way to it is cut; empty: nothing is
   std::vector<std::size_t> place;  ///< per instant: index into rows; empty: they are the instants
   int substeps = 1;                ///< of each of the rows
   double points_per_instant = 1;   ///< a run also passes the samples of inputs between the instants
@@ -30,9 +30,9 @@ struct BoundRecording {
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
   std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
 
-  void cut(std::vector<int> into);
-  /// Substeps on the way to each instant.
-  std::vector<int> substeps_of_rows() const;
+  void cut(std::vector<RowCut> into);
+  /// What `pieces` would be without `substeps`: each part of a row cut into so many.
+  std::vector<RowCut> all_pieces() const;
   /// Of what was computed in every row: the values at the instants.
   void keep_instants(std::vector<std::vector<double>>& computed) const;
 };
@@ -78,6 +78,9 @@ struct DataModel::Content {
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
   std::vector<Rows> rows_of(const BoundRecording& b, const std::vector<std::vector<double>>& values) const;
   SubstepsFound choose_substeps(int r, std::span<const ParameterValue> values, std::span<const double> tolerance);
+  std::vector<RowCut> cuts_to_begin_with(int r) const;
+  void grade(int r, std::span<const ParameterValue> values, const std::vector<Rows>& fine,
+             std::span<const double> tolerance);
   std::vector<Rows> one(int r, std::span<const ParameterValue> values, int substeps, bool cvode);
   std::vector<Rows> finer_until_finite(int r, std::span<const ParameterValue> values);
   void predict_one(int r, std::span<const ParameterValue> values, bool with_initial, Prediction& prediction,

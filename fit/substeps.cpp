@@ -31,6 +31,28 @@ constexpr double patience = 1.5;
 constexpr int to_see = 64;
 constexpr std::size_t looked_at = 6;  // rows of an output at first
 
+/// Rows cut into so many parts are worth an attempt with fewer that grow.
+constexpr int least_graded = 32;
+
+std::vector<RowCut> uncut(const BoundRecording& b) { return std::vector<RowCut>(b.instants.size()); }
+
+double parts_of(const std::vector<RowCut>& rows) {
+  return std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const RowCut& r) { return sum + r.parts(); });
+}
+
+/// Ends of the parts of a way of length 1, but the last one.
+std::vector<double> ends_of_parts(const RowCut& row) {
+  std::vector<double> ends;
+  const int first = row.per_octave > 0 ? std::min(row.per_octave, row.into) : row.into;
+  for (int k = 1; k <= std::min(first, row.into - 1); ++k) ends.push_back(static_cast<double>(k) / row.into);
+  for (int octave = first; octave < row.into; octave *= 2)
+    for (int k = 1; k <= first; ++k) {
+      const double end = octave * (1 + static_cast<double>(k) / first) / row.into;
+      if (end < 1 - 1e-9) ends.push_back(end);
+    }
+  return ends;
+}
+
 bool is_finite(const std::vector<Rows>& rows) { return !rows.empty(); }
 
 /// The largest difference, in tolerances.
@@ -63,15 +85,16 @@ std::vector<bool> where_made(const BoundRecording& b, const std::vector<Rows>& c
 }
 
 /// The pieces of each row, twice as many where the error is made; empty where that is nowhere in particular.
-std::vector<int> with_more_pieces(const BoundRecording& b, const std::vector<bool>& made) {
-  auto into = b.pieces.empty() ? std::vector<int>(b.instants.size(), 1) : b.pieces;
+std::vector<RowCut> with_more_pieces(const BoundRecording& b, const std::vector<bool>& made) {
+  auto rows = b.pieces.empty() ? uncut(b) : b.pieces;
   std::size_t more = 0;
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    if (!made[i] || into[i] * b.substeps >= most_pieces) continue;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!made[i] || rows[i].into * b.substeps >= most_pieces) continue;
     ++more;
-    into[i] *= 2;
+    rows[i].into *= 2;
+    rows[i].per_octave *= 2;
   }
-  return more > 0 && 2 * more < into.size() ? into : std::vector<int>{};
+  return more > 0 && 2 * more < rows.size() ? rows : std::vector<RowCut>{};
 }
 
 /// Instants where an output bends most, and the two behind each, of those that are not all cut finely yet: a step of
@@ -80,7 +103,7 @@ std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows
   std::vector<bool> bends(b.instants.size(), false);
   for (std::size_t o = 0; o < rows.size(); ++o) {
     const Rows& y = rows[o];
-    const auto is_coarse = [&](std::size_t i) { return b.pieces.empty() || b.pieces[b.at[o][i]] < to_see; };
+    const auto is_coarse = [&](std::size_t i) { return b.pieces.empty() || b.pieces[b.at[o][i]].into < to_see; };
     std::vector<std::pair<double, std::size_t>> bend;
     for (std::size_t i = 1; i + 2 < y.size(); ++i)
       if (is_coarse(i + 1)) bend.emplace_back(std::abs(y[i + 1] - 2 * y[i] + y[i - 1]), i);
@@ -93,11 +116,12 @@ std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows
 }
 
 /// The pieces of each row, enough to see where it is chosen, as far as rows are cut at all.
-std::vector<int> cut_there(const BoundRecording& b, const std::vector<bool>& chosen) {
-  auto into = b.pieces.empty() ? std::vector<int>(b.instants.size(), 1) : b.pieces;
-  for (std::size_t i = 0; i < into.size(); ++i)
-    if (chosen[i]) into[i] = std::max(into[i], std::min(to_see, most_pieces / b.substeps));
-  return into;
+std::vector<RowCut> cut_there(const BoundRecording& b, const std::vector<bool>& chosen) {
+  auto rows = b.pieces.empty() ? uncut(b) : b.pieces;
+  const int finely = std::min(to_see, most_pieces / b.substeps);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (chosen[i] && rows[i].into < finely) rows[i] = {finely, 0};
+  return rows;
 }
 
 /// Where a model leaves much more than the noise, rows that are exact to the noise only cost time.
@@ -120,8 +144,12 @@ std::vector<double> no_finer_than(double share, const BoundRecording& b, const s
 
 }  // namespace
 
-/// The way to instant i in into[i] parts of one length; nothing is cut where it is empty.
-void BoundRecording::cut(std::vector<int> into) {
+int RowCut::parts() const {
+  return per_octave == 0 || into <= per_octave ? into : static_cast<int>(ends_of_parts(*this).size()) + 1;
+}
+
+/// The way to instant i as into[i] says; nothing is cut where it is empty.
+void BoundRecording::cut(std::vector<RowCut> into) {
   pieces = std::move(into);
   place.clear();
   if (pieces.empty()) {
@@ -129,19 +157,23 @@ void BoundRecording::cut(std::vector<int> into) {
     return;
   }
   std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(std::accumulate(pieces.begin(), pieces.end(), 0L)));
+  all.reserve(static_cast<std::size_t>(parts_of(pieces)));
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const double before = i == 0 ? instants[0] : instants[i - 1], way = instants[i] - before;
-    for (int k = 1; k < pieces[i] && i > 0; ++k) all.push_back(before + way * k / pieces[i]);
+    if (i > 0 && pieces[i].into > 1)
+      for (const double end : ends_of_parts(pieces[i])) all.push_back(before + way * end);
     place.push_back(all.size());
     all.push_back(instants[i]);
   }
   rows = std::make_shared<const std::vector<double>>(std::move(all));
 }
 
-std::vector<int> BoundRecording::substeps_of_rows() const {
-  std::vector<int> all(instants.size(), substeps);
-  for (std::size_t i = 0; i < pieces.size(); ++i) all[i] *= pieces[i];
+std::vector<RowCut> BoundRecording::all_pieces() const {
+  auto all = pieces.empty() ? uncut(*this) : pieces;
+  for (auto& row : all) {
+    row.into *= substeps;
+    row.per_octave *= substeps;
+  }
   return all;
 }
 
@@ -150,6 +182,31 @@ void BoundRecording::keep_instants(std::vector<std::vector<double>>& computed) c
   for (auto& of_signal : computed) {
     for (std::size_t i = 0; i < place.size(); ++i) of_signal[i] = of_signal[place[i]];
     of_signal.resize(place.size());
+  }
+}
+
+/// A quick lag in a slow recording has come to its end soon after each row: parts that grow with the time since then
+/// show it with a tenth of their number. Taken where they show the same as `fine`, which parts of one length made.
+void DataModel::Content::grade(int r, std::span<const ParameterValue> values, const std::vector<Rows>& fine,
+                               std::span<const double> tolerance) {
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const auto pieces = b.pieces, all = b.all_pieces();
+  const int substeps = b.substeps;
+  for (const int per_octave : {2, 4}) {
+    auto graded = all;
+    for (auto& row : graded)
+      if (row.per_octave == 0 && row.into >= least_graded) row.per_octave = per_octave;
+    if (2 * parts_of(graded) > parts_of(all)) return;
+    b.cut(graded);
+    b.substeps = 1;
+    std::vector<Rows> seen;
+    try {
+      seen = one(r, values, 1, false);
+    } catch (const std::exception&) {  // it runs away: not fine enough
+    }
+    if (worst_of(fine, seen, tolerance) <= 1) return;
+    b.cut(pieces);
+    b.substeps = substeps;
   }
 }
 
@@ -190,6 +247,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
         continue;
       }
       b.cut(pieces);
+      grade(r, values, fine, tolerance);
       found.suffice = found.simulated = true;
       return found;
     }
@@ -197,7 +255,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     if (worst < 0.7 * worst_before) when_it_helped = static_cast<double>(b.rows->size());
     worst_before = worst;
     // Where cutting some rows does not help, the error comes from elsewhere.
-    if (into.empty() || std::accumulate(into.begin(), into.end(), 0.0) > patience * when_it_helped) {
+    if (into.empty() || parts_of(into) > patience * when_it_helped) {
       b.substeps *= 2;
       coarse = std::move(fine);
       when_it_helped = static_cast<double>(b.rows->size());
@@ -208,6 +266,12 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
   }
   found.simulated = is_finite(coarse);
   return found;
+}
+
+std::vector<RowCut> DataModel::Content::cuts_to_begin_with(int r) const {
+  if (!options.begin_with || static_cast<std::size_t>(r) >= options.begin_with->size()) return {};
+  const auto& known = (*options.begin_with)[static_cast<std::size_t>(r)];
+  return known.size() == bound[static_cast<std::size_t>(r)].instants.size() ? known : std::vector<RowCut>{};
 }
 
 std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
@@ -229,7 +293,7 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
     if (!only_finer || !b.simulated) {
-      b.cut({});
+      b.cut(c.cuts_to_begin_with(r));
       b.substeps = 1;
     }
     const auto found = c.choose_substeps(r, values, tolerance);
@@ -258,8 +322,16 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
 }
 
 int DataModel::substeps(int recording) const {
-  const auto all = content_->bound[static_cast<std::size_t>(recording)].substeps_of_rows();
-  return *std::max_element(all.begin(), all.end());
+  int most = 1;
+  for (const auto& row : content_->bound[static_cast<std::size_t>(recording)].all_pieces())
+    most = std::max(most, row.into);
+  return most;
+}
+
+Cuts DataModel::cuts() const {
+  Cuts all;
+  for (const auto& b : content_->bound) all.push_back(b.all_pieces());
+  return all;
 }
 
 long DataModel::steps(int recording) const {
