@@ -101,6 +101,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;
   c.fit.estimates = before.fit.estimates;
+  c.cuts = before.cuts;
   try {
     c.change = add_effect(before.diagram, *shop.registry, effect, law, place);
   } catch (const Error& e) {
@@ -140,6 +141,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   c.change = contender.change;
   c.zero_held = contender.zero_held;
   c.fit.estimates = contender.fit.estimates;  // of what is held
+  c.cuts = contender.cuts;
   return guarded(shop, std::move(c), effort, -1, 0);
 }
 

@@ -2,6 +2,7 @@
 // recordings. Does not choose between models. Internal to discover.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ struct Contender {
   Added change;  ///< of the last effect
   ProgramPointer program;
   FitResult fit;
+  /// Of the rows of the last fit that saw these outputs: what stands needs them beside whatever is added.
+  std::map<std::vector<std::string>, std::shared_ptr<const Cuts>> cuts;
   std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
   Prediction prediction;                      ///< train and validate recordings
   ModelError error_of;                        ///< filled in by whoever holds the evidence

@@ -111,6 +111,8 @@ struct LawParameter {
   std::vector<std::pair<double, double>> line_bands{};
   /// Its value is another one in each recording and found on that recording alone, validation included; linear.
   bool per_recording = false;
+  /// It changes places with others of the law that are: where two have one value, no slope leads a search apart again.
+  bool interchangeable = false;
   double plausible_lower = -std::numeric_limits<double>::infinity();  ///< outside: possible, but said to be unusual
   double plausible_upper = std::numeric_limits<double>::infinity();
 };

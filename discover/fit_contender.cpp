@@ -20,6 +20,9 @@ namespace {
 /// The frequency of a known line, while the others are fitted, or by itself.
 enum class KnownLines { held, tuned };
 
+/// Whether a fit to the end says how sure its values are. Profiles take ten times as long as the fit.
+enum class Intervals { told, not_yet };
+
 /// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
 /// was found at: another one near by would cost nothing.
 bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, const LawParameter& p) {
@@ -104,6 +107,17 @@ void predict(Contender& c, DataModel& model, const Trial& values) {
   c.error = c.prediction.error;
 }
 
+DataModel model_of(const Workshop& shop, const Contender& c, const ProgramPointer& program, Effort effort) {
+  DataModelOptions options = accuracy(shop, effort);
+  if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
+  return {program, shop.data, options};
+}
+
+/// Not those of the last fit, which is finer than a search needs.
+void keep_cuts(Contender& c, const DataModel& model, Effort effort) {
+  if (effort != Effort::final) c.cuts[model.program().output_names] = std::make_shared<const Cuts>(model.cuts());
+}
+
 /// What is fitted, and what is seen of it.
 std::string name_of_fit(const Program& program, const std::vector<FreeParameter>& free,
                         const std::vector<std::string>& outputs) {
@@ -118,17 +132,18 @@ std::string name_of_fit(const Program& program, const std::vector<FreeParameter>
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
 double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-                  const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held) {
+                  const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held,
+                  Intervals intervals = Intervals::told) {
   c.program = compile(c.diagram, *shop.registry);
   const bool some = outputs.size() < c.program->output_names.size();
   const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
-  DataModel model(seen, shop.data, accuracy(shop, effort));
+  DataModel model = model_of(shop, c, seen, effort);
   auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines);
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
     if (!c.prediction.y.empty()) return 0;  // another part was fitted, and told all outputs
-    DataModel whole(c.program, shop.data, accuracy(shop, effort));
+    DataModel whole = model_of(shop, c, c.program, effort);
     predict(c, whole, fixed);
     return 0;
   }
@@ -138,7 +153,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), fixed, free);
   if (effort == Effort::screen) spend_less(c, steps, free, options);
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
-  options.intervals = effort == Effort::final;
+  options.intervals = effort == Effort::final && intervals == Intervals::told;
   options.profile_steps = fit_steps;
   if (effort != Effort::final) options.search_again_steps = effort == Effort::full ? fit_steps : screening_steps;
   options.scores = false;
@@ -162,12 +177,14 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   Trial all = c.fit.values;
   all.insert(all.end(), fixed.begin(), fixed.end());
   if (some) {
-    DataModel whole(c.program, shop.data, accuracy(shop, effort));
+    DataModel whole = model_of(shop, c, c.program, effort);
     whole.choose_substeps(all, noise_of(shop, whole).white());
     predict(c, whole, all);
+    keep_cuts(c, whole, effort);
   } else {
     predict(c, model, all);
   }
+  keep_cuts(c, model, effort);
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
   // What was held this time keeps what was said of it last time.
   for (auto& e : before.estimates)
@@ -189,6 +206,23 @@ bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<
   return searched > 4 || (effort != Effort::final && searched * linear > 12);
 }
 
+/// One effect after the other, the newest first: it has no values yet. The answer: whether any of them is slow.
+bool sweep_through(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+                   const std::vector<std::string>& outputs, Intervals intervals) {
+  bool slow = false;
+  for (std::size_t k = 0; k < c.standing.size(); ++k) {
+    const std::size_t i = c.standing.size() - 1 - k;
+    if (!chosen[i]) continue;
+    std::vector<bool> one(c.standing.size(), false);
+    one[i] = true;
+    const double steps = fit_chosen(shop, c, effort, static_cast<int>(i) == fresh ? fresh : -1, one, outputs,
+                                    KnownLines::held, intervals);
+    if (!c.ok) return false;
+    slow = slow || steps > 0;
+  }
+  return slow;
+}
+
 /// The chosen effects of one part, together or in turn.
 void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
               const std::vector<std::string>& outputs) {
@@ -199,21 +233,14 @@ void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, cons
   double last = std::numeric_limits<double>::infinity();
   int sweeps = 6;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::size_t k = 0; k < c.standing.size(); ++k) {
-      // The newest first: it has no values yet.
-      const std::size_t i = c.standing.size() - 1 - k;
-      if (!chosen[i]) continue;
-      std::vector<bool> one(c.standing.size(), false);
-      one[i] = true;
-      const double steps =
-          fit_chosen(shop, c, effort, sweep == 0 && static_cast<int>(i) == fresh ? fresh : -1, one, outputs);
-      if (!c.ok) return;
-      if (steps > 0) sweeps = 2;  // a slow model is searched from coarse to fine anyway
-    }
+    const bool slow = sweep_through(shop, c, effort, sweep == 0 ? fresh : -1, chosen, outputs, Intervals::not_yet);
+    if (!c.ok) return;
+    if (slow) sweeps = 2;  // a slow model is searched from coarse to fine anyway
     const double now = c.fit.chi2;
-    if (last - now < 1) return;
+    if (last - now < 1) break;
     last = now;
   }
+  if (effort == Effort::final) sweep_through(shop, c, effort, -1, chosen, outputs, Intervals::told);
 }
 
 /// Known lines once more by themselves: beside an effect that came later their frequency may be another one by a
@@ -239,6 +266,23 @@ bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) 
 
 }  // namespace
 
+namespace {
+
+/// Two poles that a fit left at one time are at a saddle where something else is found beside them: they begin apart.
+void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
+  constexpr double alike = 0.02, apart = 1.5;
+  if (law.free.size() != free.size()) return;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    for (std::size_t k = i + 1; k < free.size(); ++k) {
+      if (!law.free[i].interchangeable || !law.free[k].interchangeable) continue;
+      if (std::abs(free[i].start - free[k].start) > alike * std::abs(free[i].start)) continue;
+      free[i].start = std::min(free[i].start * apart, free[i].upper);
+      free[k].start = std::max(free[k].start / apart, free[k].lower);
+    }
+}
+
+}  // namespace
+
 std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
                                        const std::vector<int>& recordings) {
   std::vector<FreeParameter> list;
@@ -258,6 +302,7 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
     else
       list.push_back(std::move(f));
   }
+  if (!is_new) part_those_alike(standing.law, list);
   return list;
 }
 

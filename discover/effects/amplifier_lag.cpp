@@ -35,6 +35,7 @@ std::vector<Law> lag_laws(const Circumstances& at) {
   give(two.block, "times", with_unit({at.shortest_step, at.shortest_step / 10}, parse_unit("s")));
   two.free = {time_constant(at, 0), time_constant(at, 1)};
   two.free[1].start = at.shortest_step / 10;
+  for (auto& tau : two.free) tau.interchangeable = true;
   return {one, two};
 }
 
