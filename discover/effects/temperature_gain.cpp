@@ -59,6 +59,16 @@ Law law(const Circumstances& at, bool bent) {
   return law;
 }
 
+/// The temperature at which the gain is the model's lies at the end of where anybody may have worked.
+bool is_right_nowhere(const Law& law, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < law.free.size(); ++i) {
+    const LawParameter& p = law.free[i];
+    const double near = 1e-3 * (p.upper - p.lower);
+    if (p.path == "reference") return values[i] < p.lower + near || values[i] > p.upper - near;
+  }
+  return false;
+}
+
 }  // namespace
 
 double usual_room(double temperature) { return std::clamp(temperature, 293.15, 298.15); }
@@ -102,6 +112,11 @@ Effect temperature_gain() {
     return laws;
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances& at) -> std::string {
+    if (is_right_nowhere(law, values))
+      return fmt::format(
+          "the gain of the model would be right {:g} K beyond all that was recorded, the limit: that is a "
+          "wrong gain",
+          work_place);
     if (law.free.back().path != "curvature" || !at.from_data) return "";
     const double middle = 0.5 * (at.side_lowest + at.side_highest);
     const double reference = law.free[1].path == "reference" ? values[1] : middle;

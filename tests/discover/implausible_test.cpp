@@ -42,5 +42,15 @@ TEST_F(Implausible, AModeThatIsNotSeenToRingIsNone) {
             std::string::npos);
 }
 
+TEST_F(Implausible, AGainThatIsTheModelsFarFromAllThatWasRecordedIsAWrongGain) {
+  at.from_data = true;
+  at.side_lowest = 295;
+  at.side_highest = 340;
+  EXPECT_EQ(why("temperature_gain", {1e-4, 300}), "");
+  EXPECT_EQ(why("temperature_gain", {1e-4, 350}), "") << "10 K beyond: another season";
+  EXPECT_NE(why("temperature_gain", {1e-4, 355}).find("right 15 K beyond"), std::string::npos);
+  EXPECT_NE(why("temperature_gain", {1e-4, 280}).find("wrong gain"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hysteron
