@@ -220,6 +220,11 @@ bool on_axes_together(Books& books, const std::vector<Tried>& first);
 /// there is none, or only a calibration that the laws could be themselves, all is as before and the answer false.
 bool with_the_zero_held(Books& books, const std::function<bool()>& one_more);
 
+/// A calibration that was claimed beside another law may be no more than the zero of the curve that came in that law's
+/// place. Leaves it to the curve, where that explains as much, and asks for `one_more` effect in its stead: one that
+/// explains more than the calibration did; else all is as before and the answer false.
+bool with_the_zero_of_a_curve(Books& books, const std::function<bool()>& one_more);
+
 /// The fitted candidate becomes the present model, told as a step.
 void take(Books& books, int step, Tried& w, FoundStep found);
 /// How the members of a set were found: each in a step of its own, or together.

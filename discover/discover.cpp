@@ -215,6 +215,13 @@ void a_wrong_zero(Books& books) {
   });
 }
 
+/// Asked where something is left: what a calibration stands for beside a curve of the sensor is that curve's, too.
+bool another_than_the_zero(Books& books) {
+  if (!more_than_noise(books)) return false;
+  return with_the_zero_of_a_curve(
+      books, [&] { return one_step(books, static_cast<int>(books.d.steps.size()) + 1, As::further, nullptr); });
+}
+
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
 void one_by_one(Books& books, std::vector<Tried>& first) {
   std::vector<Tried> last;
@@ -246,6 +253,8 @@ void search(Books& books) {
   fit_base(books);
   std::vector<Tried> first;
   one_by_one(books, first);
+  const auto zero = [&] { return unless_it_fails(books, [&] { return another_than_the_zero(books); }); };
+  if (!books.smooth && zero()) one_by_one(books, first);
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
   if (!books.smooth && unless_it_fails(books, [&] { return another_beginning(books, first); }))
     one_by_one(books, first);
@@ -255,6 +264,7 @@ void search(Books& books) {
   const bool rest = !books.evidence->noise_known() || more_than_noise(books);
   if (!books.smooth && rest && unless_it_fails(books, [&] { return refine_what_stands(books, 0.96); }))
     one_by_one(books, first);
+  if (!books.smooth && zero()) one_by_one(books, first);
   if (!books.smooth && !books.stopped())
     unless_it_fails(books, [&] { return ties_beside_what_came_later(books, 0.96), true; });
 }

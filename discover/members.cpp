@@ -80,12 +80,11 @@ std::optional<Tried> tried_again(const Books& books, const Workshop& shop, const
   return best;
 }
 
-std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::size_t i) {
+std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::size_t i, Line line) {
   const auto members = members_of(books.current);
   Contender rest = books.base;
-  // Without the calibration, gain and zero are the user's again: who else would take them up is not asked here.
-  const bool calibration = calibrates(books.current.standing[i]);
-  rest.zero_held = books.current.zero_held || calibration;
+  const bool calibration = calibrates(books.current.standing[i]) && line == Line::held;
+  rest.zero_held = calibration || (books.current.zero_held && line == Line::held);
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
     auto t = tried_again(books, shop, rest, members[j], calibration ? Line::held : Line::of_a_curve);

@@ -33,7 +33,8 @@ std::optional<Tried> tried_again(const Books& books, const Workshop& shop, const
                                  Line line = Line::of_a_curve);
 
 /// The present set without member `i`, the others from the user's own model on: a law may have found the user's weights
-/// and zeros anew, and these hold only beside it. nullopt if one of the others cannot be had.
-std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::size_t i);
+/// and zeros anew, and these hold only beside it. Without a calibration, gain and zero are the user's again (who else
+/// would take them up is not asked), or a curve's. nullopt if one of the others cannot be had.
+std::optional<Contender> rest_of(const Books& books, const Workshop& shop, std::size_t i, Line line = Line::held);
 
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 
 #include "discover/books.h"
 #include "discover/circumstances.h"
+#include "discover/members.h"
 
 namespace hysteron {
 namespace {
@@ -71,6 +72,17 @@ bool owes_its_zero(const Contender& c) {
   return false;
 }
 
+/// The calibration that stands where another law has a constant of its own; -1 = none.
+int calibration_beside_a_constant(const Contender& c) {
+  int calibration = -1;
+  bool constant = false;
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    if (calibrates(c.standing[i])) calibration = static_cast<int>(i);
+    constant = constant || (c.standing[i].effect->moves_zero && has_own_constant(c.standing[i]));
+  }
+  return constant ? calibration : -1;
+}
+
 }  // namespace
 
 int calibration_first(const std::vector<Tried>& tried, int winner) {
@@ -91,6 +103,18 @@ bool with_the_zero_held(Books& books, const std::function<bool()>& one_more) {
   if (!laws) return false;
   const Found found(books);
   if (tell_again(books, *laws) && one_more() && !owes_its_zero(books.current)) return true;
+  found.restore(books);
+  return false;
+}
+
+bool with_the_zero_of_a_curve(Books& books, const std::function<bool()>& one_more) {
+  const int calibration = calibration_beside_a_constant(books.current);
+  if (calibration < 0 || books.stopped()) return false;
+  const double score = books.current.score();
+  const auto rest = rest_of(books, books.shop, static_cast<std::size_t>(calibration), Line::of_a_curve);
+  if (!rest || !(rest->score() < score + rules::tie)) return false;
+  const Found found(books);
+  if (tell_again(books, *rest) && one_more() && books.current.score() < score - rules::exchange) return true;
   found.restore(books);
   return false;
 }

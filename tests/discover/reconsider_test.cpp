@@ -81,14 +81,16 @@ class Sets : public ::testing::Test {
   static bool begins_with_mixed_loops(Books& books) {
     return begins_with(books, "hysteresis", [](const hysteron::Law& l) { return !l.holds.empty(); });
   }
-  static bool goes_on_with_the_lag(Books& books) {
-    auto lags = list_candidates(books, 2);
-    std::erase_if(lags, [](const Tried& t) { return t.effect->id != "amplifier_lag"; });
-    if (lags.empty()) return false;
-    fit_candidates(books, lags, 2);
-    take(books, 2, lags.front(), {});
-    return books.d.steps.size() == 2;
+  static bool goes_on_with(Books& books, const std::string& effect) {
+    const int step = static_cast<int>(books.d.steps.size()) + 1;
+    auto list = list_candidates(books, step);
+    std::erase_if(list, [&](const Tried& t) { return t.effect->id != effect; });
+    if (list.empty()) return false;
+    fit_candidates(books, list, step);
+    take(books, step, list.front(), {});
+    return static_cast<int>(books.d.steps.size()) == step;
   }
+  static bool goes_on_with_the_lag(Books& books) { return goes_on_with(books, "amplifier_lag"); }
   /// The books of a search for a curve, its loops and a lag in a plain gain, before anything was tried.
   struct Search {
     Search(const Sets& of, const DataSet& data) : books(user, data, of.registry, of.effects, options) {}
@@ -100,6 +102,11 @@ class Sets : public ::testing::Test {
     const Diagram user = plain_gain();
     Books books;
   };
+  static std::vector<std::string> standing(const Books& books) {
+    std::vector<std::string> list;
+    for (const auto& s : books.current.standing) list.push_back(s.effect->id);
+    return list;
+  }
   static std::set<std::string> names(const Discovery& d) {
     std::set<std::string> list;
     for (const auto& s : d.steps) list.insert(s.winner.effect);
@@ -144,6 +151,28 @@ TEST_F(Sets, WhatStoodForGainAndZeroAloneIsACalibration) {
   });
   const Discovery d = found(data, {"hysteresis", "amplifier_lag", "calibration"});
   EXPECT_EQ(names(d), (std::set<std::string>{"amplifier_lag", "calibration"})) << d.headline;
+}
+
+TEST_F(Sets, ACalibrationBesideACurveOfTheSensorMayBeItsZero) {
+  // A curve that has a zero of its own, behind a lag. The calibration was claimed first; the curve can be all of it.
+  const auto data = seen_through([](const std::vector<double>& u) {
+    auto y = behind_a_lag(u, 0.6);
+    for (auto& v : y) v = v + 0.05 * v * v + 0.01;
+    return y;
+  });
+  DiscoverOptions o;
+  o.only = {"calibration", "sensor_nonlinearity", "amplifier_lag"};
+  const Diagram user = plain_gain();
+  Books books(user, data, registry, effects, o);
+  ASSERT_TRUE(begins_with(books, "calibration", [](const hysteron::Law&) { return true; }));
+  ASSERT_TRUE(goes_on_with(books, "sensor_nonlinearity"));
+  const double score = books.current.score();
+  EXPECT_FALSE(with_the_zero_of_a_curve(books, [] { return false; })) << "nothing else is there";
+  EXPECT_EQ(standing(books), (std::vector<std::string>{"calibration", "sensor_nonlinearity"})) << "all is as before";
+  EXPECT_EQ(books.current.score(), score);
+  ASSERT_TRUE(with_the_zero_of_a_curve(books, [&] { return goes_on_with_the_lag(books); }));
+  EXPECT_EQ(standing(books), (std::vector<std::string>{"sensor_nonlinearity", "amplifier_lag"}));
+  EXPECT_LT(books.current.error_of.over_floor(), 1.12);
 }
 
 TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
