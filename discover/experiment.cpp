@@ -140,7 +140,8 @@ class Search {
     const auto any = [&](auto&& is) { return std::any_of(pairs_.begin(), pairs_.end(), is); };
     if (!any([](const Pair& p) { return p.can_be_told_by({}); })) return {};
     auto words = drive_words();
-    if (any([](const Pair& p) { return p.one_is_of_the_sensor(); })) words.emplace_back("reference_sensor");
+    if (sight_.second_sensor && any([](const Pair& p) { return p.one_is_of_the_sensor(); }))
+      words.emplace_back("reference_sensor");
     if (is_asked_for("precycle") && !device_.recorded_times.empty()) words.emplace_back("precycle");
     return words;
   }

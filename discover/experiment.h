@@ -23,6 +23,7 @@ struct Experiment {
   double rows = 0;        ///< in which they were compared: chi2 between them is separation^2 * rows
   std::string between;    ///< who is told from whom: "amplifier_lag and dead_time"
   int rivals_told = 0;    ///< so many are told from the first
+  bool another_instrument = false;  ///< a second sensor tells them, and whatever the drives of this bench do does not
   std::shared_ptr<const Rivals> rivals{};  ///< among whom it was chosen
 };
 
@@ -51,6 +52,7 @@ struct Sight {
   std::vector<std::string> outputs;
   std::vector<double> noise;
   std::vector<bool> free_zero;
+  bool second_sensor = true;  ///< one may be asked for
 };
 
 /// Simulates all models on the menu: rms difference of each output over its noise, the largest output counts. Each

@@ -24,8 +24,11 @@ std::vector<Member> members_of(const Contender& contender);
 /// back.
 enum class Line { of_a_curve, held };
 
-/// Something else explains the step as well, and an experiment would tell.
-inline bool leaves_the_question_open(const FoundStep& step) { return !step.ties.empty() && step.experiment_would_tell; }
+/// Something else explains the step as well, and an experiment of this bench would tell. What only another instrument
+/// tells after many recordings is missing under either name.
+inline bool leaves_the_question_open(const FoundStep& step) {
+  return !step.ties.empty() && step.experiment_would_tell && !(step.experiment && step.experiment->another_instrument);
+}
 
 /// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
 /// one; nullopt if it cannot be had.

@@ -8,6 +8,9 @@
 namespace hysteron {
 namespace {
 
+/// How much faster than it did a recorder samples.
+constexpr double faster_recorder = 8;
+
 bool is_of_sensor(const Effect& e) { return e.of_the_sensor() && e.id != "calibration"; }
 
 /// Inputs of the user's diagram that lead to what the candidate moves, and what it reads besides; empty = nobody knows.
@@ -37,6 +40,13 @@ Rival rival_of(const Books& books, const Tried& t) {
   return r;
 }
 
+/// A second sensor goes before every drive where it is asked for: would one of them do without it?
+bool no_drive_tells(const Rivals& rivals, const Device& device, Sight sight) {
+  sight.second_sensor = false;
+  const auto e = separate(rivals, device, sight);
+  return !e || e->rivals_told == 0;
+}
+
 std::optional<Experiment> experiment_among(Books& books, const Rivals& rivals) {
   Sight sight{books.base_model->outputs(), books.evidence->noise().white(), {}};
   for (int o = 0; o < static_cast<int>(sight.outputs.size()); ++o)
@@ -45,14 +55,15 @@ std::optional<Experiment> experiment_among(Books& books, const Rivals& rivals) {
   auto e = separate(rivals, device, sight);
   const int all = static_cast<int>(rivals.models.size()) - 1;
   const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
-  // Few recordings of one kind may just have been too slow: the same menu, sampled faster.
+  // Few recordings of one kind may just have been too slow: the same menu, sampled as much faster as the same recorder
+  // may (much more is another instrument).
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
-  const auto tells_all = [&] { return e && e->rivals_told == all && e->separation > rules::experiment_tells; };
-  for (int faster = 0; few && faster < 2 && !tells_all(); ++faster) {
-    device.shortest_step /= 8;
+  if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells)) {
+    device.shortest_step /= faster_recorder;
     auto again = separate(rivals, device, sight);
     if (again && (!e || told(*again) > told(*e))) e = std::move(again);
   }
+  if (e && e->word == "reference_sensor" && !few) e->another_instrument = no_drive_tells(rivals, device, sight);
   return e;
 }
 

@@ -277,27 +277,62 @@ TEST_F(Rules, ARicherLawBeginsAmongWhatWasFittedTogetherWithTheSimpleOne) {
 
 // --- the next experiment ---------------------------------------------------------------------------------------------
 
-/// A lag of 1 ms under slow triangles, sampled every 50 ms: a distance to the drive that is the same for a delay.
-DataSet slow_recordings(int n) {
+/// A lag under slow triangles, sampled every 50 ms: a distance to the drive that is the same for a delay.
+DataSet slow_recordings(int n, double time = 1e-3, double white = 5e-4) {
   std::vector<Recording> list;
   std::uint64_t seed = 80;
   for (int i = 0; i < n; ++i) {
     const auto t = rows(600, 0.05);
     const auto u = decaying_triangle(t, 1 - 0.05 * i, 6 + i);
     list.push_back(recording(std::to_string(seed) + ".csv", i % 2 == 0 ? Role::train : Role::validate, t, u,
-                             plus(lagged(t, u, 1e-3), noise(t.size(), 5e-4, 5e-5, seed))));
+                             plus(lagged(t, u, time), noise(t.size(), white, white / 10, seed))));
     ++seed;
   }
-  return data_set(list, 5e-4);
+  return data_set(list, white);
 }
 
 TEST_F(Rules, AfterFewRecordingsTheExperimentMayBeSampledFaster) {
-  const Discovery few = discovered(plain_gain(), slow_recordings(2), {"amplifier_lag", "dead_time"});
+  const Discovery few = discovered(plain_gain(), slow_recordings(2, 5e-3), {"amplifier_lag", "dead_time"});
   ASSERT_EQ(few.steps.size(), 1U) << tried(few);
   EXPECT_EQ(few.steps.front().ties.size(), 1U) << tried(few);
   EXPECT_EQ(to_text(few.verdict), "not_distinguishable") << few.headline;
   ASSERT_TRUE(few.experiment) << few.headline;
   EXPECT_GT(few.experiment->separation, 1) << few.experiment->text;
+}
+
+TEST_F(Rules, NoRecorderIsAskedForMoreThanEightTimesItsRate) {
+  // In rows of 6 ms (an eighth) a lag of 0.4 ms has come to its end wherever a drive bends: exp(-15). At 64 times the
+  // rate they would lie twice that lag apart.
+  const Discovery few = discovered(plain_gain(), slow_recordings(2, 0.4e-3, 5e-5), {"amplifier_lag", "dead_time"});
+  ASSERT_EQ(few.steps.size(), 1U) << tried(few);
+  EXPECT_EQ(few.steps.front().ties.size(), 1U) << tried(few);
+  EXPECT_EQ(to_text(few.verdict), "missing_effect") << few.headline << (few.experiment ? few.experiment->text : "");
+}
+
+/// A parabola of 2 % of the range behind a plain gain: of the drive or of the sensor, it is the same one.
+DataSet curved_recordings(int n) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 180;
+  for (int i = 0; i < n; ++i) {
+    const auto t = rows(500, 0.01);
+    const auto u = decaying_triangle(t, 1 - 0.05 * i, 3 + i);
+    auto y = noise(t.size(), 1e-3, 1e-4, seed);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += u[k] + 0.02 * u[k] * u[k];
+    list.push_back(recording(std::to_string(seed) + ".csv", i % 2 == 0 ? Role::train : Role::validate, t, u, y));
+    ++seed;
+  }
+  return data_set(list, 1e-3);
+}
+
+TEST_F(Rules, WhatOnlyAnotherSensorTellsAfterManyRecordingsIsMissingUnderEitherName) {
+  for (const int n : {2, 6}) {
+    const Discovery d = discovered(plain_gain(), curved_recordings(n), {"asymmetry", "sensor_nonlinearity"});
+    ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+    EXPECT_EQ(d.steps.front().ties.size(), 1U) << tried(d);
+    ASSERT_TRUE(d.experiment) << d.headline;
+    EXPECT_EQ(d.experiment->word, "reference_sensor") << "told in either case";
+    EXPECT_EQ(to_text(d.verdict), n == 2 ? "not_distinguishable" : "missing_effect") << d.headline;
+  }
 }
 
 TEST_F(Rules, AfterManyRecordingsOfOneRateNobodySamplesFaster) {
