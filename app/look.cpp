@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <sstream>
 
 #include "app/discover_facts.h"
 #include "app/discover_page.h"
@@ -21,10 +22,14 @@
 namespace hysteron {
 namespace {
 
-/// Effect ids of --only, checked before anything is computed.
+/// Effect ids of --only, one each or several with commas between them, checked before anything is computed.
 std::vector<std::string> wanted_effects(const Arguments& arguments, const Effects& effects) {
-  for (const auto& id : arguments.list("--only")) effects.get(id);
-  return arguments.list("--only");
+  std::vector<std::string> ids;
+  for (const auto& some : arguments.list("--only")) {
+    std::istringstream list(some);
+    for (std::string id; std::getline(list, id, ',');) ids.push_back(effects.get(id).id);
+  }
+  return ids;
 }
 
 /// What --json prints: the answer; all its numbers stand in result.json.
@@ -132,7 +137,7 @@ int look(const std::string& verb, const Arguments& arguments) {
 std::vector<OptionSpec> look_options() {
   return {options::diagram(),
           options::data(true),
-          {"--only", "EFFECT", "consider only this effect (and those of further --only)", false, true},
+          {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           options::effects(),

@@ -27,6 +27,8 @@ struct Noted {
   JsonPlace place;
   ColumnNote note;
   bool unit_seen = false;
+  std::vector<std::string> missing_in{};  ///< files, each once
+  std::vector<std::string> known{};       ///< columns of the first of them
 };
 
 /// First row at or behind `time` since the first row; a row that misses it by rounding counts.
@@ -78,6 +80,7 @@ class DataSetReader {
     if (const auto columns = root.find("columns"); columns && columns->expect_object("{\"y\": {\"to\": \"y\"}}"))
       for (const auto& [name, place] : columns->members()) column(name, place);
     recordings(root);
+    for (const auto& noted : noted_) tell_where_it_is_missing(noted);
     file_.throw_if_any();
     for (auto& recording : data_.recordings) finish(recording);
     file_.throw_if_any();
@@ -105,6 +108,18 @@ class DataSetReader {
                        "bind one of them to another name");
     data_.notes[noted.note.to] = noted.note;
     noted_.push_back(std::move(noted));
+  }
+
+  /// Once, however many files lack it.
+  static void tell_where_it_is_missing(const Noted& noted) {
+    const std::size_t n = noted.missing_in.size();
+    if (n == 0) return;
+    std::string where = noted.missing_in.front();
+    if (n > 1) where += n == 2 ? " and " + noted.missing_in[1] : fmt::format(" and {} other files", n - 1);
+    noted.place.add("missing_column",
+                    fmt::format("{} {} no column \"{}\"", where, n > 1 ? "have" : "has", noted.column),
+                    did_you_mean(noted.column, noted.known) +
+                        (noted.unit_seen || n == 1 ? " If only some recordings have it: \"optional\": true" : ""));
   }
 
   std::optional<std::string> one_of(const JsonPlace& object, const char* key, const std::vector<std::string>& known) {
@@ -253,10 +268,10 @@ class DataSetReader {
       if (content.columns.contains(noted.column)) {
         if (!noted.unit_seen) read_noise(noted, content.units.at(noted.column));
         noted.unit_seen = true;
-      } else if (!noted.note.optional) {
-        noted.place.add(
-            "missing_column", fmt::format("{} has no column \"{}\"", content.file, noted.column),
-            did_you_mean(noted.column, content.names) + " If only some recordings have it: \"optional\": true");
+      } else if (!noted.note.optional &&
+                 std::find(noted.missing_in.begin(), noted.missing_in.end(), content.file) == noted.missing_in.end()) {
+        if (noted.missing_in.empty()) noted.known = content.names;
+        noted.missing_in.push_back(content.file);
       }
     }
     for (const auto& name : content.names) {

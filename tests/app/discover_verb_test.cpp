@@ -94,9 +94,9 @@ TEST_F(DiscoverVerb, DiscoverSaysWhoElseItMayBeToProgramsAndWhichEffectsItHeld) 
   record(3, 0.02);
   const Outcome added = hysteron(folder_.path(), {"add", "creep", "diagram.json", "-o", "with_creep.json"});
   ASSERT_EQ(added.code, 0) << added.err;
-  const std::vector<std::string> words{
-      "discover", "with_creep.json", "--data", "dataset.json", "--only", "amplifier_lag",
-      "--only",   "dead_time",       "--json", "-o",           "out"};
+  const std::vector<std::string> words{"discover", "with_creep.json",         "--data", "dataset.json",
+                                       "--only",   "amplifier_lag,dead_time", "--json", "-o",
+                                       "out"};
   const Outcome out = hysteron(folder_.path(), words);
   ASSERT_EQ(out.code, 0) << out.err;
   const json answer = json::parse(out.out);

@@ -212,6 +212,27 @@ TEST(DataSet, ColumnsThatAreBoundToNothingStayAvailable) {
   EXPECT_EQ(data.notes.at("T").to, "T");
 }
 
+TEST(DataSet, AColumnThatIsMissingEverywhereIsToldOnce) {
+  const TemporaryFolder folder;
+  std::string list;
+  for (const char* name : {"a.csv", "b.csv", "c.csv"}) {
+    folder.write(name, rows(10));
+    list += std::string(list.empty() ? "" : ", ") + "{\"file\": \"" + name + "\", \"role\": \"train\"}";
+  }
+  const auto file =
+      folder.write("d.json", "{\"format\": 1, \"columns\": {\"yy\": {\"to\": \"y\"}}, \"recordings\": [" + list + "]}");
+  try {
+    read_dataset(file);
+    FAIL() << "no file has the column";
+  } catch (const Error& error) {
+    ASSERT_EQ(error.problems.size(), 1u) << error.what();
+    EXPECT_EQ(error.problems.front().code, "missing_column");
+    EXPECT_NE(error.problems.front().what.find("a.csv and 2 other files have no column \"yy\""), std::string::npos)
+        << error.problems.front().what;
+    EXPECT_NE(error.problems.front().cure.find("Did you mean \"y\"?"), std::string::npos);
+  }
+}
+
 TEST(DataSet, AnOptionalColumnMayBeMissingInSomeRecordings) {
   const TemporaryFolder folder;
   folder.write("a.csv", rows(5));
