@@ -128,7 +128,8 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
 
   Section where;
   where.title = "Where the squared error lies";
-  where.text.emplace_back("The shares of each split add up to 100 %.");
+  where.text.emplace_back(
+      "Over all recordings, train and validate together. The shares of each split add up to 100 %.");
   add_split_figures(where, model, comparison);
   document.sections.push_back(std::move(where));
 
