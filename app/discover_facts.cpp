@@ -81,8 +81,11 @@ Facts facts_of(const std::vector<FoundParameter>& parameters) {
 }
 
 Facts facts_of(const Experiment& e) {
-  return Facts::object(
-      {{"word", e.word}, {"text", e.text}, {"separation_over_noise", e.separation}, {"between", e.between}});
+  return Facts::object({{"word", e.word},
+                        {"text", e.text},
+                        {"separation_over_noise", e.separation},
+                        {"between", e.between},
+                        {"another_instrument", e.another_instrument}});
 }
 
 Facts facts_of(const Candidate& c) {

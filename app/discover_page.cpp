@@ -178,9 +178,11 @@ Section next_section(const Discovery& found) {
     if (!found.steps[i].ties.empty() && !found.steps[i].experiment_would_tell)
       untold.push_back(names_of(found.steps, i));
   if (found.experiment)
-    section.text.push_back(fmt::format("{}: {}{} It would set {} apart by {} times the noise.", found.experiment->word,
-                                       found.experiment->text, found.experiment->text.ends_with('.') ? "" : ".",
-                                       found.experiment->between, number_text(found.experiment->separation, 3)));
+    section.text.push_back(
+        fmt::format("{}: {}{} It would set {} apart by {} times the noise.{}", found.experiment->word,
+                    found.experiment->text, found.experiment->text.ends_with('.') ? "" : ".", found.experiment->between,
+                    number_text(found.experiment->separation, 3),
+                    found.experiment->another_instrument ? " Without that, no drive of this bench does." : ""));
   for (const auto& names : untold)
     section.text.push_back(fmt::format("No experiment that was simulated sets {} apart.", names));
   for (const auto& s : found.steps)

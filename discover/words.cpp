@@ -283,8 +283,9 @@ void put_into_words(Discovery& d, const DataSet& data) {
   if (d.final_error.nrmse_test) d.sentences.push_back(test_sentence(d.final_error));
   if (d.experiment)
     d.sentences.push_back(
-        fmt::format("To tell {} apart, record {}: {}. The two models differ there by {:.3g} times the noise.",
-                    d.experiment->between, d.experiment->word, d.experiment->text, d.experiment->separation));
+        fmt::format("To tell {} apart, record {}: {}. The two models differ there by {:.3g} times the noise.{}",
+                    d.experiment->between, d.experiment->word, d.experiment->text, d.experiment->separation,
+                    d.experiment->another_instrument ? " Without that, no drive of this bench tells them apart." : ""));
   if (d.verdict == Verdict::unexplained) d.sentences.push_back(what_to_record(d.structure ? &*d.structure : nullptr));
   if (data.single)
     d.warnings.push_back(

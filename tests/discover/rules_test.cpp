@@ -332,6 +332,10 @@ TEST_F(Rules, WhatOnlyAnotherSensorTellsAfterManyRecordingsIsMissingUnderEitherN
     ASSERT_TRUE(d.experiment) << d.headline;
     EXPECT_EQ(d.experiment->word, "reference_sensor") << "told in either case";
     EXPECT_EQ(to_text(d.verdict), n == 2 ? "not_distinguishable" : "missing_effect") << d.headline;
+    const bool said = std::any_of(d.sentences.begin(), d.sentences.end(), [](const std::string& s) {
+      return s.find("no drive of this bench tells them apart") != std::string::npos;
+    });
+    EXPECT_EQ(said, n > 2);
   }
 }
 
