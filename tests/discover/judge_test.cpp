@@ -202,13 +202,14 @@ TEST_F(Judging, WhatLooksLikeTheRestOfAStandingLawTakesMoreThanThat) {
   }
 }
 
-TEST_F(Judging, AChainOfRelaxationsLeavesALoopAndUseThatNobodyCountedAGain) {
+TEST_F(Judging, AChainOfRelaxationsLeavesALoopUseThatNobodyCountedAGainAndAPastAClamp) {
   const std::vector<double> left{0, 450, 0, 450};
   const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
   for (const auto& [effect, stands] : {std::pair{"hysteresis", "creep"},
                                        {"backlash", "creep"},
                                        {"calibration", "ageing"},
-                                       {"temperature_gain", "ageing"}}) {
+                                       {"temperature_gain", "ageing"},
+                                       {"saturation", "initial_remanence"}}) {
     EXPECT_FALSE(judged(before, after, left, effect, stands).admitted) << effect;
     EXPECT_TRUE(judged(before, after, left, effect, "dead_time").admitted) << effect;
     EXPECT_TRUE(judged(before, after, {0, 10, 0, 10}, effect, stands).admitted) << effect << " beyond a tenth";
