@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -84,6 +85,7 @@ class Inspector {
   Inspection run() {
     columns();
     recordings();
+    for (const auto& name : program().input_names) reach(name);
     against_the_diagram();
     rows();
     repeats();
@@ -130,6 +132,35 @@ class Inspector {
         seen_.columns.push_back(std::move(c));
       }
   }
+  /// Between which ends recordings of a role move this input; the second is below the first where none does.
+  std::pair<double, double> range_in(const std::string& input, const std::function<bool(Role)>& is) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& r : seen_.recordings)
+      for (const auto& d : r.drives)
+        if (is(r.role) && d.input == input) low = std::min(low, d.lowest), high = std::max(high, d.highest);
+    return {low, high};
+  }
+
+  /// What is judged where nothing was fitted.
+  void reach(const std::string& input) {
+    constexpr double far = 0.1;  // of the range that is fitted
+    const auto [low, high] = range_in(input, [](Role role) { return role == Role::train; });
+    if (!(high > low)) return;
+    std::vector<std::string> names;
+    for (const auto& r : seen_.recordings)
+      for (const auto& d : r.drives)
+        if (r.role == Role::validate && d.input == input &&
+            std::max(d.highest - high, low - d.lowest) > far * (high - low))
+          names.push_back(r.name);
+    if (names.empty()) return;
+    const auto [lowest, highest] = range_in(input, [](Role role) { return role == Role::validate; });
+    const Unit unit = unit_of(input);
+    seen_.notes.push_back(fmt::format(
+        "{} {} {} over {}, the recordings that are fitted only over {}: what a model says beyond is extrapolated.",
+        list_text(names), names.size() == 1 ? "moves" : "move", input, range_text(lowest, highest, unit),
+        range_text(low, high, unit)));
+  }
+
   const InspectedColumn* column(const std::string& name) const {
     for (const auto& c : seen_.columns)
       if (c.name == name) return &c;
