@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 try:
     import numba  # noqa: F401
@@ -26,6 +27,7 @@ import excitations
 import hidden
 import laws
 import make_cases
+import plants
 from plants import draw_plant, heater_matrices, simulate
 from read_cases import read_case
 
@@ -82,6 +84,21 @@ class Laws(unittest.TestCase):
         self.assertLess(np.abs(x_free - x).max(), 0.5 + 1e-9)
         self.assertAlmostEqual(x_free[3999] - x[3999], 0.5, places=6)
         self.assertAlmostEqual(x_free[-1] - x[-1], -0.5, places=6)
+
+    def test_a_quick_lag_before_plays_overshoots_within_a_step(self):
+        # Eight steps to a row of 70 times the lag miss a tenth of what the lag does; eight times as many as are taken tell.
+        rng = np.random.default_rng(5)
+        plant = draw_plant(rng, "B2")
+        recordings = [r for r in cases.draw_recordings(rng, plant, [], words=["multisine"]) if r.role == "train"]
+        e = hidden.draw(rng, "amplifier_lag", plant, recordings)
+        e.shape["times"] = (1.0, 0.0)
+        e = hidden.with_amount(e, recordings[0].h / 70)
+        usual = simulate(plant, recordings[0], [e])[0][0]
+        does = usual - simulate(plant, recordings[0])[0][0]
+        steps = plants.fine_steps(plant, recordings[0], [e])
+        with mock.patch.object(plants, "fine_steps", lambda *_: 8 * steps):
+            finer = simulate(plant, recordings[0], [e])[0][0]
+        self.assertLess(np.std(finer - usual), 0.01 * np.std(does))
 
     def test_a_slew_limit_is_reached_and_an_unreached_one_does_nothing(self):
         u = np.interp(np.arange(300), [0, 10, 299], [0, 5, 5])

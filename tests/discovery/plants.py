@@ -144,6 +144,10 @@ def fine_steps(plant, recording, hidden=()):
     names = {e.name for e in hidden}
     if names & {"saturation", "slew_limit"} and names & {"amplifier_lag", "dead_time"}:
         usual = 32  # what is late behind a kink sees the last fine step before the row, not the row
+    if plant.base in ("B2", "B3") or names & {"hysteresis", "backlash", "friction"}:
+        # Plays keep how far a quick lag overshoots where the drive turns, soon after a row: half of its time is a step.
+        usual = max([usual] + [min(256, int(np.ceil(2 * recording.h / (e.amount * sum(e.shape["times"])))))
+                               for e in hidden if e.name == "amplifier_lag" and e.amount > 0])
     if plant.base == "B1" and recording.h < 0.1 and any(e.name in ("backlash", "friction") for e in hidden):
         # Plays keep how far the plant rings between two rows: 20 steps to its quickest period. Behind a ramp of a tenth of
         # a second it hardly rings.
