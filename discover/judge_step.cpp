@@ -345,6 +345,17 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
                   tried.fall_validate, rules::claim_fall);
     return;
   }
+  // Its values were found on the fitted recordings: a law that these hardly need says of others what they have by
+  // chance, or by what the laws that stand do there.
+  const bool found_elsewhere = c.found_on_validation > before.found_on_validation;  // a line: in each recording anew
+  if (!left_by_laws.empty() && !found_elsewhere && !(tried.fall_train > rules::claim_fall)) {
+    tried.reason = fmt::format(
+        "on the recordings that were fitted it takes away {:.1f} of chi2, no more than chance ({:.0f}): what it does "
+        "in "
+        "others was not found there",
+        tried.fall_train, rules::claim_fall);
+    return;
+  }
   if (!is_worth_its_numbers(tried, before, left_by_laws.empty())) {
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
     return;

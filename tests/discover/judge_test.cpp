@@ -153,6 +153,16 @@ TEST_F(Judging, WhatTakesASmallShareOfAllIsAPatchWhereverItLies) {
   EXPECT_NE(t.reason.find("a patch"), std::string::npos) << t.reason;
 }
 
+TEST_F(Judging, WhatTheFittedRecordingsDoNotShowIsNoFurtherEffect) {
+  // 100 on recordings that judge, and 6 or 12 on those that its values were found on.
+  const ModelError before = error(1000, 1012, 1000, 1200);
+  EXPECT_TRUE(judged(before, error(1000, 1000, 1000, 1010), {0, 1, 0, 1}).admitted);
+  const Tried t = judged(before, error(1000, 1006, 1000, 1010), {0, 1, 0, 1});
+  EXPECT_FALSE(t.admitted);
+  EXPECT_NE(t.reason.find("on the recordings that were fitted"), std::string::npos) << t.reason;
+  EXPECT_TRUE(judged(before, error(1000, 1006, 1000, 1010), {}).admitted) << "nothing stands that could do it";
+}
+
 TEST_F(Judging, NoiseIsNothingThatALawIsTakenDownTo) {
   // Noise before: that it is noise afterwards says nothing for the candidate.
   const Tried t = judged(error(1000, 1080, 1000, 1080), error(1000, 1010, 1000, 1010), {0, 300, 0, 300});
