@@ -225,9 +225,13 @@ bool another_than_the_zero(Books& books) {
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
 void one_by_one(Books& books, std::vector<Tried>& first) {
   std::vector<Tried> last;
-  // A step that is told anew may leave a member out, and then there is room for another one; not without end.
-  const int most_turns = 3 * books.options.max_steps;
-  for (int turn = 0; turn < most_turns && found_effects(books) < books.options.max_steps && !books.stopped(); ++turn) {
+  int found = found_effects(books), names = found;
+  // A step that is told anew may leave a name out, and then there is room for another one; not without end.
+  const int most_turns = 3 * books.options.max_steps + static_cast<int>(books.base_model->outputs().size());
+  for (int turns = most_turns; turns > 0; --turns, ++found) {
+    found -= std::max(0, names - found_effects(books));
+    names = found_effects(books);
+    if (found >= books.options.max_steps || books.stopped()) break;
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     if (more_than_noise(books)) books.smooth = find_smooth_input(books);
     if (books.smooth) return;
@@ -245,6 +249,7 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
     if (!alone.empty() && unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); }))
       continue;
     if (!unless_it_fails(books, [&] { return as_a_set_on_another_output(books, 0.9); })) break;
+    --found;  // no further name
   }
   unless_it_fails(books, [&] { return a_wrong_zero(books), true; });
 }

@@ -330,7 +330,11 @@ int DataModel::substeps(int recording) const {
 
 Cuts DataModel::cuts() const {
   Cuts all;
-  for (const auto& b : content_->bound) all.push_back(b.all_pieces());
+  for (const auto& b : content_->bound) {
+    all.push_back(b.all_pieces());
+    // As they are, rows pass many at once; parts of which each is a row would have to be picked out again.
+    if (std::none_of(all.back().begin(), all.back().end(), [](const RowCut& r) { return r.into > 1; })) all.back() = {};
+  }
   return all;
 }
 
