@@ -54,7 +54,8 @@ struct DataModelOptions {
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
   bool bdf_otherwise = true;         ///< where max_substeps do not suffice; else the finest rows are taken as they are
-  /// Cuts of a model of the same recordings with which a choice of substeps begins: what it holds is in this one, too.
+  /// Of a model of the same recordings: where they suffice as they are, no substeps are chosen. A recording that has
+  /// another number of rows begins uncut.
   std::shared_ptr<const Cuts> begin_with{};
 };
 

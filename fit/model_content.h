@@ -77,7 +77,8 @@ struct DataModel::Content {
   bool from_rest(const Recording& recording) const;
   void simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const;
   std::vector<Rows> rows_of(const BoundRecording& b, const std::vector<std::vector<double>>& values) const;
-  SubstepsFound choose_substeps(int r, std::span<const ParameterValue> values, std::span<const double> tolerance);
+  SubstepsFound choose_substeps(int r, std::span<const ParameterValue> values, std::span<const double> tolerance,
+                                bool begun_with_known);
   std::vector<RowCut> cuts_to_begin_with(int r) const;
   void grade(int r, std::span<const ParameterValue> values, const std::vector<Rows>& fine,
              std::span<const double> tolerance);

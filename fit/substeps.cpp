@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "engine/error.h"
 #include "fit/model_content.h"
@@ -210,9 +211,11 @@ void DataModel::Content::grade(int r, std::span<const ParameterValue> values, co
   }
 }
 
-/// From the substeps that it has upwards.
+/// From the substeps that it has upwards. `begun_with_known`: these were chosen for another model, and go where they do
+/// not suffice as they are: which rows the corners of a play or a delay fall into hangs on all values, and rows that
+/// were cut for some of them would pile up.
 SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const ParameterValue> values,
-                                                  std::span<const double> asked) {
+                                                  std::span<const double> asked, bool begun_with_known) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   SubstepsFound found;
   // Nonlinear states may run away where steps are too long for them: that is a result that is not fine enough.
@@ -236,6 +239,12 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
     const auto tolerance = no_finer_than(options.substep_share, b, fine, asked);
     // The error falls at least in proportion to the step, so what changed by halving it is more than what is left.
     const double worst = worst_of(coarse, fine, tolerance);
+    if (std::exchange(begun_with_known, false) && worst > 1) {
+      b.cut({});
+      coarse = rows_with(b.substeps);
+      when_it_helped = static_cast<double>(b.rows->size());
+      continue;
+    }
     if (worst <= 1) {
       const auto pieces = b.pieces;
       b.cut(cut_there(b, where_it_bends(b, fine, look_at)));
@@ -292,11 +301,12 @@ std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterVal
   bool all = true;
   for (int r = 0; r < n_recordings(); ++r) {
     BoundRecording& b = c.bound[static_cast<std::size_t>(r)];
-    if (!only_finer || !b.simulated) {
+    const bool anew = !only_finer || !b.simulated;
+    if (anew) {
       b.cut(c.cuts_to_begin_with(r));
       b.substeps = 1;
     }
-    const auto found = c.choose_substeps(r, values, tolerance);
+    const auto found = c.choose_substeps(r, values, tolerance, anew && !b.pieces.empty());
     b.simulated = found.simulated;
     if (c.options.bdf_otherwise && !found.suffice && b.advance->integrates() && (found.simulated || found.ran_away)) {
       c.not_exact = fmt::format("{}: {} substeps per row do not suffice for its nonlinear states", recording(r).name,
@@ -331,9 +341,9 @@ int DataModel::substeps(int recording) const {
 Cuts DataModel::cuts() const {
   Cuts all;
   for (const auto& b : content_->bound) {
-    all.push_back(b.all_pieces());
+    auto& rows = all.emplace_back(b.all_pieces());
     // As they are, rows pass many at once; parts of which each is a row would have to be picked out again.
-    if (std::none_of(all.back().begin(), all.back().end(), [](const RowCut& r) { return r.into > 1; })) all.back() = {};
+    if (std::none_of(rows.begin(), rows.end(), [](const RowCut& r) { return r.into > 1; })) rows.clear();
   }
   return all;
 }
