@@ -6,6 +6,7 @@
 
 #include "discover/members.h"
 #include "discover/structures.h"
+#include "fit/unit_words.h"
 
 namespace hysteron {
 namespace {

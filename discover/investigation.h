@@ -137,7 +137,6 @@ bool look_alike(const Effect& a, const Effect& b);
 
 std::string effect_words(const Tried& tried);  ///< "a lag, in the amplifier or in the sensor"
 std::string percent(double share);
-std::string size_text(double si, const Unit& unit);  ///< "0.42 um"
 std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at);
 Candidate candidate_of(const Tried& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.

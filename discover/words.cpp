@@ -8,6 +8,7 @@
 
 #include "discover/effects/library.h"
 #include "discover/investigation.h"
+#include "fit/unit_words.h"
 
 namespace hysteron {
 namespace {
@@ -136,11 +137,6 @@ std::string to_text(Verdict verdict) {
 std::string to_text(Remainder remainder) { return remainder == Remainder::noise ? "noise" : "structured"; }
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
-
-std::string size_text(double si, const Unit& unit) {
-  return unit.text.empty() ? fmt::format("{:.3g}", unit.difference_from_si(si))
-                           : fmt::format("{:.3g} {}", unit.difference_from_si(si), unit.text);
-}
 
 std::string names_of(const std::vector<FoundStep>& steps, std::size_t step) {
   const std::string name = names_of(steps[step]);

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "engine/time_text.h"
 #include "fit/branches.h"
+#include "fit/inspection_words.h"
 #include "fit/median.h"
 #include "fit/score.h"
+#include "fit/unit_words.h"
 
 namespace hysteron {
 namespace {
@@ -58,25 +59,6 @@ double range_of(std::span<const double> v) {
   return *high - *low;
 }
 
-std::string in_unit(double number, const Unit& unit) {
-  const std::string text = fmt::format("{:.3g}", std::abs(number) < 1e-300 ? 0.0 : number);
-  return unit.text.empty() ? text : text + " " + unit.text;
-}
-std::string size_text(double si, const Unit& unit) { return in_unit(unit.difference_from_si(si), unit); }
-std::string level_text(double si, const Unit& unit) { return in_unit(unit.from_si(si), unit); }
-std::string range_text(double low, double high, const Unit& unit) {
-  return fmt::format("{:.3g} .. {}", unit.from_si(low), level_text(high, unit));
-}
-std::string count(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
-std::string share_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
-
-/// "01.csv", "01.csv and 02.csv", "01.csv, 02.csv and 5 more".
-std::string list_text(const std::vector<std::string>& names) {
-  if (names.size() == 1) return names[0];
-  if (names.size() == 2) return names[0] + " and " + names[1];
-  return fmt::format("{}, {} and {} more", names[0], names[1], names.size() - 2);
-}
-
 class Inspector {
  public:
   Inspector(DataModel& model, bool diagram_is_meant)
@@ -85,12 +67,13 @@ class Inspector {
   Inspection run() {
     columns();
     recordings();
-    for (const auto& name : program().input_names) reach(name);
+    for (const auto& name : program().input_names)
+      if (auto note = note_of_reach(seen_, name); !note.empty()) seen_.notes.push_back(std::move(note));
     against_the_diagram();
     rows();
     repeats();
     lines();
-    sentences();
+    seen_.sentences = sentences_of(seen_, program().input_names, model_.outputs());
     return std::move(seen_);
   }
 
@@ -132,35 +115,6 @@ class Inspector {
         seen_.columns.push_back(std::move(c));
       }
   }
-  /// Between which ends recordings of a role move this input; the second is below the first where none does.
-  std::pair<double, double> range_in(const std::string& input, const std::function<bool(Role)>& is) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& r : seen_.recordings)
-      for (const auto& d : r.drives)
-        if (is(r.role) && d.input == input) low = std::min(low, d.lowest), high = std::max(high, d.highest);
-    return {low, high};
-  }
-
-  /// What is judged where nothing was fitted.
-  void reach(const std::string& input) {
-    constexpr double far = 0.1;  // of the range that is fitted
-    const auto [low, high] = range_in(input, [](Role role) { return role == Role::train; });
-    if (!(high > low)) return;
-    std::vector<std::string> names;
-    for (const auto& r : seen_.recordings)
-      for (const auto& d : r.drives)
-        if (r.role == Role::validate && d.input == input &&
-            std::max(d.highest - high, low - d.lowest) > far * (high - low))
-          names.push_back(r.name);
-    if (names.empty()) return;
-    const auto [lowest, highest] = range_in(input, [](Role role) { return role == Role::validate; });
-    const Unit unit = unit_of(input);
-    seen_.notes.push_back(fmt::format(
-        "{} {} {} over {}, the recordings that are fitted only over {}: what a model says beyond is extrapolated.",
-        list_text(names), names.size() == 1 ? "moves" : "move", input, range_text(lowest, highest, unit),
-        range_text(low, high, unit)));
-  }
-
   const InspectedColumn* column(const std::string& name) const {
     for (const auto& c : seen_.columns)
       if (c.name == name) return &c;
@@ -340,8 +294,8 @@ class Inspector {
     const Clock& c = r.clock;
     if (!c.gaps.empty())
       seen_.faults.push_back(fmt::format("{}: {} missing, in {} of its clock; the first at {} (after the first row).",
-                                         r.name, count(static_cast<std::size_t>(c.missing()), "row"),
-                                         count(c.gaps.size(), "gap"),
+                                         r.name, count_of(static_cast<std::size_t>(c.missing()), "row"),
+                                         count_of(c.gaps.size(), "gap"),
                                          time_text(c.gaps.front().time - begin_of(r.name))));
     if (!c.regular)
       seen_.notes.push_back(fmt::format("{}: time is not uniform, {} to {} between rows; no spectrum is read from it.",
@@ -370,13 +324,13 @@ class Inspector {
         seen_.faults.push_back(fmt::format(
             "{}: {} leaps at {} by twice its pace and more, the first at {}: rows before them may be lost though the "
             "clock does not show it.",
-            part.name, c.name, count(leaps.size(), "row"), when(part, leaps.front())));
+            part.name, c.name, count_of(leaps.size(), "row"), when(part, leaps.front())));
       if (c.role == "output")
         if (const long more = unexplained_repeats(rows, c.finest); more > 0)
           seen_.faults.push_back(
               fmt::format("{}: at about {} ({}) {} repeats the value before exactly, more often than "
                           "its noise explains: those readings were not fetched anew.",
-                          part.name, count(static_cast<std::size_t>(more), "row"),
+                          part.name, count_of(static_cast<std::size_t>(more), "row"),
                           share_text(static_cast<double>(more) / static_cast<double>(rows.size())), c.name));
     }
     std::vector<std::size_t> whole;
@@ -389,7 +343,7 @@ class Inspector {
                                          when(part, whole.front())));
     else if (!repeated.empty() && judged > 0)
       seen_.faults.push_back(fmt::format("{}: a column repeats its value in motion at {}, the first at {}.", part.name,
-                                         count(repeated.size(), "row"), when(part, repeated.begin()->first)));
+                                         count_of(repeated.size(), "row"), when(part, repeated.begin()->first)));
   }
   bool everything_repeats(const Part& part, std::size_t row) const {
     return std::all_of(seen_.columns.begin(), seen_.columns.end(), [&](const InspectedColumn& c) {
@@ -410,7 +364,7 @@ class Inspector {
         seen_.faults.push_back(fmt::format(
             "{}: {} stays at its {} value {} in {} while the drive moves on: the sensor or the converter clips, or the "
             "device has come to a stop.",
-            part.name, output, which, level_text(p.level, unit_of(output)), count(p.rows, "row")));
+            part.name, output, which, level_text(p.level, unit_of(output)), count_of(p.rows, "row")));
     };
     const double finest = column(output)->finest;
     say(plateau_at_top(rows, finest, moves), "highest");
@@ -527,79 +481,6 @@ class Inspector {
   }
 
   // --- words ----------------------------------------------------------------------------------------------------
-
-  void sentences() {
-    std::size_t rows = 0;
-    double duration = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
-    for (const auto& r : seen_.recordings) {
-      rows += r.rows;
-      duration += r.duration;
-      shortest = std::min(shortest, r.clock.step);
-      longest = std::max(longest, r.clock.step);
-    }
-    if (seen_.recordings.empty()) return;
-    const std::string steps =
-        longest > 1.01 * shortest ? time_text(shortest) + " to " + time_text(longest) : time_text(longest);
-    seen_.sentences.push_back(fmt::format("{} with {} rows, {} between rows, {} in all.",
-                                          count(seen_.recordings.size(), "recording"), rows, steps,
-                                          time_text(duration)));
-    for (const auto& name : program().input_names) drive_sentence(name);
-    for (const auto& name : model_.outputs()) output_sentence(name);
-    if (seen_.repeats.empty())
-      seen_.sentences.emplace_back(
-          "Nothing was recorded twice, neither a period nor a recording: the floor of the measurement cannot be read "
-          "off, only guessed from how rough the rows are.");
-  }
-
-  void drive_sentence(const std::string& name) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = 0;
-    std::size_t reversals = 0, swings = 0;
-    Hold hold;
-    std::string held_in;
-    for (const auto& r : seen_.recordings)
-      for (const auto& d : r.drives) {
-        if (d.input != name) continue;
-        low = std::min(low, d.lowest);
-        high = std::max(high, d.highest);
-        if (d.band.highest > 0) {
-          band_low = std::min(band_low, d.band.lowest);
-          band_high = std::max(band_high, d.band.highest);
-        }
-        reversals += d.reversals;
-        swings = std::max(swings, d.swings);
-        if (d.hold.length > hold.length) {
-          hold = d.hold;
-          held_in = r.name;
-        }
-      }
-    const Unit unit = unit_of(name);
-    if (high < low) {
-      if (column(name) != nullptr) seen_.sentences.push_back(fmt::format("{} does not move.", name));
-      return;
-    }
-    std::string text = fmt::format("{} moves over {}", name, range_text(low, high, unit));
-    if (band_high > 0) text += fmt::format(", excites {:.3g} .. {:.4g} Hz", band_low, band_high);
-    text += fmt::format(", turns {}", reversals == 1 ? "once" : fmt::format("{} times", reversals));
-    if (swings > 0)
-      text += fmt::format(" with up to {} of swing in a recording", swings == 1 ? "one size" : count(swings, "size"));
-    text += hold.length > 0 ? fmt::format("; longest hold {} ({}).", time_text(hold.length), held_in)
-                            : "; it is never held.";
-    seen_.sentences.push_back(text);
-  }
-
-  void output_sentence(const std::string& name) {
-    const InspectedColumn* c = column(name);
-    if (c == nullptr) return;
-    std::string text = fmt::format("{} was measured over {}", name, range_text(c->lowest, c->highest, c->unit));
-    if (c->finest > 0) text += fmt::format(" in steps of {}", size_text(c->finest, c->unit));
-    text += fmt::format(", rough by {}", size_text(c->roughness, c->unit));
-    for (const auto& r : seen_.repeats)
-      if (r.output == name) {
-        text += fmt::format("; it repeats to {} rms ({})", size_text(r.floor.rms, c->unit), r.what);
-        break;
-      }
-    seen_.sentences.push_back(text + ".");
-  }
 
   DataModel& model_;
   bool diagram_is_meant_ = true;
