@@ -13,6 +13,7 @@
 
 #include "discover/between_samples.h"
 #include "discover/books.h"
+#include "discover/room.h"
 #include "engine/error.h"
 
 namespace hysteron {
@@ -225,31 +226,33 @@ bool another_than_the_zero(Books& books) {
 /// Steps on top of those that stand, until only noise is left or nothing helps. `first`: what the first one tried.
 void one_by_one(Books& books, std::vector<Tried>& first) {
   std::vector<Tried> last;
-  int found = found_effects(books), names = found;
-  // A step that is told anew may leave a name out, and then there is room for another one; not without end.
-  const int most_turns = 3 * books.options.max_steps + static_cast<int>(books.base_model->outputs().size());
-  for (int turns = most_turns; turns > 0; --turns, ++found) {
-    found -= std::max(0, names - found_effects(books));
-    names = found_effects(books);
-    if (found >= books.options.max_steps || books.stopped()) break;
+  const int most = books.options.max_steps, axes = static_cast<int>(books.base_model->outputs().size());
+  Room room(found_effects(books), most, 3 * most + axes);  // a name or two may leave for each that stays
+  while (room.left(found_effects(books)) && !books.stopped()) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     if (more_than_noise(books)) books.smooth = find_smooth_input(books);
     if (books.smooth) return;
     if (step == 1) {
       if (!one_step(books, step, As::further, &first) && !on_axes_together(books, first)) break;
+      room.took_a_name();
       continue;
     }
     const bool more = more_than_noise(books) && unless_it_fails(books, [&] {
                         return one_step(books, step, As::further, &last) || two_more(books, last);
                       });
-    if (more) continue;
+    if (more) {
+      room.took_a_name();
+      continue;
+    }
     // An output that nothing found so far moves is judged as if it were alone: nobody's imperfect law left anything
     // there.
     const auto alone = untouched_outputs(books);
-    if (!alone.empty() && unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); }))
+    if (!alone.empty() && unless_it_fails(books, [&] { return one_step(books, step, As::first, nullptr, alone); })) {
+      room.took_a_name();
       continue;
+    }
     if (!unless_it_fails(books, [&] { return as_a_set_on_another_output(books, 0.9); })) break;
-    --found;  // no further name
+    room.took_no_name();
   }
   unless_it_fails(books, [&] { return a_wrong_zero(books), true; });
 }
