@@ -264,13 +264,9 @@ bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) 
   });
 }
 
-}  // namespace
-
-namespace {
-
 /// Two poles that a fit left at one time are at a saddle where something else is found beside them: they begin apart.
 void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
-  constexpr double alike = 0.02, apart = 1.5;
+  constexpr double alike = 0.02, apart = 1.5;  // of the one, to each side
   if (law.free.size() != free.size()) return;
   for (std::size_t i = 0; i < free.size(); ++i)
     for (std::size_t k = i + 1; k < free.size(); ++k) {

@@ -8,7 +8,8 @@
 namespace hysteron {
 namespace {
 
-/// How much faster than it did a recorder samples.
+/// So many times as fast as it wrote rows a recorder may sample: few write every sample that they take. To ask for more
+/// is to ask for another one.
 constexpr double faster_recorder = 8;
 
 bool is_of_sensor(const Effect& e) { return e.of_the_sensor() && e.id != "calibration"; }
@@ -55,8 +56,7 @@ std::optional<Experiment> experiment_among(Books& books, const Rivals& rivals) {
   auto e = separate(rivals, device, sight);
   const int all = static_cast<int>(rivals.models.size()) - 1;
   const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
-  // Few recordings of one kind may just have been too slow: the same menu, sampled as much faster as the same recorder
-  // may (much more is another instrument).
+  // Few recordings of one kind may just have been too slow: the same menu, sampled faster.
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
   if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells)) {
     device.shortest_step /= faster_recorder;
