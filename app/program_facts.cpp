@@ -127,7 +127,7 @@ std::vector<ClockFacts> clock_facts(const Program& program) {
 
 std::string origin_text(const std::string& origin) {
   if (origin.empty()) return "default";
-  if (origin.starts_with("--")) return origin;
+  if (origin.starts_with("--")) return origin.substr(0, origin.find(' '));
   const auto hash = origin.find('#');
   if (hash == std::string::npos) return "diagram " + origin;
   const std::string pointer = origin.substr(hash + 1);

@@ -150,7 +150,7 @@ std::string names_of(const Discovery& d) {
   for (const auto& step : d.steps) {
     std::string name = step.winner.effect + " at " + step.winner.place;
     for (const auto& other : step.winner.same_effects) name += " = " + other;
-    for (const auto& tie : step.ties) name += " or " + tie.effect;
+    for (const auto& tie : step.ties) name += " or " + tie.effect + " at " + tie.place;
     names.push_back(std::move(name));
   }
   return fmt::format("{}", fmt::join(names, ", then "));

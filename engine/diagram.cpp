@@ -54,6 +54,8 @@ Node& find_node(Diagram& diagram, const std::string& path, const std::string& op
 
 }  // namespace
 
+bool was_set(const std::string& origin) { return origin.starts_with("--set "); }
+
 void apply_settings(Diagram& diagram, const std::vector<Override>& set, const std::vector<Override>& choose) {
   for (const auto& c : choose) {
     const std::string option = fmt::format("--choose {}={}", c.path, c.value);
@@ -69,7 +71,7 @@ void apply_settings(Diagram& diagram, const std::vector<Override>& set, const st
   for (const auto& s : set) {
     const std::string option = fmt::format("--set {}={}", s.path, s.value);
     Value value(s.value);
-    value.origin = "--set";
+    value.origin = option;
     const auto dot = s.path.rfind('.');
     if (dot == std::string::npos) {
       DiagramParameter* parameter = diagram.parameters.find(s.path);

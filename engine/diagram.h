@@ -38,7 +38,7 @@ struct NumberMatrix {
 /// What a parameter of a block was given.
 struct Value {
   std::variant<Number, NumberList, std::string, Reference, SeriesPointer, NumberMatrix> content;
-  std::string origin{};  ///< where it was written: "stage.json#/blocks/a/gain", "--set", ... ("" = from C++)
+  std::string origin{};  ///< where it was written: "stage.json#/blocks/a/gain", "--set a.gain=2" ("" = from C++)
 
   Value() = default;
   Value(double number) : content(Number{number, {}}) {}  // NOLINT: implicit on purpose, so that C++ diagrams read well
@@ -166,6 +166,9 @@ struct Diagram {
 struct Override {
   std::string path, value;
 };
+
+/// Was a value with this origin given from outside?
+bool was_set(const std::string& origin);
 
 /// Applies `--set` and `--choose`. Throws Error naming the nearest valid path.
 void apply_settings(Diagram& diagram, const std::vector<Override>& set, const std::vector<Override>& choose);

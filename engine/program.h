@@ -157,6 +157,7 @@ using ProgramPointer = std::shared_ptr<const Program>;
 /// Compiles a diagram: resolves parameters and choices, inlines nested diagrams, checks wires and units, orders the
 /// steps. Throws Error with all problems of the first stage that fails.
 ProgramPointer compile(const Diagram& diagram, const Registry& registry);
+ProgramPointer compile(const Diagram& diagram, Registry&& registry) = delete;  ///< a program does not keep its blocks
 
 /// All numbers of one simulation. Copy it to start another.
 struct Run {

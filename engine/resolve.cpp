@@ -48,7 +48,11 @@ class Resolver {
     check(node_.parameters_from_file);
   }
 
-  std::string place(const std::string& name) const { return origin_ + "/" + name; }
+  /// Where a value of that name was written, or would be.
+  std::string place(const std::string& name) const {
+    const Value* given = node_.parameters.find(name);
+    return given != nullptr && was_set(given->origin) ? given->origin : origin_ + "/" + name;
+  }
 
   ResolvedParameter one(const ParameterDeclaration& p) {
     const Value* given = node_.parameters.find(p.name);
@@ -210,21 +214,22 @@ class Resolver {
     ResolvedNumber n;
     n.parameter = name;
     n.origin = origin;
+    const std::string where = was_set(origin) ? origin : place(p.name);
     const bool variable = p.unit.find('$') != std::string::npos;
     try {
-      const Unit declared = variable ? Unit{} : parse_unit(p.unit, place(p.name));
+      const Unit declared = variable ? Unit{} : parse_unit(p.unit, where);
       if (!number.unit) {
         n.unit = declared;
         n.si = p.is_difference ? declared.difference_to_si(number.value) : declared.to_si(number.value);
       } else {
-        n.unit = parse_unit(*number.unit, place(p.name));
+        n.unit = parse_unit(*number.unit, where);
         n.has_unit = true;
         n.dimension = n.unit.dimension;
         n.si = p.is_difference ? n.unit.difference_to_si(number.value) : n.unit.to_si(number.value);
         const double factor = variable ? 1 : dimension_factor(n.unit.dimension, declared.dimension);
         if (factor == 0) {
           problems_.add(
-              "wrong_unit", place(p.name),
+              "wrong_unit", where,
               fmt::format("\"{}\" of {} is in {}, found \"{}\"", p.name, declaration_.type,
                           p.unit.empty() ? "no unit" : p.unit, *number.unit),
               p.unit.empty() ? "leave the unit out" : fmt::format("write it in {} or a multiple of it", p.unit));
@@ -234,12 +239,12 @@ class Resolver {
         if (factor != 1) n.unit.scale *= factor;
       }
     } catch (const Error& e) {
-      for (const auto& problem : e.problems) problems_.add(problem.code, place(p.name), problem.what, problem.cure);
+      for (const auto& problem : e.problems) problems_.add(problem.code, where, problem.what, problem.cure);
       return nobody_knows(n);
     }
-    check_range(p, n.si);
+    check_range(p, n.si, where);
     if (p.is_structural && (n.si != std::floor(n.si) || std::abs(n.si) > 1e6))
-      problems_.add("bad_value", place(p.name),
+      problems_.add("bad_value", where,
                     fmt::format("\"{}\" of {} holds {}, which is no whole number", p.name, declaration_.type, n.si),
                     "write whole numbers");
     return n;
@@ -251,9 +256,9 @@ class Resolver {
     return n;
   }
 
-  void check_range(const ParameterDeclaration& p, double si) {
+  void check_range(const ParameterDeclaration& p, double si, const std::string& where) {
     if (!lies_in_range(p, si))
-      problems_.add("bad_value", place(p.name),
+      problems_.add("bad_value", where,
                     fmt::format("\"{}\" of {} is {} (SI), which is outside its range", p.name, declaration_.type, si),
                     !(si > p.maximum) ? fmt::format("it must be {} {} (SI)",
                                                     p.exclusive_minimum ? "greater than" : "at least", p.minimum)

@@ -74,10 +74,14 @@ class UnitCheck {
   }
 
   void run() {
-    do {
-      changed_ = false;
-      for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
-    } while (changed_);
+    // What was set on the command line stands against what the file says, not the other way round.
+    for (const bool those_set : {false, true}) {
+      believe_those_set_ = those_set;
+      do {
+        changed_ = false;
+        for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
+      } while (changed_);
+    }
     report();
     for (std::size_t s = 0; s < signals_.size(); ++s) graph_.signals[s].dimension = signals_[s].value_or(Dimension{});
     show_units();
@@ -131,7 +135,7 @@ class UnitCheck {
       const auto& port = d.inputs[static_cast<std::size_t>(p)];
       const auto s = static_cast<std::size_t>(block.source[i]);
       visit(unit_at(block.sizes.input_units, i, port.unit, element), signals_[s],
-            fmt::format("input {} (from {})", port.name, graph_.signals[s].path), block.source[i], true);
+            fmt::format("input {} (from {})", port.name, graph_.signals[s].path), block.source[i], block.origin);
     }
     for (std::size_t i = 0; i < d.parameters.size(); ++i) {
       if (d.parameters[i].unit.find('$') == std::string::npos || d.parameters[i].kind == ParameterKind::text) continue;
@@ -139,6 +143,7 @@ class UnitCheck {
       for (std::size_t k = 0; k < block.parameters[i].numbers.size(); ++k) {
         const auto& number = block.parameters[i].numbers[k];
         if (!number.has_unit && number.si == 0) continue;  // zero fits any unit
+        if (was_set(number.origin) && !believe_those_set_) continue;
         std::string unit = d.parameters[i].unit;
         if (columns > 0)
           unit = of_element(of_element(std::move(unit), "[row]", static_cast<int>(k) / columns), "[column]",
@@ -146,7 +151,7 @@ class UnitCheck {
         visit(unit, Known(number.dimension.value_or(Dimension{})),
               fmt::format("parameter {} ({})", d.parameters[i].name,
                           number.has_unit ? "in " + number.unit.text : "without a unit"),
-              -1, true);
+              -1, was_set(number.origin) ? number.origin : block.origin);
       }
     }
     for (std::size_t i = 0; i < block.output.size(); ++i) {
@@ -155,37 +160,39 @@ class UnitCheck {
       const int s = block.first_signal + static_cast<int>(i);
       visit(unit_at(block.sizes.output_units, i, port.unit, element), signals_[static_cast<std::size_t>(s)],
             element < 0 ? fmt::format("output {}", port.name) : fmt::format("output {}[{}]", port.name, element), s,
-            false);
+            block.origin);
     }
   }
 
   void visit(std::size_t b) {
-    each_constraint(b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal, bool) {
-      const Expression e = parse_expression(unit);
-      if (actual) {
-        learn(b, e, *actual, why);
-      } else if (const Known v = value(b, e); v && signal >= 0) {
-        signals_[static_cast<std::size_t>(signal)] = v;
-        changed_ = true;
-      }
-    });
+    each_constraint(
+        b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal, const std::string&) {
+          const Expression e = parse_expression(unit);
+          if (actual) {
+            learn(b, e, *actual, why);
+          } else if (const Known v = value(b, e); v && signal >= 0) {
+            signals_[static_cast<std::size_t>(signal)] = v;
+            changed_ = true;
+          }
+        });
   }
 
   void report() {
     Problems problems;
     for (std::size_t b = 0; b < graph_.blocks.size(); ++b)
-      each_constraint(b, [&](const std::string& unit, const Known& actual, const std::string& why, int, bool) {
-        const Known expected = value(b, parse_expression(unit));
-        if (!expected || !actual || dimension_factor(*actual, *expected) == 1) return;
-        std::string chain;
-        for (const auto& [name, power] : parse_expression(unit).variables)
-          if (const auto f = units_[b].fixed_by.find(name); f != units_[b].fixed_by.end())
-            chain += fmt::format("; {} fixes {}", f->second, to_text(units_[b].variables[name]));
-        problems.add("wrong_unit", graph_.blocks[b].origin,
-                     fmt::format("\"{}\": {} is {}, expected {}{}", graph_.blocks[b].path, why, named(*actual),
-                                 named(*expected), chain),
-                     "give the value the expected unit, or put a gain between");
-      });
+      each_constraint(
+          b, [&](const std::string& unit, const Known& actual, const std::string& why, int, const std::string& where) {
+            const Known expected = value(b, parse_expression(unit));
+            if (!expected || !actual || dimension_factor(*actual, *expected) == 1) return;
+            std::string chain;
+            for (const auto& [name, power] : parse_expression(unit).variables)
+              if (const auto f = units_[b].fixed_by.find(name); f != units_[b].fixed_by.end())
+                chain += fmt::format("; {} fixes {}", f->second, to_text(units_[b].variables[name]));
+            problems.add("wrong_unit", where,
+                         fmt::format("\"{}\": {} is {}, expected {}{}", graph_.blocks[b].path, why, named(*actual),
+                                     named(*expected), chain),
+                         "give the value the expected unit, or put a gain between");
+          });
     problems.throw_if_any();
   }
 
@@ -241,7 +248,7 @@ class UnitCheck {
   Graph& graph_;
   std::vector<BlockUnits> units_;
   std::vector<Known> signals_;
-  bool changed_ = false;
+  bool changed_ = false, believe_those_set_ = false;
 };
 
 }  // namespace

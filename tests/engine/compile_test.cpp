@@ -239,6 +239,30 @@ TEST(Compile, SettingsFromOutsideChangeValuesAndChoices) {
   }
 }
 
+TEST(Compile, WhatWasSetFromOutsideIsToBlameForItsUnitAndNotWhatTheFileSays) {
+  const auto told = [](Diagram d, const char* path, const char* value) {
+    apply_settings(d, {{path, value}}, {});
+    std::vector<std::string> places;
+    for (const auto& problem : problems_of(d)) places.push_back(problem.code + " at " + problem.path);
+    return places;
+  };
+  using Places = std::vector<std::string>;
+  Diagram d = valid();
+  d.blocks["lag"] = node("lag", {"stage"}, {{"times", NumberList{{1, "s"}}}});
+  d.parameters["k"].value = "2 s";
+  d.blocks["control"] = node("pi_controller", {"lag"}, {{"kp", "2 V/um"}, {"ki", "3 V/(um s)"}});
+  d.blocks["slow"] = node("lag", {"stage"}, {{"times", "$k"}});
+  for (const char* output : {"lag", "control", "slow"}) d.outputs[output] = output;
+  ASSERT_EQ(told(d, "k", "3 s"), Places{});
+  EXPECT_EQ(told(d, "lag.times", "3 V"), Places{"wrong_unit at --set lag.times=3 V"});
+  EXPECT_EQ(told(d, "lag.times", "3 sek"), Places{"bad_unit at --set lag.times=3 sek"});
+  EXPECT_EQ(told(d, "lag.times", "-3 s"), Places{"bad_value at --set lag.times=-3 s"});
+  EXPECT_EQ(told(d, "k", "3 V"), Places{"wrong_unit at --set k=3 V"});
+  EXPECT_EQ(told(d, "lag.time", "3 s"), Places{"unknown_parameter at --set lag.time=3 s"});
+  // Of the two gains the one that was set is wrong, though it is read first.
+  EXPECT_EQ(told(d, "control.kp", "3 K"), Places{"wrong_unit at --set control.kp=3 K"});
+}
+
 TEST(Compile, ALongChainIsOrderedWithoutRecursion) {
   Diagram d;
   d.inputs["u"] = {"V", ""};

@@ -280,7 +280,8 @@ TEST(DiagramFile, InputsAndOutputsMayBeCalledAsColumnsAre) {
   EXPECT_EQ(*d.outputs.find("F1"), "a");
   folder.write("again.json", diagram_text(d));
   EXPECT_EQ(diagram_text(read_diagram(folder.path("again.json"))), diagram_text(d));
-  EXPECT_EQ(compile(d, all_blocks())->input_names, std::vector<std::string>{"T"});
+  const Registry registry = all_blocks();  // the program points to its blocks
+  EXPECT_EQ(compile(d, registry)->input_names, std::vector<std::string>{"T"});
 }
 
 TEST(DiagramFile, NumbersSurviveToTheLastBitWhateverTheirUnit) {
@@ -331,11 +332,12 @@ TEST(DiagramFile, ARecordedSignalThatMovesSmoothlyIsASpline) {
 TEST(DiagramFile, ARecordedSignalHasTheUnitOfItsColumn) {
   const TemporaryFolder folder;
   folder.write("lab.csv", "t [s],u [um]\n0,1\n1,2\n");
+  const Registry registry = all_blocks();  // the programs point to its blocks
   const auto compiled = [&](const std::string& radius) {
     return compile(read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {
       "drive": {"type": "recorded", "file": "lab.csv", "column": "u"},
       "play": {"type": "play", "radius": ")" + radius + R"(", "in": "drive"}}, "record": ["play"]})")),
-                   all_blocks());
+                   registry);
   };
   const auto program = compiled("1 nm");
   EXPECT_EQ(program->signals[static_cast<std::size_t>(program->signal("drive"))].unit.text, "um");
