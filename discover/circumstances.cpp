@@ -76,16 +76,19 @@ class InSeries {
   }
   bool is_free(const ParameterInfo& p) const { return std::find(free_.begin(), free_.end(), &p) != free_.end(); }
 
-  void note(int block, Circumstances& c, bool behind_place) const {
+  /// Of several branches that move, the gain of one is in series with nothing; its zero is one.
+  enum class Where { before, behind, branch };
+
+  void note(int block, Circumstances& c, Where where) const {
     const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
     if (program_.blocks[static_cast<std::size_t>(block)].kernel->uses_time) return;  // a line of the mains is no zero
     for (const auto& p : program_.parameters) {
       if (!p.linear || p.block != block) continue;
       if (!p.offset && !constant) {
-        c.gain_is_free = c.gain_is_free || is_free(p);
+        c.gain_is_free = c.gain_is_free || (where != Where::branch && is_free(p));
       } else {
         c.offset_is_free = c.offset_is_free || is_free(p);
-        if (behind_place) c.zeros.push_back(p.path);
+        if (where == Where::behind) c.zeros.push_back(p.path);
       }
     }
   }
@@ -100,18 +103,19 @@ class InSeries {
     if (reader < 0) return -1;
     const auto& block = program_.blocks[static_cast<std::size_t>(reader)];
     if (!is_linear(block) || moving_input(program_, block) != signal) return -1;
-    note(reader, c, true);
+    note(reader, c, Where::behind);
     for (const int s : block.source)
-      if (s != signal) note(program_.signals[static_cast<std::size_t>(s)].block, c, true);
+      if (s != signal) note(program_.signals[static_cast<std::size_t>(s)].block, c, Where::behind);
     return block.y_begin;
   }
   int before(int signal, Circumstances& c) const {
     const auto& block = block_of(signal);
     if (block.n_u == 0 || !is_linear(block)) return -1;
-    note(program_.signals[static_cast<std::size_t>(signal)].block, c, false);
+    note(program_.signals[static_cast<std::size_t>(signal)].block, c, Where::before);
     const int moving = moving_input(program_, block);
     for (const int s : block.source)
-      if (s != moving) note(program_.signals[static_cast<std::size_t>(s)].block, c, false);
+      if (s != moving)
+        note(program_.signals[static_cast<std::size_t>(s)].block, c, moving < 0 ? Where::branch : Where::before);
     return moving;
   }
 
@@ -281,6 +285,7 @@ class Observer {
     Circumstances c;
     c.from_data = true;
     look_at_row_times(data_, c);
+    c.drive_cycles = drive_cycles();
     for (const int b : program_->memory_blocks) {
       const auto& block = program_->blocks[static_cast<std::size_t>(b)];
       if (!block.kernel->declaration.memory_port.empty()) c.memory_blocks.push_back(block.path);
@@ -290,6 +295,20 @@ class Observer {
         c.offset_is_free = true;
     look_at_holds(c);
     return c;
+  }
+
+  /// Of each recording, empty where the inputs of one move otherwise.
+  std::vector<double> drive_cycles() const {
+    std::vector<double> list;
+    for (const auto* some : {&trains_, &others_})
+      for (const auto& seen : *some)
+        for (std::size_t s = drives_; s < signals_.size(); ++s) {
+          const auto [low, high] = std::minmax_element(seen.rows[s].begin(), seen.rows[s].end());
+          if (!(*high > *low)) continue;
+          list.push_back(cycle_frequency(std::span(seen.recording->t).first(seen.recording->last), seen.rows[s]));
+          if (!(list.back() > 0)) return {};
+        }
+    return list;
   }
 
   void range_of(std::size_t signal, double& low, double& high) const {

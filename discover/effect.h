@@ -90,6 +90,8 @@ struct Circumstances {
   double side_lowest = 0, side_highest = 1;
   double side_highest_of_all = 1;  ///< validation included: it is known, not predicted
   double side_at_start = 0;        ///< median over the train recordings of the side signal's first value
+  /// How often the drive of each recording comes again [Hz]; empty unless each is a sine or the like.
+  std::vector<double> drive_cycles;
   /// Of the user's model, where effects stand in it already: what their laws leave rings there.
   std::vector<Resonance> own_resonances;
   /// Correlation of the side signal with this wire over the train recordings, -1..1.

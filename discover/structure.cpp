@@ -22,7 +22,9 @@ std::string sentence_of(const Structure& s, Where where) {
   const std::string share = fmt::format("{:.0f} % of what stands above the noise {}", 100 * s.share_removed,
                                         where == Where::validation ? "on validation recordings" : "in all recordings");
   if (s.kind == "line_in_time")
-    return fmt::format("a line at {:.4g} Hz in the residual of {} holds {}", 1 / s.period, s.output, share);
+    return fmt::format("a line at {:.4g} Hz{} in the residual of {} holds {}", 1 / s.period,
+                       s.harmonic > 0 ? fmt::format(", {} times the frequency of the drive,", s.harmonic) : "",
+                       s.output, share);
   if (s.kind == "line_in_level")
     return fmt::format("a ripple over {} with period {:.4g} {} holds {}", s.variable,
                        s.unit.difference_from_si(s.period), s.unit.text, share);

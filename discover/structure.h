@@ -26,6 +26,7 @@ struct Structure {
   std::string variable;  ///< "t", an input or an output: what it lives on
   std::string output;    ///< in whose residual
   double period = 0;     ///< in units of the variable [SI]; 0 = none
+  int harmonic = 0;      ///< of a line: so many times the frequency of the drive, in every recording; 0 = it is none
   double threshold = 0;  ///< [SI]
   bool has_threshold = false;
   /// The threshold is passed once in each recording, at about the same time [s] after its start: nobody can tell

@@ -8,6 +8,7 @@
 
 #include "discover/residual_parts.h"
 #include "discover/structures.h"
+#include "fit/excitation.h"
 
 namespace hysteron {
 namespace {
@@ -196,6 +197,9 @@ std::optional<Structure> line_in_time(const ResidualParts& parts) {
   const double chosen = 2 * std::log(static_cast<double>(rows) / 2);
   s.fall.train -= chosen;
   s.fall.validate -= chosen;
+  std::vector<double> cycles;
+  for (const auto& p : parts.list()) cycles.push_back(p.drive.empty() ? 0 : cycle_frequency(p.t, p.drive));
+  s.harmonic = harmonic_order(f, cycles);
   return s;
 }
 

@@ -61,6 +61,9 @@ std::string lasting(const Structure& s) {
 }
 
 std::string follows(const Structure& s) {
+  if (s.harmonic > 0)
+    return "It is a harmonic of the drive: the motion makes it, by a curve, a loop, friction or a limit, and nothing "
+           "from outside.";
   if (s.kind == "line_in_time")
     return fmt::format(
         "It repeats every {} in all recordings, whatever the inputs do; amplitude and phase were found in each.",
@@ -103,6 +106,9 @@ std::string what_to_record(const Structure* left) {
     return "Record longer, each input by itself, slow and fast, small and large and held, and beside them, as columns "
            "of their "
            "own, what else may act (temperature, load, supply): then it shows what the residual follows.";
+  if (left->harmonic > 0)
+    return "Record the same drive at a half and at a quarter of its amplitude, and at another frequency: how its "
+           "harmonics grow tells a curve, whose grow faster than the drive, from friction and a loop.";
   if (left->kind == "line_in_time")
     return fmt::format(
         "Record once with every input held, for many times {}: a line that stays comes from outside or from "

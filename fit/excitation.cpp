@@ -186,4 +186,23 @@ Period period_of(std::span<const double> u) {
                                                                               : Period{};
 }
 
+double cycle_frequency(std::span<const double> t, std::span<const double> u) {
+  const Period period = period_of(u);
+  if (!period.found()) return 0;
+  const auto turns = turning_points(u.subspan(period.first, period.last - period.first), 0.05 * range_of(u)).size();
+  if (static_cast<double>(turns) > 2 * period.count() + 1) return 0;
+  return static_cast<double>(u.size() - 1) / (t.back() - t.front()) / period.rows;
+}
+
+int harmonic_order(double frequency, std::span<const double> cycles) {
+  constexpr int highest = 15;      // what is further up is small, and any frequency is near one of many multiples
+  constexpr double as_one = 0.02;  // of the drive's frequency
+  int order = 0;
+  for (const double f : cycles) {
+    order = f > 0 ? static_cast<int>(std::lround(frequency / f)) : 0;
+    if (order < 2 || order > highest || std::abs(frequency / f - order) > as_one) return 0;
+  }
+  return order;
+}
+
 }  // namespace hysteron

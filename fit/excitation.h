@@ -44,4 +44,10 @@ struct Period {
 /// The shortest period with which `u` repeats to 1 % of its range for at least two periods.
 Period period_of(std::span<const double> u);
 
+/// How often a signal comes again [Hz] that goes up and down once on its way, as a sine does; 0 where it is none such.
+double cycle_frequency(std::span<const double> t, std::span<const double> u);
+/// Which multiple of how often each recording's drive comes again a frequency is, 2 to 15, in every recording: then it
+/// is made of the drive. 0 = it is none, or `cycles` is empty.
+int harmonic_order(double frequency, std::span<const double> cycles);
+
 }  // namespace hysteron

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/effects/library.h"
+#include "fit/excitation.h"
 
 namespace hysteron::effects {
 namespace {
@@ -100,6 +101,11 @@ std::string why_no_mode(const Law&, const std::vector<double>& values, const Cir
       frequency = values[k];
       damping = values[k + 1];
     }
+  for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
+    if (const int order = harmonic_order(values[k], at.drive_cycles); order > 0)
+      return fmt::format(
+          "at {:.4g} Hz, {} times the frequency of the drive, it is a harmonic of it: of a curve, a loop or friction",
+          values[k], order);
   if (damping > most_damping)
     return fmt::format("with its damping of {:.2g}, more than {}, it would shift the phase and not ring", damping,
                        most_damping);

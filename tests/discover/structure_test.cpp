@@ -21,11 +21,12 @@ class Structures : public ::testing::Test {
 
   /// Two train and two validate recordings of different length; noise 1 mm rms, u over 0 .. 1 V. The room stays at
   /// 22 degC but for the recordings in which it warms by 10 K.
-  std::optional<Structure> found_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1}) {
+  std::optional<Structure> found_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1},
+                                    double drive = 0) {
     std::vector<Recording> list;
     for (int r = 0; r < 4; ++r) {
       const auto t = rows(800 + 100 * r, 0.01 * (1 + r % 2));
-      const auto u = several_sines(t, 1, {0.13 + 0.02 * r, 0.31});
+      const auto u = drive > 0 ? several_sines(t, 1, {drive}) : several_sines(t, 1, {0.13 + 0.02 * r, 0.31});
       auto y = noise(t.size(), 1e-3, 0, 10 + static_cast<std::uint64_t>(r));
       const auto follows = behind_a_lag(t, u, lag);
       for (std::size_t k = 0; k < t.size(); ++k) y[k] += follows[k] + hidden(t[k], u[k], r);
@@ -62,6 +63,23 @@ class Structures : public ::testing::Test {
   Registry registry = all_blocks();
   std::shared_ptr<const DataSet> data_;
 };
+
+TEST_F(Structures, ALineAtAMultipleOfTheDriveIsItsHarmonicAndNotFromOutside) {
+  const auto third = [](double, double u, int) { return 0.02 * std::pow(2 * u - 1, 3); };  // a cubic curve
+  const auto s = found_in(third, 0, {1}, 0.9);
+  ASSERT_TRUE(s.has_value());
+  ASSERT_EQ(s->kind, "line_in_time");
+  EXPECT_NEAR(1 / s->period, 2.7, 0.01);
+  EXPECT_EQ(s->harmonic, 3);
+  EXPECT_NE(s->sentence.find("3 times the frequency of the drive"), std::string::npos) << s->sentence;
+  EXPECT_NE(structure_sentences(*s).front().find("harmonic of the drive"), std::string::npos);
+  EXPECT_NE(what_to_record(&*s).find("of its amplitude"), std::string::npos);
+  const auto pump = found_in([](double t, double, int) { return 0.01 * std::sin(2 * pi * 2.5 * t); }, 0, {1}, 0.9);
+  ASSERT_TRUE(pump.has_value());
+  ASSERT_EQ(pump->kind, "line_in_time");
+  EXPECT_EQ(pump->harmonic, 0);
+  EXPECT_NE(structure_sentences(*pump).front().find("whatever the inputs do"), std::string::npos);
+}
 
 TEST_F(Structures, ALineInTimeIsFoundWhateverItsPhaseInEachRecording) {
   const auto s = found_in([](double t, double, int r) { return 0.01 * std::sin(2 * pi * t / 0.71 + 1.7 * r); });

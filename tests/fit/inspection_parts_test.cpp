@@ -151,6 +151,28 @@ TEST(Plateau, IsNoneWhereTheDriveStandsStill) {
 
 // --- excitation -------------------------------------------------------------------------------------------------
 
+TEST(Excitation, ACycleIsWhatGoesUpAndDownOnceAndItsMultiplesAreHarmonics) {
+  std::vector<double> t, sine, triangle, two, chirp;
+  for (int k = 0; k < 4000; ++k) {
+    const double x = k * 1e-3, turn = 2 * std::numbers::pi * x;
+    t.push_back(x);
+    sine.push_back(std::sin(3.1 * turn));
+    triangle.push_back(std::abs(std::remainder(2.5 * x, 1)));
+    two.push_back(std::sin(turn) + std::sin(5 * turn));
+    chirp.push_back(std::sin(turn * x));
+  }
+  EXPECT_NEAR(cycle_frequency(t, sine), 3.1, 0.01);
+  EXPECT_NEAR(cycle_frequency(t, triangle), 2.5, 0.01);
+  EXPECT_EQ(cycle_frequency(t, two), 0) << "it turns ten times on its way";
+  EXPECT_EQ(cycle_frequency(t, chirp), 0);
+  EXPECT_EQ(harmonic_order(9.004, std::vector<double>{3, 3}), 3);
+  EXPECT_EQ(harmonic_order(3, std::vector<double>{3}), 0) << "that is the drive itself";
+  EXPECT_EQ(harmonic_order(9.1, std::vector<double>{3}), 0);
+  EXPECT_EQ(harmonic_order(9, std::vector<double>{3, 0}), 0) << "one drive is none such";
+  EXPECT_EQ(harmonic_order(50, std::vector<double>{1}), 0) << "of so many multiples one is near anything";
+  EXPECT_EQ(harmonic_order(9, {}), 0);
+}
+
 TEST(LongestHold, IsTheStayBehindAMove) {
   const auto t = rows(100, [](std::size_t i) { return 0.1 * static_cast<double>(i); });
   const auto u = rows(100, [](std::size_t i) { return i < 50 ? 0.0 : i < 55 ? 1.0 : i < 85 ? 2.0 : 3.0; });
