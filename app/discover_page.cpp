@@ -253,6 +253,14 @@ void add_diagrams(Document& document, const Discovery& found, const std::string&
                                 text_in_folder(content, folder, name_in_folder(written), nested));
 }
 
+/// A column that is as many samples late at every sample rate: nothing in a device does that, so it comes before all
+/// effects. "" = there is none, or it is little of the error.
+std::string wrong_in_the_data(const Inspected& inspected) {
+  for (const auto& d : inspected.data.delays)
+    if (d.kind == DelayKind::samples && d.fall > 0.5) return "First of all, " + d.sentence + ". ";
+  return "";
+}
+
 }  // namespace
 
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
@@ -260,7 +268,7 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   Document document;
   document.verb = verb;
   document.title = found.base_diagram.title;
-  document.headline = answer != nullptr ? answer->sentence : found.headline;
+  document.headline = wrong_in_the_data(inspected) + (answer != nullptr ? answer->sentence : found.headline);
   document.verdict = to_text(found.verdict);
   document.sentences = found.sentences;
   document.warnings = found.warnings;

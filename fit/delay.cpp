@@ -106,6 +106,11 @@ DelayKind kind_of(const std::vector<Shifted>& list, DelayFinding& f) {
   return DelayKind::unclear;
 }
 
+std::string samples_text(double samples) {
+  const std::string number = fmt::format("{:.2g}", std::abs(samples));
+  return number + (number == "1" ? " sample" : " samples");
+}
+
 std::string sentence_of(const DelayFinding& f, const std::string& name) {
   const char* late = f.samples > 0 ? "late" : "early";
   const std::string fall = fmt::format("this takes {:.0f} % of the squared error away", 100 * f.fall);
@@ -114,18 +119,18 @@ std::string sentence_of(const DelayFinding& f, const std::string& name) {
       return "";
     case DelayKind::samples:
       return fmt::format(
-          "{} comes {:.2g} samples {} at every sample rate ({}): a fact of the data; write \"delay\": \"{:.0f} "
+          "{} comes {} {} at every sample rate ({}): a fact of the data; write \"delay\": \"{:.0f} "
           "sample{}\" at its column",
-          name, std::abs(f.samples), late, fall, f.samples, std::abs(std::round(f.samples)) == 1 ? "" : "s");
+          name, samples_text(f.samples), late, fall, f.samples, std::abs(std::round(f.samples)) == 1 ? "" : "s");
     case DelayKind::seconds:
       return fmt::format(
           "{} comes {} {} at every sample rate ({}): a dead time of the device; try the effect dead_time", name,
           time_text(std::abs(f.seconds)), late, fall);
     case DelayKind::tie:
       return fmt::format(
-          "{} comes {:.2g} samples = {} {} ({}); with one sample rate a delay of the column, a dead time and a lag "
+          "{} comes {} = {} {} ({}); with one sample rate a delay of the column, a dead time and a lag "
           "cannot be told apart: if the data are known to be late, write \"delay\" at the column",
-          name, std::abs(f.samples), time_text(std::abs(f.seconds)), late, fall);
+          name, samples_text(f.samples), time_text(std::abs(f.seconds)), late, fall);
     case DelayKind::unclear:
       for (const auto& r : f.recordings)
         if (r.at_edge && r.fall > 0.1)

@@ -116,7 +116,7 @@ TEST_F(Inspecting, TellsAnOutputThatIsOneSampleLate) {
   ASSERT_EQ(seen.delays.size(), 1U);
   EXPECT_EQ(seen.delays[0].kind, DelayKind::tie);  // one rate: samples and seconds are the same
   EXPECT_NEAR(seen.delays[0].samples, 1, 0.01);
-  EXPECT_TRUE(tells(seen.notes, "y comes 1 samples"));
+  EXPECT_TRUE(tells(seen.notes, "y comes 1 sample "));
 }
 
 TEST_F(Inspecting, TellsALineThatNoInputMakesInTheRecordingsThatHaveIt) {
