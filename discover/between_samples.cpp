@@ -48,6 +48,16 @@ ModelError beside_a_calibration(const Books& books, Prediction prediction) {
   return books.evidence->error(prediction);
 }
 
+/// What was found says it all, and is nothing that half a sample looks like: then the user's model only fits better
+/// where it is wrong.
+bool is_explained_otherwise(const Books& books, const Contender& other_way) {
+  const auto& standing = books.current.standing;
+  if (standing.empty() || other_way.error_of.over_floor() <= rules::floor_gate) return false;
+  return books.current.error_of.over_floor() <= rules::floor_gate &&
+         std::none_of(standing.begin(), standing.end(),
+                      [](const Standing& s) { return s.effect->family == "lag" || s.effect->family == "dead_time"; });
+}
+
 /// How far a cubic through the samples lies beside straight lines, rms over all recordings, over what they vary: an
 /// eighth of the second difference in the middle between two.
 double bend_of(const DataSet& data, const std::string& input) {
@@ -78,13 +88,16 @@ void tell_unused(Books& books) {
                   books.smooth->input, 100 * books.smooth->before, 100 * books.smooth->after));
 }
 
-void tell_between_samples(Books& books) {
+void tell_smooth_inputs(Books& books) {
   for (const auto& s : books.d.smooth_inputs)
     books.d.warnings.push_back(
         fmt::format("{} moves smoothly between its samples, not along straight lines as the data set says: with it the "
                     "error of what had been found fell from {:.3g} % to {:.3g} %. All figures are with that: write "
                     "\"between_samples\": \"smooth\" at its column.",
                     s.input, 100 * s.before, 100 * s.after));
+}
+
+void tell_other_ways(Books& books) {
   for (const auto& input : books.base_model->program().input_names) {
     if (books.stopped()) return;
     const Between between = given(*books.data, input);
@@ -93,7 +106,7 @@ void tell_between_samples(Books& books) {
     const Workshop shop = with_input(books, input, held ? Between::linear : Between::hold);
     const Contender c = base_contender(shop, books.user, Effort::full);
     const ModelError& was = books.base.error_of;
-    if (!c.ok || !explains(c.error_of, was, rules::structure_share)) continue;
+    if (!c.ok || !explains(c.error_of, was, rules::structure_share) || is_explained_otherwise(books, c)) continue;
     books.d.warnings.push_back(fmt::format(
         "{} {}, not as the data set says: the error of the model as it is would be {:.3g} % instead of {:.3g} %. A "
         "dead time of half a sample looks the same.",

@@ -10,10 +10,13 @@ namespace hysteron {
 
 struct Books;
 
-/// Inputs that this search takes to move smoothly are told, with the cure. Then: where an input that is held fits the
-/// user's model better moving along straight lines, or the other way round, the user is told: how it moves is the
-/// user's word, and half a sample of delay looks the same.
-void tell_between_samples(Books& books);
+/// Inputs that this search takes to move smoothly are told, with the cure.
+void tell_smooth_inputs(Books& books);
+
+/// Where an input that is held fits the user's model better moving along straight lines, or the other way round, and
+/// what was found does not explain it otherwise, the user is told: how it moves is the user's word, and half a sample
+/// of delay looks the same.
+void tell_other_ways(Books& books);
 
 /// An input that bends between its samples by all that the present model leaves: straight lines through them are
 /// smaller than the signal, the more the quicker it is, which nothing in a device looks like but would be sold as a

@@ -1,10 +1,20 @@
 // Decides what a claim says: the best candidate of a step with its intervals, its ties, and the experiment that would
 // break them.
+#include <fmt/format.h>
+
 #include "discover/books.h"
 #include "discover/tie_experiment.h"
 
 namespace hysteron {
 namespace {
+
+/// Some effects show their worth only beside those that come after them.
+std::string as_one_of_a_set(const Tried& w) {
+  return fmt::format(
+      "one of a set: before the others it adds {:.0f} to chi2 on recordings not used for the fit, beside them it is "
+      "needed",
+      -w.fall_validate);
+}
 
 /// The reason is told in the units of the noise as settled by the claimed model.
 void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
@@ -14,8 +24,8 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
   was.parameters = 0;
   const bool admitted = w.admitted;
   judge(evidence, w, was, {});
+  if (admitted && !w.admitted) w.reason = w.fall_validate > 0 ? what_it_takes(w) : as_one_of_a_set(w);
   w.admitted = admitted;
-  if (admitted && w.patch) w.reason = what_it_takes(w);  // by itself it is one, and not as it was claimed
 }
 
 }  // namespace
@@ -66,7 +76,6 @@ void take(Books& books, int step, Tried& w, FoundStep found) {
   found.winner.claimed = true;
   found.change = books.current.change;
   found.change.diagram = books.current.diagram;
-  found.sentence = step_sentence(w, found.ties, found.before, found.after);
   books.d.steps.push_back(std::move(found));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "discover/between_samples.h"
 #include "discover/members.h"
 #include "discover/structures.h"
 #include "fit/unit_words.h"
@@ -151,6 +152,22 @@ void tell_noise(Books& books) {
   }
 }
 
+/// What was found early moved on beside what came later: what is told of it are the numbers of the last model.
+void tell_final_values(Books& books) {
+  auto& steps = books.d.steps;
+  for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
+    const Standing& s = books.current.standing[i];
+    const auto is = [&](const FoundStep& f) {
+      return f.winner.effect == s.effect->id && f.winner.place == s.place.where();
+    };
+    const auto step = std::find_if(steps.begin(), steps.end(), is);
+    if (step == steps.end()) continue;
+    const auto at = circumstances_on(books, books.current, {s.place});
+    if (auto told = summary_of(books.current, i, at.front()); !told.empty()) step->winner.summary = std::move(told);
+  }
+  for (auto& step : steps) step.sentence = step_sentence(step, books.effects.get(step.winner.effect));
+}
+
 }  // namespace
 
 bool leaves_something_unexplained(const Books& books) {
@@ -199,8 +216,10 @@ void conclude(Books& books) {
   books.d.final_prediction = books.current.prediction;
   add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
   test_recordings(books);
+  tell_other_ways(books);
   tell_noise(books);
   tell_wandering(books);
+  tell_final_values(books);
   put_into_words(books.d, *books.data);
   books.progress("done", 1);
 }

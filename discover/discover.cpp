@@ -13,15 +13,36 @@
 
 #include "discover/between_samples.h"
 #include "discover/books.h"
+#include "discover/parts.h"
 #include "discover/room.h"
 #include "engine/error.h"
 
 namespace hysteron {
 namespace {
 
+/// Lines of the mains in the user's own model, by the output that they are on. Nobody knows their phase in a recording
+/// that was not there yet.
+void lines_of_user(const Books& books, std::vector<std::optional<WanderingLine>>& lines) {
+  const Effect* mains = books.effects.find("mains_interference");
+  if (mains == nullptr) return;
+  const Program& program = books.base_model->program();
+  for (const auto& block : program.blocks) {
+    if (block.kernel->declaration.type != mains->block_type) continue;
+    const auto* frequency = program.find_parameter(block.path + ".frequency");
+    int harmonics = 0;
+    while (program.find_parameter(fmt::format("{}.cosine[{}]", block.path, harmonics)) != nullptr) ++harmonics;
+    if (frequency == nullptr || harmonics == 0) continue;
+    for (const int o : outputs_behind(program, program.block_index(block.path)))
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        if (books.base_model->outputs()[k] == program.output_names[static_cast<std::size_t>(o)])
+          lines[k] = WanderingLine{frequency->value, harmonics, true};
+  }
+}
+
 /// Lines of the mains that stand, by the output that they are on.
 std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Contender& model) {
   std::vector<std::optional<WanderingLine>> lines(books.base_model->outputs().size());
+  lines_of_user(books, lines);
   for (std::size_t i = 0; i < model.standing.size(); ++i)
     for (const auto& p : parameters_of(model, static_cast<int>(i))) {
       if (p.law->line_bands.empty() || p.estimate == nullptr) continue;
@@ -29,7 +50,7 @@ std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Con
       const auto& free = model.standing[i].law.free;
       const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
       for (const int o : measured_moved(books, model, model.standing[i].place.wire))
-        lines[static_cast<std::size_t>(o)] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2)};
+        lines[static_cast<std::size_t>(o)] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2), false};
     }
   return lines;
 }

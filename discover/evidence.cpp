@@ -158,7 +158,8 @@ void Evidence::settle(const Prediction& best) {
   if (std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); })) {
     NoiseModel beside = noise;
     for (std::size_t o = 0; o < spans_.size(); ++o) {
-      noise.outputs[o].left_out = {spans_[o], LineSpan::Part::wandering};
+      const bool all_of_it = lines_[o] && lines_[o]->by_user;
+      noise.outputs[o].left_out = {spans_[o], all_of_it ? LineSpan::Part::all : LineSpan::Part::wandering};
       beside.outputs[o].left_out = {spans_[o], LineSpan::Part::all};
     }
     beside_lines_.emplace(base_, std::move(beside));

@@ -36,7 +36,7 @@ void fit_base(Books& books) {
   books.d.base_diagram = books.current.diagram;
   books.d.data_remarks = books.data->remarks;
   for (const auto& r : books.base_model->remarks()) books.d.data_remarks.push_back(r);
-  tell_between_samples(books);
+  tell_smooth_inputs(books);
 }
 
 }  // namespace hysteron

@@ -135,13 +135,13 @@ std::string why_implausible(const Effect& effect, const Law& law, const Contende
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);
 
-std::string effect_words(const Tried& tried);  ///< "a lag, in the amplifier or in the sensor"
 std::string percent(double share);
 std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at);
 Candidate candidate_of(const Tried& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
-std::string step_sentence(const Tried& tried, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after);
+std::string step_sentence(const FoundStep& step, const Effect& effect);
+/// Of the effect that stands at this index, with the values of the whole model; "" where its law says nothing.
+std::string summary_of(const Contender& c, std::size_t standing, const Circumstances& at);
 /// Headline, sentences, warnings of the finished discovery.
 void put_into_words(Discovery& d, const DataSet& data);
 

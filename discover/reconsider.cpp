@@ -202,7 +202,6 @@ void tell_ties(Books& books, const Contender& rest, const Member& member, std::v
     judge(*books.evidence, t, rest, left_by_laws_of(books, rest));
     add_tie(books, step->winner.step, *step, *winner, t);
   }
-  step->sentence = step_sentence(*winner, step->ties, step->before, step->after);
 }
 
 /// Effects that the recordings could not tell from this one in its step.
@@ -325,11 +324,12 @@ namespace {
 
 /// Does the rival of a step explain the recordings as well as the member beside all the others, by its simplest law or
 /// that by which it was tied?
-bool is_tied_beside(const Books& books, const Contender& rest, const Candidate& rival, double bar) {
-  const Effect& effect = books.effects.get(rival.effect);
+bool is_tied_beside(const Books& books, const Contender& rest, const std::string& rival, const std::string& tied_by,
+                    double bar) {
+  const Effect& effect = books.effects.get(rival);
   const auto list = choices_on(
       books, rest, [&](const Effect& e) { return &e == &effect; },
-      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, rival.law); });
+      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, tied_by); });
   std::vector<char> as_good(list.size(), 0);
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [e, law, place, at] = list[i];
@@ -349,20 +349,23 @@ bool is_tied_beside(const Books& books, const Contender& rest, const Candidate& 
 void ties_beside_what_came_later(Books& books, double bar) {
   auto& steps = books.d.steps;
   if (steps.size() < 2 || books.current.error_of.over_floor() > rules::floor_gate) return;
-  if (!std::all_of(steps.begin(), steps.end(), leaves_the_question_open)) return;
   const auto members = members_of(books.current);
   for (std::size_t i = 0; i < members.size() && !books.stopped(); ++i) {
     const auto step = step_of(books, members[i]);
     if (step == steps.end()) continue;
+    auto& same = step->winner.same_effects;
+    if (step->ties.empty() && same.empty()) continue;
     const auto rest = rest_of(books, books.shop, i);
-    const auto winner = rest ? tried_again(books, books.shop, *rest, members[i]) : std::nullopt;
-    if (!winner) continue;
-    std::erase_if(step->ties, [&](const Candidate& c) { return !is_tied_beside(books, *rest, c, bar); });
+    if (!rest) continue;
+    std::erase_if(step->ties, [&](const Candidate& c) { return !is_tied_beside(books, *rest, c.effect, c.law, bar); });
+    // In a linear chain its place is of no matter; it is where a gap or a curve stands in it by now.
+    std::erase_if(same,
+                  [&](const std::string& id) { return !is_tied_beside(books, *rest, id, step->winner.law, bar); });
+    if (same.empty()) step->winner.same_places.clear();
     if (step->ties.empty()) {
       step->experiment.reset();
       step->experiment_would_tell = false;
     }
-    step->sentence = step_sentence(*winner, step->ties, step->before, step->after);
   }
 }
 

@@ -13,24 +13,23 @@
 namespace hysteron {
 namespace {
 
-/// What kind of thing an effect is, when its place cannot be told.
-std::string common_name(const Tried& t) {
-  if (t.effect->family == "lag") return "a lag, in the amplifier or in the sensor";
-  return t.effect->title;
+/// "a lag, in the amplifier or in the sensor": what kind of thing an effect is, when its place cannot be told.
+std::string effect_words(const Effect& effect, const std::vector<std::string>& same_effects) {
+  return !same_effects.empty() && effect.family == "lag" ? "a lag, in the amplifier or in the sensor" : effect.title;
 }
 
-std::string place_text(const Tried& t) {
-  if (t.same_places.empty()) return "at " + t.place.where();
-  std::vector<std::string> all{t.place.where()};
-  for (const auto& p : t.same_places)
+std::string place_text(const Candidate& c) {
+  if (c.same_places.empty()) return "at " + c.place;
+  std::vector<std::string> all{c.place};
+  for (const auto& p : c.same_places)
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   return fmt::format("at {} (these places cannot be told apart)", fmt::join(all, " or "));
 }
 
 /// What would tell effects apart that are one finding in these recordings; "" where nobody says.
-std::string what_tells_places(const Tried& t) {
-  for (const auto& l : t.effect->look_alikes)
-    if (std::find(t.same_effects.begin(), t.same_effects.end(), l.effect) != t.same_effects.end())
+std::string what_tells_places(const Effect& effect, const std::vector<std::string>& same_effects) {
+  for (const auto& l : effect.look_alikes)
+    if (std::find(same_effects.begin(), same_effects.end(), l.effect) != same_effects.end())
       return fmt::format("; which of them, \"{}\" tells: {}", l.experiment, l.deciding);
   return "";
 }
@@ -159,8 +158,6 @@ std::string test_sentence(const ModelError& e) {
                      sizes.empty() ? "" : " (" + sizes + " rms)");
 }
 
-std::string effect_words(const Tried& t) { return t.same_effects.empty() ? t.effect->title : common_name(t); }
-
 std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at) {
   std::vector<FoundParameter> list;
   for (const auto& e : c.fit.estimates) list.push_back({e, "", ""});
@@ -173,10 +170,21 @@ std::vector<FoundParameter> found_parameters(const Contender& c, const Circumsta
   return list;
 }
 
+std::string summary_of(const Contender& c, std::size_t standing, const Circumstances& at) {
+  const Effect* effect = c.standing[standing].effect;
+  const Law& law = c.standing[standing].law;
+  if (!effect->summary) return "";
+  const auto values = values_of(c, standing);
+  // A number that begins where the user has it comes last, and is the user's own where the diagram leaves it free.
+  const auto begun =
+      std::count_if(law.free.begin(), law.free.end(), [](const auto& p) { return !std::isnan(p.start); });
+  return values.size() >= static_cast<std::size_t>(begun) ? effect->summary(law, values, at) : "";
+}
+
 Candidate candidate_of(const Tried& t, int step) {
   Candidate c;
   c.effect = t.effect->id;
-  c.title = effect_words(t);
+  c.title = effect_words(*t.effect, t.same_effects);
   c.law = t.laws.empty() ? "" : t.laws[t.law].name;
   c.place = t.place.where();
   c.same_places = t.same_places;
@@ -195,25 +203,18 @@ Candidate candidate_of(const Tried& t, int step) {
     c.error = t.contender.error_of;
     c.score = t.contender.score();
     c.found = found_parameters(t.contender, t.circumstances);
-    const auto values = own_values(t);
-    const auto& free = t.laws[t.law].free;
-    // A number that begins where the user has it comes last, and is the user's own where the diagram leaves it free.
-    const auto begun = std::count_if(free.begin(), free.end(), [](const auto& p) { return !std::isnan(p.start); });
-    if (t.effect->summary && values.size() >= static_cast<std::size_t>(begun))
-      c.summary = t.effect->summary(t.laws[t.law], values, t.circumstances);
+    c.summary = summary_of(t.contender, t.contender.standing.size() - 1, t.circumstances);
   }
   return c;
 }
 
-std::string step_sentence(const Tried& t, const std::vector<Candidate>& ties, const ModelError& before,
-                          const ModelError& after) {
-  const Candidate c = candidate_of(t, 1);
-  std::string text = fmt::format("{} {}", effect_words(t), place_text(t));
-  if (!c.summary.empty()) text += ": " + c.summary;
-  text += what_tells_places(t) + "; " + error_fall(before, after);
-  if (!ties.empty()) {
+std::string step_sentence(const FoundStep& s, const Effect& effect) {
+  std::string text = fmt::format("{} {}", effect_words(effect, s.winner.same_effects), place_text(s.winner));
+  if (!s.winner.summary.empty()) text += ": " + s.winner.summary;
+  text += what_tells_places(effect, s.winner.same_effects) + "; " + error_fall(s.before, s.after);
+  if (!s.ties.empty()) {
     std::vector<std::string> names;
-    for (const auto& tie : ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));
+    for (const auto& tie : s.ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));
     text += fmt::format("; explained as well by {}", fmt::join(names, ", "));
   }
   return text;

@@ -16,6 +16,7 @@ namespace hysteron {
 struct WanderingLine {
   double frequency = 0;  ///< [Hz]
   int harmonics = 1;     ///< the line itself counts
+  bool by_user = false;  ///< in the user's own model: its steady part, too, is found anew in each recording
   bool operator==(const WanderingLine&) const = default;
 };
 

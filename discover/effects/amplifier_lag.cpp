@@ -13,9 +13,9 @@ LawParameter time_constant(const Circumstances& at, int index) {
   LawParameter tau;
   tau.path = element("times", index);
   tau.log_scale = true;
-  // The lower bound must be as good as none, however quiet the sensor; what needs a fifth of the recording is drift.
+  // The lower bound must be as good as none, however quiet the sensor; what is slower than the recordings integrates.
   tau.lower = at.shortest_step * 1e-4;
-  tau.upper = std::max(at.longest_recording / 5, 10 * at.shortest_step);
+  tau.upper = std::max(at.longest_recording, 10 * at.shortest_step);
   tau.start = at.shortest_step;
   if (index == 0) tau.scan = per_decade(at.shortest_step / 50, tau.upper / 2, 3);
   return tau;
@@ -50,6 +50,13 @@ std::string lag_summary(const Law&, const std::vector<double>& values, const Cir
                      1 / (2 * std::numbers::pi * total));
 }
 
+std::string lag_without_end(const Law& law, const std::vector<double>& values, const Circumstances&) {
+  const double slowest = *std::max_element(values.begin(), values.end());
+  if (slowest < 0.99 * law.free.front().upper) return "";
+  return fmt::format("its time constant is at the length of the longest recording, {}: that is no lag, it integrates",
+                     time_text(law.free.front().upper));
+}
+
 Effect amplifier_lag() {
   Effect e;
   e.id = "amplifier_lag";
@@ -74,6 +81,7 @@ Effect amplifier_lag() {
                    {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
   e.family = "lag";
   e.summary = lag_summary;
+  e.implausible = lag_without_end;
   e.laws = [](const Circumstances& at) {
     auto laws = lag_laws(at);
     // The prior speaks of amplifiers for piezo actuators: volts.

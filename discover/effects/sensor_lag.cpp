@@ -25,6 +25,7 @@ Effect sensor_lag() {
                    {"creep", "step_hold", "a lag settles after a few time constants, creep goes on with log t"}};
   e.family = "lag";
   e.summary = lag_summary;
+  e.implausible = lag_without_end;
   e.laws = [](const Circumstances& at) {
     auto laws = lag_laws(at);
     if (at.unit.dimension == parse_unit("m").dimension)

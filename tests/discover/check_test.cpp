@@ -90,6 +90,28 @@ TEST_F(Checks, TheModelsOwnOutputWithNoiseIsExplainedForTwentySeeds) {
   }
 }
 
+TEST_F(Checks, TheMainsOfTheModelHasAnotherPhaseInEachRecording) {
+  Diagram with_mains = plain_gain();
+  Node& mains = with_mains.blocks["mains"];
+  mains.type = "mains_interference";
+  mains.parameters["frequency"] = Value("50 Hz");
+  mains.parameters["cosine"] = mains.parameters["sine"] = Value(NumberList{Number{0, "m"}});
+  mains.in = {{"", "stage"}};
+  with_mains.outputs["y"] = "mains";
+  std::vector<Recording> list;
+  for (int r = 0; r < 4; ++r) {
+    const auto t = rows(2000, 1e-3);
+    const auto u = several_sines(t, 1, {1 + 0.3 * r, 3.1});
+    auto y = noise(t.size(), white, 0, 70 + static_cast<std::uint64_t>(r));
+    for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + 5e-3 * std::sin(2 * std::numbers::pi * 50 * t[k] + r);
+    list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, y));
+  }
+  const DataSet data = data_set(std::move(list), white, 0);
+  const Check with = checked(with_mains, data), without = checked(plain_gain(), data);
+  EXPECT_TRUE(with.explained) << with.sentence;
+  EXPECT_EQ(without.named, std::vector<std::string>{"mains_interference"}) << without.sentence;
+}
+
 TEST_F(Checks, CreepThatWasNotThereBeforeIsNamed) {
   for (const bool free : {false, true}) {
     const Check c = checked(model(free), recorded({.creep = 0.015}, 1));

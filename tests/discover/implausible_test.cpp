@@ -42,6 +42,27 @@ TEST_F(Implausible, AModeThatIsNotSeenToRingIsNone) {
             std::string::npos);
 }
 
+TEST_F(Implausible, ALagAsSlowAsTheRecordingsIntegrates) {
+  at.shortest_step = 1e-3;
+  at.longest_recording = 3;
+  EXPECT_EQ(why("amplifier_lag", {2}), "");
+  EXPECT_NE(why("amplifier_lag", {3}).find("it integrates"), std::string::npos);
+  constexpr std::size_t two = 1;  // poles
+  EXPECT_NE(why("sensor_lag", {0.1, 3}, two).find("it integrates"), std::string::npos);
+}
+
+TEST_F(Implausible, AModeAtAMultipleOfTheDriveIsAHarmonic) {
+  at.shortest_step = 1e-3;
+  at.longest_recording = 10;
+  EXPECT_EQ(why("structural_resonance", {9.004, 0.001, 0.5, 0}), "") << "nobody says how the drive moves";
+  at.drive_cycles = {3, 3};
+  EXPECT_NE(why("structural_resonance", {9.004, 0.001, 0.5, 0}).find("3 times the frequency of the drive"),
+            std::string::npos);
+  EXPECT_EQ(why("structural_resonance", {9.4, 0.001, 0.5, 0}), "");
+  at.drive_cycles = {3, 2};
+  EXPECT_EQ(why("structural_resonance", {9.004, 0.001, 0.5, 0}), "") << "of the other drive it is none";
+}
+
 TEST_F(Implausible, AGainThatIsTheModelsFarFromAllThatWasRecordedIsAWrongGain) {
   at.from_data = true;
   at.side_lowest = 295;

@@ -29,8 +29,8 @@ const char* const own_lag = R"json({
   "effect": {
     "id": "own_lag", "cause": "the output resistance", "equation": "tau*dv/dt = u - v", "enters_at": ["command"],
     "law": "one pole",
-    "free": {"tau": {"meaning": "time constant", "start": "1 row", "lower": "1e-4 row", "upper": "0.2 recording",
-                     "log_scale": true, "scan": {"from": "0.02 row", "to": "0.1 recording", "per_decade": 3}}},
+    "free": {"tau": {"meaning": "time constant", "start": "1 row", "lower": "1e-4 row", "upper": "1 recording",
+                     "log_scale": true, "scan": {"from": "0.02 row", "to": "0.5 recording", "per_decade": 3}}},
     "needs": {"text": "quick motion"},
     "look_alikes": [{"effect": "dead_time", "experiment": "multisine", "decides": "the gain"}],
     "says": "{tau} late"}
@@ -212,7 +212,7 @@ TEST_F(OwnEffects, WhatIsWrongInItsNumbersIsTold) {
   EXPECT_EQ(problems(R"("multisine")", R"("multi")"), "bad_value /effect/look_alikes/0/experiment\n");
   EXPECT_EQ(problems(R"("{tau} late")", R"("{lag} late")"), "unknown_parameter /effect/says\n");
   EXPECT_EQ(problems(R"("type": "lag")", R"("type": "lgg")"), "unknown_block /blocks/pole/type\n");
-  EXPECT_EQ(problems(R"("start": "1 row", "lower": "1e-4 row", "upper": "0.2 recording")",
+  EXPECT_EQ(problems(R"("start": "1 row", "lower": "1e-4 row", "upper": "1 recording")",
                      R"("start": "1 V", "lower": "1 mV")"),
             "wrong_unit /blocks/pole/times\n");
 }

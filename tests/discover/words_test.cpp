@@ -73,16 +73,25 @@ TEST(Words, OfEffectsThatWereNotAskedForNothingIsSaid) {
 
 TEST(Words, WhatWouldTellTwoPlacesApartIsSaidWithTheFinding) {
   const Effects effects = all_effects();
-  Tried t;
-  t.effect = effects.find("amplifier_lag");
-  t.place.at = "u";
-  const ModelError e = errors_of({error_of("y", "um", 0.03)});
-  EXPECT_EQ(step_sentence(t, {}, e, e).find("monitor"), std::string::npos) << "it is at one place alone";
-  t.same_effects = {"sensor_lag"};
-  t.same_places = {"y"};
-  EXPECT_NE(step_sentence(t, {}, e, e).find("\"monitor\" tells: the drive measured behind the amplifier decides"),
+  const Effect& lag = effects.get("amplifier_lag");
+  FoundStep step;
+  step.winner.effect = "amplifier_lag";
+  step.winner.place = "u";
+  step.winner.summary = "time constant 2 ms";
+  step.before = step.after = errors_of({error_of("y", "um", 0.03)});
+  EXPECT_EQ(step_sentence(step, lag).find("Lag of the amplifier at u: time constant 2 ms; "), 0u)
+      << step_sentence(step, lag);
+  EXPECT_EQ(step_sentence(step, lag).find("monitor"), std::string::npos) << "it is at one place alone";
+  step.ties.resize(1);
+  step.ties[0].effect = "dead_time";
+  step.ties[0].place = "u";
+  EXPECT_NE(step_sentence(step, lag).find("explained as well by dead_time at u"), std::string::npos)
+      << step_sentence(step, lag);
+  step.winner.same_effects = {"sensor_lag"};
+  step.winner.same_places = {"y"};
+  EXPECT_NE(step_sentence(step, lag).find("\"monitor\" tells: the drive measured behind the amplifier decides"),
             std::string::npos)
-      << step_sentence(t, {}, e, e);
+      << step_sentence(step, lag);
 }
 
 TEST(Words, EachOutputIsToldInItsOwnUnit) {
