@@ -2,6 +2,8 @@
 // Does not look at data.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/effect_picture.h"
 #include "app/load.h"
 #include "app/terminal.h"
@@ -65,8 +67,32 @@ std::string way_text(const Effect& effect) {
   return fmt::format("A value of the recording: {}.{}", effect.parameter, places);
 }
 
+std::string neutral_text(const std::vector<NeutralValue>& values) {
+  std::vector<std::string> list;
+  for (const auto& v : values) list.push_back(v.parameter + " " + v.value);
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+/// The values at which nothing changes: those that blocks declare of the variation, and those of a block of its own.
+std::string changes_nothing(const Effect& effect, const Demonstration& shown) {
+  std::vector<std::string> ways;
+  const auto add = [&](const std::vector<NeutralValue>& values) {
+    const std::string text = neutral_text(values);
+    if (!text.empty() && std::find(ways.begin(), ways.end(), text) == ways.end()) ways.push_back(text);
+  };
+  if (effect.variation.empty() || effect.way == Way::insert) add(shown.neutral);
+  for (const auto& type : registry().types())
+    for (const auto& v : registry().find(type)->declaration.variations) {
+      if (effect.variation.empty() || v.name != effect.variation) continue;
+      std::vector<NeutralValue> declared;
+      for (const auto& n : v.neutral) declared.push_back({n.parameter, n.value});
+      add(declared);
+    }
+  return fmt::format("{}", fmt::join(ways, "; in a block that has it "));
+}
+
 /// One effect as a page: paragraphs and tables, which the terminal prints too.
-std::vector<Section> sections_of(const Effect& effect) {
+std::vector<Section> sections_of(const Effect& effect, const Demonstration& shown) {
   std::vector<Section> sections;
   const auto part = [&](const std::string& title, const std::string& text) -> void {
     if (text.empty()) return;
@@ -91,6 +117,7 @@ std::vector<Section> sections_of(const Effect& effect) {
     parameters.rows.push_back(
         {p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
   table("parameters", std::move(parameters));
+  part("changes nothing with", changes_nothing(effect, shown));
   part("what it leaves in the residual", effect.residual);
   part("data that show it", effect.needs);
   Table others;
@@ -154,7 +181,7 @@ int effects(const Arguments& arguments) {
   }
   const Effect& effect = library.get(arguments.text("effect"));
   const Demonstration shown = demonstrate(effect, library, registry());
-  const auto sections = sections_of(effect);
+  const auto sections = sections_of(effect, shown);
   print_one(effect, sections, shown);
   if (!file.empty()) write_picture(file, effect, sections, shown);
   return exit_code::done;

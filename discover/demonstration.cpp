@@ -5,129 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "discover/add.h"
 #include "discover/bench.h"
-#include "discover/circumstances.h"
+#include "discover/trial.h"
 #include "engine/error.h"
-#include "engine/simulate.h"
 
 namespace hysteron {
 namespace {
 
-/// A difference of one per cent is the least that can be seen in a picture.
-constexpr double visible = 0.01;
 constexpr int points_over_time = 800, points_of_loop = 2000;
-
-double span_of(const std::vector<double>& v) {
-  const auto [low, high] = std::minmax_element(v.begin(), v.end());
-  return v.empty() ? 0 : *high - *low;
-}
-
-std::vector<double> minus(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> d(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) d[i] = a[i] - b[i];
-  return d;
-}
-
-double largest(const std::vector<double>& v) {
-  double most = 0;
-  for (const double x : v) most = std::max(most, std::abs(x));
-  return most;
-}
 
 std::vector<double> between(double from, double to, int points) {
   std::vector<double> t;
   for (int k = 0; k < points; ++k) t.push_back(from + (to - from) * k / (points - 1));
   return t;
 }
-
-/// One effect on one bench under one signal.
-class Trial {
- public:
-  Trial(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry)
-      : bench_(bench), stimulus_(stimulus) {
-    at_ = circumstances_at(bench.diagram, registry, recorded(stimulus, bench), bench.place);
-    law_ = effect.laws(at_).front();
-    Added added = add_effect(bench.diagram, registry, effect, law_, bench.place);
-    paths_ = added.free;
-    on_ = compile(added.diagram, registry);
-    added.diagram.blocks.find(added.name)->choose = "off";
-    off_ = compile(added.diagram, registry);
-    rows_ = between(0, stimulus.length, static_cast<int>(std::lround(stimulus.length / stimulus.row)) + 1);
-    plain_ = without(rows_);
-    for (const auto& p : law_.free) values_.push_back(p.start);
-  }
-
-  const Circumstances& circumstances() const { return at_; }
-  const Law& law() const { return law_; }
-  const std::vector<double>& values() const { return values_; }
-  const std::vector<double>& rows() const { return rows_; }
-  const std::vector<double>& plain() const { return plain_; }
-  std::vector<double> with(const std::vector<double>& t) const { return response(*on_, t, values_); }
-  std::vector<double> without(const std::vector<double>& t) const { return response(*off_, t, {}); }
-  Unit out_unit() const { return off_->signals[static_cast<std::size_t>(off_->output_signals.front())].unit; }
-
-  /// Sets values at which the effect can be seen: those at which it starts, else others of its scan, else an amplitude
-  /// of a tenth of the signal. False if it shows at none of them.
-  bool find_values() {
-    if (shows(values_)) return true;
-    for (const double part : {0.75, 0.5, 0.25, 1.0, 0.0}) {
-      std::vector<double> values = values_;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (const auto& scan = law_.free[i].scan; !scan.empty())
-          values[i] = scan[static_cast<std::size_t>(std::lround(part * static_cast<double>(scan.size() - 1)))];
-      if (shows(values)) return values_ = values, true;
-    }
-    return find_amplitudes();
-  }
-
- private:
-  std::vector<double> response(const Program& program, const std::vector<double>& t,
-                               const std::vector<double>& values) const {
-    Run run = start(program);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (std::isfinite(values[i])) set_parameter(program, run, paths_[i], values[i]);
-    prepare(program, run);
-    reset(program, run);
-    bind_input(program, run, "in", std::make_shared<const Series>(stimulus_.in));
-    if (!bench_.side.empty()) bind_input(program, run, bench_.side, std::make_shared<const Series>(stimulus_.side));
-    SimulateOptions options;
-    options.until = t.back();
-    options.instants = t;
-    options.signals = {program.output_signals.front()};
-    options.at_rest = true;  // as a recording begins where nothing else is said of it
-    return simulate(program, run, options).values.front();
-  }
-
-  bool shows(const std::vector<double>& values) const {
-    const double most = largest(minus(response(*on_, rows_, values), plain_));
-    return std::isfinite(most) && most >= visible * span_of(plain_);
-  }
-
-  /// What starts at zero is an amplitude: such that it makes a tenth of the signal.
-  bool find_amplitudes() {
-    std::vector<double> values = values_;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] == 0) values[i] = std::min(1.0, law_.free[i].upper);
-    const double most = largest(minus(response(*on_, rows_, values), plain_));
-    if (!std::isfinite(most) || !(most > 0)) return false;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values_[i] == 0) values[i] *= 0.1 * span_of(plain_) / most;
-    if (!shows(values)) return false;
-    values_ = values;
-    return true;
-  }
-
-  const Bench& bench_;
-  const Stimulus& stimulus_;
-  Circumstances at_;
-  Law law_;
-  std::vector<std::string> paths_;
-  ProgramPointer on_, off_;
-  std::vector<double> rows_, plain_, values_;
-};
 
 /// The times that show it: all of them where it goes on, else as long as it takes to settle, or a few periods.
 struct Window {
@@ -190,6 +82,7 @@ Demonstration show(const Effect& effect, const Bench& bench, const Stimulus& sti
   d.device = bench.device;
   d.law = trial.law().name;
   d.numbers = numbers_text(effect, trial);
+  d.neutral = neutral_values(trial);
   d.in_unit = bench.unit;
   d.out_unit = trial.out_unit();
   d.side_name = bench.side;

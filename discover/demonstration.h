@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "discover/effect.h"
+#include "discover/neutral.h"
 #include "engine/kernel.h"
 #include "engine/units.h"
 
@@ -13,10 +14,12 @@ namespace hysteron {
 
 /// What an effect makes of a standard signal. Numbers in SI.
 struct Demonstration {
-  std::string signal;          ///< what goes in, for people: "a triangle that shrinks"
-  std::string device;          ///< type of the block that lacks the effect; "" = it stands on a bare wire
-  std::string law;             ///< Law::name
-  std::string numbers;         ///< the values of its parameters, for people
+  std::string signal;   ///< what goes in, for people: "a triangle that shrinks"
+  std::string device;   ///< type of the block that lacks the effect; "" = it stands on a bare wire
+  std::string law;      ///< Law::name
+  std::string numbers;  ///< the values of its parameters, for people
+  /// Values of the law's parameters with which it changes nothing: gain 1, offset 0 (neutral.h); empty = none known.
+  std::vector<NeutralValue> neutral;
   bool against_input = false;  ///< looked at over the input: a loop or a curve; else over time
   bool log_time = false;       ///< t counts from a step, and the effect goes on by decades
   std::vector<double> t, in, without, with;

@@ -147,12 +147,22 @@ TEST(Effects, EveryEffectHasAPictureThatIsNoCopyOfTheSignal) {
     const Outcome one = process::hysteron(folder.path(), {"effects", id, "-o", id + ".svg"});
     ASSERT_EQ(one.code, 0) << id << one.err;
     EXPECT_GT(std::count(one.out.begin(), one.out.end(), '*'), 20) << id << " draws nothing in the terminal";
+    EXPECT_NE(one.out.find("\nchanges nothing with\n"), std::string::npos) << id;
     const std::string svg = folder.read(id + ".svg");
     EXPECT_GT(path_of(svg, "before").size(), 20U) << id;
     EXPECT_NE(path_of(svg, "before"), path_of(svg, "simulated")) << id;
     ++pictures;
   }
   EXPECT_GE(pictures, 29);
+}
+
+TEST(Effects, TheNeutralValueIsThatOfTheBlockThatIsVaried) {
+  const Folder folder;
+  EXPECT_NE(process::hysteron(folder.path(), {"effects", "sqrt_outflow"}).out.find("nothing with\n  law linear\n"),
+            std::string::npos);
+  EXPECT_NE(process::hysteron(folder.path(), {"effects", "friction"})
+                .out.find("level 0; in a block that has it contact_stiffness 0 N/m"),
+            std::string::npos);
 }
 
 TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {

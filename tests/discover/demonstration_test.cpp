@@ -57,6 +57,24 @@ TEST_F(Demonstrations, ShowWhatTheEffectIsKnownBy) {
   EXPECT_EQ(of("rate_dependence").device, "prandtl_ishlinskii");
 }
 
+TEST_F(Demonstrations, KnowTheValuesWithWhichNothingChanges) {
+  const auto text = [](const Demonstration& d) {
+    std::string all;
+    for (const auto& v : d.neutral) all += (all.empty() ? "" : ", ") + v.parameter + " " + v.value;
+    return all;
+  };
+  for (const auto& [id, neutral] : std::vector<std::pair<std::string, std::string>>{
+           {"calibration", "gain 1, offset 0"},
+           {"creep", "per_decade 0"},
+           {"amplifier_lag", "times towards 0"},  // 0 itself is no time constant
+           {"saturation", "lower towards -inf, upper towards inf"},
+           {"hysteresis", "weights[0] 1, the other weights 0"},
+           {"structural_resonance", "positions 0, velocities 0"},  // the picture shows a mode without velocities
+           {"sensor_nonlinearity", "coefficients[2] 0, coefficients[3] 0"},
+           {"pyro_charge_drift", "coefficient 0"}})
+    EXPECT_EQ(text(of(id)), neutral) << id;
+}
+
 TEST_F(Demonstrations, OfATemperatureGainFollowTheTemperatureTimesTheSignal) {
   const Demonstration d = of("temperature_gain");
   const auto difference = d.difference();
