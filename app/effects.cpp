@@ -91,8 +91,24 @@ std::string changes_nothing(const Effect& effect, const Demonstration& shown) {
   return fmt::format("{}", fmt::join(ways, "; in a block that has it "));
 }
 
+/// Effects that are taken for this one, as it says or as they say themselves; each once.
+Table look_alikes(const Effect& effect, const Effects& library) {
+  Table table;
+  table.columns = {"effect", "experiment", "what decides"};
+  const auto add = [&](const std::string& id, const LookAlike& how) {
+    const auto told = [&](const auto& row) { return row.front() == id; };
+    if (std::none_of(table.rows.begin(), table.rows.end(), told))
+      table.rows.push_back({id, how.experiment, how.deciding});
+  };
+  for (const auto& other : effect.look_alikes) add(other.effect, other);
+  for (const auto& other : library.list())
+    for (const auto& named : other.look_alikes)
+      if (named.effect == effect.id) add(other.id, named);
+  return table;
+}
+
 /// One effect as a page: paragraphs and tables, which the terminal prints too.
-std::vector<Section> sections_of(const Effect& effect, const Demonstration& shown) {
+std::vector<Section> sections_of(const Effect& effect, const Effects& library, const Demonstration& shown) {
   std::vector<Section> sections;
   const auto part = [&](const std::string& title, const std::string& text) -> void {
     if (text.empty()) return;
@@ -120,10 +136,7 @@ std::vector<Section> sections_of(const Effect& effect, const Demonstration& show
   part("changes nothing with", changes_nothing(effect, shown));
   part("what it leaves in the residual", effect.residual);
   part("data that show it", effect.needs);
-  Table others;
-  others.columns = {"effect", "experiment", "what decides"};
-  for (const auto& other : effect.look_alikes) others.rows.push_back({other.effect, other.experiment, other.deciding});
-  table("taken for it easily", std::move(others));
+  table("taken for it easily", look_alikes(effect, library));
   part("source", effect.source);
   return sections;
 }
@@ -181,7 +194,7 @@ int effects(const Arguments& arguments) {
   }
   const Effect& effect = library.get(arguments.text("effect"));
   const Demonstration shown = demonstrate(effect, library, registry());
-  const auto sections = sections_of(effect, shown);
+  const auto sections = sections_of(effect, library, shown);
   print_one(effect, sections, shown);
   if (!file.empty()) write_picture(file, effect, sections, shown);
   return exit_code::done;

@@ -165,6 +165,27 @@ TEST(Effects, TheNeutralValueIsThatOfTheBlockThatIsVaried) {
             std::string::npos);
 }
 
+/// The rows of "taken for it easily" that begin with this effect.
+std::size_t look_alike_rows(const std::string& page, const std::string& id) {
+  const auto begin = page.find("\ntaken for it easily\n"), end = page.find("\n\n", begin + 1);
+  if (begin == std::string::npos) return 0;
+  const std::string rows = page.substr(begin, end - begin);
+  std::size_t count = 0;
+  for (auto at = rows.find("\n  " + id + " "); at != std::string::npos; at = rows.find("\n  " + id + " ", at + 1))
+    ++count;
+  return count;
+}
+
+TEST(Effects, ALookAlikeIsShownOnBothPagesAndOnceOnEach) {
+  const Folder folder;
+  const std::string calibration = process::hysteron(folder.path(), {"effects", "calibration"}).out;
+  EXPECT_EQ(look_alike_rows(calibration, "temperature_gain"), 1U) << "only temperature_gain names this pair";
+  EXPECT_NE(calibration.find("temperature_staircase"), std::string::npos);
+  const std::string lag = process::hysteron(folder.path(), {"effects", "amplifier_lag"}).out;
+  EXPECT_EQ(look_alike_rows(lag, "dead_time"), 1U) << "each names the other";
+  EXPECT_EQ(look_alike_rows(lag, "creep"), 1U);
+}
+
 TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"effects", "temperature_gain", "-o", "page.html"}).code, 0);
