@@ -61,7 +61,10 @@ std::string way_text(const Effect& effect) {
   if (effect.way == Way::insert)
     return fmt::format("{} block of type {} is put on a wire.{}", richer.empty() ? "A" : richer + " Or a",
                        effect.block_type, places);
-  if (effect.way == Way::vary && !richer.empty()) return richer + places;
+  if (effect.way == Way::vary && !richer.empty())
+    return places.empty()
+               ? fmt::format("Kind of place: a block that can have it, of type {}. It becomes one that has it.", types)
+               : richer + places;
   if (effect.way == Way::vary)
     return fmt::format("A block of the diagram gets the parameter \"{}\".{}", effect.parameter, places);
   return fmt::format("A value of the recording: {}.{}", effect.parameter, places);

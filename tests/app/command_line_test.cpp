@@ -165,6 +165,21 @@ TEST(Effects, TheNeutralValueIsThatOfTheBlockThatIsVaried) {
             std::string::npos);
 }
 
+TEST(Effects, OneThatOnlyBlocksHaveSaysInWhich) {
+  const Folder folder;
+  for (const auto& [id, block] :
+       std::vector<std::pair<std::string, std::string>>{{"rate_dependence", "prandtl_ishlinskii"},
+                                                        {"quadratic_drag", "mass_spring_damper"},
+                                                        {"stiffening", "mass_spring_damper"},
+                                                        {"sqrt_outflow", "tank"},
+                                                        {"overflow", "tank"}}) {
+    const std::string page = process::hysteron(folder.path(), {"effects", id}).out;
+    EXPECT_NE(page.find("Kind of place: a block that can have it, of type"), std::string::npos) << id << page;
+    EXPECT_NE(page.find(block, page.find("Kind of place")), std::string::npos) << id;
+  }
+  EXPECT_EQ(process::hysteron(folder.path(), {"effects", "friction"}).out.find("Kind of place:"), std::string::npos);
+}
+
 /// The rows of "taken for it easily" that begin with this effect.
 std::size_t look_alike_rows(const std::string& page, const std::string& id) {
   const auto begin = page.find("\ntaken for it easily\n"), end = page.find("\n\n", begin + 1);
