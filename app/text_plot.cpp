@@ -21,7 +21,14 @@ struct Ends {
     high = std::max(high, v);
   }
   bool empty() const { return !(high >= low); }
-  double part(double v) const { return high > low ? (v - low) / (high - low) : 0.5; }
+  /// What is nothing beside the other end, and a span that is nothing beside its place, is rounding.
+  void without_rounding() {
+    const double nothing = 1e-9 * std::max(std::abs(low), std::abs(high));
+    if (high - low <= nothing) low = high = 0.5 * (low + high);
+    if (std::abs(low) <= nothing) low = 0;
+    if (std::abs(high) <= nothing) high = 0;
+  }
+  double part(double v) const { return high > low ? std::clamp((v - low) / (high - low), 0.0, 1.0) : 0.5; }
 };
 
 /// A frame of characters; (0, 0) is its lower left corner.
@@ -76,6 +83,7 @@ std::string text_plot(const std::vector<TextCurve>& curves, const std::string& x
       up.take(curve.y[i]);
     }
   if (across.empty()) return "";
+  up.without_rounding();
   Frame frame;
   for (const auto& curve : curves) draw(frame, curve, across, up, log_x);
   std::string out = "  " + y_label;

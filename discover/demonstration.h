@@ -35,8 +35,8 @@ struct Demonstration {
 
 /// Drives the effect's own block, and the neutral bypass beside it, with the first standard signal that its own
 /// declaration says can show it, at its start values. Where it does nothing at these, at others of its scan, or with
-/// an amplitude of a tenth of the signal. `library`: where devices with memory are taken from.
-/// Throws Error "not_shown" where no standard signal brings it out.
+/// an amplitude of a tenth of the signal and a factor at the end of what is usual. `library`: where devices with memory
+/// are taken from. Throws Error "not_shown" where no standard signal brings it out.
 Demonstration demonstrate(const Effect& effect, const Effects& library, const Registry& registry);
 
 }  // namespace hysteron

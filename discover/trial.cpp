@@ -105,7 +105,8 @@ bool Trial::shows(const std::vector<double>& values) const {
   return std::isfinite(most) && most >= visible * span_of(plain_);
 }
 
-/// What starts at zero is an amplitude: such that it makes a tenth of the signal.
+/// What starts at zero is an amplitude: such that it makes a tenth of the signal. What starts at one is a factor: the
+/// largest that is usual.
 bool Trial::find_amplitudes() {
   std::vector<double> values = values_;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -113,7 +114,10 @@ bool Trial::find_amplitudes() {
   const double most = largest(minus(response(*on_, rows_, values), plain_));
   if (!std::isfinite(most) || !(most > 0)) return false;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (values_[i] == 0) values[i] *= 0.1 * span_of(plain_) / most;
+    if (values_[i] == 0)
+      values[i] *= 0.1 * span_of(plain_) / most;
+    else if (values_[i] == 1 && std::isfinite(law_.free[i].plausible_upper))
+      values[i] = law_.free[i].plausible_upper;
   if (!shows(values)) return false;
   values_ = values;
   return true;

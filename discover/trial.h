@@ -26,7 +26,7 @@ class Trial {
   Unit out_unit() const { return off_->signals[static_cast<std::size_t>(off_->output_signals.front())].unit; }
 
   /// Sets values at which the effect can be seen: those at which it starts, else others of its scan, else an amplitude
-  /// of a tenth of the signal. False if it shows at none of them.
+  /// of a tenth of the signal and a factor that is unusual. False if it shows at none of them.
   bool find_values();
   /// Largest difference that the effect makes with these values over the span of the signal; not a number where it
   /// cannot be simulated with them.

@@ -201,6 +201,16 @@ TEST(Effects, ALookAlikeIsShownOnBothPagesAndOnceOnEach) {
   EXPECT_EQ(look_alike_rows(lag, "creep"), 1U);
 }
 
+TEST(Effects, APictureShowsTheEffectAndNoRounding) {
+  const Folder folder;
+  const std::string calibration = process::hysteron(folder.path(), {"effects", "calibration"}).out;
+  EXPECT_NE(calibration.find("Drawn with: gain 1.05, offset 10 um"), std::string::npos) << calibration;
+  EXPECT_NE(calibration.find("\n  15 |"), std::string::npos) << "5 um of the gain at 100 um and 10 um of the offset";
+  const std::string pyro = process::hysteron(folder.path(), {"effects", "pyro_charge_drift"}).out;
+  EXPECT_EQ(pyro.find("e-13"), std::string::npos) << "without temperature nothing is added: 0, not 4e-13\n" << pyro;
+  EXPECT_NE(pyro.find("\n  0 |"), std::string::npos) << pyro;
+}
+
 TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"effects", "temperature_gain", "-o", "page.html"}).code, 0);
