@@ -243,9 +243,19 @@ class EffectReader {
       }
     }
     check_order(place, f);
-    effect_.parameters.push_back({path, f.start.relative() ? "as the wire says" : f.start.unit().text,
+    effect_.parameters.push_back({path, f.start.relative() ? unit_in_diagram(path) : f.start.unit().text,
                                   meaning ? meaning->text().value_or("") : "", range});
     content_.free.push_back(std::move(f));
+  }
+
+  /// The unit in which the diagram writes a parameter; of a plain number it is that of what starts it.
+  std::string unit_in_diagram(const std::string& path) const {
+    const auto [name, index] = list_and_index(path);
+    const Value& value = diagram_->parameters.find(name)->value;
+    const auto* number = std::get_if<Number>(&value.content);
+    if (const auto* list = std::get_if<NumberList>(&value.content); list != nullptr && index >= 0)
+      number = &(*list)[static_cast<std::size_t>(index)];
+    return number != nullptr && number->unit ? *number->unit : "as the wire says";
   }
 
   static std::string written(const JsonPlace& place) {

@@ -61,6 +61,7 @@ TEST(OwnEffect, IsShownAndAddedFromItsFile) {
   EXPECT_NE(shown.out.find("\npicture\n"), std::string::npos) << shown.out;
   EXPECT_NE(shown.out.find("Drawn with: 0.01 s late"), std::string::npos) << "one row of the picture's signal";
   EXPECT_NE(folder.read("cable.html").find("With the effect and without it"), std::string::npos);
+  EXPECT_NE(shown.out.find("\n  tau  ms  time constant"), std::string::npos) << "the unit of \"1 ms\"\n" << shown.out;
   EXPECT_NE(shown.out.find("The diagram cable.json is put on a wire"), std::string::npos) << shown.out;
   const auto added =
       hysteron(folder.path(), {"add", "cable", "diagram.json", "--effects", "cable.json", "-o", "next.json"});
