@@ -82,8 +82,8 @@ Subject without_diagram(const Arguments& arguments) {
     for (const auto& name : *list) rename(subject.data, name, diagram_name(name));
   subject.assumed.push_back(
       fmt::format("No diagram was named: judged with a gain and an offset from {} to {}{}. What an effect needs of a "
-                  "diagram (a mass, "
-                  "a hysteresis) is not there; name yours with --diagram.",
+                  "diagram (a mass, a hysteresis) is not there, and whether an output is a sample late or early, or an "
+                  "input held between its samples, was not looked for; name yours with --diagram.",
                   fmt::join(roles.inputs, ", "), fmt::join(roles.outputs, ", "),
                   guessed.empty() ? "" : " (told by the names of the columns)"));
   return subject;

@@ -48,6 +48,11 @@ TEST_F(InspectVerb, InspectNeedsNoDiagramAndSaysWhatItAssumed) {
   const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("No diagram was named"), std::string::npos) << outcome.out;
+  const std::string assumed = result("out")["facts"]["assumed"].dump();
+  EXPECT_NE(assumed.find("whether an output is a sample late or early"), std::string::npos) << assumed;
+  const auto cure = assumed.find("--diagram");
+  EXPECT_NE(cure, std::string::npos);
+  EXPECT_EQ(assumed.find("--diagram", cure + 1), std::string::npos) << "the cure is said once";
   const json inspection = result("out")["facts"]["inspection"];
   ASSERT_EQ(inspection["recordings"].size(), 1U);  // cut for fitting, looked at as one
   EXPECT_EQ(inspection["recordings"][0]["rows"], 200);
