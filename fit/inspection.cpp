@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "engine/time_text.h"
@@ -443,9 +444,12 @@ class Inspector {
         std::vector<std::span<const double>> drives;
         for (const auto& [name, u] : drives_of(part)) drives.push_back(u);
         const auto residual = residual_of(part, o, y);
+        // Rounding of a steady ramp makes a line of a step over pi.
+        const double rounding = column(output)->finest / std::numbers::pi;
         for (const auto& line : lines_of(residual.empty() ? y : std::span<const double>(residual), drives, clock.step))
-          add_line(found, {output, unit_of(output), line.frequency, line.amplitude, {part.name}, !residual.empty()},
-                   1 / seen_.recordings[k].duration);
+          if (line.amplitude > 1.05 * rounding)
+            add_line(found, {output, unit_of(output), line.frequency, line.amplitude, {part.name}, !residual.empty()},
+                     1 / seen_.recordings[k].duration);
       }
       // What is in the laboratory is in most of its recordings; a single sight must be the only one there could be.
       for (auto& line : found)

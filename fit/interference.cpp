@@ -140,30 +140,34 @@ class OfDrives {
       ratios_.push_back(standing_out(power));
       // All lines of a drive that has few; of a broad one those that stand out.
       const auto high = peaks(power, 1e-4 * *std::max_element(power.begin(), power.end()), 40);
-      const bool few = holds_most(power, high);
+      const bool few = holds_most(power, high, few_lines, 0.9);
       const double cycles = 2 * static_cast<double>(u.size());  // k of one cycle per row
+      const double tone = holds_most(power, high, 1, 0.75) ? cycles * refined(rows, high.front()) : 0;
       for (std::size_t i = 0; i < high.size(); ++i)
         if (few && i < few_lines)
-          lines_.push_back(cycles * refined(rows, high[i]));
+          lines_.push_back({cycles * refined(rows, high[i]), tone});
         else if (ratios_.back()[high[i]] > least)
-          lines_.push_back(static_cast<double>(high[i]));
-      if (const Period p = period_of(u); p.found()) grids_.push_back(2 * static_cast<double>(u.size()) / p.rows);
+          lines_.push_back({static_cast<double>(high[i]), tone});
+      if (const Period p = period_of(u); p.found()) grids_.push_back({cycles / p.rows, tone});
     }
   }
-  /// `k` counts half a cycle per recording. Aliases of harmonics are not looked for: they are weak.
-  bool explain(double k, double least) const {
+  /// `k` counts half a cycle per recording, `power` is that of the measured signal. Aliases of harmonics are not looked
+  /// for: they are weak.
+  bool explain(std::size_t at, double least, const std::vector<double>& power) const {
+    const auto k = static_cast<double>(at);
     const auto near = [&](double other) { return std::abs(k - std::abs(other)) < width; };
     for (const auto& ratio : ratios_)
       for (int j = -2; j <= 2; ++j)
         if (const auto i = static_cast<std::size_t>(std::max(0.0, k + j)); i < ratio.size() && ratio[i] > least)
           return true;
-    for (const double grid : grids_)
-      if (std::abs(k / grid - std::round(k / grid)) * grid < width) return true;
-    for (const double a : lines_) {
+    for (const auto& [grid, tone] : grids_)
+      if (std::abs(k / grid - std::round(k / grid)) * grid < width && !alone(at, tone, power)) return true;
+    for (const auto& [a, tone] : lines_) {
       // Each multiple is known as sharply as the line itself, times its order.
       const double order = std::round(k / a);
-      if (order >= 1 && order < 60 && std::abs(k - order * a) < std::max(width, 0.5 * order)) return true;
-      for (const double b : lines_)
+      if (order >= 1 && order < 60 && std::abs(k - order * a) < std::max(width, 0.5 * order) && !alone(at, tone, power))
+        return true;
+      for (const auto& [b, other_tone] : lines_)
         if (near(a + b) || near(a - b) || near(2 * a + b) || near(2 * a - b)) return true;
     }
     return false;
@@ -171,22 +175,48 @@ class OfDrives {
 
  private:
   static constexpr std::size_t few_lines = 3;
-  /// The strongest lines and their shoulders hold nine tenths of the power.
-  static bool holds_most(const std::vector<double>& power, const std::vector<std::size_t>& high) {
+  /// A line of a drive or the frequency of its period, and the tone that is most of that drive; 0 = there is none.
+  struct Line {
+    double k = 0, tone = 0;
+  };
+  /// Whatever bends a tone, its harmonics fall with their order, or rise and fall about a resonance: a strong one has
+  /// neighbours, at the least the next odd or the next even ones. A multiple of high order that towers over all of them
+  /// comes from elsewhere.
+  static bool alone(std::size_t k, double tone, const std::vector<double>& power) {
+    constexpr double low_order = 8;  // up to here a bend of few powers makes a single harmonic
+    constexpr double towers = 1000;  // in power; a resonance of Q = 300 at the 50th multiple leaves a 576th two further
+    constexpr int neighbours = 4;    // two odd and two even ones
+    constexpr std::size_t apart = 8;   // beyond the shoulders of the line itself
+    constexpr std::size_t beside = 1;  // a multiple lies between two frequencies
+    if (!(tone > 0) || static_cast<double>(k) <= low_order * tone) return false;
+    const int first = std::max(1, static_cast<int>(std::ceil(static_cast<double>(apart) / tone)));
+    // Near the end of the spectrum lie aliases, whose neighbours are folded to other places.
+    if (static_cast<double>(k) + (first + neighbours) * tone > static_cast<double>(power.size())) return false;
+    double most = 0;
+    for (int j = first; j < first + neighbours; ++j) {
+      const auto way = static_cast<std::size_t>(std::lround(j * tone));
+      for (std::size_t i = way - beside; i <= way + beside; ++i)
+        most = std::max({most, i <= k ? power[k - i] : 0, k + i < power.size() ? power[k + i] : 0});
+    }
+    return power[k] > towers * most;
+  }
+  /// So many of the strongest lines, with their shoulders, hold this share of the power.
+  static bool holds_most(const std::vector<double>& power, const std::vector<std::size_t>& high, std::size_t lines,
+                         double share) {
     double all = 0, held = 0;
     for (std::size_t k = 0; k < power.size(); ++k) {
       all += power[k];
-      for (std::size_t i = 0; i < std::min(few_lines, high.size()); ++i)
+      for (std::size_t i = 0; i < std::min(lines, high.size()); ++i)
         if (k + 6 > high[i] && k < high[i] + 6) {
           held += power[k];
           break;
         }
     }
-    return held > 0.9 * all;
+    return held > share * all;
   }
   static constexpr double width = 5;  // of a windowed line, in half cycles per recording
   std::vector<std::vector<double>> ratios_;
-  std::vector<double> lines_, grids_;
+  std::vector<Line> lines_, grids_;
 };
 
 }  // namespace
@@ -200,12 +230,15 @@ std::vector<SpectralLine> lines_of(std::span<const double> y, const std::vector<
   const auto ratio = standing_out(power);
   // The power of three cosines is chi-square with three degrees of freedom, its tail exp(-x/2), its median 2.37.
   const double least = 2 * std::log(1e6 * static_cast<double>(y.size())) / 2.37;
-  const auto candidates = peaks(ratio, least, 12);
+  auto candidates = peaks(ratio, least, power.size());
+  // Before the strongest are taken: a strong tone has more shoulders than that.
+  std::erase_if(candidates,
+                [&](std::size_t k) { return static_cast<double>(k) < 2 * fewest_cycles || !sharp(power, k); });
+  candidates.resize(std::min<std::size_t>(candidates.size(), 12));
   if (candidates.empty()) return found;
   const OfDrives drive(drives, least);
   for (const auto k : candidates) {
-    if (static_cast<double>(k) < 2 * fewest_cycles || !sharp(power, k)) continue;
-    if (drive.explain(static_cast<double>(k), least)) continue;
+    if (drive.explain(k, least, power)) continue;
     const double f = refined(rows, k);
     if (!steady(rows, f)) continue;
     const SpectralLine line{f / step, std::abs(amplitude_at(rows, 0, rows.size(), f)), ratio[k]};

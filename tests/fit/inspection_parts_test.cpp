@@ -292,6 +292,68 @@ TEST(LinesOf, LeavesTheDriveAndItsDistortionAlone) {
   EXPECT_TRUE(lines_of(y, {u}, 1e-3).empty());
 }
 
+/// One period of a drive, phase 0 .. 1.
+using Shape = double (*)(double);
+double sine_shape(double phase) { return std::sin(2 * pi * phase); }
+double triangle_shape(double phase) { return 4 * std::abs(phase - std::floor(phase + 0.5)) - 1; }
+double square_shape(double phase) { return phase - std::floor(phase) < 0.5 ? 1 : -1; }
+/// A drive of 1 Hz at 1 kHz.
+std::vector<double> periodic(std::size_t n, Shape shape) {
+  return rows(n, [&](std::size_t i) { return 5 + 3 * shape(1e-3 * static_cast<double>(i)); });
+}
+
+TEST(LinesOf, FindsTheMainsAtAMultipleOfASine) {
+  for (const std::size_t n : {4000, 10000, 40000})
+    for (const double frequency : {50.0, 50.03}) {
+      const auto u = periodic(n, sine_shape);
+      const auto e = noise(n, 2e-3, 17);
+      const auto y = rows(n, [&](std::size_t i) {
+        const double t = 1e-3 * static_cast<double>(i);
+        return 1.2 * u[i] + 0.02 * u[i] * u[i] * u[i] + e[i] + 0.1 * std::sin(2 * pi * frequency * t + 1);
+      });
+      const auto lines = lines_of(y, {u}, 1e-3);
+      ASSERT_EQ(lines.size(), 1U) << n << " rows, " << frequency << " Hz";
+      EXPECT_NEAR(lines[0].frequency, frequency, 50.0 / static_cast<double>(n));  // a twentieth of one over the time
+      EXPECT_NEAR(lines[0].amplitude, 0.1, 0.01);
+    }
+}
+
+TEST(LinesOf, LeavesWhatABendAHysteresisOrAResonanceMakesOfOneToneAlone) {
+  using Device = std::function<std::vector<double>(const std::vector<double>&)>;
+  const auto each = [](double (*f)(double)) -> Device {
+    return [f](const std::vector<double>& u) { return rows(u.size(), [&](std::size_t i) { return f(u[i]); }); };
+  };
+  const auto play = [](const std::vector<double>& u) {
+    double at = u.front();
+    return rows(u.size(), [&](std::size_t i) { return at = std::max(u[i] - 1, std::min(u[i] + 1, at)); });
+  };
+  const auto rung_by = [&](const Device& device) -> Device {
+    return [device](const std::vector<double>& u) {  // Q = 100 at 50 Hz, at one of the multiples
+      const double w = 2 * pi * 0.05, z = 0.005;
+      auto y = device(u);
+      const auto force = y;
+      for (std::size_t i = 2; i < y.size(); ++i)
+        y[i] = 2 * std::exp(-z * w) * std::cos(w) * y[i - 1] - std::exp(-2 * z * w) * y[i - 2] + 0.1 * force[i];
+      return y;
+    };
+  };
+  const std::vector<Device> devices{each([](double u) { return u + 0.1 * u * u * u; }),
+                                    each([](double u) { return std::min(u, 6.5); }),
+                                    each([](double u) { return std::abs(u - 4); }),
+                                    each([](double u) { return std::round(u / 0.05) * 0.05; }),
+                                    play,
+                                    rung_by(play)};
+  for (const std::size_t n : {4000, 10000, 40000})
+    for (const Shape shape : {sine_shape, triangle_shape, square_shape})
+      for (std::size_t d = 0; d < devices.size(); ++d) {
+        const auto u = periodic(n, shape);
+        const auto e = noise(n, 1e-3, 18);
+        auto y = devices[d](u);
+        for (std::size_t i = 0; i < n; ++i) y[i] += e[i];
+        EXPECT_TRUE(lines_of(y, {u}, 1e-3).empty()) << "device " << d << ", " << n << " rows";
+      }
+}
+
 TEST(LinesOf, TakesNoResonanceForALine) {
   // A mass on a spring, damping 0.2 %, driven by noise: its peak is sharp, its phase wanders.
   const auto force = noise(20000, 1, 16);

@@ -136,6 +136,17 @@ TEST_F(Inspecting, ALineInOneRecordingOfTwoIsNotTold) {
   EXPECT_TRUE(inspected(gain_, data_).lines.empty());
 }
 
+TEST_F(Inspecting, TheLineThatRoundingMakesOfARampIsNotTold) {
+  const auto triangle = [](double t) { return 5 + 3 * (4 * std::abs(0.37 * t - std::floor(0.37 * t + 0.5)) - 1); };
+  auto data = data_set(gain_, 4000, {triangle});
+  auto& first = data.recordings[0];
+  const double step = 3e-9;  // of a sensor without noise; 4.44 um/s over 3 nm: 1480 Hz and its multiples, as aliases
+  for (std::size_t i = 0; i < first.t.size(); ++i)
+    first.columns["y"][i] = step * std::round(1e-6 * first.columns["u"][i] / step);
+  const Inspection seen = inspected(gain_, data);
+  EXPECT_TRUE(seen.lines.empty()) << seen.lines[0].frequency << " Hz, " << seen.lines[0].amplitude;
+}
+
 TEST_F(Inspecting, ReadsTheFloorFromRecordingsThatWereDrivenAlike) {
   const auto data = data_set(gain_, 5000, {broad(4, 1e-3, 5000), broad(4, 1e-3, 5000)});
   const Inspection seen = inspected(gain_, data);
