@@ -12,9 +12,10 @@ namespace hysteron {
 inline std::string time_text(double seconds) {
   const double size = std::abs(seconds);
   if (size >= 3600) return fmt::format("{:.3g} h", seconds / 3600);
-  if (size >= 999.5) return fmt::format("{:.3g} min", seconds / 60);  // three digits would be 1e+03 s
-  if (size >= 1 || size == 0) return fmt::format("{:.3g} s", seconds);
-  if (size >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
+  // What three digits would make "1e+03" of is told in the next unit.
+  if (size >= 999.5) return fmt::format("{:.3g} min", seconds / 60);
+  if (size >= 0.9995 || size == 0) return fmt::format("{:.3g} s", seconds);
+  if (size >= 0.9995e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.3g} us", seconds * 1e6);
 }
 

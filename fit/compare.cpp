@@ -95,7 +95,7 @@ std::vector<std::string> telling_sentences(const std::vector<Split>& splits) {
   constexpr double spread = 0.02;  // information below which the error is spread as the rows are
   std::vector<std::string> list;
   for (const auto& split : splits)
-    if (list.size() < 3 && split.information > spread &&
+    if (list.size() < 3 && split.tells && split.information > spread &&
         std::find(list.begin(), list.end(), split.sentence) == list.end())
       list.push_back(split.sentence);
   return list;

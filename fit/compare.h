@@ -43,6 +43,7 @@ struct Split {
   std::string title;  ///< "by branch of u"
   std::vector<SplitPart> parts;
   double information = 0;  ///< sum of error * ln(error / rows): 0 where the error is spread evenly
+  bool tells = false;      ///< a part holds clearly more of the error than of the rows, or it grows within the holds
   std::string sentence;    ///< "78 % of the squared error lies on the falling branch, which holds 45 % of the rows"
 };
 
@@ -66,7 +67,7 @@ struct Comparison {
 Comparison compare(const DataModel& model, const Judge& judge, Prediction prediction, std::vector<int> recordings = {});
 
 /// The three that matter of one output's splits, most informative first; fewer, or none, where the error is spread as
-/// the rows are.
+/// the rows are: a sentence that says so is none of them.
 std::vector<std::string> telling_sentences(const std::vector<Split>& splits);
 
 Metrics metrics_of(const Rows& measured, const Rows& residual);

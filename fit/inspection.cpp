@@ -60,6 +60,21 @@ double range_of(std::span<const double> v) {
   return *high - *low;
 }
 
+/// By how much a drive must come back to have turned. Where it differs from row to row by a good part of its range,
+/// that is its motion and no noise on it.
+double threshold_of_drive(std::span<const double> u) {
+  constexpr double good_part = 0.05;  // white noise: about a seventh
+  return roughness(u) > good_part * range_of(u) ? 0.02 * range_of(u) : turning_threshold(u);
+}
+
+/// Times at which each gap of the clock takes one step: what was not recorded was not seen held.
+std::vector<double> without_gaps(std::span<const double> t, const Clock& clock) {
+  std::vector<double> seen(t.begin(), t.end());
+  for (const auto& gap : clock.gaps)
+    for (std::size_t i = gap.row; i < seen.size(); ++i) seen[i] -= static_cast<double>(gap.missing) * clock.step;
+  return seen;
+}
+
 class Inspector {
  public:
   Inspector(DataModel& model, bool diagram_is_meant)
@@ -139,6 +154,7 @@ class Inspector {
       r.rows = t.size();
       r.duration = t.empty() ? 0 : t.back() - t.front();
       r.clock = clock_of(t);
+      const auto seen_times = without_gaps(t, r.clock);
       for (const auto& [name, u] : drives_of(part)) {
         InspectedDrive d;
         d.input = name;
@@ -149,9 +165,9 @@ class Inspector {
         for (std::size_t i = 1; i < u.size(); ++i)
           if (t[i] > t[i - 1]) d.fastest = std::max(d.fastest, std::abs(u[i] - u[i - 1]) / (t[i] - t[i - 1]));
         if (r.clock.regular) d.band = band_of(u, r.clock.step);
-        d.reversals = turning_points(u, turning_threshold(u)).size();
+        d.reversals = turning_points(u, threshold_of_drive(u)).size();
         d.swings = swing_sizes(u).size();
-        d.hold = longest_hold(t, u, range_of(u));
+        d.hold = longest_hold(seen_times, u, range_of(u));
         if (r.clock.regular && r.clock.gaps.empty()) d.period = period_of(u);
         r.drives.push_back(std::move(d));
       }

@@ -64,10 +64,10 @@ Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
   }
   if (n == 0) return s;
   const SplitPart& most = s.parts[top];
-  s.sentence = most.error - most.rows < tells_nothing
-                   ? fmt::format("Split {}, the squared error lies where the rows lie", d.title)
-                   : fmt::format("{:.0f} % of the squared error lies {}, which holds {} {}", 100 * most.error,
-                                 d.phrases[top], share_text(most.rows), d.counted);
+  s.tells = most.error - most.rows >= tells_nothing;
+  s.sentence = s.tells ? fmt::format("{:.0f} % of the squared error lies {}, which holds {} {}", 100 * most.error,
+                                     d.phrases[top], share_text(most.rows), d.counted)
+                       : fmt::format("Split {}, the squared error lies where the rows lie", d.title);
   return s;
 }
 
@@ -375,6 +375,7 @@ void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>
   if (moving.error > moving.rows) return;  // it is not in the holds that the error lies
   const std::string growth = growth_of(holds, recordings);
   if (growth.empty()) return;
+  split.tells = true;
   split.sentence = fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {} ({} of the rows){}",
                                100 * (1 - moving.error), holds.longest,
                                holds.after_step >= holds.after_motion ? "a step" : name + " has stopped",

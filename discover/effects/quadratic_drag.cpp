@@ -15,7 +15,7 @@ Effect quadratic_drag() {
   e.cause = "A body that moves fast through air or liquid, a flow through an orifice.";
   e.equation = "F = drag*v*|v|";
   e.source = "Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11";
-  e.residual = "In proportion to v*|v|: odd harmonics only, a third of a fifth of its own fundamental.";
+  e.residual = "In proportion to v*|v|: odd harmonics only, the third a fifth of the first.";
   e.needs = "Speeds that span 3:1.";
   e.way = Way::vary;
   e.variation = "drag";

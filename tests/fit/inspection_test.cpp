@@ -91,6 +91,26 @@ TEST_F(Inspecting, SaysWhatTheColumnsAre) {
   EXPECT_GT(seen.recordings[0].drives[0].reversals, 200U);    // one in some ten rows, but for those too small
 }
 
+TEST_F(Inspecting, WhatWasNotRecordedIsNoHold) {
+  auto& first = data_.recordings[0];
+  for (std::size_t i = 2000; i < first.t.size(); ++i) first.t[i] += 3;  // the recorder stood still for 3 s
+  first.columns["u"][2000] = first.columns["u"][1999];                  // and the drive was back where it had been
+  const Inspection seen = inspected(gain_, data_);
+  EXPECT_TRUE(tells(seen.faults, "3000 rows missing, in 1 gap"));
+  EXPECT_LT(seen.recordings[0].drives[0].hold.length, 0.1);
+  EXPECT_FALSE(tells(seen.sentences, "hold 3 s")) << seen.sentences[1];
+}
+
+TEST_F(Inspecting, WhiteNoiseTurnsAtTwoRowsOfThree) {
+  lab::Noise random(9);
+  std::vector<double> values(4001);
+  for (double& v : values) v = random();
+  const auto white = [&](double t) { return values[static_cast<std::size_t>(std::lround(1000 * t))]; };
+  const Inspection seen = inspected(gain_, data_set(gain_, 4000, {white}));
+  // Each third row is a turn of each kind; some come back by less than 2 % of the range.
+  EXPECT_NEAR(static_cast<double>(seen.recordings[0].drives[0].reversals), 2.0 / 3 * 4000, 300);
+}
+
 TEST_F(Inspecting, TellsRowsThatAreMissingRepeatedOrClipped) {
   auto& first = data_.recordings[0];
   const auto take_out = [&](auto& rows) { rows.erase(rows.begin() + 1000, rows.begin() + 1004); };
