@@ -8,6 +8,7 @@
 #include "app/load.h"
 #include "app/terminal.h"
 #include "app/verb.h"
+#include "discover/bounds.h"
 #include "discover/effect.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
@@ -94,6 +95,15 @@ std::string changes_nothing(const Effect& effect, const Demonstration& shown) {
   return fmt::format("{}", fmt::join(ways, "; in a block that has it "));
 }
 
+/// What a parameter is, what is usual and between which values a search looks for it.
+std::string parameter_text(const Effect& effect, const EffectParameter& p) {
+  std::vector<std::string> parts;
+  if (!p.meaning.empty()) parts.push_back(p.meaning);
+  if (!p.range.empty()) parts.push_back("usual: " + p.range);
+  if (const std::string bounds = bounds_text(effect, p.name); !bounds.empty()) parts.push_back("searched: " + bounds);
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 /// Effects that are taken for this one, as it says or as they say themselves; each once.
 Table look_alikes(const Effect& effect, const Effects& library) {
   Table table;
@@ -133,8 +143,7 @@ std::vector<Section> sections_of(const Effect& effect, const Effects& library, c
                      effect.law_of, effect.id));
   Table parameters;
   for (const auto& p : effect.parameters)
-    parameters.rows.push_back(
-        {p.name, p.unit.empty() ? "1" : p.unit, p.range.empty() ? p.meaning : p.meaning + "; usual: " + p.range});
+    parameters.rows.push_back({p.name, p.unit.empty() ? "1" : p.unit, parameter_text(effect, p)});
   table("parameters", std::move(parameters));
   part("changes nothing with", changes_nothing(effect, shown));
   part("what it leaves in the residual", effect.residual);

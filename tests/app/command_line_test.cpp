@@ -211,6 +211,13 @@ TEST(Effects, APictureShowsTheEffectAndNoRounding) {
   EXPECT_NE(pyro.find("\n  0 |"), std::string::npos) << pyro;
 }
 
+TEST(Effects, APageSaysBetweenWhichValuesAParameterIsSearched) {
+  const Folder folder;
+  EXPECT_NE(process::hysteron(folder.path(), {"effects", "creep"}).out.find("searched: 0 .. 0.4"), std::string::npos);
+  const std::string delay = process::hysteron(folder.path(), {"effects", "dead_time"}).out;
+  EXPECT_NE(delay.find("  delay  s  usual:"), std::string::npos) << "a parameter without a meaning\n" << delay;
+}
+
 TEST(Effects, APageOfOneHasItsEquationAndItsPictures) {
   const Folder folder;
   ASSERT_EQ(process::hysteron(folder.path(), {"effects", "temperature_gain", "-o", "page.html"}).code, 0);
