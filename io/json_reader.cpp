@@ -83,7 +83,8 @@ std::string tidy_name(const std::string& name) {
 }  // namespace
 
 JsonFile::JsonFile(const std::string& file) : file_(file) {
-  const std::string text = read_file(file);
+  std::string text = read_file(file);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark: no part of the JSON (RFC 8259, 8.1)
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     fail_at(file, 1, "empty_file", file, "the file is empty",
             "write a diagram or data set into it, or name another file");

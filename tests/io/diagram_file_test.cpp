@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "blocks/register_all.h"
+#include "engine/error.h"
 #include "engine/program.h"
 #include "tests/io/temporary_folder.h"
 
@@ -93,6 +94,25 @@ std::string told(const Diagram& d) {
   const auto& s = d.simulate;
   text += number(s.until) + number(s.every) + number(s.max_step) + s.method.value_or("-");
   return text + std::to_string(s.relative_tolerance.value_or(-1)) + std::to_string(s.absolute_tolerance.value_or(-1));
+}
+
+TEST(JsonText, MayBeginWithAByteOrderMarkAndLinesAndColumnsStayThose) {
+  const TemporaryFolder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string good = folder.write("good.json", mark + stage);
+  EXPECT_EQ(read_diagram(good).outputs.names(), (std::vector<std::string>{"displacement"}));
+  const auto problem_of = [&](const std::string& text) {
+    const std::string file = folder.write("bad.json", mark + text);
+    try {
+      read_diagram(file);
+    } catch (const Error& error) {
+      return error.problems.front();
+    }
+    return Problem{};
+  };
+  EXPECT_EQ(problem_of("{\"format\": 1,\n\"blocks\": {},\n\"outptus\": {}}").line, 3);
+  EXPECT_EQ(problem_of("{\"format\" 1}").path, "column 11");
+  EXPECT_EQ(problem_of("").code, "empty_file");
 }
 
 TEST(DiagramFile, EveryPartOfTheFormatIsRead) {
