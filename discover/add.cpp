@@ -48,11 +48,13 @@ Spot spot_before(const Wiring& w, const std::string& at) {
   fail("unknown_place", at, fmt::format("\"{}\" has no input \"{}\"", block, port), did_you_mean(port, ports));
 }
 
+/// A name for a block, made of the signal that it stands on: inputs may hold capital letters, blocks may not.
 std::string unused_name(const Diagram& diagram, std::string name) {
-  std::replace(name.begin(), name.end(), '.', '_');
-  std::replace(name.begin(), name.end(), '/', '_');
-  std::replace(name.begin(), name.end(), '[', '_');
   std::erase(name, ']');
+  for (char& c : name) {
+    if (c == '.' || c == '/' || c == '[') c = '_';
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
   const auto taken = [&](const std::string& n) {
     return diagram.blocks.find(n) != nullptr || diagram.inputs.find(n) != nullptr;
   };

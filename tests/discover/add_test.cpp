@@ -73,6 +73,29 @@ TEST_F(AddedEffect, AtAnInputOfTheDiagramStandsFirst) {
   EXPECT_EQ(a.diagram.blocks.find("drive")->in.front().from, "u_amplifier_lag");
 }
 
+TEST_F(AddedEffect, AtAnInputWithCapitalLettersHasANameThatABlockMayHave) {
+  Diagram d;
+  d.inputs["T_amb"].unit = "degC";
+  d.inputs["t_amb"].unit = "degC";
+  d.blocks["air"] = node("lag", {{"", "T_amb"}});
+  d.blocks["air"].parameters["times"] = Value(NumberList{Number{10, "s"}});
+  d.blocks["wall"] = node("lag", {{"", "t_amb"}});
+  d.blocks["wall"].parameters["times"] = Value(NumberList{Number{10, "s"}});
+  d.outputs["T"] = "air";
+  d.outputs["W"] = "wall";
+  const Added first = add_effect(d, registry, effects.get("dead_time"), "T_amb");
+  EXPECT_EQ(first.name, "t_amb_dead_time");
+  const Added second = add_effect(first.diagram, registry, effects.get("dead_time"), "t_amb");
+  EXPECT_EQ(second.name, "t_amb_dead_time_2");
+  const TemporaryFolder folder;
+  const std::string file = folder.path("d.json");
+  write_diagram(file, second.diagram);
+  const Diagram back = read_diagram(file);
+  EXPECT_NO_THROW(compile(back, registry));
+  EXPECT_EQ(diagram_text(remove_effect(remove_effect(back, registry, second.name), registry, first.name)),
+            diagram_text(d));
+}
+
 TEST_F(AddedEffect, AtAnInputPortLeavesOtherReadersAlone) {
   const Added a = add_effect(stage(), registry, effects.get("dead_time"), "actuator.in");
   EXPECT_EQ(a.diagram.blocks.find("actuator")->in.front().from, a.name);
