@@ -9,6 +9,7 @@
 
 #include "app/load.h"
 #include "app/rewrite.h"
+#include "app/target.h"
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "discover/circumstances.h"
@@ -36,6 +37,7 @@ int add(const Arguments& arguments) {
   const Effects library = load_effects(arguments);
   const Effect& effect = library.get(arguments.text("effect"));
   const Diagram diagram = load_diagram(arguments);
+  if (arguments.has("-o")) check_diagram_target("-o", arguments.text("-o"), diagram);
   const ProgramPointer program = compile_file(diagram);
   std::optional<DataSet> data;
   std::optional<Circumstances> circumstances;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/load.h"
+#include "app/target.h"
 #include "app/verb.h"
 #include "draw/drawing.h"
 #include "engine/error.h"
@@ -32,8 +33,7 @@ int draw(const Arguments& arguments) {
     fail("bad_command_line", "--depth", "\"" + arguments.text("--depth") + "\" is no number of levels",
          "write a whole number, e.g. --depth 1");
   const std::string file = arguments.text("-o", stem_of(arguments.text("diagram")) + ".svg");
-  if (!file.ends_with(".svg"))
-    fail("bad_command_line", "-o", "\"" + file + "\" does not end in .svg", "name an SVG file, e.g. -o stage.svg");
+  need_ending("-o", file, {".svg"}, "an SVG file, e.g. -o stage.svg");
   write_file(file, diagram_svg(diagram, *program, registry(), {static_cast<int>(depth)}));
   fmt::print("wrote {}\n", file);
   return exit_code::done;

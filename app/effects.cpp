@@ -6,6 +6,7 @@
 
 #include "app/effect_picture.h"
 #include "app/load.h"
+#include "app/target.h"
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "discover/bounds.h"
@@ -191,9 +192,7 @@ std::string wanted_file(const Arguments& arguments) {
   if (file.empty()) return file;
   if (!arguments.has("effect"))
     fail("bad_command_line", "-o", "a picture is drawn of one effect", "name it: hysteron effects creep -o creep.html");
-  if (!file.ends_with(".html") && !file.ends_with(".svg"))
-    fail("bad_command_line", "-o", "\"" + file + "\" ends neither in .html nor in .svg",
-         "name a page or a picture, e.g. -o creep.html");
+  need_ending("-o", file, {".html", ".svg"}, "a page or a picture, e.g. -o creep.html");
   return file;
 }
 

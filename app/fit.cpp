@@ -19,6 +19,7 @@
 #include "app/progress.h"
 #include "app/publish.h"
 #include "app/rewrite.h"
+#include "app/target.h"
 #include "app/verb.h"
 #include "engine/error.h"
 #include "fit/delay.h"
@@ -258,6 +259,8 @@ void place_wanted_thresholds(const FitJob& job, const std::shared_ptr<const Data
 int fit_verb_acts(const Arguments& arguments) {
   const FitJob job = job_of(arguments);
   Diagram diagram = read_diagram(job.diagram, arguments.list("--allow"));
+  const std::string write_option = arguments.has("--write") ? "--write" : "/write";
+  if (!job.write.empty()) with_lines_of_job(job, [&] { check_diagram_target(write_option, job.write, diagram); });
   with_lines_of_job(job, [&] { apply_settings(diagram, job.set, job.choose); });
   apply_overrides(diagram, arguments);
   ProgramPointer program = compile_file(diagram);

@@ -4,6 +4,7 @@
 
 #include "app/load.h"
 #include "app/rewrite.h"
+#include "app/target.h"
 #include "app/verb.h"
 #include "discover/add.h"
 #include "io/diagram_file.h"
@@ -21,6 +22,7 @@ constexpr char help[] =
 
 int remove(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
+  if (arguments.has("-o")) check_diagram_target("-o", arguments.text("-o"), diagram);
   const Diagram without = remove_effect(diagram, registry(), arguments.text("effect"));
   fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(without)));
   rewrite(arguments, without, {});

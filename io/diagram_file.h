@@ -16,6 +16,10 @@ namespace hysteron {
 /// project.
 Diagram read_diagram(const std::string& file, const std::vector<std::string>& allowed = {});
 
+/// Does a diagram stand in this file, and nothing more (an effect file is a diagram with what it means besides)? Told by
+/// its keys: what is in them may be wrong. False where it is no JSON.
+bool is_diagram_file(const std::string& file);
+
 /// The text of a diagram file: keys in the order of DESIGN 4.1, one block per line where it fits.
 std::string diagram_text(const Diagram& diagram);
 

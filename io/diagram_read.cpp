@@ -388,6 +388,16 @@ class DiagramReader {
 
 }  // namespace
 
+bool is_diagram_file(const std::string& file) {
+  try {
+    JsonFile json(file);
+    const JsonPlace root = json.root();
+    return root.is_object() && root.find("blocks") && !root.find("effect");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 Diagram read_diagram(const std::string& file, const std::vector<std::string>& allowed) {
   const ProjectPaths paths(file, allowed);
   std::vector<std::string> open_files{canonical_name(file)};

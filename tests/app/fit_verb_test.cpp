@@ -105,6 +105,7 @@ TEST_F(FitVerb, AWrongJobIsToldWithItsLineAndCure) {
   told("\"free\": [{\"parameter\": \"gain\",\n\"start\": \"5 um/V\", \"upper\": \"2 um/V\"}]", "start_outside", 4);
   told("\"method\": {\n\"name\": \"psso\"}", "unknown_method", 4);
   told("\"colour\": 1", "unknown_key", 3);
+  told("\"write\":\n\"dataset.json\"", "file_in_use", 3);
   EXPECT_FALSE(folder_.has("job.fit"));
   const Outcome no_data = hysteron(folder_.path(), {"fit", "diagram.json"});
   EXPECT_EQ(no_data.code, 2);

@@ -311,5 +311,28 @@ TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
   EXPECT_FALSE(folder_.has("out/traces/c.csv"));
 }
 
+TEST_F(Verbs, ADiagramIsWrittenOverDiagramsOnly) {
+  folder_.write("inner.json", lab::diagram());
+  folder_.write("outer.json", R"({"format": 1, "inputs": {"u": {"unit": "V"}},
+    "blocks": {"stage": {"type": "diagram", "file": "inner.json", "in": "u"}}, "outputs": {"y": "stage"}})");
+  const auto refuses = [&](std::vector<std::string> words, const std::string& file) {
+    const std::string before = folder_.read(file);
+    words.push_back(file);
+    const Outcome outcome = hysteron(folder_.path(), words);
+    EXPECT_EQ(outcome.code, 2) << file << outcome.out;
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+    EXPECT_EQ(folder_.read(file), before);
+  };
+  refuses({"add", "creep", "diagram.json", "-o"}, "a.csv");
+  refuses({"add", "creep", "diagram.json", "-o"}, "dataset.json");
+  refuses({"add", "creep", "outer.json", "-o"}, "inner.json");
+  ASSERT_EQ(hysteron(folder_.path(), {"add", "creep", "diagram.json", "-o", "next.json"}).code, 0);
+  refuses({"remove", "creep", "next.json", "-o"}, "a.csv");
+  refuses({"fit", "diagram.json", "--data", "a.csv", "-o", "out", "--write"}, "a.csv");
+  refuses({"fit", "diagram.json", "--data", "dataset.json", "-o", "out", "--write"}, "dataset.json");
+  EXPECT_FALSE(folder_.has("out"));
+  EXPECT_EQ(hysteron(folder_.path(), {"remove", "creep", "next.json", "-o", "next.json"}).code, 0);  // its own
+}
+
 }  // namespace
 }  // namespace hysteron
