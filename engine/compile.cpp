@@ -137,27 +137,50 @@ class ParameterTable {
       info.linear = p.is_linear;
       info.offset = p.is_offset;
       info.origin = number.origin;
+      declared_.push_back(&p);
       program_.parameter_names[path] = program_.parameter_names[own] = static_cast<int>(program_.parameters.size());
       program_.parameters.push_back(std::move(info));
     }
   }
 
-  static double in_si(const ParameterInfo& info, const Number& number) {
-    const Unit unit = number.unit ? parse_unit(*number.unit, info.path) : info.unit;
-    if (number.unit && dimension_factor(unit.dimension, info.unit.dimension) == 0)
+  /// As resolve() reads the unit of a value: a cycle is 2 pi rad where the block says rad.
+  static Unit unit_as_read(const std::string& text, const ParameterInfo& info, const ParameterDeclaration& p) {
+    Unit unit = parse_unit(text, info.path);
+    if (p.unit.find('$') == std::string::npos)
+      if (const double factor = dimension_factor(unit.dimension, parse_unit(p.unit).dimension); factor != 0)
+        unit.scale *= factor;
+    return unit;
+  }
+
+  /// The unit of a bound that was written without one: that of the value beside it, which need not be the value in use
+  /// (--set or the diagram around this one may give another, in another unit).
+  static Unit unit_of_bounds(const ParameterInfo& info, const DiagramParameter& given, const ParameterDeclaration& p) {
+    const auto* number = std::get_if<Number>(&given.value.content);
+    const bool set = was_set(given.value.origin);  // then the file wrote no unit: apply_settings() would have kept it
+    if (number == nullptr && !set) return info.unit;
+    if (number != nullptr && number->unit && !set) return unit_as_read(*number->unit, info, p);
+    return p.unit.find('$') == std::string::npos ? parse_unit(p.unit) : Unit{};
+  }
+
+  static double in_si(const ParameterInfo& info, const DiagramParameter& given, const ParameterDeclaration& p,
+                      const Number& bound) {
+    const Unit unit = bound.unit ? unit_as_read(*bound.unit, info, p) : unit_of_bounds(info, given, p);
+    if (bound.unit && dimension_factor(unit.dimension, info.unit.dimension) == 0)
       fail("wrong_unit", "/parameters/" + info.path + "/bounds",
            fmt::format("the bound of \"{}\" is in \"{}\", the value in \"{}\"", info.path, unit.text, info.unit.text),
            "write both in units of the same kind");
-    return info.difference ? unit.difference_to_si(number.value) : unit.to_si(number.value);
+    return info.difference ? unit.difference_to_si(bound.value) : unit.to_si(bound.value);
   }
 
   void apply_bounds() {
     for (const auto& parameter : graph_.parameters)
-      for (auto& info : program_.parameters) {
+      for (std::size_t i = 0; i < program_.parameters.size(); ++i) {
+        auto& info = program_.parameters[i];
         if (info.path != parameter.path && info.path.rfind(parameter.path + "[", 0) != 0) continue;
-        info.free = parameter.given->free.value_or(false);
-        if (parameter.given->lower) info.lower = std::max(info.lower, in_si(info, *parameter.given->lower));
-        if (parameter.given->upper) info.upper = std::min(info.upper, in_si(info, *parameter.given->upper));
+        const DiagramParameter& given = *parameter.given;
+        info.free = given.free.value_or(false);
+        if (given.lower) info.lower = std::max(info.lower, in_si(info, given, *declared_[i], *given.lower));
+        if (given.upper) info.upper = std::min(info.upper, in_si(info, given, *declared_[i], *given.upper));
         if (!(info.lower <= info.value && info.value <= info.upper))
           fail("bad_value", "/parameters/" + info.path,
                fmt::format("\"{}\" is {} (SI), outside its bounds {} ... {}", info.path, info.value, info.lower,
@@ -168,6 +191,7 @@ class ParameterTable {
 
   const Graph& graph_;
   Program& program_;
+  std::vector<const ParameterDeclaration*> declared_{};  ///< of each of the program's parameters, at its first slot
 };
 
 LoopWishes loop_wishes(const SimulateSettings& settings, const Program& program) {

@@ -52,6 +52,23 @@ Node& find_node(Diagram& diagram, const std::string& path, const std::string& op
   }
 }
 
+/// The unit that a value was written with; nothing where it has none, or where its numbers differ in it.
+std::optional<std::string> written_unit(const Value& value) {
+  if (const auto* number = std::get_if<Number>(&value.content)) return number->unit;
+  const auto* list = std::get_if<NumberList>(&value.content);
+  if (list == nullptr || list->empty()) return {};
+  for (const auto& number : *list)
+    if (number.unit != list->front().unit) return {};
+  return list->front().unit;
+}
+
+/// A plain bound is in the unit of the value beside it. Another value, in another unit, must not move it.
+void keep_unit_of_bounds(DiagramParameter& parameter) {
+  if (was_set(parameter.value.origin)) return;  // the second setting: the bounds have got their unit
+  for (auto* bound : {&parameter.lower, &parameter.upper})
+    if (*bound && !(*bound)->unit) (*bound)->unit = written_unit(parameter.value);
+}
+
 }  // namespace
 
 bool was_set(const std::string& origin) { return origin.starts_with("--set "); }
@@ -78,6 +95,7 @@ void apply_settings(Diagram& diagram, const std::vector<Override>& set, const st
       if (parameter == nullptr)
         fail("unknown_parameter", option, fmt::format("the diagram has no parameter \"{}\"", s.path),
              did_you_mean(s.path, diagram.parameters.names()) + " A parameter of a block is written block.parameter");
+      keep_unit_of_bounds(*parameter);
       parameter->value = value;
       continue;
     }

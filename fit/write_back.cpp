@@ -136,6 +136,21 @@ class Writer {
   std::vector<std::pair<std::string, Diagram>>* nested_;
 };
 
+/// Where a setting gave a value without a unit one, plain bounds beside it would be read in that unit: they get it too.
+void keep_bounds(Diagram& diagram, const Program& program) {
+  for (auto& [name, parameter] : diagram.parameters) {
+    const auto* number = std::get_if<Number>(&parameter.value.content);
+    const ParameterInfo* info = program.find_parameter(name);
+    if (info == nullptr) info = program.find_parameter(name + "[0]");  // one number where a block takes a list
+    if (!was_set(parameter.value.origin) || number == nullptr || !number->unit || info == nullptr) continue;
+    const auto keep = [&](std::optional<Number>& bound, double si) {
+      if (bound && !bound->unit) bound = Number{rounded(shown(info->unit, info->difference, si), 12), number->unit};
+    };
+    keep(parameter.lower, info->lower);
+    keep(parameter.upper, info->upper);
+  }
+}
+
 }  // namespace
 
 Diagram with_parameters(const Diagram& diagram, const Program& program, const std::vector<ParameterValue>& values,
@@ -147,6 +162,7 @@ Diagram with_parameters(const Diagram& diagram, const Program& program, const st
     const Unit unit = parameter_unit(program, info);
     Writer(info, unit, rounded(shown(unit, info.difference, v.value), digits), nested).write(result, info.path);
   }
+  keep_bounds(result, program);
   return result;
 }
 

@@ -239,6 +239,49 @@ TEST(Compile, SettingsFromOutsideChangeValuesAndChoices) {
   }
 }
 
+TEST(Compile, PlainBoundsAreInTheUnitOfTheFileWhateverUnitASettingIsIn) {
+  Diagram d = valid();
+  d.blocks["spring"] = node("gain", {"stage"}, {{"gain", "$k"}});
+  d.outputs["f"] = "spring";
+  d.parameters["k"].value = Number{18000, "N/m"};
+  d.parameters["k"].lower = Number{1000, {}};
+  d.parameters["k"].upper = Number{100000, {}};
+  apply_settings(d, {{"k", "50 N/mm"}}, {});
+  apply_settings(d, {{"k", "20 N/mm"}}, {});  // a job's settings, then those of the command line
+  const auto program = compile(d, registry());
+  const ParameterInfo& k = *program->find_parameter("k");
+  EXPECT_DOUBLE_EQ(k.value, 20000);
+  EXPECT_DOUBLE_EQ(k.lower, 1000);
+  EXPECT_DOUBLE_EQ(k.upper, 100000);
+}
+
+TEST(Compile, PlainBoundsOfAPlainValueAreInTheDeclaredUnitWhateverUnitASettingIsIn) {
+  Diagram d = valid();
+  d.blocks["lag"] = node("lag", {"stage"}, {{"times", "$tau"}});
+  d.outputs["z"] = "lag";
+  d.parameters["tau"].value = Number{2, {}};
+  d.parameters["tau"].lower = Number{1, {}};
+  d.parameters["tau"].upper = Number{5, {}};
+  apply_settings(d, {{"tau", "3000 ms"}}, {});
+  const auto program = compile(d, registry());
+  EXPECT_DOUBLE_EQ(program->find_parameter("tau[0]")->lower, 1);
+  EXPECT_DOUBLE_EQ(program->find_parameter("tau[0]")->upper, 5);
+}
+
+TEST(Compile, PlainBoundsOfANestedDiagramAreInTheUnitOfItsOwnFile) {
+  Diagram inner = valid();
+  inner.blocks["stage"].parameters["gain"] = "$k";
+  inner.parameters["k"].value = Number{2, "um/V"};
+  inner.parameters["k"].lower = Number{1, {}};
+  inner.parameters["k"].upper = Number{5, {}};
+  Diagram d = valid();
+  d.blocks["stage"] = node("diagram", {"u"}, {{"k", "3000 nm/V"}});
+  d.blocks["stage"].nested = std::make_shared<const Diagram>(inner);
+  const auto program = compile(d, registry());
+  EXPECT_DOUBLE_EQ(program->find_parameter("stage/k")->lower, 1e-6);
+  EXPECT_DOUBLE_EQ(program->find_parameter("stage/k")->upper, 5e-6);
+}
+
 TEST(Compile, WhatWasSetFromOutsideIsToBlameForItsUnitAndNotWhatTheFileSays) {
   const auto told = [](Diagram d, const char* path, const char* value) {
     apply_settings(d, {{path, value}}, {});

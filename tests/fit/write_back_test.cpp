@@ -153,5 +153,20 @@ TEST(ParameterFile, OfOneBlockIsASetThatTheBlockCanName) {
   EXPECT_NEAR(again->find_parameter("core.weights[1]")->value, 0.25e-6, 1e-13);
 }
 
+TEST(WriteBack, PlainBoundsMeanTheSameInTheWrittenDiagramAfterASettingInAnotherUnit) {
+  Diagram d = lab::diagram("late");
+  lab::add(d, "late", "lag", "u").parameters["times"] = Reference{"tau"};
+  d.parameters["tau"] = {Value(2.0), Number{1, {}}, Number{5, {}}, true, ""};
+  apply_settings(d, {{"tau", "3000 ms"}}, {});
+  const auto program = compile(d, lab::registry());
+  Diagram written = with_parameters(d, *program, values(*program, {{"tau[0]", 2.5}}));
+  written.parameters["tau"].value.origin = "d.json#/parameters/tau";  // as it is read again
+  const auto again = compile(written, lab::registry());
+  const ParameterInfo& tau = *again->find_parameter("tau[0]");
+  EXPECT_DOUBLE_EQ(tau.value, 2.5);
+  EXPECT_DOUBLE_EQ(tau.lower, 1);
+  EXPECT_DOUBLE_EQ(tau.upper, 5);
+}
+
 }  // namespace
 }  // namespace hysteron
