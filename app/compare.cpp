@@ -29,8 +29,9 @@ constexpr char help[] =
     "  hysteron compare reference.csv out/traces/signals.csv --tolerance \"y: 2 nm + 0.1 %, 0.1 ms\"\n"
     "  hysteron compare digitized.csv out/traces/signals.csv --over u --pair y=stage --tolerance \"y: 20 nm, 50 "
     "mV\"\n\n"
-    "--tolerance makes it a question with a yes or no, judged on the validate recordings together (on all,\n"
-    "where there are none): a share bounds the NRMSE (rms of the residual over the standard deviation of the\n"
+    "--tolerance makes it a question with a yes or no, judged on the validate recordings together (where\n"
+    "there are none, on those that train): a share bounds the NRMSE (rms of the residual over the standard deviation "
+    "of the\n"
     "measurement), a quantity bounds the RMS. Of two files: absolute and relative part per point, and how far beside\n"
     "it in time the other may be.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
@@ -64,12 +65,27 @@ std::vector<Tolerance> read_tolerances(const Arguments& arguments) {
   return list;
 }
 
-/// The figures that a tolerance is held against: of the validate recordings, else of all.
+/// The figures that a tolerance is held against: of the validate recordings, else of those that train; null where no
+/// recording that is looked at has measured the output.
 const Metrics* judged_metrics(const Comparison& comparison, int output) {
-  if (const Metrics* validate = comparison.find(Role::validate, output)) return validate;
-  for (const auto& m : comparison.metrics)
-    if (m.recording < 0 && m.all_roles && m.output == output) return &m.metrics;
-  return comparison.find(Role::train, output);
+  const Metrics* validate = comparison.find(Role::validate, output);
+  return validate != nullptr ? validate : comparison.find(Role::train, output);
+}
+
+/// Nothing to judge is no agreement.
+void need_something_to_judge(const std::string& data, const DataModel& model, const Comparison& comparison) {
+  for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y)
+    if (judged_metrics(comparison, y) != nullptr) return;
+  const auto& recordings = model.data().recordings;
+  const bool only_test =
+      std::all_of(recordings.begin(), recordings.end(), [](const Recording& r) { return r.role == Role::test; });
+  fail("nothing_to_judge", data,
+       only_test ? fmt::format("{} of the role \"test\", which compare does not look at, and none of the roles "
+                               "\"train\" and \"validate\"",
+                               count_text(static_cast<long>(recordings.size()), "recording"))
+                 : fmt::format("no recording of the roles \"train\" and \"validate\" has a column for {}",
+                               fmt::join(model.outputs(), " or ")),
+       "give a recording that is to be judged the role \"validate\"");
 }
 
 /// Sentences on the tolerances; `within` becomes false where one is exceeded.
@@ -100,15 +116,16 @@ std::vector<std::string> judge_tolerances(const std::vector<Tolerance>& toleranc
 
 std::string headline(const DataModel& model, const Comparison& comparison) {
   std::vector<std::string> parts;
+  bool validate = false;
   for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
     const Metrics* m = judged_metrics(comparison, y);
     if (m == nullptr) continue;
+    validate = validate || m == comparison.find(Role::validate, y);
     parts.push_back(fmt::format("{}: RMS {}, NRMSE {}, fit {}", model.outputs()[static_cast<std::size_t>(y)],
                                 difference_text(m->rms, output_unit(model, y)), percent_text(m->nrmse),
                                 percent_text(m->fit / 100)));
   }
-  const bool validate = comparison.find(Role::validate, 0) != nullptr;
-  return fmt::format("{} ({})", fmt::join(parts, "; "), validate ? "validate recordings" : "all recordings");
+  return fmt::format("{} ({})", fmt::join(parts, "; "), validate ? "validate recordings" : "train recordings");
 }
 
 Document document_of(const Diagram& diagram, const DataModel& model, const Comparison& comparison) {
@@ -183,6 +200,7 @@ int compare_verb_acts(const Arguments& arguments) {
     fail_numerics("simulation_failed", arguments.text("diagram"), prediction.error,
                   "run it alone with \"hysteron run\" to see where it diverges");
   const Comparison comparison = compare(model, judge, prediction, recordings);
+  need_something_to_judge(arguments.text("--data"), model, comparison);
 
   Document document = document_of(diagram, model, comparison);
   bool within = true;

@@ -165,7 +165,7 @@ Comparison compare(const DataModel& model, const Judge& judge, Prediction predic
     splits.splits = input >= 0 ? splits_of(parts, model.program().input_names[static_cast<std::size_t>(input)],
                                            model.program().input_units[static_cast<std::size_t>(input)], besides)
                                : splits_of(parts, "", Unit{}, besides);
-    c.sentences.push_back(headline(model, c, o));
+    if (all.rows > 0) c.sentences.push_back(headline(model, c, o));
     for (auto& sentence : telling_sentences(splits.splits)) c.sentences.push_back(std::move(sentence));
     c.splits.push_back(std::move(splits));
   }

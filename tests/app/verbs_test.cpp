@@ -311,6 +311,25 @@ TEST_F(Verbs, ATestRecordingIsNotLookedAtByCompare) {
   EXPECT_FALSE(folder_.has("out/traces/c.csv"));
 }
 
+TEST_F(Verbs, CompareSaysWhereTheDataLeaveNothingToJudge) {
+  folder_.write("tests.json", R"({"format": 1, "recordings": [{"file": "a.csv", "role": "test"},
+                                                            {"file": "b.csv", "role": "test"}]})");
+  for (const auto& words : {std::vector<std::string>{"--tolerance", "1 nm"}, std::vector<std::string>{}}) {
+    std::vector<std::string> all{"compare", "diagram.json", "--data", "tests.json", "-o", "out"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = hysteron(folder_.path(), all);
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find("2 recordings of the role \"test\""), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("the role \"validate\""), std::string::npos) << outcome.err;
+    EXPECT_FALSE(folder_.has("out"));
+  }
+  folder_.write("train.json", R"({"format": 1, "recordings": [{"file": "a.csv", "role": "train"},
+                                                            {"file": "b.csv", "role": "train"}]})");
+  const Outcome train = hysteron(folder_.path(), {"compare", "diagram.json", "--data", "train.json", "-o", "out"});
+  EXPECT_EQ(train.code, 0) << train.err;
+  EXPECT_NE(train.out.find("(train recordings)"), std::string::npos) << train.out;
+}
+
 TEST_F(Verbs, ADiagramIsWrittenOverDiagramsOnly) {
   folder_.write("inner.json", lab::diagram());
   folder_.write("outer.json", R"({"format": 1, "inputs": {"u": {"unit": "V"}},
