@@ -266,6 +266,7 @@ int fit_verb_acts(const Arguments& arguments) {
   ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(read_dataset(job.data, arguments.list("--allow")));
   check_binding(*data, *program);
+  need_moving_outputs(*data, *program);
   const Diagram as_read = diagram;
   std::vector<std::string> wanted;
   if (job.thresholds) {

@@ -2,11 +2,15 @@
 // Does not read files itself (io/), nor check them.
 #include "app/load.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "blocks/register_all.h"
 #include "discover/effect_file.h"
 #include "engine/error.h"
+#include "fit/inspection.h"
 #include "io/diagram_file.h"
 
 namespace hysteron {
@@ -62,6 +66,23 @@ DataSet load_data(const Arguments& arguments, const Program& program) {
   DataSet data = read_dataset(arguments.text("--data"), arguments.list("--allow"));
   check_binding(data, program);
   return data;
+}
+
+void need_moving_outputs(const DataSet& data, const Program& program) {
+  Problems problems;
+  for (const auto& name : program.output_names) {
+    const auto& recordings = data.recordings;
+    const auto measured = std::find_if(recordings.begin(), recordings.end(), [&](const Recording& r) {
+      return r.role != Role::test && r.columns.contains(name);
+    });
+    if (measured == recordings.end() || moves(data, name)) continue;
+    problems.add("never_moves", data.file.empty() ? measured->name : data.file,
+                 fmt::format("{} never moves in {}", name,
+                             recordings.size() > 1 && !data.single ? "any recording" : measured->name),
+                 "see whether the sensor was connected and this is the column that was meant; take the output out of "
+                 "the diagram to go on without it");
+  }
+  problems.throw_if_any();
 }
 
 Effects load_effects(const Arguments& arguments) {

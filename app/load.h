@@ -29,6 +29,9 @@ ProgramPointer compile_file(const Diagram& diagram);
 /// The data set of the arguments, bound to the program.
 DataSet load_data(const Arguments& arguments, const Program& program);
 
+/// Throws where an output of the program was measured but never moves: nothing can be fitted to it or judged by it.
+void need_moving_outputs(const DataSet& data, const Program& program);
+
 /// The library of effects and the user's own ones (--effects).
 Effects load_effects(const Arguments& arguments);
 

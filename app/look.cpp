@@ -79,6 +79,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   const ProgramPointer program = compile_file(diagram);
   const bool is_check = arguments.has("--check");
   const DataSet given = load_data(arguments, *program);
+  need_moving_outputs(given, *program);
   DataSet data = is_check ? with_both_roles(given) : given;
 
   const DeferInterrupts defer;

@@ -11,6 +11,7 @@
 #include "engine/error.h"
 #include "io/atomic_file.h"
 #include "io/diagram_file.h"
+#include "io/recording_file.h"
 
 namespace hysteron {
 namespace {
@@ -65,6 +66,7 @@ int make_new(const Arguments& arguments) {
   const fs::path from = arguments.text("--from");
   const fs::path folder = arguments.text("-o");
   const CsvTable table = read_csv(from.string());
+  check_sizes(table);
   StarterRoles given;
   given.inputs = arguments.list("--input");
   given.outputs = arguments.list("--output");

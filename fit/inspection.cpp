@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "engine/time_text.h"
@@ -288,7 +289,23 @@ class Inspector {
     return rows;
   }
 
+  /// Columns of the diagram that stay at one value in all recordings.
+  void still() {
+    for (const auto& c : seen_.columns) {
+      if (c.role == "beside" || moves(model_.data(), c.name)) continue;
+      const std::string stays =
+          fmt::format("{} never moves: it is {} in every row", c.name, level_text(c.lowest, c.unit));
+      if (c.role == "output")
+        seen_.faults.push_back(stays +
+                               ". Nothing can be judged by it: see whether the sensor was connected, and whether "
+                               "this is the column that was meant.");
+      else
+        seen_.notes.push_back(stays + ". What it does cannot be told from these recordings.");
+    }
+  }
+
   void rows() {
+    still();
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       clock_faults(seen_.recordings[k]);
       lost_and_repeated(parts_[k]);
@@ -517,6 +534,17 @@ double finest_step(const DataSet& data, const std::string& column) {
   for (const auto& part : parts_of(data))
     if (const double q = finest_step(rows_of(data, part, column)); q > 0 && (finest == 0 || q < finest)) finest = q;
   return finest;
+}
+
+bool moves(const DataSet& data, const std::string& column) {
+  // One value in each recording, but not the same one, is a movement: of a temperature from day to day, say.
+  std::optional<double> first;
+  for (const auto& part : parts_of(data))
+    for (const double value : rows_of(data, part, column)) {
+      if (!first) first = value;
+      if (value != *first) return true;
+    }
+  return false;
 }
 
 Inspection inspect(DataModel& model, bool diagram_is_meant) { return Inspector(model, diagram_is_meant).run(); }

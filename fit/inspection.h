@@ -87,6 +87,9 @@ struct Inspection {
 /// rests on few of them shows none, or several in one.
 double finest_step(const DataSet& data, const std::string& column);
 
+/// Does this column have two values that differ, in any recording that is inspected? False where no recording has it.
+bool moves(const DataSet& data, const std::string& column);
+
 /// Inspects the data set of `model`. Shift, lines and the way between samples are judged against the diagram as it is,
 /// but for a gain and an offset of each output. `diagram_is_meant` = false: the diagram only stands for one that nobody
 /// named, and what it gets wrong in time says nothing of the data.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "engine/error.h"
@@ -10,6 +12,8 @@
 
 namespace hysteron {
 namespace {
+
+constexpr double largest_measured = 1e100;  // squares and sums of squares stay numbers
 
 [[noreturn]] void fail_in(const std::string& file, int line, std::string code, std::string path, std::string what,
                           std::string cure) {
@@ -46,11 +50,30 @@ void check_times(const CsvTable& table, const CsvColumn& time) {
 
 }  // namespace
 
+void check_sizes(const CsvTable& table) {
+  std::vector<Problem> problems;
+  const auto is_measured = [](double value) { return std::abs(value) <= largest_measured; };
+  for (const auto& column : table.columns) {
+    const auto& v = column.values;
+    const auto first = std::find_if_not(v.begin(), v.end(), is_measured);
+    if (first == v.end()) continue;
+    const auto more = std::count_if(first + 1, v.end(), [&](double value) { return !is_measured(value); });
+    problems.push_back(
+        {"bad_number", column.name,
+         fmt::format("column \"{}\" holds {}{}: no instrument measures beyond {}", column.name, number_text(*first),
+                     more > 0 ? fmt::format(" (and {} more such)", more) : "", number_text(largest_measured)),
+         "take the row out, or cut the recording there: nothing is filled in silently", table.file,
+         table.lines[static_cast<std::size_t>(first - v.begin())]});
+  }
+  if (!problems.empty()) throw Error(Fault::input, problems);
+}
+
 RecordingFile read_recording_file(const std::string& file, std::size_t fewest_rows) {
   if (std::filesystem::path(file).extension() == ".mat")
     fail_in(file, 0, "unknown_file_type", file, "MAT files are not read yet",
             "export the columns as CSV with a header t [s],u [V],y [um]");
   const CsvTable table = read_csv(file);
+  check_sizes(table);
   const CsvColumn& time = time_column(table);
   check_times(table, time);
   if (table.rows() < fewest_rows)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/units.h"
+#include "io/csv.h"
 
 namespace hysteron {
 
@@ -17,6 +18,9 @@ struct RecordingFile {
   std::map<std::string, std::vector<double>> columns;  ///< [SI]
   std::map<std::string, Unit> units;                   ///< as written
 };
+
+/// Throws Error "bad_number" for values beyond 1e100, which no instrument gives and whose squares are no numbers.
+void check_sizes(const CsvTable& table);
 
 /// Reads a recording: CSV with a column t and at least `fewest_rows` rows. Throws Error "missing_column", "wrong_unit",
 /// "decreasing_time", "too_few_rows", "unknown_file_type" and what read_csv throws.

@@ -44,6 +44,13 @@ std::string csv_with_row(const std::string& row) {
   return "t [s],u [V],y [um]\n0,0,0\n1,1,1\n" + row + "\n3,1,1\n4,2,2\n";
 }
 
+/// A recording whose y stays while u moves.
+std::string still_csv() {
+  std::string text = "t [s],u [V],y [um]\n";
+  for (int i = 0; i < 40; ++i) text += std::to_string(0.01 * i) + "," + std::to_string(i % 7) + ",0.5\n";
+  return text;
+}
+
 std::string closed_loop(const std::string& loop) {
   return R"({"format": 1, "title": "loop", "blocks": {
     "drive": {"type": "step", "before": 0, "after": 1, "time": "0.1 s"},
@@ -238,6 +245,45 @@ std::vector<Case> cases() {
        "cannot_write",
        "/dev/full",
        ""},
+      {"DiscoverOnAnOutputThatNeverMoves",
+       {"discover", "diagram.json", "--data", "a.csv"},
+       "a.csv",
+       still_csv(),
+       "never_moves",
+       "a.csv",
+       "sensor"},
+      {"DiagnoseOnAnOutputThatNeverMoves",
+       {"diagnose", "diagram.json", "--data", "a.csv"},
+       "a.csv",
+       still_csv(),
+       "never_moves",
+       "a.csv",
+       "sensor"},
+      {"CheckOnAnOutputThatNeverMoves",
+       {"discover", "diagram.json", "--data", "a.csv", "--check"},
+       "a.csv",
+       still_csv(),
+       "never_moves",
+       "a.csv",
+       "sensor"},
+      {"FitToAnOutputThatNeverMoves",
+       {"fit", "diagram.json", "--data", "a.csv"},
+       "a.csv",
+       still_csv(),
+       "never_moves",
+       "a.csv",
+       "sensor"},
+      {"ANumberThatNoInstrumentGives", compare_csv, "a.csv", csv_with_row("2,-1e200,1"), "bad_number", "u", "row", 2,
+       4},
+      {"AStarterOfNumbersThatNoInstrumentGives",
+       {"new", "--from", "a.csv", "-o", "stage"},
+       "a.csv",
+       csv_with_row("2,1,1e101"),
+       "bad_number",
+       "y",
+       "row",
+       2,
+       4},
       {"ADiagramOverARecording",
        {"add", "creep", "diagram.json", "-o", "a.csv"},
        "",

@@ -91,6 +91,24 @@ TEST_F(InspectVerb, InspectTellsAGapOfTheClock) {
   EXPECT_NE(outcome.out.find("a.csv: 2 rows missing, in 1 gap of its clock"), std::string::npos) << outcome.out;
 }
 
+TEST_F(InspectVerb, InspectTellsColumnsThatNeverMove) {
+  std::string still_output = "t [s],u [V],y [um]\n", still_input = still_output;
+  for (int i = 0; i < 60; ++i) {
+    still_output += std::to_string(0.01 * i) + "," + std::to_string(i % 7) + ",0.5\n";
+    still_input += std::to_string(0.01 * i) + ",2," + std::to_string(i % 7) + "\n";
+  }
+  folder_.write("a.csv", still_output);
+  const Outcome output = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "output"});
+  EXPECT_EQ(output.code, 0) << output.err;
+  EXPECT_FALSE(output.out.starts_with("The data: no fault found.")) << output.out;
+  EXPECT_NE(output.out.find("y never moves: it is 0.5 um in every row"), std::string::npos) << output.out;
+  folder_.write("a.csv", still_input);
+  const Outcome input = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "input"});
+  EXPECT_EQ(input.code, 0) << input.err;
+  EXPECT_TRUE(input.out.starts_with("The data: no fault found.")) << input.out;
+  EXPECT_NE(folder_.read("input/result.json").find("u never moves: it is 2 V in every row"), std::string::npos);
+}
+
 TEST_F(InspectVerb, DiagnoseBeginsWithTheData) {
   const Outcome outcome = hysteron(
       folder_.path(), {"diagnose", "diagram.json", "--data", "dataset.json", "-o", "out", "--only", "amplifier_lag"});
