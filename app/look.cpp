@@ -18,6 +18,7 @@
 #include "discover/add.h"
 #include "discover/check.h"
 #include "engine/error.h"
+#include "io/same_rows.h"
 
 namespace hysteron {
 namespace {
@@ -118,6 +119,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   Document document =
       discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
                          answer ? &*answer : nullptr);
+  for (auto& warning : warnings_of_same_rows(given)) document.warnings.push_back(std::move(warning));
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
   if (found.broken_off && !stopped)
     document.warnings.insert(

@@ -64,6 +64,15 @@ void check_columns(const CsvTable& table, const std::vector<std::string>& wanted
            did_you_mean(name, known));
 }
 
+/// The time neither drives nor was measured, whatever the options say.
+void refuse_time(const StarterRoles& roles) {
+  const auto is_time = [&](const std::string& column) { return column == roles.time; };
+  for (const auto& [option, columns] : {std::pair("--input", &roles.inputs), {"--output", &roles.outputs}})
+    if (std::any_of(columns->begin(), columns->end(), is_time))
+      fail("bad_command_line", option, fmt::format("column \"{}\" is the time", roles.time),
+           fmt::format("name a column that {}", option == std::string("--input") ? "drives" : "was measured"));
+}
+
 /// In which unit a difference of this column is written: a temperature step in K.
 std::string difference_unit(const CsvColumn& column) { return column.unit.offset != 0 ? "K" : unit_text(column.unit); }
 double in_difference_unit(const CsvColumn& column, double number) {
@@ -221,6 +230,7 @@ StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<
     fail("missing_column", table.file, "no column is the time",
          "name one \"t [s]\" in the header line; the columns are " + names_of(table));
   given.time = "t";
+  refuse_time(given);
 
   std::vector<std::string> inputs, outputs, maybe;
   for (const auto& column : table.columns) {

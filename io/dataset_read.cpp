@@ -13,6 +13,7 @@
 #include "io/project_path.h"
 #include "io/quantity.h"
 #include "io/recording_file.h"
+#include "io/same_rows.h"
 #include "io/value_text.h"
 
 namespace hysteron {
@@ -85,6 +86,7 @@ class DataSetReader {
     for (auto& recording : data_.recordings) finish(recording);
     file_.throw_if_any();
     if (data_.recordings.size() == 1 && data_.recordings.front().role == Role::train) cut_single(data_);
+    for (auto& warning : warnings_of_same_rows(data_)) data_.remarks.push_back(std::move(warning));
     return std::move(data_);
   }
 

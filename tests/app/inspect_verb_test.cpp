@@ -118,5 +118,19 @@ TEST_F(InspectVerb, DiagnoseBeginsWithTheData) {
   EXPECT_EQ(told["facts"]["inspection"]["recordings"].size(), 2U);
 }
 
+TEST_F(InspectVerb, ARecordingThatTrainsAndJudgesIsToldByEveryVerbThatJudges) {
+  folder_.write("same.json", R"({"format": 1, "recordings": [{"file": "a.csv", "role": "train"},
+                                                           {"file": "a.csv", "role": "validate"}]})");
+  for (const auto& words : {std::vector<std::string>{"compare", "diagram.json", "--data", "same.json"},
+                            {"inspect", "same.json", "--diagram", "diagram.json"},
+                            {"diagnose", "diagram.json", "--data", "same.json", "--only", "amplifier_lag"}}) {
+    auto all = words;
+    all.insert(all.end(), {"-o", words.front()});
+    ASSERT_EQ(hysteron(folder_.path(), all).code, 0) << words.front();
+    const json warnings = result(words.front())["warnings"];
+    EXPECT_NE(warnings.dump().find("has the same rows as a.csv, which trains"), std::string::npos) << warnings;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -332,5 +332,27 @@ TEST(MeasuredData, ThePiezoStackIsReadAsItsReadmeDescribesIt) {
   EXPECT_EQ(data.recordings[1].last, 7400U);
 }
 
+TEST(DataSet, ThatJudgesByWhatItFittedIsToldSo) {
+  const TemporaryFolder folder;
+  folder.write("01.csv", rows(40));
+  folder.write("copy.csv", rows(40));
+  const auto remarks = [&](const std::string& first, const std::string& second) {
+    const std::string text = R"({"format": 1, "recordings": [{"role": "train", )" + first + "}, {" + second + "}]}";
+    return read_dataset(folder.write("data.json", text)).remarks;
+  };
+  const std::string train = R"("file": "01.csv")";
+  using Remarks = std::vector<std::string>;
+  EXPECT_EQ(
+      remarks(train, R"("role": "validate", "file": "01.csv")"),
+      Remarks{"01.csv (2) (validate) has the same rows as 01.csv, which trains: it judges the model by what it was "
+              "fitted to."});
+  EXPECT_EQ(remarks(train, R"("role": "test", "file": "copy.csv")"),
+            Remarks{"copy.csv (test) has the same rows as 01.csv, which trains: it judges the model by what it was "
+                    "fitted to."});
+  EXPECT_EQ(remarks(train, R"("role": "train", "file": "01.csv")"), Remarks{});
+  EXPECT_EQ(remarks(train + R"(, "until": "10 s")", R"("role": "validate", "file": "01.csv", "skip": "10 s")"),
+            Remarks{});
+}
+
 }  // namespace
 }  // namespace hysteron
