@@ -27,6 +27,9 @@ namespace {
 std::vector<std::string> wanted_effects(const Arguments& arguments, const Effects& effects) {
   std::vector<std::string> ids;
   for (const auto& some : arguments.list("--only")) {
+    if (some.find_first_not_of(" ,") == std::string::npos)
+      fail("bad_command_line", "--only", "it names no effect",
+           "name one, as in --only creep (\"hysteron effects\" lists them), or leave it out");
     std::istringstream list(some);
     for (std::string id; std::getline(list, id, ',');) ids.push_back(effects.get(id).id);
   }

@@ -13,6 +13,7 @@
 #include "app/numbers.h"
 #include "engine/error.h"
 #include "fit/linear.h"
+#include "io/recording_file.h"
 #include "io/value_text.h"
 
 namespace hysteron {
@@ -49,19 +50,20 @@ Guess guess_of(const CsvColumn& column) {
   return Guess::none;
 }
 
-std::string names_of(const CsvTable& table) {
+std::vector<std::string> columns_of(const CsvTable& table) {
   std::vector<std::string> names;
   for (const auto& column : table.columns) names.push_back(column.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
+std::string names_of(const CsvTable& table) { return fmt::format("{}", fmt::join(columns_of(table), ", ")); }
+
 void check_columns(const CsvTable& table, const std::vector<std::string>& wanted, const std::string& option) {
-  std::vector<std::string> known;
-  for (const auto& column : table.columns) known.push_back(column.name);
+  const auto known = columns_of(table);
   for (const auto& name : wanted)
     if (table.find(name) == nullptr)
       fail("missing_column", table.file, fmt::format("{} names a column \"{}\" that is not there", option, name),
-           did_you_mean(name, known));
+           did_you_mean(name, known) + bracket_hint(name, known));
 }
 
 /// The time neither drives nor was measured, whatever the options say.
@@ -228,7 +230,8 @@ StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<
   const CsvColumn* time = table.find("t");
   if (time == nullptr || !(time->unit.dimension == second))
     fail("missing_column", table.file, "no column is the time",
-         "name one \"t [s]\" in the header line; the columns are " + names_of(table));
+         "name one \"t [s]\" in the header line; the columns are " + names_of(table) + "." +
+             bracket_hint("t", columns_of(table)));
   given.time = "t";
   refuse_time(given);
 

@@ -35,7 +35,7 @@ double Arguments::number(const std::string& name, double otherwise) const {
   double value = 0;
   const auto [end, code] = std::from_chars(written.data(), written.data() + written.size(), value);
   if (code != std::errc{} || end != written.data() + written.size() || !std::isfinite(value))
-    fail("bad_command_line", name, "\"" + written + "\" is no number", "write it as in " + name + "=0.05");
+    fail("bad_command_line", name, "\"" + written + "\" is no number", "write it as in " + name + "=4");
   return value;
 }
 

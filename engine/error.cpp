@@ -25,6 +25,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+bool differs_in_case_only(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 }  // namespace
 
 Error::Error(Fault f, std::vector<Problem> list)
@@ -49,6 +54,8 @@ void Problems::throw_if_any() const {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  for (const auto& candidate : known)
+    if (differs_in_case_only(name, candidate)) return candidate;
   std::string best;
   std::size_t best_distance = (name.size() < 3 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
   for (const auto& candidate : known) {

@@ -192,8 +192,11 @@ Unit parse_unit(std::string_view text, const std::string& path) {
   if (const Unit* unit = common.find(trimmed)) return *unit;
   if (!all) all = std::make_unique<Table>(true);
   if (const Unit* unit = all->find(trimmed)) return *unit;
+  const bool decimal_comma = trimmed.size() > 1 && trimmed[0] == ',' && trimmed[1] >= '0' && trimmed[1] <= '9';
   fail("bad_unit", path, fmt::format("\"{}\" is not a unit", trimmed),
-       "write SI or derived units with prefixes, e.g. \"um\", \"V/um\", \"1/s\", \"Hz\", \"deg\", \"degC\"");
+       decimal_comma
+           ? "write decimals with a point, not with a comma: 0.8"
+           : "write SI or derived units with prefixes, e.g. \"um\", \"V/um\", \"1/s\", \"Hz\", \"deg\", \"degC\"");
 }
 
 Unit parse_unit_in_full_table(std::string_view text) {

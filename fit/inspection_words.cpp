@@ -90,8 +90,8 @@ std::string sentence_of_rows(const Inspection& seen) {
   }
   const std::string steps =
       longest > 1.01 * shortest ? time_text(shortest) + " to " + time_text(longest) : time_text(longest);
-  return fmt::format("{} with {} rows, {} between rows, {} in all.", count_of(seen.recordings.size(), "recording"),
-                     rows, steps, time_text(duration));
+  return fmt::format("{} with {}, {} between rows, {} in all.", count_of(seen.recordings.size(), "recording"),
+                     count_of(rows, "row"), steps, time_text(duration));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "engine/error.h"
 #include "io/atomic_file.h"
+#include "io/encoding.h"
 
 namespace hysteron {
 namespace {
@@ -125,7 +126,10 @@ bool parse_number(std::string_view text, double& value) {
 
 class Reader {
  public:
-  explicit Reader(const std::string& file) : text_(read_file(file)), records_(text_) { table_.file = file; }
+  explicit Reader(const std::string& file) : text_(read_file(file)), records_(text_) {
+    table_.file = file;
+    refuse_utf16(file, text_);
+  }
 
   CsvTable read() {
     header();

@@ -8,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/smooth_series.h"
 #include "io/dataset.h"
+#include "io/recording_file.h"
 
 namespace hysteron {
 namespace {
@@ -48,7 +49,7 @@ class Binder {
         const auto known = column_names(recording);
         add("missing_column", name,
             fmt::format("{} has no column for the input \"{}\" of the diagram", recording.name, name),
-            did_you_mean(name, known) +
+            did_you_mean(name, known) + bracket_hint(name, known) +
                 fmt::format(
                     " A column of another name is bound in the data set: \"columns\": {{\"{}\": {{\"to\": \"{}\"}}}}",
                     known.empty() ? "x" : known.front(), name));
@@ -77,7 +78,7 @@ class Binder {
     add("missing_column", first,
         fmt::format("{} has no column for any output of the diagram ({})", recording.name,
                     fmt::join(program_.output_names, ", ")),
-        did_you_mean(first, column_names(recording)) +
+        did_you_mean(first, column_names(recording)) + bracket_hint(first, column_names(recording)) +
             fmt::format(
                 " A column of another name is bound in the data set: \"columns\": {{\"...\": {{\"to\": \"{}\"}}}}",
                 first));

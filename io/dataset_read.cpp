@@ -120,7 +120,7 @@ class DataSetReader {
     if (n > 1) where += n == 2 ? " and " + noted.missing_in[1] : fmt::format(" and {} other files", n - 1);
     noted.place.add("missing_column",
                     fmt::format("{} {} no column \"{}\"", where, n > 1 ? "have" : "has", noted.column),
-                    did_you_mean(noted.column, noted.known) +
+                    did_you_mean(noted.column, noted.known) + bracket_hint(noted.column, noted.known) +
                         (noted.unit_seen || n == 1 ? " If only some recordings have it: \"optional\": true" : ""));
   }
 
@@ -247,6 +247,10 @@ class DataSetReader {
 
   /// Reads each file once, however often it is listed. A file that cannot be read is told where it is named.
   const RecordingFile* open(const JsonPlace& place, const std::string& written) {
+    if (written.empty()) {
+      place.add("bad_value", "the name of the file is empty", "write \"file\": \"01.csv\"");
+      return nullptr;
+    }
     const auto path = paths_.resolve(file_.file(), written);
     if (!path) {
       place.add("outside_project", fmt::format("\"{}\" lies outside the project {}", written, paths_.project()),
@@ -304,12 +308,12 @@ class DataSetReader {
     recording.first = skip ? row_at(recording.t, *skip) : 0;
     recording.last = until ? row_at(recording.t, *until) : recording.t.size();
     if (recording.last < recording.first + fewest_rows)
-      place.add(
-          "too_few_rows",
-          fmt::format("skip and until leave {} rows of {} to judge",
-                      recording.last > recording.first ? recording.last - recording.first : 0, recording.t.size()),
-          fmt::format("the recording is {} s long; skip less or go on longer",
-                      number_text(recording.t.back() - recording.t.front())));
+      place.add("too_few_rows",
+                fmt::format("skip and until leave {} of {} to judge",
+                            rows_text(recording.last > recording.first ? recording.last - recording.first : 0),
+                            recording.t.size()),
+                fmt::format("the recording is {} s long; skip less or go on longer",
+                            number_text(recording.t.back() - recording.t.front())));
   }
 
   /// Every row has the value that the recording has.
@@ -379,9 +383,8 @@ void cut_in_time(DataSet& data, std::size_t recording) {
     throw Error(
         Fault::input,
         {{"too_few_rows", train.name,
-          fmt::format(
-              "the recording has {} rows to judge, too few to be cut into a part that trains and one that validates",
-              train.last - train.first),
+          fmt::format("the recording has {} to judge, too few to be cut into a part that trains and one that validates",
+                      rows_text(train.last - train.first)),
           "record longer, or list a second recording", data.file, 0}});
   Recording validate = train;
   train.role = Role::train;

@@ -230,6 +230,10 @@ class DiagramReader {
 
   /// The path to open for a file named at `place`; notes "outside_project".
   std::optional<std::string> file_to_open(const JsonPlace& place, const std::string& written) {
+    if (written.empty()) {
+      place.add("bad_value", "the name of the file is empty", "name the file, as it is seen from this one");
+      return {};
+    }
     auto path = paths_.resolve(file_.file(), written);
     if (!path)
       place.add("outside_project", fmt::format("\"{}\" lies outside the project {}", written, paths_.project()),

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
+#include "io/encoding.h"
 
 namespace hysteron {
 namespace {
@@ -33,7 +34,9 @@ std::string plain_message(const std::string& message) {
                               const std::string& message) {
   const auto [line, column] = line_and_column(text, byte);
   std::string cure = "correct the JSON there; an editor that knows JSON shows the place";
-  if (message.find("unexpected '}'") != message.npos || message.find("unexpected ']'") != message.npos)
+  if (byte < text.size() && (text[byte] == '/' || text[byte] == '#'))
+    cure = "JSON knows no comments: take it out, or write it as a \"remark\"";
+  else if (message.find("unexpected '}'") != message.npos || message.find("unexpected ']'") != message.npos)
     cure = "take out the comma before the closing bracket, or add what is missing there";
   else if (message.find("expected ',' or") != message.npos || message.find("expected end of input") != message.npos)
     cure = "a comma or a closing bracket is missing just before it";
@@ -84,6 +87,7 @@ std::string tidy_name(const std::string& name) {
 
 JsonFile::JsonFile(const std::string& file) : file_(file) {
   std::string text = read_file(file);
+  refuse_utf16(file, text);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark: no part of the JSON (RFC 8259, 8.1)
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     fail_at(file, 1, "empty_file", file, "the file is empty",

@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 /// folder.
 fs::path real_path(const fs::path& path) {
   std::error_code error;
-  auto result = fs::weakly_canonical(fs::absolute(path), error);
-  return error ? fs::absolute(path).lexically_normal() : result;
+  const auto whole = fs::absolute(path.empty() ? "." : path);  // "" is no path to absolute(): the folder that it is in
+  auto result = fs::weakly_canonical(whole, error);
+  return error ? whole.lexically_normal() : result;
 }
 
 fs::path project_of(const fs::path& folder) {

@@ -26,7 +26,8 @@ const CsvColumn& time_column(const CsvTable& table) {
     std::vector<std::string> known;
     for (const auto& c : table.columns) known.push_back(c.name);
     fail_in(table.file, 1, "missing_column", "t", "there is no column \"t\" (time)",
-            fmt::format("call the column of the times t [s] (columns here: {})", fmt::join(known, ", ")));
+            fmt::format("call the column of the times t [s] (columns here: {}).{}", fmt::join(known, ", "),
+                        bracket_hint("t", known)));
   }
   if (time->unit.dimension != parse_unit("s").dimension)
     fail_in(table.file, 1, "wrong_unit", "t",
@@ -49,6 +50,18 @@ void check_times(const CsvTable& table, const CsvColumn& time) {
 }
 
 }  // namespace
+
+std::string bracket_hint(const std::string& name, const std::vector<std::string>& columns) {
+  for (const auto& column : columns) {
+    const auto open = column.find('(');
+    if (open == column.npos || !column.ends_with(')')) continue;
+    const auto end = column.find_last_not_of(' ', open == 0 ? 0 : open - 1);
+    if (open > 0 && column.substr(0, end + 1) == name)
+      return fmt::format(" Units stand in square brackets: {} [{}]", name,
+                         column.substr(open + 1, column.size() - open - 2));
+  }
+  return "";
+}
 
 void check_sizes(const CsvTable& table) {
   std::vector<Problem> problems;
@@ -78,7 +91,8 @@ RecordingFile read_recording_file(const std::string& file, std::size_t fewest_ro
   check_times(table, time);
   if (table.rows() < fewest_rows)
     fail_in(file, table.lines.back(), "too_few_rows", file,
-            fmt::format("there are {} rows, at least {} are needed", table.rows(), fewest_rows),
+            fmt::format("there {} {}, at least {} are needed", table.rows() == 1 ? "is" : "are",
+                        rows_text(table.rows()), fewest_rows),
             "record longer, or name another file");
   RecordingFile recording;
   recording.file = file;

@@ -19,6 +19,9 @@ struct RecordingFile {
   std::map<std::string, Unit> units;                   ///< as written
 };
 
+/// " Units stand in square brackets: t [ms]" where a column is called "t (ms)" and "t" is looked for; else "".
+std::string bracket_hint(const std::string& name, const std::vector<std::string>& columns);
+
 /// Throws Error "bad_number" for values beyond 1e100, which no instrument gives and whose squares are no numbers.
 void check_sizes(const CsvTable& table);
 

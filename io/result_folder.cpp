@@ -201,7 +201,9 @@ void write_result(const std::string& folder, const Document& document, const std
   try {
     fs::path target = fs::weakly_canonical(fs::absolute(folder));
     if (!target.has_filename()) target = target.parent_path();  // "out/"
-    if (fs::exists(target) && !fs::is_directory(target)) cannot_write(folder, "there is a file of that name");
+    if (fs::exists(target) && !fs::is_directory(target))
+      throw Error(Fault::input, {{"cannot_write", folder, "this is a file, and the results go into a folder",
+                                  "name a folder with -o, or leave it out", "", 0}});
     const Earlier earlier = replaceable(target, folder, document.verb);
     fs::create_directories(target.parent_path());
     const Partial partial{fmt::format("{}.partial-{}", target.string(), getpid())};
@@ -213,7 +215,7 @@ void write_result(const std::string& folder, const Document& document, const std
   } catch (const fs::filesystem_error& e) {
     cannot_write(folder, e.code().message());
   } catch (Error& e) {
-    if (e.problems.empty() || e.problems.front().code != "cannot_write") throw;
+    if (e.problems.empty() || e.problems.front().code != "cannot_write" || e.problems.front().path == folder) throw;
     cannot_write(folder, e.problems.front().what);
   }
 }

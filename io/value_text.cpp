@@ -81,7 +81,16 @@ std::optional<Number> read_number(const JsonPlace& place) {
   if (place.is_text()) {
     const auto text = *place.text();
     auto number = number_from(text);
-    if (!number)
+    if (!number && text.starts_with('$'))
+      place.add(
+          "bad_value",
+          fmt::format("{} cannot stand for one number: a $name stands for the whole value of a "
+                      "parameter of a block",
+                      json_quoted(text)),
+          fmt::format("write {} in place of the whole list, and the list at that name in \"parameters\"; or write "
+                      "the number here",
+                      json_quoted(text)));
+    else if (!number)
       place.add("bad_value", fmt::format("{} does not begin with a number", json_quoted(text)),
                 fmt::format("write {}", number_forms));
     return number;
@@ -138,6 +147,8 @@ std::string number_text(double value) {
   }
   return text;
 }
+
+std::string rows_text(std::size_t count) { return count == 1 ? "1 row" : fmt::format("{} rows", count); }
 
 std::string json_quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

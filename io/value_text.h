@@ -24,6 +24,8 @@ std::string numbers_text(const NumberList& list);
 
 /// Shortest text that reads back as the same double, as JSON wants it. Throws Error "not_finite".
 std::string number_text(double value);
+/// "1 row", "5 rows".
+std::string rows_text(std::size_t count);
 /// A text in quotes.
 std::string json_quoted(const std::string& text);
 std::string value_text(const Number& number);

@@ -61,6 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"NoRows", "# a\nt [s],u\n", "empty_file", "", 2},
                       Case{"NoHeader", "0,1\n1,2\n", "no_header", "", 1},
                       Case{"UnnamedColumn", "t [s],\n0,1\n", "no_header", "", 1},
+                      Case{"Utf16", "\xFF\xFEt [s],u\n0,1\n", "not_utf8", "", 1},
                       Case{"Semicolons", "t [s];u [V]\n0;1\n", "no_header", "", 1},
                       Case{"Text", "t [s],u\n0,1\n1,abc\n", "bad_number", "u", 3},
                       Case{"NaN", "t [s],u\n0,1\n1,2\n2,nan\n", "bad_number", "u", 4},
@@ -103,6 +104,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"Empty", " \n", "empty_file", "", 1},
         Case{"BrokenJson", "{\"format\": 1,\n \"blocks\": {\"a\" {}}}", "bad_json", "column 17", 2},
+        Case{"Utf16", "\xFE\xFF{\"format\": 1}", "not_utf8", "", 1},
+        Case{"NestedDiagramWithoutAName",
+             "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"diagram\",\n\"file\": \"\"}}}", "bad_value",
+             "/blocks/a/file", 2},
         Case{"OpenBrace", "{\"format\": 1,\n \"blocks\": {", "bad_json", "column 13", 2},
         Case{"TrailingComma", "{\"format\": 1,\n\"blocks\": {},\n}", "bad_json", "column 1", 3},
         Case{"HugeNumber", "{\"format\": 1,\n\"blocks\": {\"a\": {\"type\": \"gain\", \"gain\": 1e999}}}", "bad_json",
@@ -296,6 +301,33 @@ TEST(BadDiagramFile, ALongWayAroundBackToItselfIsFound) {
   }
 }
 
+/// What a file that cannot be read is told, and what to do.
+template <class Read>
+std::string told_of(const std::string& name, const std::string& content, const Read& read) {
+  const TemporaryFolder folder;
+  try {
+    read(folder.write(name, content));
+  } catch (const Error& error) {
+    return error.problems.front().what + "; " + error.problems.front().cure;
+  }
+  return "";
+}
+
+TEST(WordsOfBadFiles, NameTheCureOfCommonMistakes) {
+  const auto diagram = [](const std::string& file) { read_diagram(file); };
+  const auto data = [](const std::string& file) { read_dataset(file); };
+  const auto says = [](const std::string& told, const char* words) {
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+  };
+  says(told_of("d.json", "{\"format\": 1, // why\n\"blocks\": {}}", diagram), "JSON knows no comments");
+  says(told_of("d.json", "{\"format\": 1,\n# why\n\"blocks\": {}}", diagram), "JSON knows no comments");
+  says(told_of("d.json", R"({"format": 1, "blocks": {"a": {"type": "lag", "times": ["$tau"]}}})", diagram),
+       "in place of the whole list");
+  says(told_of("x.csv", "t (ms),u\n0,1\n1,2\n2,3\n", data), "square brackets: t [ms]");
+  says(told_of("x.csv", "t [s],u\n0,1\n", data), "there is 1 row,");
+  says(told_of("x.csv", "t [s],u\n0,1\n1,2\n", data), "there are 2 rows,");
+}
+
 TEST(BadDiagramFile, BracketsNestedWithoutEndAreRefused) {
   const TemporaryFolder folder;
   const std::string file = folder.write("d.json", std::string(100000, '[') + std::string(100000, ']'));
@@ -353,6 +385,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"EmptyList", "{\"format\": 1,\n\"recordings\": []}", "no_recordings", "/recordings", 2},
         Case{"UnknownKey", ONE("\"file\": \"good.csv\", \"rol\": \"train\""), "unknown_key", "/recordings/0/rol", 2},
         Case{"NoFile", ONE("\"role\": \"train\""), "missing_key", "/recordings/0", 2},
+        Case{"FileWithoutAName", ONE("\"file\": \"\", \"role\": \"train\""), "bad_value", "/recordings/0/file", 2},
         Case{"UnknownRole", ONE("\"file\": \"good.csv\", \"role\": \"training\""), "unknown_role", "/recordings/0/role",
              2},
         Case{"NoRoleAmongSeveral",
