@@ -187,9 +187,9 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   add_figures(section, table);
   facts.traces.set(table.file, add_ranges(section, table));
   const auto& s = traces.statistics;
-  section.text.push_back(fmt::format("{} rows; method {}, {}, {} rejected, {} evaluations, {}.", traces.t.size(),
-                                     s.method, count_text(s.steps, "step"), s.rejected, s.evaluations,
-                                     count_text(s.reversals, "reversal")));
+  section.text.push_back(fmt::format(
+      "{}; method {}, {}, {} rejected, {} evaluations, {}.", count_text(static_cast<long>(traces.t.size()), "row"),
+      s.method, count_text(s.steps, "step"), s.rejected, s.evaluations, count_text(s.reversals, "reversal")));
   if (!s.why.empty()) section.text.push_back(fmt::format("Method {}: {}.", s.method, s.why));
   if (const std::string events = events_text(s); !events.empty()) section.text.push_back(events);
   for (auto& text : loop_texts(s)) section.text.push_back(std::move(text));

@@ -150,6 +150,7 @@ namespace {
 
 /// Its size, where it is a file that can be read.
 off_t size_of_readable(const std::string& file) {
+  if (file.empty()) fail_file("no_file", file, "the name of the file is empty", "write the name of a file");
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR)

@@ -291,6 +291,7 @@ std::vector<Case> cases() {
        "cannot_write",
        "a.csv",
        "name a folder"},
+      {"AFileWithoutAName", {"check", ""}, "", "", "no_file", "", "name of a file"},
       {"ASeedThatIsNoNumber",
        {"fit", "diagram.json", "--data", "dataset.json", "--seed", "x"},
        "",
