@@ -8,8 +8,8 @@
 
 namespace hysteron {
 
-/// "0 .. 0.4", "0 or more", "0 .. (set by the length of the recordings)" of the parameter `name` ("amounts": all elements of it), in
-/// SI, over all laws of the effect that free it; "" where none does, or it has no bounds.
+/// "0 .. 0.4", "0 or more", "0 .. (set by the length of the recordings)" of the parameter `name` ("amounts": all
+/// elements of it), in SI, over all laws of the effect that free it; "" where none does, or it has no bounds.
 std::string bounds_text(const Effect& effect, const std::string& name);
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@ namespace hysteron {
 namespace {
 
 constexpr double nothing = 1e-9;          // of the signal: rounding
-constexpr double next_to_nothing = 1e-4;  // of the signal: what towards a limit is left of it
+constexpr double next_to_nothing = 1e-4;  // of the signal: what is left of it this near to a limit
 constexpr double far = 1e6;               // times a size of the signal or of the parameter: as good as infinite
 
 /// The elements of one list, or one number.
