@@ -253,9 +253,10 @@ void add_diagrams(Document& document, const Discovery& found, const std::string&
                                 text_in_folder(content, folder, name_in_folder(written), nested));
 }
 
-/// A column that is as many samples late at every sample rate: nothing in a device does that, so it comes before all
-/// effects. "" = there is none, or it is little of the error.
+/// What comes before all effects: rows that spoil whatever is found, or a column that is as many samples late at every
+/// sample rate, which nothing in a device does. "" = there is no such thing, or it is little of the error.
 std::string wrong_in_the_data(const Inspected& inspected) {
+  if (const auto& list = inspected.data.spoiling; !list.empty()) return "First of all, " + list.front() + " ";
   for (const auto& d : inspected.data.delays)
     if (d.kind == DelayKind::samples && d.fall > 0.5) return "First of all, " + d.sentence + ". ";
   return "";

@@ -309,7 +309,10 @@ class Inspector {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       clock_faults(seen_.recordings[k]);
       lost_and_repeated(parts_[k]);
-      for (const auto& output : model_.outputs()) ends(parts_[k], output);
+      for (const auto& output : model_.outputs()) {
+        apart(parts_[k], output);
+        ends(parts_[k], output);
+      }
     }
     units();
     for (const auto& c : seen_.columns) {
@@ -387,6 +390,20 @@ class Inspector {
   }
   std::string when(const Part& part, std::size_t row) const {
     return time_text(times_of(model_, part)[row] - model_.recording(part.recording).t.front());
+  }
+
+  void apart(const Part& part, const std::string& output) {
+    const auto rows = rows_of(model_, part, output);
+    const auto lone = rows_apart(rows);
+    if (lone.empty()) return;
+    const std::size_t i = lone.front();
+    seen_.spoiling.push_back(fmt::format(
+        "{}: {} of {} far from all others, the first at {} with {}, between {} and {}: an error of transmission, which "
+        "decides all that is fitted or judged there. Take {} out of the file.",
+        part.name, count_of(lone.size(), "row"), output + (lone.size() == 1 ? " lies" : " lie"), when(part, i),
+        level_text(rows[i], unit_of(output)), level_text(rows[i > 0 ? i - 1 : i + 1], unit_of(output)),
+        level_text(rows[i + 1 < rows.size() ? i + 1 : i - 1], unit_of(output)), lone.size() == 1 ? "it" : "them"));
+    seen_.faults.push_back(seen_.spoiling.back());
   }
 
   void ends(const Part& part, const std::string& output) {

@@ -79,6 +79,7 @@ struct Inspection {
   std::vector<DelayFinding> delays;       ///< one per output, as find_delays
   std::vector<InspectedBetween> between;  ///< only where the other way is clearly better
   std::vector<std::string> faults;        ///< what is wrong with the data, or ought to be written in the data set
+  std::vector<std::string> spoiling;      ///< of the faults: those that spoil whatever is found from the data
   std::vector<std::string> notes;         ///< what may be either the data or the device
   std::vector<std::string> sentences;     ///< what the data are, most important first
 };

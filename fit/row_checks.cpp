@@ -199,6 +199,24 @@ std::vector<std::size_t> leaps_in_motion(std::span<const double> values, double 
   return rows;
 }
 
+std::vector<std::size_t> rows_apart(std::span<const double> values) {
+  constexpr double outside = 0.5;  // of the range of the others; the largest of 1e5 rows of noise stands out by 0.1
+  const std::size_t n = values.size();
+  std::vector<std::size_t> rows;
+  if (n < 16) return rows;
+  // Among many rows those that stand apart are few: what hundreds reach belongs to the signal.
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t few = std::max<std::size_t>(1, n / 500);
+  const double low = sorted[few], high = sorted[n - 1 - few], range = high - low;
+  const auto is_out = [&](std::size_t i) {
+    return values[i] > high + outside * range || values[i] < low - outside * range;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_out(i) && (i == 0 || !is_out(i - 1)) && (i + 1 == n || !is_out(i + 1))) rows.push_back(i);
+  return rows.size() <= few ? rows : std::vector<std::size_t>{};
+}
+
 long unexplained_repeats(std::span<const double> values, double finest) {
   const double noise = roughness(values);
   if (!(noise > 2 * finest)) return 0;  // on few levels a repeat is the rule

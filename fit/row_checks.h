@@ -44,6 +44,10 @@ std::vector<std::size_t> repeats_in_motion(std::span<const double> values, doubl
 /// were lost although the clock does not show it.
 std::vector<std::size_t> leaps_in_motion(std::span<const double> values, double finest);
 
+/// Single rows half a range and more outside of all others, with their neighbours back among these: an error of
+/// transmission, which no device makes.
+std::vector<std::size_t> rows_apart(std::span<const double> values);
+
 /// How many more rows of a noisy column repeat the value before exactly than its noise explains; 0 where that is
 /// chance. Neighbouring differences of noise are as frequent as none at all; a reading that was not fetched is not.
 long unexplained_repeats(std::span<const double> values, double finest);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "fit/excitation.h"
 #include "fit/interference.h"
@@ -123,6 +124,30 @@ TEST(UnexplainedRepeats, AreNoneWhereTheLevelsAreUneven) {
 }
 
 // --- clipping ---------------------------------------------------------------------------------------------------
+
+TEST(RowsApart, AreSingleOnesFarOutsideOfAllOthers) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> sine, noise;
+  for (int k = 0; k < 1500; ++k) {
+    sine.push_back(std::sin(0.02 * k));
+    noise.push_back(normal(engine));
+  }
+  using Rows = std::vector<std::size_t>;
+  EXPECT_EQ(rows_apart(sine), Rows{});
+  EXPECT_EQ(rows_apart(noise), Rows{});
+  auto hit = sine;
+  hit[700] = -30;
+  EXPECT_EQ(rows_apart(hit), Rows{700});
+  hit[1499] = 2.5;
+  EXPECT_EQ(rows_apart(hit), (Rows{700, 1499}));
+  auto pulse = sine;  // a device that jumps there and back takes more than a row
+  for (std::size_t k = 700; k < 703; ++k) pulse[k] = -30;
+  EXPECT_EQ(rows_apart(pulse), Rows{});
+  auto pulses = sine;
+  for (std::size_t k = 50; k < 1500; k += 100) pulses[k] = 5;
+  EXPECT_EQ(rows_apart(pulses), Rows{}) << "what comes again and again belongs to the signal";
+}
 
 TEST(Plateau, IsFoundAtTheEndThatClips) {
   auto y = noise(5000, 1, 7);
