@@ -95,7 +95,7 @@ TEST_F(Checks, TheMainsOfTheModelHasAnotherPhaseInEachRecording) {
   Node& mains = with_mains.blocks["mains"];
   mains.type = "mains_interference";
   mains.parameters["frequency"] = Value("50 Hz");
-  mains.parameters["cosine"] = mains.parameters["sine"] = Value(NumberList{Number{0, "m"}});
+  for (const char* part : {"cosine", "sine"}) mains.parameters[part] = Value(NumberList{Number{0, "m"}});
   mains.in = {{"", "stage"}};
   with_mains.outputs["y"] = "mains";
   std::vector<Recording> list;
