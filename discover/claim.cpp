@@ -42,8 +42,9 @@ void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, cons
 bool stays_itself(const Books& books, Tried& t) {
   if (t.sharp || t.finished) return t.admitted;
   Contender final = refit(books.shop, t.contender, Effort::final);
-  const bool better = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + 1;
-  t.finished = better ? std::move(final) : t.contender;
+  // Of two that explain as well the one with finer rows, which knows its intervals.
+  const bool as_good = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + rules::tie;
+  t.finished = as_good ? std::move(final) : t.contender;
   const auto why = why_implausible(*t.effect, t.laws[t.law], *t.finished, t.circumstances);
   if (why.empty()) return true;
   t.admitted = false;

@@ -29,6 +29,11 @@ class Recordings : public ::testing::Test {
     EXPECT_EQ(d.steps.size(), steps) << d.headline;
     EXPECT_EQ(to_text(d.remainder), "noise");
     EXPECT_LE(d.final_error.rms_validate, 1.15 * noise_floor(id)) << d.headline;
+    for (const auto& p : d.steps.back().winner.found) {
+      const auto& e = p.estimate;
+      const bool ends = !e.determined || e.at_lower || e.at_upper;
+      EXPECT_TRUE(ends || (e.low95 && e.high95)) << "no interval of " << e.path;
+    }
   }
   /// What was tried, for who has to find out why an answer is wrong.
   static std::string tried(const Discovery& d) {
