@@ -128,9 +128,9 @@ void tell_wandering(Books& books) {
     if (rms[o] < books.evidence->noise().outputs[o].white) continue;
     const Unit& unit = books.base_model->output_unit(static_cast<int>(o));
     books.d.warnings.push_back(fmt::format(
-        "the mains wanders: its amplitude and phase were followed in each recording, every two seconds where rows "
-        "suffice: {} rms of {} on recordings not used for the fit. A diagram holds a steady line only: from its file "
-        "alone the error is that much larger, and nothing else was looked for there",
+        "the mains is another one in each recording: its amplitude and phase were followed there, every two seconds "
+        "where rows suffice: {} rms of {} on recordings not used for the fit. A diagram holds one steady line only: "
+        "from its file alone the error is that much larger, and nothing else was looked for there",
         size_text(rms[o], unit), books.base_model->outputs()[o]));
   }
 }
