@@ -233,7 +233,7 @@ TEST_F(FurtherEffects, HowAMainsWandersHidesNothingElse) {
     }
   EXPECT_NEAR(std::sqrt(squares / rows), d.final_error.rms_validate, 1e-9) << "what is handed on is what was judged";
   ASSERT_FALSE(d.warnings.empty());
-  EXPECT_NE(d.warnings.back().find("wander"), std::string::npos) << d.warnings.back();
+  EXPECT_NE(d.warnings.back().find("its amplitude and phase were followed"), std::string::npos) << d.warnings.back();
 }
 
 TEST_F(FurtherEffects, FifteenPeriodsOfTheMainsAreEnough) {
