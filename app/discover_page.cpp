@@ -257,8 +257,9 @@ void add_diagrams(Document& document, const Discovery& found, const std::string&
 /// sample rate, which nothing in a device does. "" = there is no such thing, or it is little of the error.
 std::string wrong_in_the_data(const Inspected& inspected) {
   if (const auto& list = inspected.data.spoiling; !list.empty()) return "First of all, " + list.front() + " ";
+  constexpr double most = 0.5;  // of the squared error: what is left is less than what the clock of the file makes
   for (const auto& d : inspected.data.delays)
-    if (d.kind == DelayKind::samples && d.fall > 0.5) return "First of all, " + d.sentence + ". ";
+    if (d.kind == DelayKind::samples && d.fall > most) return "First of all, " + d.sentence + ". ";
   return "";
 }
 

@@ -41,6 +41,7 @@ Effect overflow();
 /// The laws that amplifier and sensor lag share: one pole, two poles.
 std::vector<Law> lag_laws(const Circumstances& at);
 std::string lag_summary(const Law& law, const std::vector<double>& values, const Circumstances& at);
+/// Why a lag of these time constants is none: slower than all recordings, it integrates. "" = it is one.
 std::string lag_without_end(const Law& law, const std::vector<double>& values, const Circumstances& at);
 /// Gives a block a parameter.
 void give(Node& block, const std::string& parameter, Value value);

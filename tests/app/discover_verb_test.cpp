@@ -51,6 +51,21 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
   EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
 }
 
+TEST_F(DiscoverVerb, DiscoverSaysFirstOfAllThatARowIsFarFromAllOthers) {
+  record(1);
+  std::string rows;
+  int row = 0;
+  std::istringstream file(folder_.read("a.csv"));
+  for (std::string line; std::getline(file, line); ++row)
+    rows += (row == 100 ? line.substr(0, line.rfind(',')) + ",-32768" : line) + "\n";
+  ASSERT_GT(row, 200);
+  folder_.write("a.csv", rows);
+  looked_for_a_lag();
+  const std::string headline = result("out")["headline"];
+  EXPECT_TRUE(headline.starts_with("First of all, a.csv: 1 row of ")) << headline;
+  EXPECT_NE(headline.find("Take it out of the file"), std::string::npos) << headline;
+}
+
 TEST_F(DiscoverVerb, DiscoverEndsWithinTheTimeThatItIsGivenAndSaysSo) {
   record(3, 0.02);
   const auto discovered = [&](const std::string& within) {
