@@ -263,6 +263,7 @@ void join_twins(std::vector<Tried>& tried) {
       std::swap(first.place, second.place);
       std::swap(first.circumstances, second.circumstances);
       std::swap(first.laws, second.laws);
+      std::swap(first.law, second.law);
       std::swap(first.contender, second.contender);
     } else {
       first.same_places.push_back(second.place.where());

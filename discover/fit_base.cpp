@@ -28,6 +28,16 @@ void fit_base(Books& books) {
                   "the diagram cannot be simulated on these recordings: " + books.current.error,
                   "run `hysteron compare` or `hysteron run` on it and look at the first recording");
   books.settle(books.current);
+  // Free numbers were fitted by the noise of the data sheet: every candidate, fitted by that of the residual, would be
+  // credited with what they gain by it.
+  if (!books.current.fit.estimates.empty()) {
+    Contender again = refit(to_its_end, books.current, Effort::final);
+    for (auto& e : again.fit.estimates)  // they began where the user has them
+      for (const auto& first : books.current.fit.estimates)
+        if (first.path == e.path && first.recording == e.recording) e.start = first.start;
+    if (again.ok) books.current = std::move(again);
+    books.settle(books.current);
+  }
   books.base = books.current;
   books.own_resonances = own_resonances(*books.base.program);
   if (as_given.ok) books.d.as_given = books.evidence->error(as_given);
