@@ -184,6 +184,18 @@ Facts discovery_facts(const Discovery& found, const std::string& diagram_file, c
       smooth.push_back(Facts::object({{"input", s.input}, {"nrmse_before", s.before}, {"nrmse_after", s.after}}));
     facts.set("smooth_between_samples", smooth);
   }
+  if (!found.other_numbers.empty()) {
+    Facts::List numbers;
+    for (const auto& n : found.other_numbers) {
+      const auto shown = [&](double si) { return n.difference ? n.unit.difference_from_si(si) : n.unit.from_si(si); };
+      numbers.push_back(Facts::object({{"parameter", n.path},
+                                       {"unit", n.unit.text},
+                                       {"written", shown(n.written)},
+                                       {"found", shown(n.found)},
+                                       {"standard_deviation", n.unit.difference_from_si(n.sigma)}}));
+    }
+    facts.set("other_numbers", numbers);
+  }
   if (found.structure) facts.set("structure", facts_of(*found.structure));
   if (found.experiment) facts.set("next_experiment", facts_of(*found.experiment));
   return facts;

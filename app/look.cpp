@@ -77,6 +77,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   DiscoverOptions settings;
   settings.only = wanted_effects(arguments, effects);
   settings.free_paths = arguments.list("--free");
+  settings.numbers_are_exact = arguments.has("--exact");
   settings.max_steps = arguments.whole_number("--steps", settings.max_steps, 20);
   settings.threads = arguments.threads();
   const Diagram diagram = load_diagram(arguments);
@@ -146,6 +147,8 @@ std::vector<OptionSpec> look_options() {
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
+          {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
+           false},
           options::effects(),
           options::threads("candidates"),
           {"--within", "TIME", "end after so long with what was found by then, e.g. \"2 min\"", false, false},

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,7 +44,9 @@ struct Books {
   std::unique_ptr<DataModel> base_model;
   std::unique_ptr<Evidence> evidence;
   Contender base, current;
-  std::optional<SmoothInput> smooth;      ///< found on the way: all begins anew with it
+  std::optional<SmoothInput> smooth;            ///< found on the way: all begins anew with it
+  std::map<std::string, double> other_numbers;  ///< likewise, with these numbers of the model free
+  bool begins_anew() const { return smooth || !other_numbers.empty(); }
   std::vector<Resonance> own_resonances;  ///< of the base
   std::vector<Tried> hidden;              ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction;           ///< of the model before the present step; empty = the base

@@ -60,6 +60,7 @@ Check check(const Diagram& diagram, const DataSet& given, const Registry& regist
   const DataSet data = with_both_roles(given);
   DiscoverOptions nothing_free = options;
   nothing_free.free_paths.clear();
+  nothing_free.numbers_are_exact = true;
   Check c;
   c.discovery = discover(held(diagram), data, registry, effects, nothing_free);
   c.explained = c.discovery.verdict == Verdict::adequate;

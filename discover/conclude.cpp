@@ -6,6 +6,7 @@
 
 #include "discover/between_samples.h"
 #include "discover/members.h"
+#include "discover/own_numbers.h"
 #include "discover/structures.h"
 #include "fit/unit_words.h"
 
@@ -217,6 +218,7 @@ void conclude(Books& books) {
   add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
   test_recordings(books);
   tell_other_ways(books);
+  tell_other_numbers(books);
   tell_noise(books);
   tell_wandering(books);
   tell_final_values(books);

@@ -59,11 +59,18 @@ struct Contender {
   double tie_score() const;  ///< evidence + 2 p
 };
 
+/// Numbers that the user holds, where they are let go: 95 % are as near to what is written as this, and none is
+/// further away than that - a device's data sheet and its maker's drawing, not another device.
+constexpr double known_to = 0.03, at_most_off = 0.15;
+
 /// What every fit of a discovery shares.
 struct Workshop {
   const Registry* registry = nullptr;
   std::shared_ptr<const DataSet> data;
   std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
+  /// Of these, numbers that the model holds: known roughly as they are written [SI].
+  std::map<std::string, double> roughly{};
+  void let_go(const std::map<std::string, double>& numbers);
   const Evidence* evidence = nullptr;
   /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
   /// costs time and decides nothing.

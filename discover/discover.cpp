@@ -13,6 +13,7 @@
 
 #include "discover/between_samples.h"
 #include "discover/books.h"
+#include "discover/own_numbers.h"
 #include "discover/parts.h"
 #include "discover/room.h"
 #include "engine/error.h"
@@ -188,6 +189,10 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   enrich(books, tried, step, as, bar(0.8));
   int winner = who_wins(books, tried);
   std::vector<int> ties;
+  if (are_the_numbers(books, winner >= 0 ? &tried[static_cast<std::size_t>(winner)] : nullptr)) {
+    keep_candidates(books, tried, step, -1, {});
+    return false;
+  }
   if (winner >= 0) {
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
@@ -252,15 +257,17 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
   while (room.left(found_effects(books)) && !books.stopped()) {
     const int step = static_cast<int>(books.d.steps.size()) + 1;
     if (more_than_noise(books)) books.smooth = find_smooth_input(books);
-    if (books.smooth) return;
+    if (books.begins_anew()) return;
     if (step == 1) {
-      if (!one_step(books, step, As::further, &first) && !on_axes_together(books, first)) break;
+      if (!one_step(books, step, As::further, &first) && !books.begins_anew() && !on_axes_together(books, first)) break;
       room.took_a_name();
       continue;
     }
-    const bool more = more_than_noise(books) && unless_it_fails(books, [&] {
-                        return one_step(books, step, As::further, &last) || two_more(books, last);
-                      });
+    const bool more =
+        more_than_noise(books) && unless_it_fails(books, [&] {
+          return one_step(books, step, As::further, &last) || (!books.begins_anew() && two_more(books, last));
+        });
+    if (books.begins_anew()) return;
     if (more) {
       room.took_a_name();
       continue;
@@ -284,18 +291,19 @@ void search(Books& books) {
   std::vector<Tried> first;
   one_by_one(books, first);
   const auto zero = [&] { return unless_it_fails(books, [&] { return another_than_the_zero(books); }); };
-  if (!books.smooth && zero()) one_by_one(books, first);
+  if (!books.begins_anew() && zero()) one_by_one(books, first);
   // A look-alike that went first can bar the way to a pair that explains everything, and so can each of the pair.
-  if (!books.smooth && unless_it_fails(books, [&] { return another_beginning(books, first); }))
+  if (!books.begins_anew() && unless_it_fails(books, [&] { return another_beginning(books, first); }))
     one_by_one(books, first);
-  if (!books.smooth && unless_it_fails(books, [&] { return no_patch_of_anything(books, first); }))
+  if (!books.begins_anew() && unless_it_fails(books, [&] { return no_patch_of_anything(books, first); }))
     one_by_one(books, first);
   // Its law was chosen while others were missing: beside them a richer one may hold more, or a simpler one as much.
   const bool rest = !books.evidence->noise_known() || more_than_noise(books);
-  if (!books.smooth && rest && unless_it_fails(books, [&] { return refine_what_stands(books, 0.96); }))
+  if (!books.begins_anew() && rest && unless_it_fails(books, [&] { return refine_what_stands(books, 0.96); }))
     one_by_one(books, first);
-  if (!books.smooth && zero()) one_by_one(books, first);
-  if (!books.smooth && !books.stopped())
+  if (!books.begins_anew() && zero()) one_by_one(books, first);
+  if (!books.begins_anew() && unless_it_fails(books, [&] { return are_numbers_in_place_of_an_effect(books); })) return;
+  if (!books.begins_anew() && !books.stopped())
     unless_it_fails(books, [&] { return ties_beside_what_came_later(books, 0.96), true; });
 }
 
@@ -305,13 +313,21 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
                    const DiscoverOptions& options) {
   Discovery with;  // how inputs move, as far as that is known by now
   long runs = 0;
+  std::map<std::string, double> numbers;  // of the model, that are let go
   std::unique_ptr<Books> before;
   for (;;) {
     auto books = std::make_unique<Books>(diagram, as_found(data, with), registry, effects, options);
     books->d.smooth_inputs = with.smooth_inputs;
     books->d.asked_for = options.only;
+    if (!numbers.empty()) books->shop.let_go(numbers);
     search(*books);
     runs += books->shop.notes->runs();
+    if (!books->other_numbers.empty() && !books->stopped()) {
+      numbers = books->other_numbers;
+      books->progress("anew: with other numbers of the model", 0);
+      before = std::move(books);
+      continue;
+    }
     if (books->smooth && !books->stopped()) {
       with.smooth_inputs.push_back(*books->smooth);
       books->progress(fmt::format("anew: {} moves smoothly between its samples", books->smooth->input), 0);
@@ -321,6 +337,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
     // Broken off before it had found again what was found without: that is still true.
     if (before && books->stopped() && found_effects(*books) < found_effects(*before)) books = std::move(before);
     if (books->smooth) tell_unused(*books);
+    if (!books->other_numbers.empty()) tell_unused_numbers(*books);
     conclude(*books);
     books->d.model_runs = runs;
     return std::move(books->d);

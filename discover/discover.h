@@ -91,6 +91,14 @@ struct SmoothInput {
   double before = 0, after = 0;  ///< NRMSE on validation of the model that told it, without and with that
 };
 
+/// A number of the user's model that is not what is written there.
+struct OtherNumber {
+  std::string path;
+  Unit unit;
+  bool difference = false;
+  double written = 0, found = 0, sigma = 0;  ///< [SI]
+};
+
 /// Everything that was found.
 struct Discovery {
   Verdict verdict = Verdict::adequate;
@@ -112,6 +120,7 @@ struct Discovery {
   bool broken_off = false;                 ///< by DiscoverOptions::stop: not everything was tried
   std::vector<std::string> asked_for;      ///< DiscoverOptions::only
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
+  std::vector<OtherNumber> other_numbers;  ///< the furthest from what is written first; all figures are with these
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
@@ -123,6 +132,8 @@ struct DiscoverOptions {
   int max_steps = 3;                    ///< 1 = diagnose: name the missing effect, do not go on
   std::vector<std::string> only;        ///< effect ids to consider; empty = all
   std::vector<std::string> free_paths;  ///< parameters free beside those that the diagram declares free
+  /// What the diagram does not leave free is exact: nobody asks whether other numbers would do.
+  bool numbers_are_exact = false;
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough

@@ -23,6 +23,9 @@ enum class KnownLines { held, tuned };
 /// Whether a fit to the end says how sure its values are. Profiles take ten times as long as the fit.
 enum class Intervals { told, not_yet };
 
+/// What the user left free, while an effect is fitted: free too, or as it was found without the effect.
+enum class Own { free, held };
+
 /// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
 /// was found at: another one near by would cost nothing.
 bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, const LawParameter& p) {
@@ -38,10 +41,23 @@ bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, 
   });
 }
 
+/// A number that the model held is near what is written.
+void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f) {
+  const auto n = shop.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
+  if (n == shop.roughly.end()) return;
+  const double width = known_to * std::abs(n->second), most = at_most_off * std::abs(n->second);
+  f.prior = {n->second - width, n->second + width};
+  f.lower = std::max(f.lower, n->second - most);
+  f.upper = std::min(f.upper, n->second + most);
+  f.start = std::clamp(f.start, f.lower, f.upper);
+}
+
 /// The free parameters: the user's own, and those of the chosen effects.
 std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, int fresh,
-                                   const std::vector<int>& recordings, KnownLines lines = KnownLines::held) {
-  auto free = free_parameters(*c.program, shop.free_paths);
+                                   const std::vector<int>& recordings, KnownLines lines = KnownLines::held,
+                                   Own own = Own::free) {
+  auto free = own == Own::free ? free_parameters(*c.program, shop.free_paths) : std::vector<FreeParameter>{};
+  for (auto& f : free) know_roughly(shop, *c.program, f);
   for (std::size_t i = 0; i < c.standing.size(); ++i) {
     if (!chosen[i]) continue;
     const bool is_new = static_cast<int>(i) == fresh;
@@ -133,12 +149,12 @@ std::string name_of_fit(const Program& program, const std::vector<FreeParameter>
 /// The answer: steps_from().
 double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
                   const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held,
-                  Intervals intervals = Intervals::told) {
+                  Intervals intervals = Intervals::told, Own own = Own::free) {
   c.program = compile(c.diagram, *shop.registry);
   const bool some = outputs.size() < c.program->output_names.size();
   const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
   DataModel model = model_of(shop, c, seen, effort);
-  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines);
+  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines, own);
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
@@ -223,9 +239,36 @@ bool sweep_through(const Workshop& shop, Contender& c, Effort effort, int fresh,
   return slow;
 }
 
+/// How many of these numbers are found by linear least squares when they are fitted together with `beside`.
+std::ptrdiff_t linear_beside(const Program& program, std::vector<int> numbers, const std::vector<int>& beside) {
+  const auto count = static_cast<std::ptrdiff_t>(numbers.size());
+  numbers.insert(numbers.end(), beside.begin(), beside.end());
+  const auto affine = jointly_affine(program, numbers, program.output_signals);
+  return std::count(affine.begin(), affine.begin() + count, true);
+}
+
+/// Do the user's free numbers take it from a new law that some of its own are linear: of a mode behind a stage whose
+/// weights are free, what it adds is then searched from a start that is far from everything, at each frequency.
+bool begins_better_alone(const Workshop& shop, const Contender& c, int fresh) {
+  if (fresh < 0) return false;
+  std::vector<int> own, law;
+  for (const auto& f : free_parameters(*c.program, shop.free_paths)) own.push_back(f.parameter);
+  if (own.empty()) return false;
+  for (const auto& f : free_of_law(*c.program, c.standing[static_cast<std::size_t>(fresh)], true, {}))
+    law.push_back(f.parameter);
+  return linear_beside(*c.program, law, {}) > linear_beside(*c.program, law, own);
+}
+
 /// The chosen effects of one part, together or in turn.
 void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
               const std::vector<std::string>& outputs) {
+  if (begins_better_alone(shop, c, fresh)) {
+    std::vector<bool> one(c.standing.size(), false);
+    one[static_cast<std::size_t>(fresh)] = true;
+    fit_chosen(shop, c, effort, fresh, one, outputs, KnownLines::held, Intervals::not_yet, Own::held);
+    if (!c.ok) return;
+    fresh = -1;
+  }
   if (!better_in_turn(shop, c, chosen, effort)) {
     fit_chosen(shop, c, effort, fresh, chosen, outputs);
     return;

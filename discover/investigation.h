@@ -47,7 +47,8 @@ constexpr double agreed_fall = 2;
 inline double by_chance(int numbers, double beginnings) {
   return claim_fall + 2.5 * numbers + 2 * std::log(beginnings);
 }
-constexpr double tie = 7;  ///< in evidence + 2p
+constexpr double moved = 3;  ///< standard deviations from what is written that are told
+constexpr double tie = 7;    ///< in evidence + 2p
 /// How much more the recordings that judge may show than those that were fitted: what a fit loses then is in `tie`.
 constexpr double usual_split = 3;
 constexpr double lost_at_most = 0.02;  ///< of its fall, that a candidate is believed to have lost by the fit

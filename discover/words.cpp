@@ -251,6 +251,40 @@ std::string headline_of(const Discovery& d) {
       std::sqrt(std::max(d.base.over_floor(), 0.0)), tried);
 }
 
+/// "2.4 % more".
+std::string further(const OtherNumber& n) {
+  const double by = 100 * (n.found / n.written - 1);
+  return fmt::format("{:.2g} % {}", std::abs(by), by > 0 ? "more" : "less");
+}
+
+/// Before everything else: where the model's numbers are wrong, all that is said holds for others.
+std::string other_numbers(const Discovery& d) {
+  constexpr std::size_t named = 3;
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(named, d.other_numbers.size()); ++i)
+    list.push_back(fmt::format("{} is {} than written", d.other_numbers[i].path, further(d.other_numbers[i])));
+  if (d.other_numbers.size() > named) list.push_back(fmt::format("{} more", d.other_numbers.size() - named));
+  const std::string fall =  // beside effects, numbers alone are a fit to what these do
+      d.steps.empty() ? fmt::format("With them the {}. ", error_fall(d.as_given, d.base)) : "";
+  return fmt::format("Numbers of the model are not those of the device: {}. {}", fmt::join(list, ", "), fall);
+}
+
+/// Each of them, and what to do.
+void tell_numbers(Discovery& d) {
+  if (d.other_numbers.empty()) return;
+  for (const auto& n : d.other_numbers) {
+    const auto shown = [&](double si) { return n.difference ? n.unit.difference_from_si(si) : n.unit.from_si(si); };
+    const double sigma = n.unit.difference_from_si(n.sigma);
+    d.sentences.push_back(fmt::format("{} is {:.5g} +- {:.2g}{}{} ({} than the {:.5g} written)", n.path, shown(n.found),
+                                      2 * sigma, n.unit.text.empty() ? "" : " ", n.unit.text, further(n),
+                                      shown(n.written)));
+  }
+  d.sentences.push_back(
+      "All numbers that the model holds were let go, each by some per cent of what is written (95 % within 3 %): with "
+      "these as they are written an effect would be named that only makes up for them. Leave free in the diagram "
+      "(\"free\": true) those that are not sure; where all are exact, say so with --exact.");
+}
+
 /// What was found and what is left of it; of what nothing explains all that is known.
 void tell_what_is_left(Discovery& d) {
   auto& say = d.sentences;
@@ -275,7 +309,8 @@ void tell_what_is_left(Discovery& d) {
 }  // namespace
 
 void put_into_words(Discovery& d, const DataSet& data) {
-  d.headline = headline_of(d);
+  d.headline = (d.other_numbers.empty() ? "" : other_numbers(d)) + headline_of(d);
+  tell_numbers(d);
   tell_what_is_left(d);
   if (d.final_error.nrmse_test) d.sentences.push_back(test_sentence(d.final_error));
   if (d.experiment)

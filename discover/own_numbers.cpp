@@ -1,0 +1,199 @@
+#include "discover/own_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "discover/books.h"
+#include "discover/parts.h"
+#include "discover/wiring.h"
+
+namespace hysteron {
+namespace {
+
+/// More of them are a fit of its own, and whoever has so many knows which are not sure.
+constexpr std::size_t most_numbers = 60;
+
+/// "weights[2]" -> "weights".
+std::string without_index(const std::string& name) { return name.substr(0, name.find('[')); }
+
+/// Numbers of one block that have a size: not where a zero lies, not what cuts a range into parts, no clock.
+bool has_a_size(const Declaration& d, const std::string& name) {
+  const int i = d.parameter_index(name);
+  if (i < 0 || (d.is_sampled && (name == "period" || name == "offset"))) return false;
+  const ParameterDeclaration& p = d.parameters[static_cast<std::size_t>(i)];
+  return !p.is_offset && !p.is_increasing && !p.is_structural;
+}
+
+/// Is it written, not a default, at this level of the diagram or of one inside it; numbers of effects were fitted, or
+/// are the user's guess: the user is told that they are held.
+bool is_written(const Diagram& diagram, const Registry& registry, const std::string& block, const std::string& name) {
+  const auto slash = block.find('/');
+  const std::string here = block.substr(0, slash);
+  const Node* node = diagram.blocks.find(here);
+  const Node* body = Wiring(diagram, registry).body(here);
+  if (node == nullptr || body == nullptr) return false;
+  if (!node->effect.empty()) body = node->from.find("off");  // what it varies is the user's
+  if (body == nullptr) return false;
+  if (slash != std::string::npos)
+    return body->nested && is_written(*body->nested, registry, block.substr(slash + 1), name);
+  return body->parameters.find(name) != nullptr || body->parameters_from_file.find(name) != nullptr;
+}
+
+bool is_measured(const Books& books, int block) {
+  const Program& program = books.base_model->program();
+  const auto& judged = books.base_model->outputs();
+  const auto behind = outputs_behind(program, block);
+  return std::any_of(behind.begin(), behind.end(), [&](int o) {
+    return std::find(judged.begin(), judged.end(), program.output_names[static_cast<std::size_t>(o)]) != judged.end();
+  });
+}
+
+double spread(double written) { return known_to * std::abs(written) / 2; }  // 95 % are two of these
+
+/// What a number costs that the data tell from what is written, in parts of one: one that they leave where it was costs
+/// nothing (MacKay, Neural Computation 4 (1992) 415, eq. 4.9: the number of well-determined parameters).
+struct Cost {
+  double numbers = 0, moved = 0;
+  bool plausible = true;  ///< none of them at its bound
+};
+Cost cost_of(const Contender& c, const std::map<std::string, double>& numbers) {
+  Cost cost;
+  for (const auto& e : c.fit.estimates) {
+    const auto n = numbers.find(e.path);
+    if (n == numbers.end()) continue;
+    const double sigma = spread(n->second);
+    cost.moved += std::pow((e.used - n->second) / sigma, 2);
+    if (e.at_lower || e.at_upper) cost.plausible = false;
+    if (e.determined && e.sigma) cost.numbers += std::max(0.0, 1 - std::pow(*e.sigma / sigma, 2));
+  }
+  return cost;
+}
+
+/// More than a claim needs, in recordings of both roles.
+bool explains(const ModelError& now, const ModelError& was) {
+  return was.evidence_train - now.evidence_train > rules::claim_fall &&
+         was.evidence_validate - now.evidence_validate > rules::claim_fall;
+}
+
+/// The numbers, where they may be asked for at all.
+std::map<std::string, double> may_be_let_go(const Books& books) {
+  if (books.options.numbers_are_exact || !books.shop.roughly.empty() || books.stopped()) return {};
+  auto numbers = held_numbers(books);
+  if (numbers.size() > most_numbers) numbers.clear();
+  return numbers;
+}
+
+/// Does `model` with these numbers let go explain more than `other`, and is it `enough`. A law that finds weights anew
+/// pays nothing for them: beside it nobody does.
+bool explain_better(const Books& books, const Contender& model, const std::map<std::string, double>& numbers,
+                    const Contender& other, const Law* law,
+                    const std::function<bool(const ModelError&)>& enough) {
+  const bool free_of_charge = law != nullptr && law->reweighs;
+  Workshop shop = books.shop;
+  shop.let_go(numbers);
+  Contender c = model;
+  for (const Effort effort : {Effort::full, Effort::final}) {  // what they cost is known once there are intervals
+    c = refit(shop, c, effort);
+    if (!c.ok || !enough(c.error_of)) return false;
+    const Cost cost = cost_of(c, numbers);
+    const double each = std::log(std::max(c.error_of.witnesses, 2.0));
+    double score = c.score();
+    if (!free_of_charge)
+      score += rules::tie + cost.moved + (effort == Effort::final ? cost.numbers * each : 0);
+    if (!cost.plausible || score > other.score()) return false;
+  }
+  return true;
+}
+
+/// Where no effect would be claimed: most of what stands above the noise, and more than the laws that stand may have
+/// left, for a spring a little harder is just what a law that is not exact leaves of a loop in it.
+bool is_more_than_laws_leave(const Books& books, const ModelError& now) {
+  const ModelError& was = books.current.error_of;
+  const bool first = books.current.standing.empty();
+  const double share = first ? rules::share_of_first : rules::share_of_rest;
+  if (now.excess_validate() > (1 - share) * was.excess_validate()) return false;
+  const auto left = left_by_laws(books, first ? As::first : As::further);
+  double train = 0, validate = 0;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    (was.recordings[i].role == Role::train ? train : validate) +=
+        left[i] * std::pow(rules::imitated_left / rules::own_law_left, 2);
+  return was.chi2_train - now.chi2_train > train && was.chi2_validate - now.chi2_validate > validate;
+}
+
+}  // namespace
+
+std::map<std::string, double> held_numbers(const Books& books) {
+  std::map<std::string, double> numbers;
+  const Program& program = books.base_model->program();
+  const auto free = free_parameters(program, books.shop.free_paths);
+  for (std::size_t i = 0; i < program.parameters.size(); ++i) {
+    const ParameterInfo& p = program.parameters[i];
+    const bool is_free = std::any_of(free.begin(), free.end(),
+                                     [&](const FreeParameter& f) { return f.parameter == static_cast<int>(i); });
+    if (is_free || p.value == 0 || p.block < 0 || p.offset || !is_measured(books, p.block)) continue;
+    const auto& block = program.blocks[static_cast<std::size_t>(p.block)];
+    const Declaration& d = block.kernel->declaration;
+    if (d.inputs.empty()) continue;
+    const auto dot = p.path.rfind('.');
+    if (dot != std::string::npos) {
+      const std::string name = without_index(p.path.substr(dot + 1));
+      if (!has_a_size(d, name) || !is_written(books.user, books.registry, block.path, name)) continue;
+    }
+    numbers[p.path] = p.value;
+  }
+  return numbers;
+}
+
+bool are_the_numbers(Books& books, const Tried* winner) {
+  const auto numbers = may_be_let_go(books);
+  if (numbers.empty()) return false;
+  const auto enough = [&](const ModelError& now) {
+    return explains(now, books.current.error_of) && (winner != nullptr || is_more_than_laws_leave(books, now));
+  };
+  const bool better = winner != nullptr ? explain_better(books, books.current, numbers, winner->contender,
+                                                         &winner->laws[winner->law], enough)
+                                        : explain_better(books, books.current, numbers, books.current, nullptr, enough);
+  if (better) books.other_numbers = numbers;
+  return better;
+}
+
+bool are_numbers_in_place_of_an_effect(Books& books) {
+  const auto numbers = may_be_let_go(books);
+  if (numbers.empty()) return false;
+  for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
+    const Contender rest = without(books.shop, books.current, i);
+    const Law& law = books.current.standing[i].law;
+    if (!explain_better(books, rest, numbers, books.current, &law, [](const ModelError&) { return true; })) continue;
+    books.other_numbers = numbers;
+    return true;
+  }
+  return false;
+}
+
+void tell_other_numbers(Books& books) {
+  for (const auto& e : books.current.fit.estimates) {
+    const auto n = books.shop.roughly.find(e.path);
+    if (n == books.shop.roughly.end() || !e.sigma) continue;
+    if (std::abs(e.used - n->second) > rules::moved * *e.sigma)
+      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, *e.sigma});
+  }
+  if (!books.shop.roughly.empty() && books.d.other_numbers.empty())
+    books.d.warnings.push_back(
+        "the numbers that the model holds were let go, each near what is written, and beside what was found none of them "
+        "is another one: with --exact they stay as they are");
+  std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
+  });
+}
+
+void tell_unused_numbers(Books& books) {
+  books.d.warnings.push_back(
+      "other values of the model's own numbers, within some per cent of what is written, explain more than what was "
+      "found does. The search that takes them into account was broken off: leave those free that are not sure "
+      "(\"free\": true), and begin with that.");
+}
+
+}  // namespace hysteron
