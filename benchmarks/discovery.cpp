@@ -88,6 +88,8 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     options.stop = [&] { return cpu_seconds() > wish.seconds; };
   }
   options.threads = wish.threads;
+  options.free_paths = hidden.free_paths;
+  options.numbers_are_exact = hidden.numbers_are_exact;
   if (wish.progress)
     options.progress = [&](const std::string& what, double) {
       fmt::print(stderr, "{} {:7.2f}  {}\n", hidden.id, cpu_seconds(), what);

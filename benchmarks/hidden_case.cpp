@@ -122,6 +122,31 @@ void base_of(Diagram& d, const json& task) {
   fail("bad_case", d.title, "there is no base model " + base, "B1, B2, B3, B4 and B5 are known");
 }
 
+/// Where a number of the task stands in the diagram.
+struct Stands {
+  const char *key, *block, *parameter;
+};
+constexpr Stands stands[] = {{"gain_um_per_V", "stage", "gain"},        {"weights_um_per_V", "stage", "weights"},
+                             {"weights_um_per_V", "stage2", "weights"}, {"force_per_volt_N", "force", "gain"},
+                             {"damping_Ns_per_m", "stage", "damping"},  {"power_per_volt_W", "heater", "gain"}};
+
+/// "base_parameters_free": numbers that the user knows to a few per cent only, and leaves free.
+std::vector<std::string> free_paths(const Diagram& d, const json& task) {
+  std::vector<std::string> paths;
+  for (const auto& wish : task.value("base_parameters_free", json::array())) {
+    const std::string key = wish.get<std::string>();
+    const std::size_t before = paths.size();
+    for (const auto& s : stands)
+      if (const Node* node = key == s.key ? d.blocks.find(s.block) : nullptr;
+          node && node->parameters.find(s.parameter))
+        paths.push_back(fmt::format("{}.{}", s.block, s.parameter));
+    if (paths.size() == before)
+      fail("bad_case", d.title, "base_parameters_free: this base model has no \"" + key + "\" that could be free",
+           "gains, weights and a damping can be, named as in base_parameters");
+  }
+  return paths;
+}
+
 /// The data sheet's noise; quantised on top.
 json output_column(const json& task, const std::string& name, const char* unit, Noise noise) {
   if (noise == Noise::unstated) return {{"to", name}};
@@ -163,6 +188,8 @@ HiddenCase read_hidden_case(const std::string& folder, Noise noise) {
     c.diagram.title = "case " + c.id;
     c.diagram.inputs["u"].unit = "V";
     base_of(c.diagram, task);
+    c.numbers_are_exact = !task.contains("base_parameters_within");
+    c.free_paths = free_paths(c.diagram, task);
     c.data_text = data_text(c.diagram, task, path, noise);
     return c;
   } catch (const json::exception& e) {

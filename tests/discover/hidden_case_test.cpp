@@ -29,8 +29,10 @@ class HiddenCases : public ::testing::Test {
   }
   ~HiddenCases() override { std::filesystem::remove_all(folder_); }
 
-  void write_task(const std::string& base, const json& parameters, const std::vector<std::string>& outputs) {
+  void write_task(const std::string& base, const json& parameters, const std::vector<std::string>& outputs,
+                  const json& free = json::array()) {
     json task{{"id", "042"}, {"base", base}, {"base_parameters", parameters}, {"outputs", outputs}};
+    if (!free.empty()) task["base_parameters_free"] = free;
     task["sensor"] = {{"lsb", 1e-4}, {"datasheet_noise_rms", 1e-3}};
     task["files"] = {{{"file", "01.csv"}, {"role", "train"}, {"start_h", 0.5}, {"cycles_before", 0}},
                      {{"file", "02.csv"}, {"role", "validate"}, {"start_h", 1.5}, {"cycles_before", 20}}};
@@ -71,6 +73,14 @@ TEST_F(HiddenCases, AHeatedMassSettlesAboveAmbientByPowerTimesResistance) {
               {"power_per_volt_W", 0.8}},
              {"T [degC]"});
   EXPECT_NEAR(settled({5.0, 293.15}, 1e5).front(), 293.15 + 5 * 0.8 * 4, 1e-6);
+}
+
+TEST_F(HiddenCases, WhatTheUserKnowsRoughlyIsFree) {
+  json task = {{"thresholds_V", {0.0, 0.5}}, {"weights_um_per_V", {1.0, 0.2}}, {"offset_um", 0.0}};
+  write_task("B2", task, {"y [um]"}, {"weights_um_per_V"});
+  EXPECT_EQ(read_hidden_case(folder_.string()).free_paths, (std::vector<std::string>{"stage.weights"}));
+  write_task("B2", task, {"y [um]"}, {"offset_um"});
+  EXPECT_THROW(read_hidden_case(folder_.string()), Error);
 }
 
 TEST_F(HiddenCases, AFolderWithoutTaskAndABaseThatNobodyKnowsAreRefused) {

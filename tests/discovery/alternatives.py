@@ -10,6 +10,7 @@ from scipy.fft import dct
 
 from hidden import ELSEWHERE, EFFECTS, base_outputs, draw, heights, scale, traces
 from laws import lost_motion
+from plants import directions
 
 TIE = 9.0  # chi2; two laws of one parameter each: odds of 90 to 1
 LAW_ERROR = 0.015  # of an effect's amplitude: no formula describes a device better
@@ -43,6 +44,7 @@ def gap(plant, recordings, truth, name, sensor, seed=0):
     columns = curves_of(plant, recordings, truth, name, max(heights(want)), np.random.default_rng([seed, 77]))
     if not columns:
         return np.inf
+    columns += free_numbers(plant, recordings)
     y, a = whitened(want, sensor), np.array([whitened(c, sensor) for c in columns]).T
     left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
     return float(left @ left)
@@ -80,6 +82,34 @@ def loops(plant, recordings):
     widths = half * np.geomspace(0.003, 0.95, 10)
     columns = [motions] + [[lost_motion(x, np.array([w]), np.ones(1)) for x in motions] for w in widths]
     return [[x[np.newaxis] for x in one] for one in columns]
+
+
+def free_numbers(plant, recordings):
+    """What the numbers can do that the user leaves free: one trace each."""
+    if not plant.uncertain:
+        return []
+    return [list(one) for one in zip(*(directions(plant, r) for r in recordings))]
+
+
+def known_by(plant, recordings, sensor):
+    """How well these recordings tell the free numbers: standard deviation over value of the one that they tell worst."""
+    a = np.array([whitened(c, sensor) for c in free_numbers(plant, recordings)]).T
+    try:
+        return float(np.sqrt(np.diag(np.linalg.inv(a.T @ a)).max()))
+    except np.linalg.LinAlgError:
+        return np.inf
+
+
+def left_by(plant, recordings, trace):
+    """Share of the height of a trace, in the recording that shows it most, that is left beside the free numbers."""
+    y = np.concatenate([np.ravel(one) for one in trace])
+    a = np.array([np.concatenate([np.ravel(one) for one in c]) for c in free_numbers(plant, recordings)]).T
+    left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
+    parts, at = [], 0
+    for one in trace:
+        parts.append(left[at:at + one.size].reshape(one.shape))
+        at += one.size
+    return max(heights(parts)) / max(heights(trace))
 
 
 def whitened(trace, sensor):

@@ -12,9 +12,9 @@ import case_files
 import excitations
 import hidden
 import unlisted
-from alternatives import TIE, alternatives, gap
+from alternatives import TIE, alternatives, gap, known_by, left_by
 from laws import lag
-from plants import draw_plant, heater_matrices, simulate
+from plants import draw_plant, heater_matrices, simulate, uncertain_numbers
 
 KINDS = ("singles", "pairs", "triples", "nothing", "unlisted", "starved")
 GROUP = dict(singles="single", pairs="pair", triples="triple", nothing="none", unlisted="unknown", starved="starved")
@@ -103,13 +103,40 @@ def by_role(recordings, values, role):
 
 # ---- the kinds ------------------------------------------------------------------------------------------------------------
 
+WELL_KNOWN = 0.02  # of a free number, from the train recordings: nobody leaves free what no recording tells
+
+
+def sensor_for(rng, plant, recordings, quieter=1.0):
+    half = hidden.stroke(plant, recordings)[1]
+    ys = np.concatenate([y for r in recordings for y in hidden.base_outputs(plant, r)])
+    white = 2 * half * np.exp(rng.uniform(*np.log([3e-5, 6e-4]))) * quieter
+    sensor = case_files.draw_sensor(rng, ys.min(), ys.max(), white)
+    if plant.uncertain and known_by(plant, by_role(recordings, recordings, "train"), sensor) > WELL_KNOWN:
+        raise Unsuited("the train recordings do not tell the free numbers")
+    return sensor
+
+
+LEAST_LEFT = 0.15  # of an effect, beside the free numbers: less is hardly an effect of its own
+
+
+def scaled(plant, recordings, e, target):
+    """Scaled so that what is left of it beside the numbers that the user leaves free is as high as asked for."""
+    e = hidden.scale(plant, recordings, e, target)
+    if e is None or not plant.uncertain:
+        return e
+    left = left_by(plant, recordings, hidden.traces(plant, recordings, e))
+    if left < LEAST_LEFT:
+        raise Unsuited("free numbers of the model take %s over" % e.name)
+    return hidden.scale(plant, recordings, e, target / left)
+
+
 def hide(rng, plant, recordings, names, strengths, sensor):
     """The named effects, each scaled against the noise by itself."""
     effects = []
     for name, strength in zip(names, strengths):
         e = hidden.draw(rng, name, plant, recordings)
         target = case_files.total(sensor) * np.exp(rng.uniform(*np.log(hidden.TARGETS[strength])))
-        e = hidden.scale(plant, recordings, e, target)
+        e = scaled(plant, recordings, e, target)
         if e is None:
             raise Unsuited("%s cannot be %s" % (name, strength))
         heights = hidden.heights(hidden.traces(plant, recordings, e))
@@ -121,20 +148,13 @@ def hide(rng, plant, recordings, names, strengths, sensor):
     return effects
 
 
-def sensor_for(rng, plant, recordings, quieter=1.0):
-    half = hidden.stroke(plant, recordings)[1]
-    ys = np.concatenate([y for r in recordings for y in hidden.base_outputs(plant, r)])
-    white = 2 * half * np.exp(rng.uniform(*np.log([3e-5, 6e-4]))) * quieter
-    return case_files.draw_sensor(rng, ys.min(), ys.max(), white)
-
-
-def named(rng, names, strengths, group, attempt, campaign):
+def named(rng, names, strengths, group, attempt, layout):
     """Singles, pairs, triples."""
     plants = [b for b in hidden.EFFECTS[names[0]].plants if all(b in hidden.EFFECTS[n].plants for n in names)]
     if not plants:
         raise Unsuited("no plant holds all of " + ", ".join(names))
-    plant = draw_plant(rng, str(rng.choice(plants)))
-    recordings = draw_recordings(rng, plant, shows_of(names, plant.base), campaign)
+    plant = draw_plant(rng, str(rng.choice(plants)), layout.uncertain)
+    recordings = draw_recordings(rng, plant, shows_of(names, plant.base), layout.campaign)
     sensor = sensor_for(rng, plant, recordings, 1.0 if attempt < ATTEMPTS_WITH_NOISE else 0.2)
     effects = hide(rng, plant, recordings, names, strengths, sensor)
     allowed = []
@@ -165,27 +185,27 @@ def draw_names(rng, count, offered):
             return names
 
 
-def several(rng, count, offered, strengths, attempt, campaign):
+def several(rng, count, offered, strengths, attempt, layout):
     """Pairs and triples of medium and strong effects, unless other strengths are asked for."""
     choice = [s for s in strengths if s != "weak"] or list(strengths)
     names = draw_names(rng, count, offered)
-    return named(rng, names, [str(rng.choice(choice)) for _ in names], {2: "pair", 3: "triple"}[count], attempt, campaign)
+    return named(rng, names, [str(rng.choice(choice)) for _ in names], {2: "pair", 3: "triple"}[count], attempt, layout)
 
 
-def nothing(rng, campaign):
-    plant = draw_plant(rng, "B%d" % rng.integers(1, 6))
+def nothing(rng, layout):
+    plant = draw_plant(rng, "B%d" % rng.integers(1, 6), layout.uncertain)
     candidates = [n for n in hidden.EFFECTS if plant.base in hidden.EFFECTS[n].plants]
-    recordings = draw_recordings(rng, plant, shows_of([str(rng.choice(candidates))], plant.base), campaign)
+    recordings = draw_recordings(rng, plant, shows_of([str(rng.choice(candidates))], plant.base), layout.campaign)
     return Case(plant, recordings, [], sensor_for(rng, plant, recordings),
                 dict(verdict="adequate", effects=[], acceptable_alternatives=[]), "none")
 
 
-def outside(rng, campaign):
+def outside(rng, layout):
     """Something that is not in the list, medium or strong."""
     kind = str(rng.choice(list(unlisted.KINDS)))
-    plant = draw_plant(rng, str(rng.choice(["B1", "B2", "B3", "B4"])))
+    plant = draw_plant(rng, str(rng.choice(["B1", "B2", "B3", "B4"])), layout.uncertain)
     shows = [("sine_multiamp", "triangle")] if plant.base == "B4" else [("sine_multiamp", "triangle", "freq_low")]
-    recordings = draw_recordings(rng, plant, shows, campaign)
+    recordings = draw_recordings(rng, plant, shows, layout.campaign)
     sensor = sensor_for(rng, plant, recordings)
     outputs = [hidden.base_outputs(plant, r)[0] for r in recordings]
     e, location = unlisted.draw(rng, kind, recordings, outputs)
@@ -233,9 +253,10 @@ def spoil(rng, how, plant, recordings):
             r.cycles_before += late
 
 
-def starved(rng):
-    truth, rival, bases, words, how, experiments = STARVED[rng.integers(len(STARVED))]
-    plant = draw_plant(rng, str(rng.choice(bases)))
+def starved(rng, layout):
+    choice = [s for s in STARVED if "calibration" not in s or not layout.uncertain]  # a free gain is no second name
+    truth, rival, bases, words, how, experiments = choice[rng.integers(len(choice))]
+    plant = draw_plant(rng, str(rng.choice(bases)), layout.uncertain)
     if how == "axes_together":
         plant.task["axes"][1] = plant.task["axes"][0]
     recordings = draw_recordings(rng, plant, [], words=list(words))
@@ -247,7 +268,7 @@ def starved(rng):
     e = hidden.draw(rng, truth, plant, recordings)
     if truth == "calibration" or "gain" in e.shape:
         e.shape.update(gain=1.0, offset=0.0)
-    e = hidden.scale(plant, recordings, e, sigma * rng.uniform(1.0, 8.0))
+    e = scaled(plant, recordings, e, sigma * rng.uniform(1.0, 8.0))
     if e is None:
         raise Unsuited("too little of " + truth)
     e.strength = "medium"
@@ -260,6 +281,18 @@ def starved(rng):
 
 # ---- from seed to case ----------------------------------------------------------------------------------------------------
 
+@dataclass(frozen=True)
+class Layout:
+    """How a folder of cases differs from the usual one. campaign: many recordings, each of a kind of its own. uncertain:
+    gains and weights of the user's model are off by a few per cent, and free."""
+    campaign: bool = False
+    uncertain: bool = False
+
+    def offered(self, names):
+        """A wrong gain is no effect where the gain is free."""
+        return [n for n in names if n != "calibration" or not self.uncertain]
+
+
 def wanted(kind, offered, strengths, count):
     """What the numbers of a kind stand for: singles every effect in every strength."""
     if kind == "singles":
@@ -268,19 +301,19 @@ def wanted(kind, offered, strengths, count):
     return [None] * (PER_SEED[kind] if count is None else count)
 
 
-def build(seed, kind, number, what, offered, strengths, campaign=False):
+def build(seed, kind, number, what, offered, strengths, layout=Layout()):
     """The case; draws again with the same stream until one can hold what was asked for."""
     rng = np.random.default_rng([seed, KINDS.index(kind), number])
     reasons = []
     for attempt in range(ATTEMPTS):
         try:
             if kind == "singles":
-                return named(rng, [what[0]], [what[1]], "single", attempt, campaign), rng
+                return named(rng, [what[0]], [what[1]], "single", attempt, layout), rng
             if kind in ("pairs", "triples"):
-                return several(rng, 2 if kind == "pairs" else 3, offered, strengths, attempt, campaign), rng
+                return several(rng, 2 if kind == "pairs" else 3, offered, strengths, attempt, layout), rng
             if kind == "starved":
-                return starved(rng), rng
-            return dict(nothing=nothing, unlisted=outside)[kind](rng, campaign), rng
+                return starved(rng, layout), rng
+            return dict(nothing=nothing, unlisted=outside)[kind](rng, layout), rng
         except Unsuited as reason:
             reasons.append(str(reason))
     raise RuntimeError("seed %d, %s %d: %d draws do not suit; the last: %s" % (seed, kind, number, ATTEMPTS, reasons[-1]))
@@ -288,12 +321,5 @@ def build(seed, kind, number, what, offered, strengths, campaign=False):
 
 def perturbed(rng, parameters):
     """--wrong-parameters: every gain and weight the user believes in is off by 0.5 to 3 %."""
-    off = lambda x: float("%.5g" % (x * (1 + rng.choice([-1, 1]) * rng.uniform(0.005, 0.03))))
-    for key, value in parameters.items():
-        if key == "axes":
-            for axis in value:
-                perturbed(rng, axis)
-        elif key == "weights_um_per_V":
-            parameters[key] = [off(w) for w in value]
-        elif key in ("gain_um_per_V", "damping_Ns_per_m", "force_per_volt_N", "power_per_volt_W", "R2a_K_per_W"):
-            parameters[key] = off(value)
+    for holder, key in uncertain_numbers(parameters):
+        holder[key] = float("%.5g" % (holder[key] * (1 + rng.choice([-1, 1]) * rng.uniform(0.005, 0.03))))

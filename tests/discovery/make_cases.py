@@ -14,7 +14,9 @@ strong 12 to 120. What else would explain the same recordings (chi2 gap below 9)
 
 --campaign: 11 recordings of an actuator, 12 of a mass, 6 of a heater, each of a kind of its own, as a laboratory makes them
 that means to know its device; otherwise 2 to 8.
---wrong-parameters: the base model's gains and weights are off by 0.5 to 3 % as well.
+--wrong-parameters: the base model's gains and weights are off by 0.5 to 3 % as well. "free": the user leaves them free
+(task.json: base_parameters_free), a calibration is no effect then, and strength is that of what is left of an effect beside
+the free numbers; "held": they stand there as if they were right (task.json: base_parameters_within).
 """
 import argparse
 import copy
@@ -27,7 +29,7 @@ import numpy as np
 import case_files
 import cases
 import hidden
-from plants import simulate
+from plants import UNCERTAIN, simulate
 
 
 def number_of(seed, kind, index):
@@ -81,17 +83,21 @@ def write(folder, case, rng, name, wrong_parameters):
                 sensor=case_files.sensor_entry(rng, case.sensor),
                 files=[dict(file="%02d.csv" % r.index, role=r.role, excitation=r.word, start_h=r.start_h,
                             cycles_before=r.cycles_before) for r in case.recordings])
+    if wrong_parameters == "held":
+        task["base_parameters_within"] = 0.03
+    if wrong_parameters == "free":
+        task["base_parameters_free"] = [k for k in UNCERTAIN if k in known.task or k in known.task.get("axes", [{}])[0]]
     case_files.write_json(folder / "task.json", task)
     case_files.write_json(folder / "case.json", dict(
-        task, group=case.group, hidden=truth_of_effects(case), wrong_parameters=wrong_parameters,
+        task, group=case.group, hidden=truth_of_effects(case), wrong_parameters=wrong_parameters or False,
         noise_rms=dict(white=digits(case.sensor["white"], 4), flicker=digits(case.sensor["flicker"], 4),
                        total=digits(case_files.total(case.sensor), 4)),
         expected=dict(case.expected, noise_floor_rms=digits(rms(floor), 5), validation_rms_before=digits(rms(before), 5))))
 
 
 def make(job):
-    folder, seed, kind, index, what, offered, strengths, wrong_parameters, campaign = job
-    case, rng = cases.build(seed, kind, index, what, offered, strengths, campaign)
+    folder, seed, kind, index, what, offered, strengths, wrong_parameters, layout = job
+    case, rng = cases.build(seed, kind, index, what, offered, strengths, layout)
     name = number_of(seed, kind, index)
     write(folder / name, case, rng, name, wrong_parameters)
     effects = ", ".join("%s %s" % (e.strength, e.name) for e in case.effects) or "nothing"
@@ -123,13 +129,14 @@ def main():
     ap.add_argument("--effects", default="all", help="names for singles, pairs and triples")
     ap.add_argument("--strength", default="all", help="weak,medium,strong (pairs and triples: medium and strong)")
     ap.add_argument("--count", type=int, help="cases per kind and seed")
-    ap.add_argument("--wrong-parameters", action="store_true")
+    ap.add_argument("--wrong-parameters", choices=("held", "free"))
     ap.add_argument("--campaign", action="store_true")
     ap.add_argument("--jobs", type=int, default=1)
     a = ap.parse_args()
-    offered = choice_of(a.effects, hidden.EFFECTS, "the effect")
+    layout = cases.Layout(a.campaign, a.wrong_parameters == "free")
+    offered = layout.offered(choice_of(a.effects, hidden.EFFECTS, "the effect"))
     strengths = choice_of(a.strength, hidden.STRENGTHS, "the strength")
-    jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters, a.campaign)
+    jobs = [(a.folder, seed, kind, index, what, offered, strengths, a.wrong_parameters, layout)
             for seed in seeds_of(a.seeds) for kind in choice_of(a.kind, cases.KINDS, "the kind")
             for index, what in enumerate(cases.wanted(kind, offered, strengths, a.count))]
     try:

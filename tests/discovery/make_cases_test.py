@@ -4,6 +4,7 @@
 Exits with 77 (ctest: skipped) where NumPy, SciPy or numba are absent; without numba it would take minutes.
 usage: make_cases_test.py [folder of the hidden-effect cases, whose score.py then reads generated cases]
 """
+import copy
 import json
 import subprocess
 import sys
@@ -197,9 +198,10 @@ class Cases(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def make(self, kind, index, what=None, seed=7, wrong=False, into="a", campaign=False):
-        make_cases.make((self.root / into, seed, kind, index, what, list(hidden.EFFECTS), hidden.STRENGTHS, wrong,
-                         campaign))
+    def make(self, kind, index, what=None, seed=7, wrong=None, into="a", campaign=False):
+        layout = cases.Layout(campaign, wrong == "free")
+        make_cases.make((self.root / into, seed, kind, index, what, layout.offered(hidden.EFFECTS), hidden.STRENGTHS, wrong,
+                         layout))
         return self.root / into / make_cases.number_of(seed, kind, index)
 
     def test_the_same_seed_gives_the_same_bytes_and_another_does_not(self):
@@ -268,9 +270,40 @@ class Cases(unittest.TestCase):
         self.assertEqual(before, floor)  # nothing hidden: the base model leaves the noise
 
     def test_wrong_parameters_leave_more_than_noise(self):
-        folder = self.make("nothing", 1, wrong=True)
+        folder = self.make("nothing", 1, wrong="held")
         e = json.loads((folder / "case.json").read_text())["expected"]
         self.assertGreater(e["validation_rms_before"], 1.2 * e["noise_floor_rms"])
+
+    def test_of_an_effect_beside_free_numbers_as_much_is_left_as_asked_for(self):
+        """What free gains and weights can do is taken out by least squares, here recording by recording stacked anew."""
+        layout = cases.Layout(uncertain=True)
+        self.assertNotIn("calibration", layout.offered(hidden.EFFECTS))
+        case, _ = cases.build(7, "singles", 0, ("creep", "medium"), layout.offered(hidden.EFFECTS), hidden.STRENGTHS, layout)
+        effect = [np.array(simulate(case.plant, r, case.effects)[0]) - np.array(simulate(case.plant, r)[0])
+                  for r in case.recordings]
+        columns = []
+        for k, _ in enumerate(plants.uncertain_numbers(case.plant.task)):
+            other = copy.deepcopy(case.plant)
+            holder, key = list(plants.uncertain_numbers(other.task))[k]
+            holder[key] *= 1.01
+            columns.append(np.concatenate([(np.array(simulate(other, r)[0]) - np.array(simulate(case.plant, r)[0])).ravel()
+                                           for r in case.recordings]))
+        y, a = np.concatenate([e.ravel() for e in effect]), np.array(columns).T
+        left = y - a @ np.linalg.lstsq(a, y, rcond=None)[0]
+        ends = np.cumsum([e.size for e in effect])[:-1]
+        most = max(np.sqrt(np.mean(part**2)) for part in np.split(left, ends))  # one output in each recording
+        self.assertEqual(case.plant.axes, 1)
+        low, high = hidden.TARGETS["medium"]  # the effect is not quite linear in its amount, the search stops at a per cent
+        self.assertTrue(0.95 * low < most / case_files.total(case.sensor) < 1.05 * high, most)
+
+    def test_what_is_free_or_roughly_known_stands_in_the_task(self):
+        free = json.loads((self.make("nothing", 1, wrong="free") / "task.json").read_text())
+        held = json.loads((self.make("nothing", 1, wrong="held", into="b") / "task.json").read_text())
+        self.assertTrue(set(free["base_parameters_free"]) <= set(plants.UNCERTAIN) and free["base_parameters_free"])
+        self.assertEqual(held["base_parameters_within"], 0.03)
+        self.assertNotIn("base_parameters_free", held)
+        exact = json.loads((self.make("nothing", 1, into="c") / "task.json").read_text())
+        self.assertFalse({"base_parameters_free", "base_parameters_within"} & set(exact))
 
     @unittest.skipUnless(SCORE.exists(), "no score.py there")
     def test_score_takes_the_truth_as_right(self):

@@ -3,6 +3,7 @@
 Decides where in a plant each effect acts: amplifier, core, side path, mechanics, sensor.
 Does not decide the formulas (laws.py), the numbers of the effects and their strength (hidden.py), or the noise (case_files.py).
 """
+import copy
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +19,7 @@ class Plant:
     task: dict            # base_parameters as the user knows them, rounded; the plant is simulated with these very numbers
     top: float            # largest drive [V]
     shared: dict = field(default_factory=dict)
+    uncertain: bool = False  # the user knows gains and weights to a few per cent, and leaves them free
 
     @property
     def axes(self):
@@ -46,10 +48,36 @@ def significant(x, digits):
     return float("%.*g" % (digits, x))
 
 
-def draw_plant(rng, base):
+UNCERTAIN = ("gain_um_per_V", "weights_um_per_V", "damping_Ns_per_m", "force_per_volt_N", "power_per_volt_W")
+
+
+def uncertain_numbers(parameters):
+    """Gains and weights of a user's model: (holder, key), so that holder[key] is the number."""
+    for key, value in parameters.items():
+        if key == "axes":
+            for axis in value:
+                yield from uncertain_numbers(axis)
+        elif key in UNCERTAIN:
+            yield from ((value, i) for i in range(len(value))) if isinstance(value, list) else [(parameters, key)]
+
+
+def directions(plant, recording):
+    """What each uncertain number changes of the outputs, to first order; kept with the recording."""
+    if "directions" not in recording.extra:
+        base, found = simulate(plant, recording)[0], []
+        for k, _ in enumerate(uncertain_numbers(plant.task)):
+            other = copy.deepcopy(plant)
+            holder, key = list(uncertain_numbers(other.task))[k]
+            holder[key] *= 1.001
+            found.append((np.array(simulate(other, recording)[0]) - base) / 1e-3)
+        recording.extra["directions"] = found
+    return recording.extra["directions"]
+
+
+def draw_plant(rng, base, uncertain=False):
     draw = dict(B1=draw_linear, B2=draw_plays, B3=draw_two_axes, B4=draw_mass, B5=draw_heater)[base]
     task, top = draw(rng)
-    return Plant(base, task, top)
+    return Plant(base, task, top, uncertain=uncertain)
 
 
 def draw_linear(rng):
