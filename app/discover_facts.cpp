@@ -88,6 +88,30 @@ Facts facts_of(const Experiment& e) {
                         {"another_instrument", e.another_instrument}});
 }
 
+Facts facts_of(const Menu& menu) {
+  const auto known = [](double separation) {
+    return separation < 0 ? std::optional<double>{} : std::optional(separation);
+  };
+  Facts::List items;
+  for (const auto& item : menu.items) {
+    Facts facts = Facts::object({{"word", item.word}, {"chosen", item.chosen}});
+    if (item.simulated()) {
+      Facts::List separations;
+      for (const double s : item.separations) separations.emplace_back(known(s));
+      facts.set("input", item.drive);
+      facts.set("slower", item.slower);
+      facts.set("part_of_range", item.part);
+      facts.set("faster_rows", item.faster_rows);
+      facts.set("separations_over_noise", separations);
+      facts.set("separation_over_noise", known(item.separation));
+      facts.set("pairs_told", item.pairs_told);
+    }
+    facts.set("reason", item.reason);
+    items.push_back(std::move(facts));
+  }
+  return Facts::object({{"pairs", menu.pairs}, {"experiments", items}});
+}
+
 Facts facts_of(const Candidate& c) {
   return Facts::object({{"step", c.step},
                         {"effect", c.effect},
@@ -122,6 +146,7 @@ Facts facts_of(const FoundStep& step, std::size_t number) {
                                {"after", facts_of(step.after)},
                                {"sentence", step.sentence}});
   if (step.experiment) facts.set("experiment", facts_of(*step.experiment));
+  if (!step.menu.items.empty()) facts.set("menu", facts_of(step.menu));
   return facts;
 }
 

@@ -2,7 +2,7 @@
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
 // set_on_another_output.cpp, idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the
-// verdict (conclude.cpp).
+// verdict (conclude.cpp), what is recorded of who lost (menu.cpp).
 #pragma once
 
 #include <functional>
@@ -164,8 +164,8 @@ void as_on_another_axis(const Books& books, std::vector<Tried>& tried, int& winn
 void sharpen(Books& books, Tried& t);
 /// Look-alikes that the accuracy of the search cannot tell apart are fitted again with finer rows.
 void sharpen_rivals(Books& books, std::vector<Tried>& tried, std::size_t winner);
-/// The recording that would separate two candidates best.
-std::optional<Experiment> experiment_between(Books& books, const Tried& a, const Tried& b);
+/// The recording that would separate two candidates best, and all that were simulated.
+Separation experiment_between(Books& books, const Tried& a, const Tried& b);
 /// Rivals that all recordings could have told apart are tied by noise, and another recording must be far better than
 /// they were. One that no recording could show needs only to be seen.
 bool would_tell(const Experiment& experiment, bool hidden);

@@ -32,8 +32,9 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
 
 void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival) {
   found.ties.push_back(candidate_of(rival, step));
-  auto e =
+  auto [e, menu] =
       found.experiment ? with_another_rival(books, *found.experiment, rival) : experiment_between(books, winner, rival);
+  if (e || !found.experiment) found.menu = std::move(menu);
   if (!e) return;
   found.experiment_would_tell = e->rivals_told > 0;
   found.experiment = std::move(e);

@@ -70,6 +70,7 @@ struct FoundStep {
   std::vector<Candidate> ties;           ///< others that explain the same as well
   bool experiment_would_tell = false;    ///< of the tie
   std::optional<Experiment> experiment;  ///< the one that would separate them best
+  Menu menu;                             ///< among which it was chosen
   Added change;                          ///< the diagram after the step, with fitted values
   ModelError before, after;
   std::string sentence;

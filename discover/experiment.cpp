@@ -60,6 +60,7 @@ struct Pair {
   bool with_first;
   std::vector<std::string> words{};  ///< of the experiments that are to tell them apart
 
+  std::string names() const { return a.effect + " and " + b.effect; }
   bool hidden() const { return a.hidden || b.hidden; }
   bool one_is_of_the_sensor() const { return (a.motion == nullptr) != (b.motion == nullptr); }
   /// What an effect reads must be in the experiment's hands.
@@ -73,15 +74,13 @@ struct Pair {
 /// An experiment, and how much it tells.
 struct Outcome {
   Experiment experiment;
-  int told = 0;        ///< pairs
-  bool asked = false;  ///< the word is the one for a pair that it tells, and it separates clearly
+  MenuItem item;
+  std::size_t at = 0;  ///< of the menu
 };
 
 bool better(const Outcome& a, const Outcome& b) {
-  const auto key = [](const Outcome& o) {
-    return std::tuple(o.experiment.rivals_told, o.told, o.asked, o.experiment.separation);
-  };
-  return key(a) > key(b);
+  const auto key = [](const MenuItem& i) { return std::tuple(i.rivals_told, i.pairs_told, i.asked, i.separation); };
+  return key(a.item) > key(b.item);
 }
 
 class Search {
@@ -96,21 +95,49 @@ class Search {
       for (const auto& drive : device.drives) drives_.push_back(&drive);
   }
 
-  std::optional<Experiment> best() {
+  Separation best() {
     for (const Drive* drive : drives_)
-      for (const auto& protocol : side_protocols(device_, *drive, sides())) take(tried(protocol));
+      for (const auto& protocol : side_protocols(device_, *drive, sides())) take(tried(protocol, *drive));
     for (const bool asked : {true, false}) {
       // What is asked for and tells all apart need not fear another word.
-      if (!asked && best_ && best_->asked && best_->told == static_cast<int>(pairs_.size())) break;
-      for (const auto& word : words())
-        if (is_asked_for(word) == asked) take(best_of(word));
+      const bool enough =
+          !asked && best_ && best_->item.asked && best_->item.pairs_told == static_cast<int>(pairs_.size());
+      for (const auto& word : words()) {
+        if (is_asked_for(word) != asked) continue;
+        if (enough)
+          menu_.items.push_back(not_simulated(word, "one that these effects name for each other tells all apart"));
+        else
+          take(best_of(word));
+      }
     }
-    if (!best_) return std::nullopt;
-    best_->experiment.rivals = std::make_shared<const Rivals>(rivals_);
-    return best_->experiment;
+    Separation found;
+    if (best_) {
+      found.best = best_->experiment;
+      found.best->rivals = std::make_shared<const Rivals>(rivals_);
+    }
+    found.menu = told_menu();
+    return found;
   }
 
  private:
+  static MenuItem not_simulated(const std::string& word, const std::string& why) {
+    MenuItem item;
+    item.word = word;
+    item.reason = why;
+    return item;
+  }
+
+  Menu told_menu() const {
+    Menu menu = menu_;
+    for (const auto& p : pairs_) menu.pairs.push_back(p.names());
+    if (words().empty())
+      for (const auto& word : drive_words())
+        menu.items.push_back(not_simulated(word, "leaves what they read to itself"));
+    if (best_) menu.items[best_->at].chosen = true;
+    give_reasons(menu);
+    return menu;
+  }
+
   void add_pair(const Rival& a, const Rival& b, bool with_first) {
     Pair pair{a, b, with_first};
     for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
@@ -153,12 +180,12 @@ class Search {
 
   /// The drive on which the usual protocol tells most; there faster or slower, then with less amplitude while that
   /// tells more.
-  std::optional<Outcome> best_of(const std::string& word) const {
+  std::optional<Outcome> best_of(const std::string& word) {
     std::optional<Outcome> best;
     const Drive* drive = nullptr;
     Variant variant;
     const auto betters = [&](const Drive* with, const Variant& c) {
-      auto outcome = tried(made(word, *with, c));
+      auto outcome = tried(made(word, *with, c), *with, c);
       if (!outcome || (best && !better(*outcome, *best))) return false;
       best = std::move(outcome);
       drive = with;
@@ -207,9 +234,25 @@ class Search {
     return list;
   }
 
-  std::optional<Outcome> tried(const Protocol& protocol) const {
-    const auto apart = separations(protocol);
-    Outcome outcome;
+  /// Goes into the menu whether or not it says anything.
+  std::optional<Outcome> tried(const Protocol& protocol, const Drive& drive, const Variant& variant = {}) {
+    Outcome outcome{{}, {protocol.word, drive.name, variant.slower, variant.part}, menu_.items.size()};
+    outcome.item.separations = separations(protocol);
+    const auto said = weighed(protocol, outcome);
+    menu_.items.push_back(outcome.item);
+    if (!said) menu_.items.back().reason = why_it_says_nothing(protocol);
+    return said ? std::optional(std::move(outcome)) : std::nullopt;
+  }
+
+  std::string why_it_says_nothing(const Protocol& protocol) const {
+    const auto told = [&](const Pair& p) { return p.can_be_told_by(protocol); };
+    return std::any_of(pairs_.begin(), pairs_.end(), told) ? "the models cannot follow it"
+                                                           : "leaves what they read to itself";
+  }
+
+  /// Whom it tells from whom; false if it says nothing.
+  bool weighed(const Protocol& protocol, Outcome& outcome) const {
+    const auto& apart = outcome.item.separations;
     Experiment& e = outcome.experiment;
     e.word = protocol.word;
     e.text = protocol.text;
@@ -223,24 +266,25 @@ class Search {
       e.separation = apart[i];
       told.push_back(apart[i] >= 0 && rivals_.tells(e, p.hidden()));
       if (!told.back()) continue;
-      ++outcome.told;
+      ++outcome.item.pairs_told;
       e.rivals_told += p.with_first;
       least = least < 0 ? apart[i] : std::min(least, apart[i]);
       asked = asked || std::find(p.words.begin(), p.words.end(), e.word) != p.words.end();
     }
-    e.separation = outcome.told > 0 ? least : largest;
-    if (e.separation < 0) return std::nullopt;
-    outcome.asked = asked && e.separation >= clearly;
+    e.separation = outcome.item.pairs_told > 0 ? least : largest;
+    outcome.item.separation = e.separation;
+    outcome.item.rivals_told = e.rivals_told;
+    if (e.separation < 0) return false;
+    outcome.item.asked = asked && e.separation >= clearly;
     put_names(e, told);
-    return outcome;
+    return true;
   }
 
   /// Two are named whether or not they are told apart; of more, who is told from whom and who is not.
   void put_names(Experiment& e, const std::vector<bool>& told) const {
     std::vector<std::string> names, yes, no;
     for (const auto& r : rivals_.models) names.push_back(r.effect);
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
-      (told[i] ? yes : no).push_back(pairs_[i].a.effect + " and " + pairs_[i].b.effect);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) (told[i] ? yes : no).push_back(pairs_[i].names());
     e.between = fmt::format("{}", fmt::join(yes, ", "));
     if (yes.empty() || no.empty()) {
       e.between = fmt::format("{}", fmt::join(names.begin(), names.end() - 1, ", ")) + " and " + names.back();
@@ -259,11 +303,12 @@ class Search {
   std::vector<Pair> pairs_;
   std::vector<const Drive*> drives_;
   std::optional<Outcome> best_;
+  Menu menu_;
 };
 
 }  // namespace
 
-std::optional<Experiment> separate(const Rivals& rivals, const Device& device, const Sight& sight) {
+Separation separate(const Rivals& rivals, const Device& device, const Sight& sight) {
   return Search(rivals, device, sight).best();
 }
 

@@ -9,6 +9,7 @@
 
 #include "discover/effect.h"
 #include "discover/experiment_menu.h"
+#include "discover/menu.h"
 #include "engine/program.h"
 
 namespace hysteron {
@@ -55,10 +56,16 @@ struct Sight {
   bool second_sensor = true;  ///< one may be asked for
 };
 
+/// The best experiment, if the models can be simulated in any, and all among which it was chosen.
+struct Separation {
+  std::optional<Experiment> best;
+  Menu menu;
+};
+
 /// Simulates all models on the menu: rms difference of each output over its noise, the largest output counts. Each
 /// protocol that moves a drive is tried with each drive on the way to the rivals, then faster or slower, then with less
 /// amplitude. The best tells most rivals from the first, then most from each other; of these a word of
 /// Rival::look_alikes goes first if it separates by at least 2, then who separates most where it separates least.
-std::optional<Experiment> separate(const Rivals& rivals, const Device& device, const Sight& sight);
+Separation separate(const Rivals& rivals, const Device& device, const Sight& sight);
 
 }  // namespace hysteron

@@ -121,6 +121,7 @@ bool tell_again(Books& books, const Contender& set) {
       if (was.winner.effect == t->effect->id && was.winner.place == t->place.where()) {
         found.ties = was.ties;
         found.experiment = was.experiment;
+        found.menu = was.menu;
         found.experiment_would_tell = was.experiment_would_tell;
       }
     take(books, static_cast<int>(books.d.steps.size()) + 1, *t, std::move(found));

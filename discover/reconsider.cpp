@@ -364,6 +364,7 @@ void ties_beside_what_came_later(Books& books, double bar) {
     if (same.empty()) step->winner.same_places.clear();
     if (step->ties.empty()) {
       step->experiment.reset();
+      step->menu = {};
       step->experiment_would_tell = false;
     }
   }

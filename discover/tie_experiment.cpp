@@ -42,38 +42,48 @@ Rival rival_of(const Books& books, const Tried& t) {
 }
 
 /// A second sensor goes before every drive where it is asked for: would one of them do without it?
-bool no_drive_tells(const Rivals& rivals, const Device& device, Sight sight) {
+bool no_drive_tells(const Rivals& rivals, const Device& device, Sight sight, Menu& menu) {
   sight.second_sensor = false;
-  const auto e = separate(rivals, device, sight);
+  auto [e, drives] = separate(rivals, device, sight);
+  add_items(menu, without_choice(std::move(drives)));
   return !e || e->rivals_told == 0;
 }
 
-std::optional<Experiment> experiment_among(Books& books, const Rivals& rivals) {
+/// The same menu, sampled faster: takes its place if that tells more.
+void try_faster_rows(const Rivals& rivals, Device device, const Sight& sight, Separation& so_far) {
+  const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
+  device.shortest_step /= faster_recorder;
+  auto [again, menu] = separate(rivals, device, sight);
+  for (auto& item : menu.items) item.faster_rows = faster_recorder;
+  const bool more = again && (!so_far.best || told(*again) > told(*so_far.best));
+  add_items(so_far.menu, more ? std::move(menu) : without_choice(std::move(menu)));
+  if (more) so_far.best = std::move(again);
+}
+
+Separation experiment_among(Books& books, const Rivals& rivals) {
   Sight sight{books.base_model->outputs(), books.evidence->noise().white(), {}};
   for (int o = 0; o < static_cast<int>(sight.outputs.size()); ++o)
     sight.free_zero.push_back(books.base_model->zero_per_recording(o));
-  Device device = device_of(books.base_model->program(), *books.data);
-  auto e = separate(rivals, device, sight);
+  const Device device = device_of(books.base_model->program(), *books.data);
+  Separation found = separate(rivals, device, sight);
+  auto& e = found.best;
   const int all = static_cast<int>(rivals.models.size()) - 1;
-  const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
-  // Few recordings of one kind may just have been too slow: the same menu, sampled faster.
+  // Few recordings of one kind may just have been too slow.
   const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
-  if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells)) {
-    device.shortest_step /= faster_recorder;
-    auto again = separate(rivals, device, sight);
-    if (again && (!e || told(*again) > told(*e))) e = std::move(again);
-  }
-  if (e && e->word == "reference_sensor" && !few) e->another_instrument = no_drive_tells(rivals, device, sight);
-  return e;
+  if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells))
+    try_faster_rows(rivals, device, sight, found);
+  if (e && e->word == "reference_sensor" && !few)
+    e->another_instrument = no_drive_tells(rivals, device, sight, found.menu);
+  return found;
 }
 
 }  // namespace
 
-std::optional<Experiment> experiment_between(Books& books, const Tried& a, const Tried& b) {
+Separation experiment_between(Books& books, const Tried& a, const Tried& b) {
   return experiment_among(books, {{rival_of(books, a), rival_of(books, b)}, would_tell});
 }
 
-std::optional<Experiment> with_another_rival(Books& books, const Experiment& so_far, const Tried& rival) {
+Separation with_another_rival(Books& books, const Experiment& so_far, const Tried& rival) {
   Rivals rivals = *so_far.rivals;
   rivals.models.push_back(rival_of(books, rival));
   return experiment_among(books, rivals);

@@ -51,6 +51,27 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
   EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
 }
 
+TEST_F(DiscoverVerb, ATieHasTheMenuAmongWhichItsExperimentWasChosen) {
+  record(3, 0.0005);  // a tenth of a row: a delay does the same
+  const Outcome out = hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only",
+                                                "amplifier_lag,dead_time", "-o", "out"});
+  ASSERT_EQ(out.code, 0) << out.err;
+  const json step = result("out")["facts"]["steps"].at(0);
+  ASSERT_EQ(step["ties"].size(), 1u) << step["sentence"];
+  const json& menu = step["menu"];
+  ASSERT_EQ(menu["pairs"].size(), 1u);
+  int chosen = 0;
+  for (const auto& e : menu["experiments"]) {
+    EXPECT_FALSE(e["reason"].get<std::string>().empty()) << e["word"];
+    if (!e["chosen"]) continue;
+    ++chosen;
+    EXPECT_EQ(e["word"], step["experiment"]["word"]);
+    EXPECT_EQ(e["separation_over_noise"], step["experiment"]["separation_over_noise"]);
+  }
+  EXPECT_EQ(chosen, 1);
+  EXPECT_GT(menu["experiments"].size(), 3u);
+}
+
 TEST_F(DiscoverVerb, DiscoverSaysFirstOfAllThatARowIsFarFromAllOthers) {
   record(1);
   std::string rows;

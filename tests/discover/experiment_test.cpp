@@ -52,8 +52,11 @@ class Experiments : public Discoveries {
     return compile(d, registry);
   }
 
-  static std::optional<Experiment> chosen(std::vector<Rival> models, const Device& device, double noise = 1e-3) {
+  static Separation separated(std::vector<Rival> models, const Device& device, double noise = 1e-3) {
     return separate({std::move(models), by_more_than_noise}, device, {{"y"}, {noise}, {false}});
+  }
+  static std::optional<Experiment> chosen(std::vector<Rival> models, const Device& device, double noise = 1e-3) {
+    return separated(std::move(models), device, noise).best;
   }
   static Rival rival(const char* effect, ProgramPointer program) {
     Rival r;
@@ -288,6 +291,60 @@ TEST_F(Experiments, ATemperatureIsNotDrivenWhereAnotherInputMoves) {
   EXPECT_EQ(device.drives[0].name, "u");
 }
 
+// --- all that were simulated
+
+TEST_F(Experiments, TheMenuHoldsEveryVariantThatWasSimulatedAndWhyOneWasChosen) {
+  const auto [best, menu] = separated({rival("plain", plain()), rival("delay", late("2 ms"))}, driven(1e-3, 10));
+  ASSERT_TRUE(best);
+  EXPECT_EQ(menu.pairs, std::vector<std::string>{"plain and delay"});
+  const MenuItem* chosen = nullptr;
+  for (const auto& item : menu.items) {
+    ASSERT_EQ(item.separations.size(), 1u) << item.word;
+    EXPECT_FALSE(item.reason.empty()) << item.word;
+    EXPECT_LE(item.separation, best->separation) << item.word << ": " << item.reason;
+    if (item.chosen) chosen = &item;
+  }
+  ASSERT_NE(chosen, nullptr);
+  EXPECT_EQ(chosen->word, best->word);
+  EXPECT_EQ(chosen->separation, best->separation);
+  EXPECT_EQ(chosen->drive, "u");
+  for (const auto& word : drive_words()) {
+    const auto of_word = [&](const MenuItem& item) { return item.word == word; };
+    EXPECT_GE(std::count_if(menu.items.begin(), menu.items.end(), of_word), static_cast<long>(paces(word).size()))
+        << word << ": each pace of it";
+  }
+}
+
+TEST_F(Experiments, WhatNeedNotBeSimulatedIsInTheMenuWithoutADistance) {
+  const Rival asked = asking(rival("plain", plain()), "clamp", "triangle");
+  const auto [best, menu] = separated({asked, rival("clamp", clamped("0.5 m"))}, driven(1e-3, 10));
+  ASSERT_TRUE(best);
+  ASSERT_EQ(best->word, "triangle");
+  for (const auto& word : drive_words()) {
+    const auto item =
+        std::find_if(menu.items.begin(), menu.items.end(), [&](const MenuItem& i) { return i.word == word; });
+    ASSERT_NE(item, menu.items.end()) << word;
+    EXPECT_EQ(item->simulated(), word == "triangle") << word;
+    EXPECT_FALSE(item->reason.empty()) << word;
+  }
+}
+
+TEST_F(Experiments, WhatLeavesTheTemperatureToItselfIsNotAdmissibleForWhoReadsOne) {
+  Rival warm = rival("expansion", plain());
+  warm.side = {"T", Side::temperature};
+  Device d = driven(1e-3, 10);
+  d.levels["T"] = 295;
+  d.ranges["T"] = {293, 297};
+  const Menu menu = separated({warm, rival("clamp", clamped("0.5 m"))}, d).menu;
+  const auto triangle =
+      std::find_if(menu.items.begin(), menu.items.end(), [](const MenuItem& i) { return i.word == "triangle"; });
+  ASSERT_NE(triangle, menu.items.end());
+  EXPECT_FALSE(triangle->simulated());
+  EXPECT_EQ(triangle->reason, "leaves what they read to itself");
+  EXPECT_TRUE(std::any_of(menu.items.begin(), menu.items.end(),
+                          [](const MenuItem& i) { return i.word == "temperature_staircase" && i.simulated(); }));
+}
+
 // --- three and more
 
 TEST_F(Experiments, OfThreeInATieItTellsAllApartThoughAnotherIsAskedForBetweenTwo) {
@@ -320,6 +377,9 @@ TEST_F(Experiments, ATieOfThreeFoundInRecordingsAsksForOneExperimentForAll) {
   ASSERT_FALSE(d.steps.empty()) << tried(d);
   const FoundStep& step = d.steps.front();
   ASSERT_EQ(step.ties.size(), 2u) << tried(d);
+  EXPECT_EQ(step.menu.pairs.size(), 3u) << "the menu in which all three were simulated";
+  EXPECT_EQ(std::count_if(step.menu.items.begin(), step.menu.items.end(), [](const MenuItem& i) { return i.chosen; }),
+            1);
   EXPECT_TRUE(step.experiment_would_tell);
   ASSERT_TRUE(step.experiment) << tried(d);
   EXPECT_EQ(step.experiment->rivals_told, 2) << step.experiment->word << ": " << step.experiment->text;

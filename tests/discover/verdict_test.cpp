@@ -164,6 +164,11 @@ TEST_F(Verdicts, ALagSeenAtOneFrequencyAloneCannotBeToldFromADelayAndAnExperimen
   ASSERT_TRUE(d.experiment.has_value());
   EXPECT_GT(d.experiment->separation, 1);
   EXPECT_FALSE(d.experiment->text.empty());
+  const auto& items = d.steps.front().menu.items;
+  const auto chosen = std::find_if(items.begin(), items.end(), [](const MenuItem& i) { return i.chosen; });
+  ASSERT_NE(chosen, items.end());
+  EXPECT_EQ(chosen->word, d.experiment->word);
+  EXPECT_EQ(chosen->separation, d.experiment->separation);
 }
 
 /// A gain that is 2 % low, in three recordings of which each has its room.
