@@ -88,6 +88,20 @@ Facts facts_of(const Experiment& e) {
                         {"another_instrument", e.another_instrument}});
 }
 
+/// Gains are in the order of the recordings of the error.
+Facts facts_of(const TriedLaw& law) {
+  Facts facts = Facts::object({{"law", law.law}, {"taken", law.taken}});
+  if (!law.failed) {
+    facts.set("parameters", law.parameters);
+    facts.set("fall_train", law.fall_train);
+    facts.set("fall_validate", law.fall_validate);
+    facts.set("fall_by_recording", law.fall_by_recording);
+    facts.set("score", law.score);
+  }
+  if (!law.taken) facts.set("reason", law.reason);
+  return facts;
+}
+
 Facts facts_of(const Menu& menu) {
   const auto known = [](double separation) {
     return separation < 0 ? std::optional<double>{} : std::optional(separation);
@@ -150,6 +164,15 @@ Facts facts_of(const FoundStep& step, std::size_t number) {
   return facts;
 }
 
+/// With the laws that competed: a step and its ties do without, they stand among the candidates.
+Facts with_laws(const Candidate& c) {
+  Facts facts = facts_of(c);
+  Facts::List laws;
+  for (const auto& law : c.laws_tried) laws.push_back(facts_of(law));
+  facts.set("laws", laws);
+  return facts;
+}
+
 Facts facts_of(const Structure& s) {
   Facts intervals = Facts::object({});
   for (const auto& [recording, list] : s.intervals) {
@@ -179,7 +202,7 @@ Facts discovery_facts(const Discovery& found, const std::string& diagram_file, c
     effects.emplace_back(step.winner.effect);
     steps.push_back(facts_of(step, steps.size() + 1));
   }
-  for (const auto& c : found.candidates) candidates.push_back(facts_of(c));
+  for (const auto& c : found.candidates) candidates.push_back(with_laws(c));
   for (const auto& r : found.refused)
     refused.push_back(Facts::object({{"effect", r.effect}, {"place", r.place}, {"reason", r.reason}}));
   for (const auto& n : found.noise)

@@ -65,6 +65,7 @@ Together fitted_together(const Books& books, const Workshop& shop, const std::ve
     const auto& before = members[k - 1]->outputs;
     set.all.outputs.insert(set.all.outputs.end(), before.begin(), before.end());
   }
+  set.all.laws_tried.clear();  // they competed where the last one stood alone
   set.all.contender = set.so_far.back();
   return set;
 }
@@ -92,6 +93,7 @@ void tell_those_before(Books& books, int step, const Together& set) {
   for (std::size_t k = 0; k + 1 < set.members.size(); ++k) {
     std::vector<Tried> one{*set.members[k]};
     one[0].contender = set.so_far[k];
+    one[0].laws_tried.clear();
     take(books, step + static_cast<int>(k), one[0], {});
     one[0].reason += "; claimed with that of the other outputs";
     keep_candidates(books, one, step + static_cast<int>(k), 0, {});

@@ -265,6 +265,7 @@ void join_twins(std::vector<Tried>& tried) {
       std::swap(first.laws, second.laws);
       std::swap(first.law, second.law);
       std::swap(first.contender, second.contender);
+      std::swap(first.laws_tried, second.laws_tried);
     } else {
       first.same_places.push_back(second.place.where());
     }

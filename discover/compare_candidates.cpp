@@ -8,6 +8,7 @@
 #include <set>
 
 #include "discover/books.h"
+#include "discover/laws_tried.h"
 
 namespace hysteron {
 namespace {
@@ -148,9 +149,9 @@ bool fitted_to_its_end(const Workshop& shop, Tried& t) {
   return better;
 }
 
-/// The candidate by this law, if that is better. On top of others these are held where the simple law had them: there
-/// it was fitted together with them, and nowhere else does its refinement fit better.
-bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
+/// The candidate by this law, if that is better, and what to record of it. On top of others these are held where the
+/// simple law had them: there it was fitted together with them, and nowhere else does its refinement fit better.
+TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
   std::optional<Contender> as_found;
   if (step > 1 && t.contender.standing.back().weights.empty()) as_found = before_last(shop, t.contender);
   Contender richer = with_effect(shop, as_found ? *as_found : books.current, *t.effect, started_from(t, law), t.place,
@@ -161,12 +162,16 @@ bool enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t la
   }
   // For the same, fewer numbers are taken: a spare pole stands where a lag is not, and is in everybody's way there.
   const double gain = t.laws[law].free.size() > t.laws[t.law].free.size() ? rules::alike : 0;
-  if (!richer.ok || !(richer.score() < t.contender.score() - gain)) return false;
+  TriedLaw tried = tried_law(t.laws[law], richer, books.current.error_of);
+  if (!richer.ok) return tried;
+  tried.reason = why_no_better(richer, t.contender, t.laws[t.law], gain);
   // What makes it better is then not the effect: a second mode at the limit of damping is somebody's lag.
-  if (!why_implausible(*t.effect, t.laws[law], richer, t.circumstances).empty()) return false;
+  if (tried.reason.empty()) tried.reason = why_implausible(*t.effect, t.laws[law], richer, t.circumstances);
+  if (!tried.reason.empty()) return tried;
+  tried.taken = true;
   t.contender = std::move(richer);
   t.law = law;
-  return true;
+  return tried;
 }
 
 }  // namespace
@@ -257,10 +262,12 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
     // A law that stands apart begins nowhere near the simple one.
     const bool refines = std::any_of(laws[k].begin(), laws[k].end(), [&](std::size_t l) { return !t.laws[l].apart; });
     if (step > 1 && refines && fitted_to_its_end(shop, t)) any = true;
+    if (!laws[k].empty()) record_present(t, books.current.error_of);
     for (const std::size_t law : laws[k]) {
       if (books.stopped()) break;
       books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
-      if (enriched(books, shop, t, law, step)) any = true;
+      record(t.laws_tried, enriched(books, shop, t, law, step));
+      if (t.laws_tried.back().taken) any = true;
     }
     return false;
   });

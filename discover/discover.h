@@ -37,6 +37,17 @@ struct FoundParameter {
   std::string usual{};         ///< "8 us .. 0.5 ms", "at most 0.5 ms", or "" where nothing is known to be unusual
 };
 
+/// One law of a candidate, in units of the noise as it was known when its laws were compared.
+struct TriedLaw {
+  std::string law;
+  int parameters = 0;                        ///< as Candidate::parameters
+  double fall_train = 0, fall_validate = 0;  ///< of chi2 against the model before
+  std::vector<double> fall_by_recording;     ///< the same in each of ModelError::recordings
+  double score = 0;                          ///< as Candidate::score
+  bool taken = false, failed = false;
+  std::string reason;  ///< why it was not taken; "" if it was
+};
+
 /// One effect tried at one place with one law, refitted together with what the user left free and with the effects
 /// found before.
 struct Candidate {
@@ -51,6 +62,7 @@ struct Candidate {
   double share_removed = 0;                  ///< of the validation excess over the noise
   ModelError error;
   std::vector<FoundParameter> found;
+  std::vector<TriedLaw> laws_tried;  ///< all of them, the simplest first
   bool claimed = false, failed = false;
   std::string summary;    ///< what the fitted law says: "1.5 % of the move per decade ..."
   std::string plausible;  ///< what its numbers usually are, with the source: one sentence per parameter

@@ -32,6 +32,8 @@ struct Tried {
   bool patch = false;     ///< refused only because it takes too small a share of what stands above the noise
   bool sharp = false;     ///< fitted with the finest rows
   bool hidden = false;    ///< cannot be seen here, may have acted all the same
+  std::vector<TriedLaw> laws_tried{};       ///< empty where no second one was
+  std::vector<double> fall_by_recording{};  ///< of the evidence, in each of ModelError::recordings
   std::string reason;
 };
 
@@ -103,6 +105,9 @@ constexpr int enriched = 3;  ///< names whose richer laws are tried
 /// away n by chance, sqrt(2n) up or down; to come within a tie of 7 they would need one and a half times that.
 constexpr std::size_t too_many_numbers = 15;
 }  // namespace rules
+
+/// Of the evidence, in each of ModelError::recordings.
+std::vector<double> fall_by_recording(const ModelError& before, const ModelError& after);
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.

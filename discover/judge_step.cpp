@@ -310,6 +310,13 @@ bool look_alike(const Effect& a, const Effect& b) {
   return names(a, b) || names(b, a);
 }
 
+std::vector<double> fall_by_recording(const ModelError& before, const ModelError& after) {
+  std::vector<double> falls;
+  for (std::size_t i = 0; i < before.recordings.size() && i < after.recordings.size(); ++i)
+    falls.push_back(before.recordings[i].evidence - after.recordings[i].evidence);
+  return falls;
+}
+
 void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   tried.without_line.reset();
   if (tried.contender.without_line) tried.without_line = evidence.error(*tried.contender.without_line);
@@ -325,6 +332,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   }
   const ModelError& was = before.error_of;
   const ModelError is = proved(was, tried);
+  tried.fall_by_recording = fall_by_recording(was, c.error_of);
   tried.fall_train = was.evidence_train - is.evidence_train;
   // A value found on a validate recording takes one of chi2 away there by chance, and would cost one on another.
   tried.fall_validate = was.evidence_validate - is.evidence_validate - 2 * found_where_proved(c, before);

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "discover/books.h"
+#include "discover/laws_tried.h"
 
 namespace hysteron {
 namespace {
@@ -51,7 +52,12 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
     books.progress(t.effect->id + " at " + t.place.where(), bar);
     for (const Law& law : laws_as_found(books, *t.effect, t.laws)) {
       Contender c = with_effect(shop, books.current, *t.effect, law, t.place, t.circumstances, Effort::full);
-      if (t.contender.ok && (!c.ok || c.score() >= t.contender.score())) continue;
+      const bool stays = t.contender.ok && (!c.ok || c.score() >= t.contender.score());
+      TriedLaw one = tried_law(law, c, books.current.error_of);
+      one.taken = c.ok && !stays;
+      if (c.ok && stays) one.reason = why_no_better(c, t.contender, t.laws[t.law], 0);
+      record(t.laws_tried, std::move(one));
+      if (stays) continue;
       t.contender = std::move(c);
       t.law = static_cast<std::size_t>(
           std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == law.name; }) -

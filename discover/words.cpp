@@ -181,6 +181,19 @@ std::string summary_of(const Contender& c, std::size_t standing, const Circumsta
   return values.size() >= static_cast<std::size_t>(begun) ? effect->summary(law, values, at) : "";
 }
 
+namespace {
+
+TriedLaw the_only_law(const Candidate& c, const std::vector<double>& fall_by_recording) {
+  TriedLaw law{c.law, c.parameters, c.fall_train, c.fall_validate, {}, c.score, !c.failed, c.failed, {}};
+  if (c.failed)
+    law.reason = c.reason;
+  else
+    law.fall_by_recording = fall_by_recording;
+  return law;
+}
+
+}  // namespace
+
 Candidate candidate_of(const Tried& t, int step) {
   Candidate c;
   c.effect = t.effect->id;
@@ -205,6 +218,7 @@ Candidate candidate_of(const Tried& t, int step) {
     c.found = found_parameters(t.contender, t.circumstances);
     c.summary = summary_of(t.contender, t.contender.standing.size() - 1, t.circumstances);
   }
+  c.laws_tried = t.laws_tried.empty() ? std::vector{the_only_law(c, t.fall_by_recording)} : t.laws_tried;
   return c;
 }
 

@@ -51,6 +51,21 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
   EXPECT_NE(folder_.read("out/result.json").find("\"explained\": false"), std::string::npos);
 }
 
+TEST_F(DiscoverVerb, EveryLawThatWasTriedStandsInItsCandidateWithItsGainInEachRecording) {
+  record(3, 0.02);
+  for (const auto& c : looked_for_a_lag()["facts"]["candidates"]) {
+    ASSERT_FALSE(c["laws"].empty()) << c["effect"];
+    int taken = 0;
+    for (const auto& law : c["laws"]) {
+      EXPECT_EQ(law["fall_by_recording"].size(), c["error"]["recordings"].size()) << law["law"];
+      EXPECT_EQ(law["taken"], law["law"] == c["law"]) << law["law"];
+      EXPECT_EQ(law["taken"], !law.contains("reason")) << law["law"];
+      taken += law["taken"].get<bool>() ? 1 : 0;
+    }
+    EXPECT_EQ(taken, 1) << c["effect"];
+  }
+}
+
 TEST_F(DiscoverVerb, ATieHasTheMenuAmongWhichItsExperimentWasChosen) {
   record(3, 0.0005);  // a tenth of a row: a delay does the same
   const Outcome out = hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only",
