@@ -173,6 +173,11 @@ Facts with_laws(const Candidate& c) {
   return facts;
 }
 
+void add_where_it_lives(Facts& facts, const Structure& s) {
+  if (s.period > 0) facts.set("period", s.unit.difference_from_si(s.period));
+  if (s.has_threshold) facts.set("threshold", s.unit.from_si(s.threshold));
+}
+
 Facts facts_of(const Structure& s) {
   Facts intervals = Facts::object({});
   for (const auto& [recording, list] : s.intervals) {
@@ -189,20 +194,39 @@ Facts facts_of(const Structure& s) {
                                {"fall_validate", s.fall.validate},
                                {"share_removed", s.share_removed},
                                {"sentence", s.sentence}});
-  if (s.period > 0) facts.set("period", s.unit.difference_from_si(s.period));
-  if (s.has_threshold) facts.set("threshold", s.unit.from_si(s.threshold));
+  add_where_it_lives(facts, s);
+  return facts;
+}
+
+Facts facts_of(const TriedStructure& tried) {
+  const Structure& s = tried.structure;
+  const bool in_all = tried.where == Where::all_recordings;
+  Facts facts = Facts::object({{"kind", s.kind},
+                               {"variable", s.variable},
+                               {"output", s.output},
+                               {"unit", unit_text(s.unit)},
+                               {"left_by", tried.left_by == LeftBy::effects ? "effects" : "base"},
+                               {"counted_on", in_all ? "all" : "validate"},
+                               {"fall_train", s.fall.train},
+                               {"fall_validate", s.fall.validate},
+                               {"fall_needed", tried.needed},
+                               {"share_removed", s.share_removed},
+                               {"told", tried.told},
+                               {"reason", tried.reason}});
+  add_where_it_lives(facts, s);
   return facts;
 }
 
 }  // namespace
 
 Facts discovery_facts(const Discovery& found, const std::string& diagram_file, const std::string& data_file) {
-  Facts::List effects, steps, candidates, refused, noise;
+  Facts::List effects, steps, candidates, refused, noise, structures;
   for (const auto& step : found.steps) {
     effects.emplace_back(step.winner.effect);
     steps.push_back(facts_of(step, steps.size() + 1));
   }
   for (const auto& c : found.candidates) candidates.push_back(with_laws(c));
+  for (const auto& s : found.structures) structures.push_back(facts_of(s));
   for (const auto& r : found.refused)
     refused.push_back(Facts::object({{"effect", r.effect}, {"place", r.place}, {"reason", r.reason}}));
   for (const auto& n : found.noise)
@@ -223,6 +247,7 @@ Facts discovery_facts(const Discovery& found, const std::string& diagram_file, c
                                {"steps", steps},
                                {"candidates", candidates},
                                {"refused", refused},
+                               {"structures", structures},
                                {"noise", noise},
                                {"noise_guessed", found.noise_guessed},
                                {"simulations", found.model_runs}});

@@ -77,6 +77,21 @@ Section parameters_section(const Seen& seen) {
   return section;
 }
 
+/// Generic structures, as what they were counted from; their periods and levels stand in result.json.
+Table structures_table(const Discovery& found) {
+  Table table;
+  table.title = "Structures that no effect describes";
+  table.columns = {"structure", "over",   "output", "left by", "counted on",
+                   "chi2 fall", "needed", "share",  "told",    "why"};
+  for (const auto& s : found.structures)
+    table.rows.push_back({s.structure.kind, s.structure.variable, s.structure.output,
+                          s.left_by == LeftBy::effects ? "the effects" : "the base model",
+                          s.where == Where::all_recordings ? "all recordings" : "validate",
+                          number_text(over(s.structure.fall, s.where)), s.needed ? number_text(*s.needed) : "-",
+                          percent_text(s.structure.share_removed), s.told ? "yes" : "no", s.reason});
+  return table;
+}
+
 Section candidates_section(const Seen& seen) {
   Section section;
   section.title = "What was tried";
@@ -93,6 +108,7 @@ Section candidates_section(const Seen& seen) {
                           c.failed ? "-" : number_text(c.fall_train), c.failed ? "-" : number_text(c.fall_validate),
                           c.failed ? "-" : number_text(c.score, 6), c.failed ? "-" : judged_error(c.error), c.reason});
   section.tables.push_back(std::move(table));
+  if (!seen.found.structures.empty()) section.tables.push_back(structures_table(seen.found));
   if (!seen.found.refused.empty()) {
     Table refused;
     refused.title = "What these data cannot show";

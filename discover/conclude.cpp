@@ -7,7 +7,7 @@
 #include "discover/between_samples.h"
 #include "discover/members.h"
 #include "discover/own_numbers.h"
-#include "discover/structures.h"
+#include "discover/structures_tried.h"
 #include "fit/unit_words.h"
 
 namespace hysteron {
@@ -45,6 +45,11 @@ bool is_of_a_standing_law(const Books& books, const Structure& s) {
   return false;
 }
 
+std::string holds_too_little(const Structure& s) {
+  return fmt::format("holds {}, and not the {} of what stands above the noise that are asked",
+                     percent(std::max(0.0, s.share_removed)), percent(rules::structure_share));
+}
+
 /// What stands on the way to another output says nothing about it, nor it about that.
 bool has_a_rival(const Books& books, const Structure& s) {
   const auto& outputs = books.base_model->outputs();
@@ -55,41 +60,58 @@ bool has_a_rival(const Books& books, const Structure& s) {
   });
 }
 
-/// Is it told in place of the effects: of the recordings where it was looked for it explains more than they do.
-bool wins(const Books& books, const Structure& s, Where where) {
-  if (!s.explains() || is_of_a_standing_law(books, s) || !(s.share_removed > rules::structure_share)) return false;
-  if (!books.current.standing.empty() && !has_a_rival(books, s)) return false;
+/// What it has to take away to be told in place of the effects: of the recordings where it was looked for it has to
+/// explain more than they do.
+Bar beside_effects(const Books& books, const Structure& s, Where where) {
+  if (!s.explains()) return {{}, "bursts only say when, and explain nothing"};
+  if (is_of_a_standing_law(books, s)) return {{}, "a law that stands looks for lines there: this one is its own"};
+  if (!(s.share_removed > rules::structure_share)) return {{}, holds_too_little(s)};
+  if (!books.current.standing.empty() && !has_a_rival(books, s)) return {{}, "the effects stand before other outputs"};
   const ByRole removed = removed_beyond_calibration(books, s), beyond = to_be_taken_beyond(books);
-  const double needed = where == Where::validation ? removed.validate + beyond.validate : removed.all() + beyond.all();
-  return over(s.fall, where) > std::max(needed, rules::claim_fall);
+  const double by_effects =
+      where == Where::validation ? removed.validate + beyond.validate : removed.all() + beyond.all();
+  const double needed = std::max(by_effects, rules::claim_fall);
+  if (over(s.fall, where) > needed) return {needed, ""};
+  return {needed, needed > rules::claim_fall ? "the effects that were found take more away" : "no more than chance"};
 }
 
-/// Of all recordings, where one is left unexplained: what rings as a pump hums explains one recording that it is fitted
+/// In all recordings, where one is left unexplained: what rings as a pump hums explains one recording that it is fitted
 /// to, and not the next; and those that judge may be too short to show the pump. Where these prove the effects, they
 /// decide.
-std::optional<Structure> winner_in_all(const Books& books) {
-  if (books.evidence->over_usual_floor(books.current.prediction).one <= rules::floor_gate) return {};
-  auto s = find_structure(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
-  if (!s || removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all()) return {};
-  return wins(books, *s, Where::all_recordings) ? s : std::nullopt;
+JudgedSearch in_all_recordings(const Books& books) {
+  JudgedSearch judged{{}, Where::all_recordings, {}};
+  if (books.evidence->over_usual_floor(books.current.prediction).one <= rules::floor_gate) return judged;
+  judged.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
+  const Structure* s = judged.search.winner();
+  if (s == nullptr) return judged;
+  if (removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all())
+    judged.bar.why_not = "the recordings that judge prove the effects, and decide";
+  else
+    judged.bar = beside_effects(books, *s, Where::all_recordings);
+  return judged;
 }
 
+bool wins(const JudgedSearch& judged) { return judged.search.best >= 0 && judged.bar.passed(); }
+
 /// Other recordings show more of it than chance, and it holds a good part of what is left.
-bool stands_out(const Structure& s) {
-  return s.fall.validate > rules::claim_fall && s.share_removed > rules::structure_share;
+Bar to_stand_out(const Structure& s) {
+  if (!(s.fall.validate > rules::claim_fall)) return {rules::claim_fall, "no more than chance"};
+  return {rules::claim_fall, s.share_removed > rules::structure_share ? "" : holds_too_little(s)};
 }
 
 /// What the user's model leaves on recordings that judge.
 struct Left {
   bool more_than_noise = false;
-  double most = 0;                     ///< chi2/N, or that over what the usual noise makes, whichever is more
-  std::optional<Structure> structure;  ///< looked for where more than noise is left
-  bool told() const { return structure && structure->fall.validate > rules::claim_fall; }
+  double most = 0;         ///< chi2/N, or that over what the usual noise makes, whichever is more
+  StructureSearch search;  ///< made where more than noise is left
+  const Structure* structure() const { return search.winner(); }
+  bool told() const { return structure() != nullptr && structure()->fall.validate > rules::claim_fall; }
   /// Where no effect stands. chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size
   /// lifts it too, and where all that is left is slow, as much 1/f noise as would explain it is read off it: more than
   /// sensors have is none.
   bool is_unexplained() const {
-    return more_than_noise && ((structure && stands_out(*structure)) || most > rules::slow_noise);
+    return more_than_noise &&
+           ((structure() != nullptr && to_stand_out(*structure()).passed()) || most > rules::slow_noise);
   }
 };
 
@@ -97,7 +119,7 @@ Left left_by_base(const Books& books) {
   const double over = books.evidence->error(books.base.prediction).over_floor();
   const double over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
   Left left{over > rules::floor_gate || over_usual > rules::slow_noise, std::max(over, over_usual), {}};
-  if (left.more_than_noise) left.structure = find_structure(*books.evidence, books.base.prediction, books.shop.threads);
+  if (left.more_than_noise) left.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads);
   return left;
 }
 
@@ -171,9 +193,48 @@ void tell_final_values(Books& books) {
 
 }  // namespace
 
+namespace {
+
+/// A structure that is told of what the user's model leaves.
+struct OfBase {
+  std::optional<Structure> told;
+  bool in_place_of_effects = false;
+};
+
+/// In place of the effects, if it explains more of the recordings that judge than they do, else of all; or where none
+/// was found.
+OfBase structure_of_base(Books& books, const Left& left) {
+  const bool none_found = books.d.steps.empty();
+  JudgedSearch judged{left.search, Where::validation, {}}, all{{}, Where::all_recordings, {}};
+  if (left.structure() != nullptr) judged.bar = beside_effects(books, *left.structure(), Where::validation);
+  if (!wins(judged) && (left.more_than_noise || !none_found)) all = in_all_recordings(books);
+  const std::string more =
+      none_found ? "more than chance, and no effect was found" : "takes more away than the effects that were found";
+  const bool alone = !wins(judged) && !wins(all) && none_found && left.is_unexplained() && left.told();
+  if (alone) judged.bar = {rules::claim_fall, ""};
+  keep_structures(books.d, judged, LeftBy::base, wins(judged) ? more : "");
+  keep_structures(books.d, all, LeftBy::base, wins(all) ? more : "");
+  if (wins(judged)) return {*judged.search.winner(), !alone};
+  if (wins(all)) return {*all.search.winner(), true};
+  return {};
+}
+
+/// What stands out of what the effects leave.
+void structure_behind_effects(Books& books) {
+  JudgedSearch rest{
+      find_structures(*books.evidence, books.current.prediction, books.shop.threads), Where::validation, {}};
+  const Structure* s = rest.search.winner();
+  if (s != nullptr) rest.bar = to_stand_out(*s);
+  const bool told = wins(rest);
+  if (told) books.d.structure = *s;
+  keep_structures(books.d, rest, LeftBy::effects, told ? "stands out of what the effects leave" : "");
+}
+
+}  // namespace
+
 bool leaves_something_unexplained(const Books& books) {
   const Left left = left_by_base(books);
-  return left.is_unexplained() || (left.more_than_noise && winner_in_all(books));
+  return left.is_unexplained() || (left.more_than_noise && wins(in_all_recordings(books)));
 }
 
 void conclude(Books& books) {
@@ -187,24 +248,18 @@ void conclude(Books& books) {
     leave_out_idle(books);
   }
   const double floor = books.current.error_of.over_floor();
-  Left left = left_by_base(books);
-  bool structure_wins = left.structure && wins(books, *left.structure, Where::validation);
-  if (!structure_wins && (left.more_than_noise || !books.d.steps.empty()))
-    if (auto s = winner_in_all(books)) left.structure = std::move(s), structure_wins = true;
-  if (structure_wins) {
+  const Left left = left_by_base(books);
+  const OfBase of_base = structure_of_base(books, left);
+  books.d.structure = of_base.told;
+  if (of_base.in_place_of_effects) {
     books.d.verdict = Verdict::unexplained;
-    books.d.structure = left.structure;
     withdraw(books);
   } else if (books.d.steps.empty()) {
     books.d.verdict = left.is_unexplained() ? Verdict::unexplained : Verdict::adequate;
-    if (left.is_unexplained() && left.told()) books.d.structure = left.structure;
   } else {
     const bool open = std::all_of(books.d.steps.begin(), books.d.steps.end(), leaves_the_question_open);
     books.d.verdict = open ? Verdict::not_distinguishable : Verdict::missing_effect;
-    if (floor > rules::floor_gate && !books.stopped()) {
-      auto rest = find_structure(*books.evidence, books.current.prediction, books.shop.threads);
-      if (rest && stands_out(*rest)) books.d.structure = rest;
-    }
+    if (floor > rules::floor_gate && !books.stopped()) structure_behind_effects(books);
   }
   books.d.remainder =
       books.current.error_of.over_floor() > rules::floor_gate ? Remainder::structured : Remainder::noise;

@@ -98,6 +98,19 @@ struct JudgedNoise {
   std::string remark;     ///< what the user must be told of it, or ""
 };
 
+/// In whose residual a structure was looked for.
+enum class LeftBy { base, effects };
+
+/// A generic structure that was looked for, and whether it counted.
+struct TriedStructure {
+  Structure structure;  ///< without its intervals
+  LeftBy left_by = LeftBy::base;
+  Where where = Where::validation;  ///< recordings in which it was looked for
+  std::optional<double> needed{};   ///< fall of chi2 there that it has to pass; none where another reason decided
+  bool told = false;                ///< it is Discovery::structure
+  std::string reason;               ///< why it counted, or why not
+};
+
 /// An input that moves smoothly between its samples, where the data set says along straight lines.
 struct SmoothInput {
   std::string input;
@@ -126,7 +139,8 @@ struct Discovery {
   std::vector<FoundStep> steps;
   std::vector<Candidate> candidates;  ///< everything tried, in order
   std::vector<Refused> refused;
-  std::optional<Structure> structure;  ///< strongest structure left, if any stands out
+  std::optional<Structure> structure;      ///< strongest structure left, if any stands out
+  std::vector<TriedStructure> structures;  ///< all that competed; none where only noise was left
   std::vector<JudgedNoise> noise;
   bool noise_guessed = false;              ///< no data sheet: taken from the residual
   std::optional<Experiment> experiment;    ///< what to record next

@@ -58,16 +58,22 @@ bool holds_more(const Structure& a, const Structure& b, Where where) {
   return std::abs(more) > as_much * over(b.fall, where) ? more > 0 : a.fall.all() > b.fall.all();
 }
 
-std::optional<Structure> best_of(const Evidence& evidence, const Prediction& prediction, int output,
-                                 const Threads& threads, Where where) {
+/// Adds what was found in the residual of one output.
+void search_output(StructureSearch& search, const Evidence& evidence, const Prediction& prediction, int output,
+                   const Threads& threads, Where where) {
   const ResidualParts parts(evidence, prediction, output);
-  std::optional<Structure> best;
+  int best = -1;
+  const auto at = [&](int i) -> const Structure& { return search.list[static_cast<std::size_t>(i)]; };
   const auto offer = [&](std::optional<Structure> s) {
-    if (!s || over(s->fall, where) <= 0 || (best && !holds_more(*s, *best, where))) return;
-    best = std::move(s);
-    weigh(*best, parts, where);
+    if (!s) return;
+    weigh(*s, parts, where);
+    s->output = evidence.model().outputs()[static_cast<std::size_t>(output)];
+    s->sentence = sentence_of(*s, where);
+    search.list.push_back(std::move(*s));
+    const int last = static_cast<int>(search.list.size()) - 1;
+    if (over(at(last).fall, where) > 0 && (best < 0 || holds_more(at(last), at(best), where))) best = last;
   };
-  if (parts.list().empty() || over(parts.beyond(), where) <= 0) return best;
+  if (parts.list().empty() || over(parts.beyond(), where) <= 0) return;
   std::vector<std::function<std::optional<Structure>()>> kinds{[&] { return line_in_time(parts); }};
   for (std::size_t level = 0; level < parts.levels().size(); ++level) {
     kinds.emplace_back([&parts, level] { return line_in_level(parts, level); });
@@ -78,23 +84,19 @@ std::optional<Structure> best_of(const Evidence& evidence, const Prediction& pre
   threads.each(kinds.size(), [&](std::size_t i) { found[i] = kinds[i](); });
   for (auto& s : found) offer(std::move(s));
   // Bursts are told where nothing else holds: they say when, and explain nothing.
-  if (!best || best->share_removed <= rules::structure_share) offer(bursts(parts));
-  if (!best) return best;
-  best->output = evidence.model().outputs()[static_cast<std::size_t>(output)];
-  best->sentence = sentence_of(*best, where);
-  return best;
+  if (best < 0 || at(best).share_removed <= rules::structure_share) offer(bursts(parts));
+  if (best >= 0 && (search.best < 0 || over(at(best).fall, where) > over(search.winner()->fall, where)))
+    search.best = best;
 }
 
 }  // namespace
 
-std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction, const Threads& threads,
-                                        Where where) {
-  std::optional<Structure> best;
+StructureSearch find_structures(const Evidence& evidence, const Prediction& prediction, const Threads& threads,
+                                Where where) {
+  StructureSearch search;
   for (int o = 0; o < static_cast<int>(evidence.model().outputs().size()); ++o)
-    if (auto s = best_of(evidence, prediction, o, threads, where);
-        s && (!best || over(s->fall, where) > over(best->fall, where)))
-      best = std::move(s);
-  return best;
+    search_output(search, evidence, prediction, o, threads, where);
+  return search;
 }
 
 }  // namespace hysteron

@@ -49,8 +49,14 @@ inline double over(const ByRole& value, Where where) {
   return where == Where::validation ? value.validate : value.all();
 }
 
-/// The structure that removes most of the chi2 that this model leaves on these recordings; nothing if none removes any.
-std::optional<Structure> find_structure(const Evidence& evidence, const Prediction& prediction,
-                                        const Threads& threads = 1, Where where = Where::validation);
+/// Structures that competed, in the order in which they were looked for.
+struct StructureSearch {
+  std::vector<Structure> list;
+  int best = -1;  ///< of them, the one that removes most of chi2; -1 = none removes any
+  const Structure* winner() const { return best < 0 ? nullptr : &list[static_cast<std::size_t>(best)]; }
+};
+/// All that can be fitted to what this model leaves on these recordings.
+StructureSearch find_structures(const Evidence& evidence, const Prediction& prediction, const Threads& threads = 1,
+                                Where where = Where::validation);
 
 }  // namespace hysteron

@@ -87,6 +87,20 @@ TEST_F(DiscoverVerb, ATieHasTheMenuAmongWhichItsExperimentWasChosen) {
   EXPECT_GT(menu["experiments"].size(), 3u);
 }
 
+TEST_F(DiscoverVerb, StructuresThatCompetedSayWhatTheyTakeAwayAndWhyTheyDoNotCount) {
+  record(3, 0.02);
+  const json structures = looked_for_a_lag()["facts"]["structures"];
+  ASSERT_FALSE(structures.empty());
+  for (const auto& s : structures) {
+    EXPECT_FALSE(s["told"]) << s["kind"];
+    EXPECT_FALSE(s["reason"].get<std::string>().empty()) << s["kind"];
+    EXPECT_TRUE(s["fall_validate"].is_number()) << s["kind"];
+    EXPECT_EQ(s["left_by"], "base") << s["kind"];
+  }
+  record(1);
+  EXPECT_TRUE(looked_for_a_lag()["facts"]["structures"].empty()) << "only noise is left: none is looked for";
+}
+
 TEST_F(DiscoverVerb, DiscoverSaysFirstOfAllThatARowIsFarFromAllOthers) {
   record(1);
   std::string rows;

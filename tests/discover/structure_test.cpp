@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "blocks/register_all.h"
 #include "discover/evidence.h"
 #include "discover/words.h"
@@ -14,6 +16,10 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
+std::optional<Structure> best_of(const StructureSearch& search) {
+  return search.winner() == nullptr ? std::nullopt : std::optional(*search.winner());
+}
+
 /// Recordings of a gain with something hidden in them, and what is found of it.
 class Structures : public ::testing::Test {
  protected:
@@ -21,8 +27,8 @@ class Structures : public ::testing::Test {
 
   /// Two train and two validate recordings of different length; noise 1 mm rms, u over 0 .. 1 V. The room stays at
   /// 22 degC but for the recordings in which it warms by 10 K.
-  std::optional<Structure> found_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1},
-                                    double drive = 0) {
+  StructureSearch searched_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1},
+                              double drive = 0) {
     std::vector<Recording> list;
     for (int r = 0; r < 4; ++r) {
       const auto t = rows(800 + 100 * r, 0.01 * (1 + r % 2));
@@ -39,7 +45,11 @@ class Structures : public ::testing::Test {
     data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
     DataModel model(compile(lag > 0 ? lagging(lag) : plain_gain(), registry), data_);
     const Evidence evidence(model);
-    return find_structure(evidence, model.predict({}, evidence.recordings()));
+    return find_structures(evidence, model.predict({}, evidence.recordings()));
+  }
+  std::optional<Structure> found_in(const Hidden& hidden, double lag = 0, const std::vector<int>& warm = {1},
+                                    double drive = 0) {
+    return best_of(searched_in(hidden, lag, warm, drive));
   }
 
   /// One pole [s] behind straight lines between rows, from rest at the first of them.
@@ -130,7 +140,7 @@ TEST_F(Structures, ALevelThatIsPassedOnceAtOneTimeMayBeThatTime) {
     data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
     DataModel model(compile(plain_gain(), registry), data_);
     const Evidence evidence(model);
-    const auto found = find_structure(evidence, model.predict({}, evidence.recordings()));
+    const auto found = best_of(find_structures(evidence, model.predict({}, evidence.recordings())));
     ASSERT_TRUE(found.has_value());
     ASSERT_EQ(found->kind, "kink_at_level") << found->sentence;
     EXPECT_NEAR(found->passed_once_at, alike ? 5 : 0, 0.3);
@@ -225,10 +235,24 @@ TEST_F(Structures, TheBestOfManyFrequenciesIsNoLineByThat) {
     data_ = std::make_shared<const DataSet>(data_set(list, 1e-3, 0));
     DataModel model(compile(plain_gain(), registry), data_);
     const Evidence evidence(model);
-    const auto s = find_structure(evidence, model.predict({}, evidence.recordings()));
+    const auto s = best_of(find_structures(evidence, model.predict({}, evidence.recordings())));
     if (s && s->kind == "line_in_time" && s->fall.validate > 5) ++passed;
   }
   EXPECT_LE(passed, 4) << "1.3 expected";
+}
+
+TEST_F(Structures, AllThatCompetedAreThereAndTheBestRemovesMostOnRecordingsThatJudge) {
+  const StructureSearch search = searched_in([](double, double u, int) { return u > 0.437 ? 0.01 : 0.0; });
+  ASSERT_NE(search.winner(), nullptr);
+  EXPECT_EQ(search.winner()->kind, "kink_at_level");
+  std::set<std::string> kinds;
+  for (const auto& s : search.list) {
+    kinds.insert(s.kind);
+    EXPECT_EQ(s.output, "y");
+    EXPECT_FALSE(s.sentence.empty()) << s.kind;
+    EXPECT_LE(s.fall.validate, 1.01 * search.winner()->fall.validate) << s.kind << " over " << s.variable;
+  }
+  EXPECT_GE(kinds.size(), 3u) << "a line and a ripple take a part of a kink, too";
 }
 
 TEST_F(Structures, NoiseAloneHasNone) {

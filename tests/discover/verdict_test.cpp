@@ -252,6 +252,22 @@ TEST_F(Verdicts, WhatLeavesTwiceTheErrorIsNoTieThoughNeitherIsRight) {
   EXPECT_TRUE(d.steps.front().ties.empty()) << d.headline;
 }
 
+/// Of all structures that competed one is told, the others with why they are not.
+void expect_all_recorded(const Discovery& d) {
+  int told = 0;
+  for (const auto& s : d.structures) {
+    EXPECT_FALSE(s.reason.empty()) << s.structure.kind;
+    EXPECT_TRUE(s.structure.intervals.empty()) << s.structure.kind;
+    if (!s.told) continue;
+    ++told;
+    EXPECT_EQ(s.structure.kind, d.structure->kind);
+    ASSERT_TRUE(s.needed.has_value());
+    EXPECT_GT(over(s.structure.fall, s.where), *s.needed);
+  }
+  EXPECT_EQ(told, 1);
+  EXPECT_GE(d.structures.size(), 3u) << "lines and kinks were looked for, too";
+}
+
 TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
   std::vector<Recording> list;
   std::uint64_t seed = 11;
@@ -281,6 +297,7 @@ TEST_F(Verdicts, JumpsBetweenTwoLevelsAreUnexplainedAndTheirTimesAreTold) {
   EXPECT_EQ(to_text(d.remainder), "structured");
   ASSERT_TRUE(d.structure.has_value());
   EXPECT_EQ(d.structure->kind, "jumps");
+  expect_all_recorded(d);
   // Every true jump lies in an interval that was told.
   const auto& intervals = d.structure->intervals.front().second;
   for (const double t : first_jumps)
