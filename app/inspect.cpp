@@ -1,5 +1,5 @@
 // The verb inspect: what a data set is good for, before any model is judged on it.
-// Does not inspect itself (fit/inspection.h, discover/visible.h) and does not fit.
+// Does not inspect itself (fit/inspection.h, discover/visible.h).
 #include <fmt/format.h>
 
 #include "app/inspection_page.h"
@@ -22,9 +22,9 @@ constexpr char help[] =
     "  hysteron inspect dataset.json --diagram stage.json\n"
     "  hysteron inspect lab.csv --input volts --output disp --json\n\n"
     "With --diagram, a shift in time, interference and the way of an input between its samples are looked for in what\n"
-    "the diagram leaves over, and effects at every place of it. Without, a gain and an offset stand for it, inputs "
-    "and\n"
-    "outputs are told by the names of the columns (u*, y*, x*, T*), and it says so.\n"
+    "the diagram leaves over, its free parameters fitted first, and effects at every place of it. Without, a gain and\n"
+    "an offset stand for it, inputs and outputs are told by the names of the columns (u*, y*, x*, T*), and it says\n"
+    "so.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
     "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing.\n"
     "Exit codes: 0 done, whatever was found; 2 wrong input.";

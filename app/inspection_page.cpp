@@ -154,7 +154,7 @@ Facts facts_of(const InspectedColumn& c) {
 
 Inspected inspect_data(const Diagram& diagram, DataModel& model, const Effects& effects,
                        const std::vector<std::string>& free_paths, bool diagram_is_meant) {
-  return {inspect(model, diagram_is_meant),
+  return {inspect(model, {free_paths, diagram_is_meant}),
           visible_effects(diagram, with_both_roles(model.data()), registry(), effects, free_paths)};
 }
 

@@ -78,8 +78,8 @@ std::vector<double> without_gaps(std::span<const double> t, const Clock& clock) 
 
 class Inspector {
  public:
-  Inspector(DataModel& model, bool diagram_is_meant)
-      : model_(model), diagram_is_meant_(diagram_is_meant), parts_(parts_of(model.data())) {}
+  Inspector(DataModel& model, InspectionQuestion question)
+      : model_(model), question_(std::move(question)), parts_(parts_of(model.data())) {}
 
   Inspection run() {
     columns();
@@ -178,100 +178,27 @@ class Inspector {
 
   // --- what the diagram tells of the data -----------------------------------------------------------------------
 
-  /// Each output takes the gain and the offset that fit it best: a wrong calibration is no fault of the data.
-  void calibrate(Prediction& prediction) const {
-    for (std::size_t o = 0; o < model_.outputs().size(); ++o) {
-      double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-      const auto each = [&](auto&& action) {
-        for (const auto r : judged_) {
-          auto& rows = prediction.y[static_cast<std::size_t>(r)][o];
-          const Rows& measured = model_.measured(r, static_cast<int>(o));
-          for (std::size_t i = 0; i < std::min(rows.size(), measured.size()); ++i) action(rows[i], measured[i]);
-        }
-      };
-      each([&](double p, double m) { n += 1, x += p, y += m; });
-      if (!(n > 0)) continue;
-      each([&](double p, double m) { xx += (p - x / n) * (p - x / n), xy += (p - x / n) * (m - y / n); });
-      const double gain = xx > 0 && xy > 0 ? xy / xx : 1, offset = y / n - gain * x / n;
-      each([&](double& p, double) { p = gain * p + offset; });
-    }
-  }
-
   void against_the_diagram() {
     for (int r = 0; r < model_.n_recordings(); ++r)
       if (model_.recording(r).role != Role::test) judged_.push_back(r);
-    prediction_ = model_.predict({}, judged_, false);
+    const Judge judge(model_, noise_before_fit(model_));
+    const auto free = free_parameters(program(), question_.free_paths);
+    const auto best = best_beside_calibration(model_, judge, free, judged_);
+    prediction_ = best.prediction;
     if (!prediction_.ok) {
       seen_.notes.push_back("The diagram cannot be simulated on these recordings (" + prediction_.error +
                             "): shift, lines and the way between samples were judged without it.");
       return;
     }
-    calibrate(prediction_);
-    const Judge judge(model_, noise_before_fit(model_));
-    if (!diagram_is_meant_) return;
+    if (!question_.diagram_is_meant) return;
     seen_.delays = find_delays(model_, judge, prediction_);
     for (const auto& d : seen_.delays)
       if (!d.sentence.empty()) (d.kind == DelayKind::samples ? seen_.faults : seen_.notes).push_back(d.sentence + ".");
-    between_samples(judge);
-  }
-
-  void between_samples(const Judge& judge) {
-    const Score given = judge.score(model_, prediction_, judged_);
-    for (const auto& name : program().input_names) {
-      const bool moves = std::any_of(parts_.begin(), parts_.end(),
-                                     [&](const Part& part) { return range_of(rows_of(model_, part, name)) > 0; });
-      if (!moves || !given.ok) continue;
-      const auto note = model_.data().notes.find(name);
-      InspectedBetween seen{name, note == model_.data().notes.end() ? Between::linear : note->second.between};
-      for (const Between other : {Between::linear, Between::hold, Between::smooth}) {
-        if (other == seen.given) continue;
-        const Score score = score_with(name, other, judge);
-        if (!score.ok) continue;
-        const double fall = given.chi2() > 0 ? 1 - score.chi2() / given.chi2() : 0;
-        const double floor = score.chi2() / std::max(1.0, score.n());
-        // Worth a word as a shift is (delay.cpp): a tenth of the squared error and more than chance. That a signal
-        // bends is a share of what is quick in it, and so is what a mode leaves: most of the error.
-        if (!(fall > (other == Between::smooth ? 0.5 : 0.1)) ||
-            given.chi2() - score.chi2() < 25 * std::max(1.0, floor) || !(fall > seen.fall))
-          continue;
-        seen.better = other;
-        seen.fall = fall;
-      }
-      if (seen.fall > 0) tell(seen);
+    seen_.between = other_ways_between(model_, judge, judged_, free, best);
+    for (const auto& b : seen_.between) {
+      const BetweenWords words = words_of(b);
+      (words.is_fault ? seen_.faults : seen_.notes).push_back(words.text);
     }
-  }
-
-  /// Of the diagram, with another way of an input between its samples; not ok where that cannot be simulated.
-  Score score_with(const std::string& input, Between between, const Judge& judge) {
-    auto data = std::make_shared<DataSet>(model_.data());
-    data->notes[input].to = input;
-    data->notes[input].between = between;
-    DataModel other(model_.program_pointer(), data);
-    Prediction prediction = other.predict({}, judged_, false);
-    if (prediction.ok) calibrate(prediction);
-    return judge.score(other, prediction, judged_);
-  }
-
-  void tell(const InspectedBetween& seen) {
-    seen_.between.push_back(seen);
-    const char* moves = seen.better == Between::linear ? "along a straight line" : "smoothly";
-    if (seen.better == Between::hold)
-      seen_.notes.push_back(
-          fmt::format("Held between samples, {0} would take {1:.0f} % of the squared error away; so may a lag or a "
-                      "delay of half a "
-                      "sample. If the drive is known to be held, write \"between_samples\": \"hold\" at its column.",
-                      seen.input, 100 * seen.fall));
-    else if (seen.given == Between::hold)
-      seen_.faults.push_back(
-          fmt::format("{0} is said to be held between samples, but the diagram comes nearer where it moves {3} "
-                      "({1:.0f} % of the squared error go): write \"between_samples\": \"{2}\" at its column.",
-                      seen.input, 100 * seen.fall, to_text(seen.better), moves));
-    else
-      seen_.notes.push_back(
-          fmt::format("Moving {3} between samples, {0} would take {1:.0f} % of the squared error away. If it does (a "
-                      "generator behind "
-                      "a filter moves smoothly), write \"between_samples\": \"{2}\" at its column.",
-                      seen.input, 100 * seen.fall, to_text(seen.better), moves));
   }
 
   // --- rows -----------------------------------------------------------------------------------------------------
@@ -537,7 +464,7 @@ class Inspector {
   // --- words ----------------------------------------------------------------------------------------------------
 
   DataModel& model_;
-  bool diagram_is_meant_ = true;
+  InspectionQuestion question_;
   std::vector<Part> parts_;
   std::vector<int> judged_;
   Prediction prediction_;
@@ -564,6 +491,6 @@ bool moves(const DataSet& data, const std::string& column) {
   return false;
 }
 
-Inspection inspect(DataModel& model, bool diagram_is_meant) { return Inspector(model, diagram_is_meant).run(); }
+Inspection inspect(DataModel& model, const InspectionQuestion& question) { return Inspector(model, question).run(); }
 
 }  // namespace hysteron

@@ -14,6 +14,7 @@
 #include "fit/model.h"
 #include "fit/repeatability.h"
 #include "fit/row_checks.h"
+#include "fit/way_between.h"
 
 namespace hysteron {
 
@@ -64,13 +65,6 @@ struct InspectedLine {
   bool of_residual = true;  ///< seen in what the diagram leaves, else in the measured signal itself
 };
 
-/// What another way of an input between its samples would do to the error of the diagram.
-struct InspectedBetween {
-  std::string input;
-  Between given = Between::linear, better = Between::hold;
-  double fall = 0;  ///< share of the squared error that the other way takes away
-};
-
 struct Inspection {
   std::vector<InspectedColumn> columns;
   std::vector<InspectedRecording> recordings;
@@ -91,9 +85,15 @@ double finest_step(const DataSet& data, const std::string& column);
 /// Does this column have two values that differ, in any recording that is inspected? False where no recording has it.
 bool moves(const DataSet& data, const std::string& column);
 
-/// Inspects the data set of `model`. Shift, lines and the way between samples are judged against the diagram as it is,
-/// but for a gain and an offset of each output. `diagram_is_meant` = false: the diagram only stands for one that nobody
-/// named, and what it gets wrong in time says nothing of the data.
-Inspection inspect(DataModel& model, bool diagram_is_meant = true);
+struct InspectionQuestion {
+  std::vector<std::string> free_paths{};  ///< may be fitted beside what the diagram declares free
+  /// False: the diagram only stands for one that nobody named, and what it gets wrong in time says nothing of the data.
+  bool diagram_is_meant = true;
+};
+
+/// Inspects the data set of `model`. Shift, lines and the way between samples are judged against the diagram with its
+/// free parameters fitted, and a gain and an offset of each output: a value that the user left open is no fault of the
+/// data.
+Inspection inspect(DataModel& model, const InspectionQuestion& question = {});
 
 }  // namespace hysteron
