@@ -15,10 +15,12 @@ struct SpectralLine {
 };
 
 /// Lines of `y` (a measured signal, or what a model left of it) on a uniform clock. A line stands out of its
-/// surroundings further than chance among so many frequencies (one in a million), keeps phase and amplitude through six
-/// parts of the recording (a resonance that rings does not), and belongs neither to a line of one of the `drives` nor
-/// to their harmonics, sums and differences. A multiple of a tone that has no neighbour of comparable size is not taken
-/// for its harmonic from the ninth on. Strongest first.
+/// surroundings further than chance among so many frequencies (one in a million) and keeps phase and amplitude through
+/// six parts of the recording (a resonance that rings does not). Where a drive repeats four times and more, all that
+/// repeats with it is its own, whatever the device does, but for a single harmonic that towers over what those beside
+/// it lead to expect (periodic_part.h). Of other drives the line is none, nor of their harmonics, sums and differences;
+/// a multiple of a tone that has no neighbour of comparable size is not taken for its harmonic from the ninth on.
+/// Strongest first.
 std::vector<SpectralLine> lines_of(std::span<const double> y, const std::vector<std::span<const double>>& drives,
                                    double step);
 

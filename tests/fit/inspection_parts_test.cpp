@@ -7,6 +7,7 @@
 
 #include "fit/excitation.h"
 #include "fit/interference.h"
+#include "fit/periodic_part.h"
 #include "fit/repeatability.h"
 #include "fit/row_checks.h"
 #include "tests/fit/lab.h"
@@ -322,9 +323,22 @@ using Shape = double (*)(double);
 double sine_shape(double phase) { return std::sin(2 * pi * phase); }
 double triangle_shape(double phase) { return 4 * std::abs(phase - std::floor(phase + 0.5)) - 1; }
 double square_shape(double phase) { return phase - std::floor(phase) < 0.5 ? 1 : -1; }
-/// A drive of 1 Hz at 1 kHz.
-std::vector<double> periodic(std::size_t n, Shape shape) {
-  return rows(n, [&](std::size_t i) { return 5 + 3 * shape(1e-3 * static_cast<double>(i)); });
+double sawtooth_shape(double phase) {  // back in a tenth of the period
+  const double at = phase - std::floor(phase);
+  return at < 0.9 ? at / 0.45 - 1 : 1 - (at - 0.9) / 0.05;
+}
+double multisine_shape(double phase) {  // Schroeder's phases keep its peaks low
+  double sum = 0;
+  for (int k = 1; k <= 80; ++k) sum += std::cos(2 * pi * k * phase - pi * k * (k - 1) / 80) / 80;
+  return 5 * sum;
+}
+/// A drive of 1 Hz at 1 kHz, or of another frequency.
+std::vector<double> periodic(std::size_t n, Shape shape, double frequency = 1) {
+  return rows(n, [&](std::size_t i) { return 5 + 3 * shape(frequency * 1e-3 * static_cast<double>(i)); });
+}
+std::vector<double> lagged(const std::vector<double>& u, double rows_of_lag) {
+  double at = u.front();
+  return rows(u.size(), [&](std::size_t i) { return at += (u[i] - at) / rows_of_lag; });
 }
 
 TEST(LinesOf, FindsTheMainsAtAMultipleOfASine) {
@@ -352,11 +366,12 @@ TEST(LinesOf, LeavesWhatABendAHysteresisOrAResonanceMakesOfOneToneAlone) {
     double at = u.front();
     return rows(u.size(), [&](std::size_t i) { return at = std::max(u[i] - 1, std::min(u[i] + 1, at)); });
   };
-  const auto rung_by = [&](const Device& device) -> Device {
-    return [device](const std::vector<double>& u) {  // Q = 100 at 50 Hz, at one of the multiples
-      const double w = 2 * pi * 0.05, z = 0.005;
-      auto y = device(u);
-      const auto force = y;
+  const auto rung_by = [&](const Device& device, double frequency, double q) -> Device {
+    return [=](const std::vector<double>& u) {  // at one of the multiples
+      const double w = 2 * pi * 1e-3 * frequency, z = 0.5 / q;
+      const auto force = device(u);  // it is at rest in the beginning
+      std::vector<double> y(force.size(),
+                            0.1 * force[0] / (1 - 2 * std::exp(-z * w) * std::cos(w) + std::exp(-2 * z * w)));
       for (std::size_t i = 2; i < y.size(); ++i)
         y[i] = 2 * std::exp(-z * w) * std::cos(w) * y[i - 1] - std::exp(-2 * z * w) * y[i - 2] + 0.1 * force[i];
       return y;
@@ -367,16 +382,89 @@ TEST(LinesOf, LeavesWhatABendAHysteresisOrAResonanceMakesOfOneToneAlone) {
                                     each([](double u) { return std::abs(u - 4); }),
                                     each([](double u) { return std::round(u / 0.05) * 0.05; }),
                                     play,
-                                    rung_by(play)};
-  for (const std::size_t n : {4000, 10000, 40000})
-    for (const Shape shape : {sine_shape, triangle_shape, square_shape})
+                                    rung_by(play, 50, 100),
+                                    rung_by(play, 13, 300),
+                                    rung_by(each([](double u) { return std::abs(u - 4); }), 12, 300),
+                                    rung_by(each([](double u) { return u; }), 20, 300)};
+  for (const std::size_t n : {4000, 10000})
+    for (const Shape shape : {sine_shape, triangle_shape, square_shape, sawtooth_shape, multisine_shape})
       for (std::size_t d = 0; d < devices.size(); ++d) {
         const auto u = periodic(n, shape);
         const auto e = noise(n, 1e-3, 18);
         auto y = devices[d](u);
         for (std::size_t i = 0; i < n; ++i) y[i] += e[i];
-        EXPECT_TRUE(lines_of(y, {u}, 1e-3).empty()) << "device " << d << ", " << n << " rows";
+        const auto lines = lines_of(y, {u}, 1e-3);
+        EXPECT_TRUE(lines.empty()) << "device " << d << ", shape " << shape(0.2) << ", " << n
+                                   << " rows: " << lines[0].frequency << " Hz, " << lines[0].amplitude;
       }
+}
+
+TEST(LinesOf, FindsTheMainsBesideADriveThatHasAllHarmonics) {
+  // 50 Hz is a multiple of 1 Hz; of 1.7 Hz it is none, nor is 50.03 Hz of 1 Hz, by a third of a cycle in 10 s.
+  for (const Shape shape : {triangle_shape, sawtooth_shape, multisine_shape})
+    for (const double drive : {1.0, 1.7})
+      for (const double frequency : {50.0, 50.03}) {
+        const std::size_t n = 10000;
+        const auto u = periodic(n, shape, drive);
+        const auto e = noise(n, 1e-3, 17);
+        auto y = lagged(u, 10);
+        for (std::size_t i = 0; i < n; ++i)
+          y[i] += e[i] + 0.05 * std::sin(2 * pi * frequency * 1e-3 * static_cast<double>(i) + 1);
+        const auto lines = lines_of(y, {u}, 1e-3);
+        ASSERT_EQ(lines.size(), 1U) << drive << " Hz, " << frequency << " Hz";
+        EXPECT_NEAR(lines[0].frequency, frequency, 0.005);  // a twentieth of 1 / 10 s
+        EXPECT_NEAR(lines[0].amplitude, 0.05, 0.0025);      // what lies beside a multiple goes with the mean by 1 / 20
+      }
+}
+
+TEST(LinesOf, IsSilentBesideADriveThatRepeats) {
+  for (unsigned seed = 30; seed < 36; ++seed)
+    for (const double drive : {1.0, 0.37, 3.3}) {
+      const auto u = periodic(12000, sawtooth_shape, drive);
+      const auto e = noise(u.size(), 1e-3, seed);
+      auto y = lagged(u, 10);
+      for (std::size_t i = 0; i < y.size(); ++i) y[i] += e[i] + 1e-5 * static_cast<double>(i);  // it drifts, too
+      EXPECT_TRUE(lines_of(y, {u}, 1e-3).empty()) << seed << ", " << drive << " Hz";
+    }
+}
+
+TEST(PeriodicPart, IsWhatComesAgainThoughNoRowDoes) {
+  const double period = 123.4;
+  const auto signal = [&](double row) {
+    return 2 * std::cos(2 * pi * row / period + 0.3) + 0.5 * std::sin(2 * pi * 3 * row / period);
+  };
+  const auto u = rows(4000, [&](std::size_t i) { return signal(static_cast<double>(i)); });
+  EXPECT_NEAR(sharp_period(u, 4).rows, period, 1e-3);
+  EXPECT_FALSE(sharp_period(u, 40).found()) << "32 periods";
+  const PeriodicPart part(u, period);
+  // A cubic through samples of a cosine is off by at most 3/128 w^4; twice: into the period and out of it.
+  const double off =
+      2 * (2 * 3.0 / 128 * std::pow(2 * pi / period, 4) + 0.5 * 3.0 / 128 * std::pow(6 * pi / period, 4));
+  for (const std::size_t i : {0, 7, 1000, 3999}) EXPECT_NEAR(part.at_row(i), u[i], off) << i;
+  EXPECT_NEAR(std::abs(part.harmonic(1)), 2, 1e-3);
+  EXPECT_NEAR(std::arg(part.harmonic(1)), 0.3, 1e-3);
+  EXPECT_NEAR(std::abs(part.harmonic(3)), 0.5, 1e-3);
+}
+
+TEST(ForeignHarmonics, AreThoseThatDoNotGoOnFromTheOrdersBesideThem) {
+  const std::size_t n = 8000;
+  const auto u = periodic(n, sawtooth_shape);
+  const auto part = [](const std::vector<double>& rows) { return PeriodicPart(rows, 1000); };
+  auto y = lagged(u, 10);
+  EXPECT_TRUE(foreign_harmonics(part(y), part(u)).empty());
+  const auto with = [&](double order) {
+    auto more = y;
+    for (std::size_t i = 0; i < n; ++i) more[i] += 0.05 * std::cos(2 * pi * order * 1e-3 * static_cast<double>(i));
+    return part(more);
+  };
+  for (const std::size_t order : {31, 50, 51}) {
+    const auto found = foreign_harmonics(with(static_cast<double>(order)), part(u));
+    ASSERT_EQ(found.size(), 1U) << order;
+    EXPECT_EQ(found[0].order, order);
+    // What a cubic through four orders misses must be less than a 32nd of the line for it to be told.
+    EXPECT_NEAR(std::abs(found[0].expected - part(y).harmonic(order)), 0, 0.05 / 32);
+  }
+  EXPECT_TRUE(foreign_harmonics(with(3), part(u)).empty()) << "a bend makes that";
 }
 
 TEST(LinesOf, TakesNoResonanceForALine) {
