@@ -14,9 +14,9 @@ namespace {
 
 constexpr char help[] =
     "Answers: what can these recordings show, and is anything wrong with them. Looks at units and ranges, the clock,\n"
-    "lost and repeated rows, clipping, the finest step of each column, what the inputs excite (range, band, turns,\n"
-    "holds), how well the measurement repeats where something was recorded twice, lines that no input makes, a shift\n"
-    "in time - and says of every effect whether these data can show it, and what would.\n\n"
+    "lost and repeated rows, clipping of outputs and inputs, the finest step of each column, what the inputs excite\n"
+    "(range, band, turns, holds), how well the measurement repeats where something was recorded twice, lines that no\n"
+    "input makes, a shift in time - and says of every effect whether these data can show it, and what would.\n\n"
     "Examples:\n"
     "  hysteron inspect lab.csv\n"
     "  hysteron inspect dataset.json --diagram stage.json\n"

@@ -197,7 +197,7 @@ Section inspection_section(const Inspected& seen) {
 }
 
 Facts inspection_facts(const Inspected& seen) {
-  Facts::List columns, recordings, repeats, lines, between, can, cannot;
+  Facts::List columns, recordings, repeats, lines, cuts, between, can, cannot;
   for (const auto& c : seen.data.columns) columns.push_back(facts_of(c));
   for (const auto& r : seen.data.recordings) recordings.push_back(facts_of(r));
   for (const auto& r : seen.data.repeats)
@@ -213,6 +213,14 @@ Facts inspection_facts(const Inspected& seen) {
                                    {"amplitude", l.unit.difference_from_si(l.amplitude)},
                                    {"unit", unit_text(l.unit)},
                                    {"recordings", l.recordings}}));
+  for (const auto& c : seen.data.cuts)
+    cuts.push_back(Facts::object({{"input", c.input},
+                                  {"end", c.at_top ? "highest" : "lowest"},
+                                  {"level", c.unit.from_si(c.level)},
+                                  {"would_be", c.unit.from_si(c.would_be)},
+                                  {"unit", unit_text(c.unit)},
+                                  {"tops", c.tops},
+                                  {"recordings", c.recordings}}));
   for (const auto& b : seen.data.between)
     between.push_back(Facts::object({{"input", b.input},
                                      {"given", to_text(b.given)},
@@ -230,6 +238,7 @@ Facts inspection_facts(const Inspected& seen) {
                         {"recordings", recordings},
                         {"repeats", repeats},
                         {"lines", lines},
+                        {"cut_inputs", cuts},
                         {"between_samples", between},
                         {"faults", seen.data.faults},
                         {"notes", seen.data.notes},

@@ -12,6 +12,7 @@
 
 #include "engine/time_text.h"
 #include "fit/branches.h"
+#include "fit/cut_tops.h"
 #include "fit/inspection_words.h"
 #include "fit/median.h"
 #include "fit/score.h"
@@ -233,6 +234,7 @@ class Inspector {
 
   void rows() {
     still();
+    cut_inputs();
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       clock_faults(seen_.recordings[k]);
       lost_and_repeated(parts_[k]);
@@ -347,6 +349,32 @@ class Inspector {
     const double finest = column(output)->finest;
     say(plateau_at_top(rows, finest, moves), "highest");
     say(plateau_at_bottom(rows, finest, moves), "lowest");
+  }
+
+  /// What an amplifier or a logger took off a drive is not in the column; what was meant to be flat is no such thing.
+  void cut_inputs() {
+    for (const auto& name : program().input_names)
+      for (const bool at_top : {true, false}) {
+        InspectedCut all{name, unit_of(name), at_top};
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+          const Clock& clock = seen_.recordings[k].clock;
+          const auto u = rows_of(model_, parts_[k], name);
+          if (!clock.regular || !clock.gaps.empty() || !(range_of(u) > 0)) continue;
+          const double frequency = cycle_frequency(times_of(model_, parts_[k]), u);
+          const double cycle = frequency > 0 ? 1 / (frequency * clock.step) : 0, finest = column(name)->finest;
+          add_cut(all, at_top ? cut_at_top(u, finest, cycle) : cut_at_bottom(u, finest, cycle), parts_[k].name);
+        }
+        if (!all.recordings.empty()) seen_.cuts.push_back(std::move(all));
+      }
+    for (const auto& cut : seen_.cuts) seen_.notes.push_back(cut_sentence(cut));
+  }
+  static void add_cut(InspectedCut& all, const CutTops& seen, const std::string& recording) {
+    if (!seen.found) return;
+    const auto farther = [&](double a, double b) { return all.at_top ? a > b : a < b; };
+    if (all.recordings.empty() || farther(seen.would_be, all.would_be)) all.would_be = seen.would_be;
+    if (all.recordings.empty() || farther(seen.level, all.level)) all.level = seen.level;
+    all.tops += seen.tops;
+    all.recordings.push_back(recording);
   }
 
   void units() {

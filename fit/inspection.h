@@ -65,11 +65,22 @@ struct InspectedLine {
   bool of_residual = true;  ///< seen in what the diagram leaves, else in the measured signal itself
 };
 
+/// An end of its range at which an input may have been cut.
+struct InspectedCut {
+  std::string input;
+  Unit unit;
+  bool at_top = true;
+  double level = 0, would_be = 0;  ///< [SI]; the farthest of all recordings
+  std::size_t tops = 0;
+  std::vector<std::string> recordings{};
+};
+
 struct Inspection {
   std::vector<InspectedColumn> columns;
   std::vector<InspectedRecording> recordings;
   std::vector<InspectedRepeat> repeats;  ///< the lowest of each output first
   std::vector<InspectedLine> lines;
+  std::vector<InspectedCut> cuts;
   std::vector<DelayFinding> delays;       ///< one per output, as find_delays
   std::vector<InspectedBetween> between;  ///< only where the other way is clearly better
   std::vector<std::string> faults;        ///< what is wrong with the data, or ought to be written in the data set

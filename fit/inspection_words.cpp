@@ -130,6 +130,16 @@ std::string note_of_reach(const Inspection& seen, const std::string& input) {
       range_text(beyond.lowest, beyond.highest, fitted.unit), range_text(fitted.lowest, fitted.highest, fitted.unit));
 }
 
+std::string cut_sentence(const InspectedCut& cut) {
+  return fmt::format(
+      "{} may be cut at {}: {} are flat there (in {}), though their flanks bend towards {} and would reach {}. Where "
+      "an "
+      "amplifier stops there, the column is right; where only the logger does, the device was driven further than it "
+      "says.",
+      cut.input, level_text(cut.level, cut.unit), count_of(cut.tops, cut.at_top ? "top" : "bottom"),
+      list_text(cut.recordings), cut.at_top ? "a summit" : "a trough", level_text(cut.would_be, cut.unit));
+}
+
 std::vector<std::string> sentences_of(const Inspection& seen, const std::vector<std::string>& inputs,
                                       const std::vector<std::string>& outputs) {
   if (seen.recordings.empty()) return {};

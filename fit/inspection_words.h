@@ -17,6 +17,9 @@ std::string list_text(const std::vector<std::string>& names);  ///< "01.csv, 02.
 /// "" = none does.
 std::string note_of_reach(const Inspection& seen, const std::string& input);
 
+/// What was cut, where, and what it means.
+std::string cut_sentence(const InspectedCut& cut);
+
 /// What the data are, most important first: rows, each input, each output, and whether anything was recorded twice.
 std::vector<std::string> sentences_of(const Inspection& seen, const std::vector<std::string>& inputs,
                                       const std::vector<std::string>& outputs);

@@ -126,6 +126,22 @@ TEST_F(Inspecting, TellsRowsThatAreMissingRepeatedOrClipped) {
   EXPECT_EQ(seen.faults.size(), 3U);
 }
 
+TEST_F(Inspecting, TellsAnInputThatIsCutAndNoneThatIsFlatByDesign) {
+  const auto sine = [](double t) { return 5 + 4 * std::sin(2 * std::numbers::pi * 8 * t); };
+  const auto trapezoid = [](double t) { return std::clamp(20 * std::abs(2 * t - std::floor(2 * t + 0.5)), 0.0, 8.0); };
+  const Inspection seen =
+      inspected(gain_, data_set(gain_, 4000, {[&](double t) { return std::min(sine(t), 8.0); }, trapezoid}));
+  ASSERT_EQ(seen.cuts.size(), 1U);
+  EXPECT_EQ(seen.cuts[0].tops, 32U);  // 8 Hz for 4 s
+  EXPECT_EQ(seen.cuts[0].recordings, std::vector<std::string>{"r0"});
+  EXPECT_TRUE(tells(seen.notes,
+                    "u may be cut at 8 V: 32 tops are flat there (in r0), though their flanks bend towards a "
+                    "summit and would reach 9 V"))
+      << seen.notes.front();
+  EXPECT_TRUE(seen.faults.empty()) << seen.faults.front();
+  EXPECT_TRUE(inspected(gain_, data_set(gain_, 4000, {sine, trapezoid})).cuts.empty());
+}
+
 TEST_F(Inspecting, TellsAnOutputThatIsOneSampleLate) {
   for (auto& r : data_.recordings) {
     auto& rows = r.columns["y"];
