@@ -38,6 +38,7 @@ TEST_F(DataFirst, NoneOfTheSixteenCasesIsAccusedOfAFault) {
     EXPECT_TRUE(seen.faults.empty()) << id << ": " << seen.faults.front();
     EXPECT_TRUE(seen.lines.empty()) << id << ": " << seen.lines.front().frequency << " Hz";
     EXPECT_TRUE(seen.between.empty()) << id;
+    EXPECT_TRUE(seen.cuts.empty()) << id << ": " << seen.cuts.front().input;
     for (const auto& r : seen.recordings) EXPECT_TRUE(r.clock.uniform) << id << " " << r.name;
   }
 }
