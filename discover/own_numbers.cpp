@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "discover/books.h"
 #include "discover/parts.h"
@@ -86,26 +89,69 @@ std::map<std::string, double> may_be_let_go(const Books& books) {
   return numbers;
 }
 
-/// Does `model` with these numbers let go explain more than `other`, and is it `enough`. A law that finds weights anew
-/// pays nothing for them: beside it nobody does.
-bool explain_better(const Books& books, const Contender& model, const std::map<std::string, double>& numbers,
-                    const Contender& other, const Law* law,
-                    const std::function<bool(const ModelError&)>& enough) {
-  const bool free_of_charge = law != nullptr && law->reweighs;
+Contender with_numbers(const Books& books, const Contender& model, const std::map<std::string, double>& numbers,
+                       Effort effort) {
   Workshop shop = books.shop;
   shop.let_go(numbers);
+  return refit(shop, model, effort);
+}
+
+/// `model` with these numbers let go, if that explains more than `other` and is `enough`. A law that finds weights anew
+/// pays nothing for them: beside it nobody does.
+std::optional<Contender> explaining_better(const Books& books, const Contender& model,
+                                           const std::map<std::string, double>& numbers, const Contender& other,
+                                           const Law* law, const std::function<bool(const Contender&)>& enough) {
+  const bool free_of_charge = law != nullptr && law->reweighs;
   Contender c = model;
   for (const Effort effort : {Effort::full, Effort::final}) {  // what they cost is known once there are intervals
-    c = refit(shop, c, effort);
-    if (!c.ok || !enough(c.error_of)) return false;
+    c = with_numbers(books, c, numbers, effort);
+    if (!c.ok || !enough(c)) return {};
     const Cost cost = cost_of(c, numbers);
     const double each = std::log(std::max(c.error_of.witnesses, 2.0));
     double score = c.score();
-    if (!free_of_charge)
-      score += rules::tie + cost.moved + (effort == Effort::final ? cost.numbers * each : 0);
-    if (!cost.plausible || score > other.score()) return false;
+    if (!free_of_charge) score += rules::tie + cost.moved + (effort == Effort::final ? cost.numbers * each : 0);
+    if (!cost.plausible || score > other.score()) return {};
   }
-  return true;
+  return c;
+}
+
+/// Numbers of which one does what another does (a force and the spring it acts on) each move half the way. The fewest
+/// that explain as much as all: those that moved for certain, and of the others the ones that moved most.
+std::map<std::string, double> fewest(const Books& books, const Contender& model, const Contender& all,
+                                     const std::map<std::string, double>& numbers) {
+  std::map<std::string, double> few;
+  std::vector<std::pair<double, std::string>> others;
+  for (const auto& e : all.fit.estimates) {
+    const auto n = numbers.find(e.path);
+    if (n == numbers.end()) continue;
+    const double moved = std::abs(e.used - n->second);
+    if (e.sigma && moved > rules::moved * *e.sigma)
+      few.insert(*n);
+    else
+      others.emplace_back(-moved / std::abs(n->second), e.path);
+  }
+  std::sort(others.begin(), others.end());
+  const auto worth = [](const Contender& c, const std::map<std::string, double>& let_go) {
+    return c.score() + cost_of(c, let_go).moved;
+  };
+  const double reached = worth(all, numbers) + rules::tie;
+  for (std::size_t next = 0; few.size() < numbers.size(); ++next) {
+    if (!few.empty()) {
+      const Contender c = with_numbers(books, model, few, Effort::full);
+      if (c.ok && worth(c, few) < reached) return few;
+    }
+    if (next >= others.size()) break;
+    few.insert(*numbers.find(others[next].second));
+  }
+  return numbers;
+}
+
+/// More than a gain and a zero of each output would explain: one that is off alone is a calibration, and called that.
+bool is_no_calibration(const Books& books, const Contender& c) {
+  Prediction straight = books.current.prediction;
+  for (int o = 0; o < static_cast<int>(books.base_model->outputs().size()); ++o)
+    straight = books.evidence->calibrated(std::move(straight), o);
+  return c.error_of.evidence() + rules::tie < books.evidence->error(straight).evidence();
 }
 
 /// Where no effect would be claimed: most of what stands above the noise, and more than the laws that stand may have
@@ -150,24 +196,27 @@ std::map<std::string, double> held_numbers(const Books& books) {
 bool are_the_numbers(Books& books, const Tried* winner) {
   const auto numbers = may_be_let_go(books);
   if (numbers.empty()) return false;
-  const auto enough = [&](const ModelError& now) {
-    return explains(now, books.current.error_of) && (winner != nullptr || is_more_than_laws_leave(books, now));
+  const auto enough = [&](const Contender& c) {
+    return explains(c.error_of, books.current.error_of) && is_no_calibration(books, c) &&
+           (winner != nullptr || is_more_than_laws_leave(books, c.error_of));
   };
-  const bool better = winner != nullptr ? explain_better(books, books.current, numbers, winner->contender,
-                                                         &winner->laws[winner->law], enough)
-                                        : explain_better(books, books.current, numbers, books.current, nullptr, enough);
-  if (better) books.other_numbers = numbers;
-  return better;
+  const auto all = explaining_better(books, books.current, numbers, winner ? winner->contender : books.current,
+                                     winner ? &winner->laws[winner->law] : nullptr, enough);
+  if (all) books.other_numbers = fewest(books, books.current, *all, numbers);
+  return all.has_value();
 }
 
 bool are_numbers_in_place_of_an_effect(Books& books) {
   const auto numbers = may_be_let_go(books);
   if (numbers.empty()) return false;
   for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
+    if (calibrates(books.current.standing[i])) continue;
     const Contender rest = without(books.shop, books.current, i);
     const Law& law = books.current.standing[i].law;
-    if (!explain_better(books, rest, numbers, books.current, &law, [](const ModelError&) { return true; })) continue;
-    books.other_numbers = numbers;
+    const auto all =
+        explaining_better(books, rest, numbers, books.current, &law, [](const Contender&) { return true; });
+    if (!all) continue;
+    books.other_numbers = fewest(books, rest, *all, numbers);
     return true;
   }
   return false;
@@ -182,7 +231,8 @@ void tell_other_numbers(Books& books) {
   }
   if (!books.shop.roughly.empty() && books.d.other_numbers.empty())
     books.d.warnings.push_back(
-        "the numbers that the model holds were let go, each near what is written, and beside what was found none of them "
+        "the numbers that the model holds were let go, each near what is written, and beside what was found none of "
+        "them "
         "is another one: with --exact they stay as they are");
   std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);

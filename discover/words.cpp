@@ -294,9 +294,10 @@ void tell_numbers(Discovery& d) {
                                       shown(n.written)));
   }
   d.sentences.push_back(
-      "All numbers that the model holds were let go, each by some per cent of what is written (95 % within 3 %): with "
-      "these as they are written an effect would be named that only makes up for them. Leave free in the diagram "
-      "(\"free\": true) those that are not sure; where all are exact, say so with --exact.");
+      "These are the fewest that explain as much as all together, each near what is written (95 % within 3 %; one that "
+      "does the same, as a spring does for a force, would do as well). As they are written an effect would be named "
+      "that only makes up for them. Leave free in the diagram (\"free\": true) those that are not sure; where all are "
+      "exact, say so with --exact.");
 }
 
 /// What was found and what is left of it; of what nothing explains all that is known.

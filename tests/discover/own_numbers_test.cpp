@@ -54,7 +54,7 @@ class OwnNumbers : public Discoveries {
       const auto u = several_sines(t, 2, {hertz, 2.7 * hertz});
       auto y = noise(t.size(), white, 0, seed++);
       Weights w{};
-      double v = 0;  // what the plays are driven by
+      double v = 0;              // what the plays are driven by
       constexpr int parts = 20;  // turning points lie within rows
       const double h = 0.005 / parts;
       const double keep = late > 0 ? std::exp(-h / late) : 0, mean = late / h * (1 - keep);
@@ -88,6 +88,29 @@ TEST_F(OwnNumbers, WeightsThatAreOffAreToldAndNoEffectMakesUpForThem) {
   EXPECT_NE(d.headline.find("Adequate"), std::string::npos) << d.headline;
   EXPECT_LT(d.base.rms_validate, 1.05 * white);
   EXPECT_GT(d.as_given.rms_validate, 5 * white) << "what the user has is told, too";
+}
+
+TEST_F(OwnNumbers, OfThoseThatDoTheSameTheFewestAreTold) {
+  // A gain behind the stage does what all weights do together: one weight of four numbers is off, and all four would
+  // share it.
+  Diagram d = plays();
+  Node& behind = d.blocks["behind"];
+  behind.type = "gain";
+  behind.parameters["gain"] = Value(1.0);
+  behind.in = {{"", "stage"}};
+  d.blocks["sensor"].in = {{"", "behind"}};
+  const Discovery found = discovered(d, measured({1, 0.308, 0.2}), offered);
+  ASSERT_EQ(found.other_numbers.size(), 1u) << found.headline;
+  EXPECT_EQ(found.other_numbers[0].path, "stage.weights[1]");
+  EXPECT_NEAR(found.other_numbers[0].found, 0.308, 4 * found.other_numbers[0].sigma);
+}
+
+TEST_F(OwnNumbers, AGainThatIsOffAloneIsACalibration) {
+  Weights more = as_written;
+  for (auto& w : more) w *= 1.02;
+  const Discovery d = discovered(plays(), measured(more), offered);
+  EXPECT_EQ(winner(d), "calibration") << tried(d);
+  EXPECT_TRUE(d.other_numbers.empty()) << d.headline;
 }
 
 TEST_F(OwnNumbers, WhatIsExactIsNotLetGo) {
@@ -133,9 +156,8 @@ TEST_F(OwnNumbers, ZerosThresholdsDefaultsAndWhatIsFreeAreNotAmongThem) {
   EXPECT_EQ(held, (std::map<std::string, double>{{"stage.weights[0]", 1}, {"stage.weights[2]", 0.2}}));
 }
 
-/// Weights are linear, and so is what a mode adds; not both, for they multiply each other. The mode begins alone: it was
-/// searched from half of the motion, and not found, where more weights than its own
-/// numbers are free.
+/// Weights are linear, and so is what a mode adds; not both, for they multiply each other. The mode begins alone: it
+/// was searched from half of the motion, and not found, where more weights than its own numbers are free.
 TEST_F(OwnNumbers, AModeBehindWeightsThatAreFreeIsFound) {
   constexpr std::size_t many = 9;
   constexpr double frequency = 30, damping = 0.006, position = 0.002;
@@ -181,8 +203,8 @@ TEST_F(OwnNumbers, AModeBehindWeightsThatAreFreeIsFound) {
                                  {"structural_resonance", "sensor_lag", "asymmetry", "calibration"}, options);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(winner(d), "structural_resonance") << tried(d);
-  // 0.01 m of ringing in 2400 rows of 1e-3: the frequency to some 1e-3 of its half width, 0.9 Hz, and beside weights that
-  // take part of it to ten times that.
+  // 0.01 m of ringing in 2400 rows of 1e-3: the frequency to some 1e-3 of its half width, 0.9 Hz, and beside weights
+  // that take part of it to ten times that.
   EXPECT_NEAR(value(d, "frequencies[0]"), frequency, 0.03) << tried(d);
   EXPECT_EQ(to_text(d.remainder), "noise") << tried(d);
 }
