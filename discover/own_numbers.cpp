@@ -179,7 +179,8 @@ std::map<std::string, double> held_numbers(const Books& books) {
     const ParameterInfo& p = program.parameters[i];
     const bool is_free = std::any_of(free.begin(), free.end(),
                                      [&](const FreeParameter& f) { return f.parameter == static_cast<int>(i); });
-    if (is_free || p.value == 0 || p.block < 0 || p.offset || !is_measured(books, p.block)) continue;
+    const bool from_elsewhere = p.offset || (!p.difference && p.unit.to_si(0) != 0);  // a zero, a temperature
+    if (is_free || p.value == 0 || p.block < 0 || from_elsewhere || !is_measured(books, p.block)) continue;
     const auto& block = program.blocks[static_cast<std::size_t>(p.block)];
     const Declaration& d = block.kernel->declaration;
     if (d.inputs.empty()) continue;
@@ -231,9 +232,9 @@ void tell_other_numbers(Books& books) {
   }
   if (!books.shop.roughly.empty() && books.d.other_numbers.empty())
     books.d.warnings.push_back(
-        "the numbers that the model holds were let go, each near what is written, and beside what was found none of "
-        "them "
-        "is another one: with --exact they stay as they are");
+        "numbers that the model holds were let go, each near what is written, and beside what was found none is "
+        "another "
+        "one: with --exact they stay as they are");
   std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });
