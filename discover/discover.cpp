@@ -314,7 +314,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   Discovery with;  // how inputs move, as far as that is known by now
   long runs = 0;
   std::map<std::string, double> numbers;  // of the model, that are let go
-  std::unique_ptr<Books> before;
+  std::unique_ptr<Books> before, held;    // held: what was found with the numbers as they are written
   for (;;) {
     auto books = std::make_unique<Books>(diagram, as_found(data, with), registry, effects, options);
     books->d.smooth_inputs = with.smooth_inputs;
@@ -333,6 +333,21 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
       books->progress(fmt::format("anew: {} moves smoothly between its samples", books->smooth->input), 0);
       before = std::move(books);
       continue;
+    }
+    if (held) {
+      numbers = books->stopped() ? std::map<std::string, double>{} : numbers_that_help(*books, *held);
+      if (numbers.empty())
+        books = std::move(held);
+      else
+        before = std::move(held);
+      if (!numbers.empty()) continue;
+    } else if (numbers.empty()) {
+      numbers = numbers_to_try(*books);
+      if (!numbers.empty()) {
+        books->progress("anew: with all numbers of the model let go", 0);
+        held = std::move(books);
+        continue;
+      }
     }
     // Broken off before it had found again what was found without: that is still true.
     if (before && books->stopped() && found_effects(*books) < found_effects(*before)) books = std::move(before);

@@ -223,6 +223,28 @@ bool are_numbers_in_place_of_an_effect(Books& books) {
   return false;
 }
 
+std::map<std::string, double> numbers_to_try(const Books& books) {
+  if (books.current.error_of.over_floor() <= rules::floor_gate) return {};
+  return may_be_let_go(books);
+}
+
+std::map<std::string, double> numbers_that_help(const Books& let_go, const Books& held) {
+  const auto& numbers = let_go.shop.roughly;
+  const Contender& now = let_go.current;
+  Contender was = held.current;
+  was.error_of = let_go.evidence->error(was.prediction);
+  const Cost cost = cost_of(now, numbers);
+  const double each = std::log(std::max(now.error_of.witnesses, 2.0));
+  const double score = now.score() + cost.moved + cost.numbers * each + rules::tie;
+  const bool most = now.error_of.excess_validate() < (1 - rules::share_of_rest) * was.error_of.excess_validate();
+  if (!most || !cost.plausible || score > was.score()) return {};
+  Contender as_written = now;
+  Trial written;
+  for (const auto& [path, value] : numbers) written.push_back({parameter_index(*now.program, path), value, -1});
+  as_written.diagram = with_parameters(now.diagram, *now.program, written);
+  return fewest(held, as_written, now, numbers);
+}
+
 void tell_other_numbers(Books& books) {
   for (const auto& e : books.current.fit.estimates) {
     const auto n = books.shop.roughly.find(e.path);

@@ -1,5 +1,6 @@
 // Decides whether what the user's model leaves speaks of its numbers rather than of its structure: a weight or a mass
-// that is written as 2.00 and is 2.04. Does not name effects; where it says yes, all begins anew with these numbers free.
+// that is written as 2.00 and is 2.04. Does not name effects; where it says yes, all begins anew with these numbers
+// free.
 #pragma once
 
 #include <map>
@@ -21,6 +22,15 @@ bool are_the_numbers(Books& books, const Tried* winner);
 /// The same of each effect that stands: a law that finds the weights of a hysteresis anew beside its curve stands for
 /// them where something else was missing beside them.
 bool are_numbers_in_place_of_an_effect(Books& books);
+
+/// Where more than noise is left at the end, effects and numbers may hide each other: a loop in the spring of a mass
+/// takes what friction does beside a spring that is written too hard. All of them, to search once more with; empty =
+/// nothing to try.
+std::map<std::string, double> numbers_to_try(const Books& books);
+
+/// The fewest of them with which `let_go`, that search, explains most of what `held`, the one before, leaves; empty =
+/// it does not.
+std::map<std::string, double> numbers_that_help(const Books& let_go, const Books& held);
 
 /// Those that are not what is written, in the last model, with what it says of them.
 void tell_other_numbers(Books& books);

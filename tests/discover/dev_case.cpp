@@ -38,7 +38,7 @@ DataSet data_from_json(const std::string& name, const std::string& text) {
 
 Case dev_case(const std::string& id) {
   const HiddenCase hidden = read_hidden_case(shared("hidden-effects/dev/" + id));
-  return {hidden.diagram, data_from_json("dev_" + id, hidden.data_text)};
+  return {hidden.diagram, data_from_json("dev_" + id, hidden.data_text), hidden.numbers_are_exact};
 }
 
 double noise_floor(const std::string& id) {

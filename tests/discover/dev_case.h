@@ -12,6 +12,7 @@ namespace hysteron::testing {
 struct Case {
   Diagram diagram;
   DataSet data;
+  bool numbers_are_exact = false;  ///< of the diagram, as DiscoverOptions has it
 };
 
 bool shared_is_there();

@@ -19,7 +19,11 @@ class Recordings : public ::testing::Test {
   void SetUp() override {
     if (!shared_is_there()) GTEST_SKIP() << "../shared is not there: " << HYSTERON_SHARED_DIR;
   }
-  Discovery found(const Case& c) { return discover(c.diagram, c.data, registry, effects); }
+  Discovery found(const Case& c) {
+    DiscoverOptions options;
+    options.numbers_are_exact = c.numbers_are_exact;
+    return discover(c.diagram, c.data, registry, effects, options);
+  }
   void expect_named(const std::string& id, const std::string& effect, std::size_t steps = 1) {
     const Discovery d = found(dev_case(id));
     SCOPED_TRACE(tried(d));
@@ -104,6 +108,7 @@ TEST_F(LongRecordings, TheAnswerIsTheSameWithTenTimesLooserOrTighterTolerances) 
     const auto with = [&](double looser) {
       DiscoverOptions options;
       options.looser = looser;
+      options.numbers_are_exact = c.numbers_are_exact;
       return answer_of(discover(c.diagram, c.data, registry, effects, options));
     };
     const auto usual = with(1);
