@@ -261,9 +261,11 @@ void tell_other_numbers(Books& books) {
   }
   if (!books.shop.roughly.empty() && books.d.other_numbers.empty())
     books.d.warnings.push_back(
-        "numbers that the model holds were let go, each near what is written, and beside what was found none is "
-        "another "
-        "one: with --exact they stay as they are");
+        "numbers that the model holds were let go, each near what is written, and all figures are with what was found "
+        "for "
+        "them, as the diagram has it: none alone is another one for certain (several may do the same); with --exact "
+        "they "
+        "stay as they are");
   std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });
