@@ -188,7 +188,7 @@ HiddenCase read_hidden_case(const std::string& folder, Noise noise) {
     c.diagram.title = "case " + c.id;
     c.diagram.inputs["u"].unit = "V";
     base_of(c.diagram, task);
-    c.numbers_are_exact = !task.contains("base_parameters_within");
+    c.numbers_are_exact = task.value("base_parameters_exact", true);
     c.free_paths = free_paths(c.diagram, task);
     c.data_text = data_text(c.diagram, task, path, noise);
     return c;

@@ -17,7 +17,7 @@ struct HiddenCase {
   std::string id;
   std::string base;                  ///< "B1" .. "B5"
   std::vector<std::string> outputs;  ///< headers as in the recordings: "y [um]"
-  bool numbers_are_exact = true;     ///< false: the user knows them to "base_parameters_within" at most
+  bool numbers_are_exact = true;     ///< "base_parameters_exact": false = some per cent off
   Diagram diagram;
   std::string data_text;                ///< of a data set file, recordings by their full paths
   std::vector<std::string> free_paths;  ///< numbers of the diagram that the user knows roughly ("base_parameters_free")

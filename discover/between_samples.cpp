@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "discover/books.h"
+#include "fit/way_between.h"
 
 namespace hysteron {
 namespace {
@@ -15,19 +16,9 @@ namespace {
 /// Of what the model leaves: who bends less than that (rms, of what the input varies) explains none of it.
 constexpr double hardly_bends = 0.02;
 
-Between given(const DataSet& data, const std::string& input) {
-  const auto note = data.notes.find(input);
-  return note == data.notes.end() ? Between::linear : note->second.between;
-}
-
-void move_input(DataSet& data, const std::string& input, Between between) {
-  data.notes[input].to = input;
-  data.notes[input].between = between;
-}
-
 Workshop with_input(const Books& books, const std::string& input, Between between) {
   DataSet other = *books.data;
-  move_input(other, input, between);
+  set_way(other, input, between);
   Workshop shop = books.shop;
   shop.data = std::make_shared<const DataSet>(std::move(other));
   return shop;
@@ -35,9 +26,7 @@ Workshop with_input(const Books& books, const std::string& input, Between betwee
 
 /// More than a claim needs goes in recordings of both roles, and this share of what judging ones have above the noise.
 bool explains(const ModelError& now, const ModelError& was, double share) {
-  return was.evidence_train - now.evidence_train > rules::claim_fall &&
-         was.evidence_validate - now.evidence_validate > rules::claim_fall &&
-         now.excess_validate() < (1 - share) * was.excess_validate();
+  return falls_in_both_roles(now, was) && now.excess_validate() < (1 - share) * was.excess_validate();
 }
 
 /// What a gain and a zero of each output would leave beside the prediction: a wrong gain is as much too small at every
@@ -76,7 +65,7 @@ double bend_of(const DataSet& data, const std::string& input) {
 }  // namespace
 
 DataSet as_found(DataSet data, const Discovery& found) {
-  for (const auto& s : found.smooth_inputs) move_input(data, s.input, Between::smooth);
+  for (const auto& s : found.smooth_inputs) set_way(data, s.input, Between::smooth);
   return data;
 }
 
@@ -100,7 +89,7 @@ void tell_smooth_inputs(Books& books) {
 void tell_other_ways(Books& books) {
   for (const auto& input : books.base_model->program().input_names) {
     if (books.stopped()) return;
-    const Between between = given(*books.data, input);
+    const Between between = given_way(*books.data, input);
     if (between == Between::smooth || books.data->notes.count(input) == 0) continue;
     const bool held = between == Between::hold;
     const Workshop shop = with_input(books, input, held ? Between::linear : Between::hold);
@@ -119,7 +108,7 @@ std::optional<SmoothInput> find_smooth_input(const Books& books) {
   const ModelError& was = books.current.error_of;
   for (const auto& input : books.base_model->program().input_names) {
     if (books.stopped()) return {};
-    if (given(*books.data, input) != Between::linear) continue;
+    if (given_way(*books.data, input) != Between::linear) continue;
     if (bend_of(*books.data, input) < hardly_bends * was.nrmse_validate) continue;
     const Workshop shop = with_input(books, input, Between::smooth);
     Contender present = books.current;

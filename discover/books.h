@@ -1,8 +1,9 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
-// set_on_another_output.cpp, idle.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp, another_beginning.cpp), the
-// verdict (conclude.cpp), what is recorded of who lost (laws_tried.cpp, menu.cpp, structures_tried.cpp).
+// set_on_another_output.cpp, idle.cpp, own_numbers.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp,
+// another_beginning.cpp), the verdict (conclude.cpp), what is recorded of who lost (laws_tried.cpp, menu.cpp,
+// structures_tried.cpp).
 #pragma once
 
 #include <functional>

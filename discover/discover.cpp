@@ -307,56 +307,75 @@ void search(Books& books) {
     unless_it_fails(books, [&] { return ties_beside_what_came_later(books, 0.96), true; });
 }
 
+/// Searches of one discovery: what one finds of the inputs or of the model's numbers the next begins with.
+class Searches {
+ public:
+  /// A search by all that is known by now.
+  std::unique_ptr<Books> next(const Diagram& diagram, const DataSet& data, const Registry& registry,
+                              const Effects& effects, const DiscoverOptions& options) {
+    auto books = std::make_unique<Books>(diagram, as_found(data, with_), registry, effects, options);
+    books->d.smooth_inputs = with_.smooth_inputs;
+    books->d.asked_for = options.only;
+    if (!numbers_.empty()) books->shop.let_go(numbers_);
+    search(*books);
+    runs_ += books->shop.notes->runs();
+    return books;
+  }
+
+  /// Does all begin anew after this search? If not, it is the one to conclude, or gives way to an earlier one.
+  bool begin_anew(std::unique_ptr<Books>& books) {
+    const bool stopped = books->stopped();
+    if (!stopped && !books->other_numbers.empty()) {
+      numbers_ = books->other_numbers;
+      return keep(books, before_, "with other numbers of the model");
+    }
+    if (!stopped && books->smooth) {
+      with_.smooth_inputs.push_back(*books->smooth);
+      return keep(books, before_, books->smooth->input + " moves smoothly between its samples");
+    }
+    if (held_) return after_numbers_were_let_go(books);
+    if (numbers_.empty() && !(numbers_ = numbers_to_try(*books)).empty())
+      return keep(books, held_, "with all numbers of the model let go");
+    // Broken off before it had found again what was found without: that is still true.
+    if (before_ && stopped && found_effects(*books) < found_effects(*before_)) books = std::move(before_);
+    return false;
+  }
+  long runs() const { return runs_; }
+
+ private:
+  static bool keep(std::unique_ptr<Books>& books, std::unique_ptr<Books>& as, const std::string& how) {
+    books->progress("anew: " + how, 0);
+    as = std::move(books);
+    return true;
+  }
+
+  bool after_numbers_were_let_go(std::unique_ptr<Books>& books) {
+    numbers_.clear();
+    if (!books->stopped()) numbers_ = numbers_that_help(*books, *held_);
+    if (!numbers_.empty()) return keep(held_, before_, "with the fewest of these numbers");
+    books = std::move(held_);
+    return false;
+  }
+
+  Discovery with_;                         ///< how inputs move, as far as that is known by now
+  std::map<std::string, double> numbers_;  ///< of the model, that are let go, as written [SI]
+  std::unique_ptr<Books> before_;          ///< what was found without the last of these
+  std::unique_ptr<Books> held_;            ///< what was found with the numbers as written, while all are let go
+  long runs_ = 0;
+};
+
 }  // namespace
 
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options) {
-  Discovery with;  // how inputs move, as far as that is known by now
-  long runs = 0;
-  std::map<std::string, double> numbers;  // of the model, that are let go
-  std::unique_ptr<Books> before, held;    // held: what was found with the numbers as they are written
-  for (;;) {
-    auto books = std::make_unique<Books>(diagram, as_found(data, with), registry, effects, options);
-    books->d.smooth_inputs = with.smooth_inputs;
-    books->d.asked_for = options.only;
-    if (!numbers.empty()) books->shop.let_go(numbers);
-    search(*books);
-    runs += books->shop.notes->runs();
-    if (!books->other_numbers.empty() && !books->stopped()) {
-      numbers = books->other_numbers;
-      books->progress("anew: with other numbers of the model", 0);
-      before = std::move(books);
-      continue;
-    }
-    if (books->smooth && !books->stopped()) {
-      with.smooth_inputs.push_back(*books->smooth);
-      books->progress(fmt::format("anew: {} moves smoothly between its samples", books->smooth->input), 0);
-      before = std::move(books);
-      continue;
-    }
-    if (held) {
-      numbers = books->stopped() ? std::map<std::string, double>{} : numbers_that_help(*books, *held);
-      if (numbers.empty())
-        books = std::move(held);
-      else
-        before = std::move(held);
-      if (!numbers.empty()) continue;
-    } else if (numbers.empty()) {
-      numbers = numbers_to_try(*books);
-      if (!numbers.empty()) {
-        books->progress("anew: with all numbers of the model let go", 0);
-        held = std::move(books);
-        continue;
-      }
-    }
-    // Broken off before it had found again what was found without: that is still true.
-    if (before && books->stopped() && found_effects(*books) < found_effects(*before)) books = std::move(before);
-    if (books->smooth) tell_unused(*books);
-    if (!books->other_numbers.empty()) tell_unused_numbers(*books);
-    conclude(*books);
-    books->d.model_runs = runs;
-    return std::move(books->d);
-  }
+  Searches searches;
+  auto books = searches.next(diagram, data, registry, effects, options);
+  while (searches.begin_anew(books)) books = searches.next(diagram, data, registry, effects, options);
+  if (books->smooth) tell_unused(*books);
+  if (!books->other_numbers.empty()) tell_unused_numbers(*books);
+  conclude(*books);
+  books->d.model_runs = searches.runs();
+  return std::move(books->d);
 }
 
 Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,

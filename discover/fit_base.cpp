@@ -22,7 +22,8 @@ void fit_base(Books& books) {
   const Prediction as_given = books.base_model->predict({}, books.evidence->recordings());
   Workshop to_its_end = books.shop;  // without the user's model there is nothing to tell
   to_its_end.stop = nullptr;
-  books.current = base_contender(to_its_end, books.user, Effort::final);
+  const bool any_free = !free_parameters(books.base_model->program(), books.shop.free_paths).empty();
+  books.current = base_contender(to_its_end, books.user, any_free ? Effort::full : Effort::final);
   if (!books.current.ok)
     fail_numerics("base_failed", books.user.title,
                   "the diagram cannot be simulated on these recordings: " + books.current.error,
@@ -30,7 +31,7 @@ void fit_base(Books& books) {
   books.settle(books.current);
   // Free numbers were fitted by the noise of the data sheet: every candidate, fitted by that of the residual, would be
   // credited with what they gain by it.
-  if (!books.current.fit.estimates.empty()) {
+  if (any_free) {
     Contender again = refit(to_its_end, books.current, Effort::final);
     for (auto& e : again.fit.estimates)  // they began where the user has them
       for (const auto& first : books.current.fit.estimates)

@@ -109,6 +109,12 @@ constexpr std::size_t too_many_numbers = 15;
 /// Of the evidence, in each of ModelError::recordings.
 std::vector<double> fall_by_recording(const ModelError& before, const ModelError& after);
 
+/// More than a claim needs goes in recordings of both roles.
+inline bool falls_in_both_roles(const ModelError& now, const ModelError& was) {
+  return was.evidence_train - now.evidence_train > rules::claim_fall &&
+         was.evidence_validate - now.evidence_validate > rules::claim_fall;
+}
+
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.
 void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);

@@ -57,7 +57,7 @@ bool is_measured(const Books& books, int block) {
 double spread(double written) { return known_to * std::abs(written) / 2; }  // 95 % are two of these
 
 /// What a number costs that the data tell from what is written, in parts of one: one that they leave where it was costs
-/// nothing (MacKay, Neural Computation 4 (1992) 415, eq. 4.9: the number of well-determined parameters).
+/// nothing (MacKay, Neural Computation 4 (1992) 415: the number of well-determined parameters).
 struct Cost {
   double numbers = 0, moved = 0;
   bool plausible = true;  ///< none of them at its bound
@@ -73,12 +73,6 @@ Cost cost_of(const Contender& c, const std::map<std::string, double>& numbers) {
     if (e.determined && e.sigma) cost.numbers += std::max(0.0, 1 - std::pow(*e.sigma / sigma, 2));
   }
   return cost;
-}
-
-/// More than a claim needs, in recordings of both roles.
-bool explains(const ModelError& now, const ModelError& was) {
-  return was.evidence_train - now.evidence_train > rules::claim_fall &&
-         was.evidence_validate - now.evidence_validate > rules::claim_fall;
 }
 
 /// The numbers, where they may be asked for at all.
@@ -198,7 +192,7 @@ bool are_the_numbers(Books& books, const Tried* winner) {
   const auto numbers = may_be_let_go(books);
   if (numbers.empty()) return false;
   const auto enough = [&](const Contender& c) {
-    return explains(c.error_of, books.current.error_of) && is_no_calibration(books, c) &&
+    return falls_in_both_roles(c.error_of, books.current.error_of) && is_no_calibration(books, c) &&
            (winner != nullptr || is_more_than_laws_leave(books, c.error_of));
   };
   const auto all = explaining_better(books, books.current, numbers, winner ? winner->contender : books.current,
@@ -230,7 +224,7 @@ std::map<std::string, double> numbers_to_try(const Books& books) {
   // Those that change nothing of the model alone - a mass of 1 kg where force and spring are free - need no search.
   const ModelError was = books.evidence->error(books.base.prediction);
   const Contender c = with_numbers(books, books.base, numbers, Effort::full);
-  const bool tell = c.ok && explains(c.error_of, was) &&
+  const bool tell = c.ok && falls_in_both_roles(c.error_of, was) &&
                     c.error_of.excess_validate() < (1 - rules::hardly_shown) * was.excess_validate();
   return tell ? numbers : std::map<std::string, double>{};
 }

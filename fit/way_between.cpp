@@ -15,15 +15,9 @@ namespace {
 /// share of what is quick in it, and so is what a mode leaves: most of the error.
 double least_fall(Between way) { return way == Between::smooth ? 0.5 : 0.1; }
 
-Between given_way(const DataSet& data, const std::string& input) {
-  const auto note = data.notes.find(input);
-  return note == data.notes.end() ? Between::linear : note->second.between;
-}
-
 DataModel with_way(const DataModel& model, const std::string& input, Between way) {
   auto data = std::make_shared<DataSet>(model.data());
-  data->notes[input].to = input;
-  data->notes[input].between = way;
+  set_way(*data, input, way);
   return {model.program_pointer(), data};
 }
 
@@ -65,6 +59,16 @@ Score score_with(const std::string& input, Between way, const DataModel& model, 
 }
 
 }  // namespace
+
+Between given_way(const DataSet& data, const std::string& input) {
+  const auto note = data.notes.find(input);
+  return note == data.notes.end() ? Between::linear : note->second.between;
+}
+
+void set_way(DataSet& data, const std::string& input, Between way) {
+  data.notes[input].to = input;
+  data.notes[input].between = way;
+}
 
 std::vector<InspectedBetween> other_ways_between(const DataModel& model, const Judge& judge,
                                                  const std::vector<int>& judged, const std::vector<FreeParameter>& free,

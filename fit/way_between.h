@@ -13,6 +13,10 @@
 
 namespace hysteron {
 
+/// How the data set says that an input moves; straight where it says nothing.
+Between given_way(const DataSet& data, const std::string& input);
+void set_way(DataSet& data, const std::string& input, Between way);
+
 /// What another way of an input between its samples would do to the error of the diagram.
 struct InspectedBetween {
   std::string input;

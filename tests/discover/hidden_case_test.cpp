@@ -79,6 +79,7 @@ TEST_F(HiddenCases, WhatTheUserKnowsRoughlyIsFree) {
   json task = {{"thresholds_V", {0.0, 0.5}}, {"weights_um_per_V", {1.0, 0.2}}, {"offset_um", 0.0}};
   write_task("B2", task, {"y [um]"}, {"weights_um_per_V"});
   EXPECT_EQ(read_hidden_case(folder_.string()).free_paths, (std::vector<std::string>{"stage.weights"}));
+  EXPECT_TRUE(read_hidden_case(folder_.string()).numbers_are_exact) << "as the README of the set says";
   write_task("B2", task, {"y [um]"}, {"offset_um"});
   EXPECT_THROW(read_hidden_case(folder_.string()), Error);
 }

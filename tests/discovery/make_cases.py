@@ -16,7 +16,7 @@ strong 12 to 120. What else would explain the same recordings (chi2 gap below 9)
 that means to know its device; otherwise 2 to 8.
 --wrong-parameters: the base model's gains and weights are off by 0.5 to 3 % as well. "free": the user leaves them free
 (task.json: base_parameters_free), a calibration is no effect then, and strength is that of what is left of an effect beside
-the free numbers; "held": they stand there as if they were right (task.json: base_parameters_within).
+the free numbers; "held": they stand there as if they were right (task.json: base_parameters_exact false).
 """
 import argparse
 import copy
@@ -84,7 +84,7 @@ def write(folder, case, rng, name, wrong_parameters):
                 files=[dict(file="%02d.csv" % r.index, role=r.role, excitation=r.word, start_h=r.start_h,
                             cycles_before=r.cycles_before) for r in case.recordings])
     if wrong_parameters == "held":
-        task["base_parameters_within"] = 0.03
+        task["base_parameters_exact"] = False
     if wrong_parameters == "free":
         task["base_parameters_free"] = [k for k in UNCERTAIN if k in known.task or k in known.task.get("axes", [{}])[0]]
     case_files.write_json(folder / "task.json", task)
