@@ -1,6 +1,8 @@
 // Decides the block "rectifier": a signal mixed with its absolute value. Does not smooth the corner at zero.
 #pragma once
 
+#include <array>
+
 #include "engine/block.h"
 
 namespace hysteron::blocks {
@@ -23,6 +25,9 @@ struct Rectifier {
   static Out<T> output(const Params<T>& p, const In<T>& in) {
     using std::abs;
     return {in.u + p.mix * (abs(in.u) - in.u)};
+  }
+  static std::array<double, 1> kinks(const Params<double>& p, const In<double>& in) {
+    return {p.mix == 0 ? 1.0 : in.u};
   }
 };
 

@@ -2,7 +2,9 @@
 // "quantizer".
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/block.h"
 
@@ -28,6 +30,10 @@ struct Rounding {
   static Out<T> output(const Params<T>& p, const In<T>& in) {
     if (!(value_of(p.step) > 0)) return {in.u};
     return {std::round(value_of(in.u) / value_of(p.step)) * p.step};
+  }
+  /// Zero half way between two levels.
+  static std::array<double, 1> kinks(const Params<double>& p, const In<double>& in) {
+    return {p.step > 0 ? std::cos(std::numbers::pi * in.u / p.step) : 1.0};
   }
 };
 

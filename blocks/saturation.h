@@ -1,6 +1,7 @@
 // Decides the block "saturation": a hard limit on a signal. Does not stop an integrator behind it.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "engine/block.h"
@@ -25,6 +26,9 @@ struct Saturation {
   template <class T>
   static Out<T> output(const Params<T>& p, const In<T>& in) {
     return {saturation::limit(p.lower, p.upper, in.u)};
+  }
+  static std::array<double, 2> kinks(const Params<double>& p, const In<double>& in) {
+    return {in.u - p.lower, in.u - p.upper};
   }
   static std::string check(const Params<double>& p);
 };

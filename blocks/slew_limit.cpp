@@ -8,10 +8,7 @@ void SlewLimit::describe(Declaration& d) {
       .elementwise()
       .at("command");
   d.law("dy/dt = max(-fall, min(rise, (u - y)/time))").from("current of a capacitor, I = C dU/dt");
-  d.remark(
-      "Exact for an input that moves in straight lines between the rows of a recording. For an input that is a "
-      "formula, "
-      "rate_limiter locates the instants at which the limit sets in and ends.");
+  d.remark("Exact for an input that moves in straight lines between the rows of a recording.");
   d.remark("A rate beyond any of the input limits nothing: what stays is a lag of the time constant.");
   d.input("u", "$a", "the signal");
   d.output("y", "$a", "the follower");
@@ -26,6 +23,8 @@ Sizes SlewLimit::sizes(const Shape&) {
   Sizes s;
   s.states = 1;
   s.feedthrough = false;
+  s.kinks = 2;
+  s.keeps_sides = true;
   return s;
 }
 

@@ -1,5 +1,5 @@
-// Decides the block "slew_limit": a follower of limited rate whose transitions are not located, for recordings that
-// move in straight lines between rows. Does not decide its law: models/rate_limiter.h. "rate_limiter" locates them.
+// Decides the block "slew_limit": a follower of limited rate without modes, so that recordings that move in straight
+// lines between rows are followed exactly, row by row. Does not decide its law: models/rate_limiter.h.
 #pragma once
 
 #include "engine/block.h"
@@ -26,7 +26,17 @@ struct SlewLimit {
     using std::max;
     using std::min;
     const auto p = law(v);
-    v.out[0] = max(T{-p.fall}, min(p.rise, rate_limiter::asked(p, v.x[0], v.u[0])));
+    const T asked = rate_limiter::asked(p, v.x[0], v.u[0]);
+    if (v.sides != nullptr)
+      v.out[0] = v.sides[0] > 0 ? p.rise : v.sides[1] < 0 ? T{-p.fall} : asked;
+    else
+      v.out[0] = max(T{-p.fall}, min(p.rise, asked));
+  }
+  static void kinks(const View<double>& v) {
+    const auto p = law(v);
+    const double asked = rate_limiter::asked(p, v.x[0], v.u[0]);
+    v.out[0] = asked - p.rise;
+    v.out[1] = asked + p.fall;
   }
   static void rest(const View<double>& v) { v.out[0] = v.u[0]; }
   static void rows(const RowsView& r);

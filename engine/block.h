@@ -18,6 +18,9 @@
 //   Mode) next(p, s, in, Mode) -> Mode      the mode that follows; same arguments as guard, all double reset(p, s, in,
 //   Mode before, Mode after) -> State<T>   optional: states at the beginning of the mode `after` initial_mode(p) ->
 //   Mode           optional
+// A law that has kinks or jumps without modes (a limit, an absolute value, a level) names them:
+//   kinks(p, in) or kinks(p, s, in) -> std::array<double, N>, all double: each number changes its sign at one of them.
+//   Sized form: kinks(View<double>), and Sizes::kinks says how many. The integrators locate them (zero_crossings.h).
 // Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance, update, guard,
 //   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, given_memory,
 //   check_memory, next_corner, pace, reach_back, check (on View<double>); rows(const RowsView&) where the block knows
@@ -29,9 +32,12 @@
 //   then its modes change inside its own step, and its output is one of (p, s).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "engine/block_forms.h"
 #include "engine/block_lanes.h"
@@ -209,6 +215,27 @@ template <class B>
 double fixed_pace(const View<double>& v) {
   return B::pace(load<double>(typename Types<B, double>::P{}, v.p));
 }
+/// The kinks of a fixed block, or Nothing if it names none.
+template <class B>
+auto kinks_of(const View<double>& v) {
+  using Y = Types<B, double>;
+  const auto p = load<double>(typename Y::P{}, v.p);
+  const auto in = load<double>(typename Y::I{}, v.u);
+  if constexpr (requires(typename Y::S s) { B::kinks(p, s, in); })
+    return B::kinks(p, load<double>(typename Y::S{}, v.x), in);
+  else if constexpr (requires { B::kinks(p, in); })
+    return B::kinks(p, in);
+  else
+    return Nothing{};
+}
+template <class B>
+inline constexpr bool has_kinks = !std::is_same_v<decltype(kinks_of<B>(std::declval<View<double>>())), Nothing>;
+template <class B>
+void fixed_kinks(const View<double>& v) {
+  const auto kinks = kinks_of<B>(v);
+  std::copy(kinks.begin(), kinks.end(), v.out);
+}
+
 template <class B>
 std::string fixed_check(const View<double>& v) {
   return B::check(load<double>(typename Types<B, double>::P{}, v.p));
@@ -230,6 +257,7 @@ Sizes fixed_sizes(const Shape&) {
   s.outputs = count<double, typename Y::O>();
   s.feedthrough = F::output_in || F::output_state_in || F::output_memory || F::output_mode || F::output_state_in_mode;
   if constexpr (requires { B::smoothness; }) s.smoothness = B::smoothness;
+  if constexpr (has_kinks<B>) s.kinks = static_cast<int>(std::tuple_size_v<decltype(kinks_of<B>(View<double>{}))>);
   return s;
 }
 
@@ -310,6 +338,7 @@ Kernel kernel() {
     if constexpr (requires(const View<double>& v) { B::given_memory(v); }) k.given_memory = &B::given_memory;
     if constexpr (requires(const View<double>& v) { B::check_memory(v); }) k.check_memory = &B::check_memory;
     if constexpr (requires { B::uses_time; }) k.uses_time = B::uses_time;
+    if constexpr (requires(const View<double>& v) { B::kinks(v); }) k.kinks = &B::kinks;
     if constexpr (requires(const RowsView& r) { B::rows(r); })
       k.rows = &B::rows;
     else if (k.update == nullptr && k.guard == nullptr)
@@ -338,6 +367,7 @@ Kernel kernel() {
     k.derivative_wants_rate = F::derivative_rate || F::derivative_rate_mode;
     k.guard_wants_rate = F::guard_rate;
     if constexpr (F::modes) k.next_mode = &fixed_next_mode<B>;
+    if constexpr (has_kinks<B>) k.kinks = &fixed_kinks<B>;
     if constexpr (requires(typename Y::P p) { B::initial_mode(p); }) k.initial_mode = &fixed_initial_mode<B>;
     if constexpr (requires(typename Y::P p, typename Y::I i) { B::rest(p, i); }) k.rest = &fixed_rest<B>;
     if constexpr (requires(typename Y::P p) { B::initial(p); }) k.initial_states = &fixed_initial_states<B>;

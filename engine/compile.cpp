@@ -61,6 +61,13 @@ void lay_out_block(const GraphBlock& g, Program& program) {
     b.mode_index = static_cast<int>(program.modal_blocks.size());
     program.modal_blocks.push_back(index);
   }
+  if (g.kernel->kinks != nullptr && g.sizes.kinks > 0) {
+    program.kinked_blocks.push_back(index);
+    if (g.sizes.keeps_sides) {
+      b.sides_index = program.n_sides;
+      program.n_sides += g.sizes.kinks;
+    }
+  }
   if (g.kernel->uses_time || g.kernel->declaration.is_series || g.sizes.history) program.time_blocks.push_back(index);
   b.adjacent = b.source.empty() ? -1 : b.source.front();
   for (std::size_t i = 1; i < b.source.size(); ++i)

@@ -80,17 +80,31 @@ void Corners::pass(double t) {
   add_echoes(t, generation);
 }
 
+namespace {
+
+/// What happens in it hangs on more than where its inputs are at the ends of a step.
+bool is_switched(const BlockInstance& b) {
+  return b.sizes.memory > 0 || b.mode_index >= 0 || b.sizes.kinks > 0 || b.history_index >= 0;
+}
+
+}  // namespace
+
 double longest_step(const Program& program, const Run& run, double span) {
   double longest = infinity;
+  std::vector<int> switched;
   for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
     const auto& block = program.blocks[static_cast<std::size_t>(b)];
+    if (is_switched(block)) switched.push_back(b);
     if (block.history_index >= 0)
       longest = std::min(longest, std::max(reach_back(program, run, b), shortest_capped_delay * span));
+  }
+  if (switched.empty()) return longest;
+  for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
+    const auto& block = program.blocks[static_cast<std::size_t>(b)];
     // A series is monotone between its samples, and those are stops already.
-    if (block.kernel->pace == nullptr || block.series_index >= 0 || program.memory_blocks.empty()) continue;
+    if (block.kernel->pace == nullptr || block.series_index >= 0) continue;
     const auto reached = program.downstream_of(b);
-    if (std::none_of(program.memory_blocks.begin(), program.memory_blocks.end(),
-                     [&](int m) { return reached[static_cast<std::size_t>(m)]; }))
+    if (std::none_of(switched.begin(), switched.end(), [&](int m) { return reached[static_cast<std::size_t>(m)]; }))
       continue;
     const double pace = block.kernel->pace(view_of(program, run, b));
     if (pace > 0) longest = std::min(longest, pace / 4);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/histories.h"
 #include "engine/loops.h"
 #include "engine/program.h"
 #include "engine/steps.h"
@@ -12,23 +13,6 @@ namespace hysteron {
 namespace {
 
 using steps::at;
-
-/// Appends a point to the past of a signal and forgets what no dead time can reach any more.
-void remember(const Program& program, Run& run, Work& work, int block, double t) {
-  const BlockInstance& b = program.blocks[at(block)];
-  History& h = run.histories[at(b.history_index)];
-  const auto signal = at(b.source[0]);
-  const double u = work.y[signal];
-  const double rate = program.has_rate[signal] ? work.rate[signal] : std::numeric_limits<double>::quiet_NaN();
-  if (h.t.empty()) h.before = u;
-  // At a corner the point stands twice, with the rates of both sides.
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  if (!h.t.empty() && h.t.back() == t && h.u.back() == u && same(h.rate.back(), rate)) return;
-  h.t.push_back(t);
-  h.u.push_back(u);
-  h.rate.push_back(rate);
-  if (b.kernel->reach_back) steps::forget(h, t, b.kernel->reach_back(view_of(program, run, block)));
-}
 
 /// Where a loop was not solved nothing may look like a result: a saturation behind it would make numbers of its NaN.
 template <class T>
@@ -181,8 +165,7 @@ void accept(const Program& program, Run& run, Work& work, double t, const double
   }
   evaluate_values(program, run, work, t, x);
   throw_if_unsolved(program, work, t);
-  for (std::size_t b = 0; b < program.blocks.size(); ++b)
-    if (program.blocks[b].history_index >= 0) remember(program, run, work, static_cast<int>(b), t);
+  if (program.n_histories > 0) remember_signals(program, run, work, t);
   commit_memory(program, run, work);
   run.t = t;
 }

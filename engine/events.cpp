@@ -15,6 +15,9 @@ using steps::at;
 constexpr int most_rounds = 100;       // of changes of mode at one instant, ENGINE 5
 constexpr std::size_t chatter = 1000;  // so many changes of mode ...
 constexpr double chatter_span = 1e-6;  // ... within this share of the span are no motion, ENGINE 5
+// At this pace the run would take fifty million changes of mode, some ten minutes: nobody waits for that.
+constexpr long endless = 100'000;
+constexpr double endless_span = 2e-3;
 
 }  // namespace
 
@@ -26,6 +29,7 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
       sampling_(program),
       path_(program, relative_tolerance, absolute_tolerance),
       span_(until - begin),
+      milestone_(begin),
       changes_(program.modal_blocks.size(), 0) {}
 
 double Events::next() const { return std::min(corners_.next(), clocks_.next()); }
@@ -67,7 +71,14 @@ bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
 
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
   starting_ = true;
-  pass(run, work, t, x);
+  const auto memory = run.m;
+  bool changed = pass(run, work, t, x);
+  // What was sampled has seen modes that were only to be tried first: sample again, with those that the inputs ask for.
+  for (int round = 0; changed && !instant_.hits.empty() && round < most_rounds; ++round) {
+    run.m = memory;
+    cross(run, work, t, x);
+    changed = settle(run, work, t, x, {});
+  }
   starting_ = false;
 }
 
@@ -158,16 +169,23 @@ bool Events::apply(Run& run, Work& work, double t, std::vector<double>& x, std::
 void Events::watch_chatter(double t) {
   if (starting_) return;
   recent_.push_back(t);
-  if (recent_.size() <= chatter) return;
-  recent_.erase(recent_.begin());
-  if (recent_.back() - recent_.front() > chatter_span * span_) return;
+  if (recent_.size() > chatter) recent_.erase(recent_.begin());
+  if (recent_.size() == chatter && t - recent_.front() <= chatter_span * span_)
+    report_chatter(t, chatter, t - recent_.front());
+  if (++since_milestone_ < endless) return;
+  if (t - milestone_ <= endless_span * span_) report_chatter(t, endless, t - milestone_);
+  milestone_ = t;
+  since_milestone_ = 0;
+}
+
+void Events::report_chatter(double t, long changes, double within) const {
   const auto most = std::max_element(changes_.begin(), changes_.end()) - changes_.begin();
   const auto& block = program_.blocks[at(program_.modal_blocks[static_cast<std::size_t>(most)])];
   fail_numerics("chattering", block.path,
-                fmt::format("{} \"{}\" (input \"{}\") changed its mode again and again: {} changes in {:.3g} s before "
-                            "t = {:.9g} s",
+                fmt::format("{} \"{}\" (input \"{}\") changes its mode again and again: {} changes in the {:.3g} s "
+                            "before t = {:.9g} s; to the end it would take {:.2g} of them",
                             block.kernel->declaration.type, block.path, program_.signals[at(block.source.front())].path,
-                            chatter, recent_.back() - recent_.front(), t),
+                            changes, within, t, within > 0 ? static_cast<double>(changes) / within * span_ : INFINITY),
                 "add hysteresis width to it, or a boundary layer (a finite slope instead of a jump)");
 }
 

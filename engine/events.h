@@ -69,6 +69,7 @@ class Events {
   std::vector<ModeChange> find_changes(const Run& run, Work& work, const std::vector<double>& x,
                                        std::span<const int> due) const;
   void watch_chatter(double t);
+  [[noreturn]] void report_chatter(double t, long changes, double within) const;
 
   const Program& program_;
   Corners corners_;
@@ -76,6 +77,8 @@ class Events {
   Sampling sampling_;
   JumpPath path_;
   double span_;
+  double milestone_;  // [s]
+  long since_milestone_ = 0;
   bool starting_ = false;
   struct Instant {
     bool corner = false;

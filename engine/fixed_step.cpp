@@ -7,10 +7,12 @@
 
 #include "engine/events.h"
 #include "engine/folded.h"
+#include "engine/histories.h"
 #include "engine/loops.h"
 #include "engine/needed.h"
 #include "engine/nominal.h"
 #include "engine/simulate_parts.h"
+#include "engine/zero_crossings.h"
 
 namespace hysteron {
 namespace {
@@ -27,11 +29,14 @@ class FixedSteps {
         recording_(steps_for(program, signals)),
         tolerance_(absolute_tolerances(nominal_sizes(program, run_), options)),
         events_(program, run_, options.begin, instants.back(), options.relative_tolerance, tolerance_),
+        crossings_(program, false),
+        histories_(program, nominal_sizes(program, run_).signals, options.relative_tolerance),
         t_(options.begin) {
     run_.t = t_;
     run_.branch = events_.branch();
     x_ = run_.x;
     k1_ = k2_ = k3_ = k4_ = trial_ = before_ = x_;
+    states_inside_ = [this](double t, std::vector<double>& x) { interpolate(t_, t, x); };
     traces_.t = std::move(instants);
     traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
     traces_.signals = std::move(signals);
@@ -64,6 +69,7 @@ class FixedSteps {
         events_.take(t_, run_);
         events_.pass(run_, work_, t_, x_);
         commit();
+        crossings_.forget();
       }
       record_until(t_);
       if (next_ == traces_.t.size()) return;
@@ -86,8 +92,39 @@ class FixedSteps {
   }
 
   void step(double end) {
-    const double h = end - t_, from = t_;
+    const double from = t_;
     before_ = x_;
+    move_states(end);
+    std::vector<int> fell;
+    if (crossings_.watches()) {
+      end_slope_known_ = false;
+      const auto crossing = crossings_.first(run_, work_, {from, end, states_inside_, false}, {});
+      if (crossing) {  // the step ends where the first mode changes
+        fell = crossing->guards;
+        x_ = before_;
+        move_states(end = crossing->t);
+      }
+    }
+    ++traces_.statistics.steps;
+    if (histories_.any()) {
+      end_slope_known_ = false;
+      histories_.fill(run_, work_, from, end, states_inside_);
+    }
+    if (next_ < traces_.t.size() && traces_.t[next_] < end - same_instant(end)) record_between(from, end);
+    t_ = end;
+    for (const double x : x_)
+      if (!std::isfinite(x)) not_finite(program_, run_, work_, t_, x_.data());
+    commit();
+    if (events_.guards() == 0 || (fell.empty() && !events_.due(run_, work_, t_, x_))) return;
+    if (!events_.settle(run_, work_, t_, x_, fell)) return;
+    commit();
+    crossings_.forget();
+  }
+
+  /// From t_ to the end; `before_` keeps where they began.
+  void move_states(double end) {
+    const double h = end - t_;
+    step_end_ = end;
     if (!x_.empty()) {
       derivative(t_, x_, k1_);
       if (options_.method == Method::euler) {
@@ -104,26 +141,26 @@ class FixedSteps {
       }
       x_.swap(trial_);
     }
-    ++traces_.statistics.steps;
-    if (next_ < traces_.t.size() && traces_.t[next_] < end - same_instant(end)) record_between(from, end);
-    t_ = end;
-    for (const double x : x_)
-      if (!std::isfinite(x)) not_finite(program_, run_, work_, t_, x_.data());
-    commit();
-    if (events_.guards() > 0 && events_.due(run_, work_, t_, x_) && events_.settle(run_, work_, t_, x_, {})) commit();
   }
 
   /// Outputs inside the step that has just been taken, with the memory as it was before.
   void record_between(double from, double to) {
     const Stopwatch watch(traces_.statistics.phases.output);
-    if (!x_.empty()) derivative(to, x_, k4_);
+    end_slope_known_ = false;
     for (; next_ < traces_.t.size() && traces_.t[next_] < to - same_instant(to);) {
-      const double h = to - from, s = (traces_.t[next_] - from) / h;
-      const double a = s * s * (3 - 2 * s), b = s * (1 - s) * (1 - s), c = -s * s * (1 - s);
-      for (std::size_t i = 0; i < x_.size(); ++i)
-        trial_[i] = before_[i] + a * (x_[i] - before_[i]) + h * (b * k1_[i] + c * k4_[i]);
+      interpolate(from, traces_.t[next_], trial_);
       record(traces_.t[next_], trial_);
     }
+  }
+  /// The cubic through both ends of the step and their slopes.
+  void interpolate(double from, double t, std::vector<double>& x) {
+    if (x_.empty()) return;
+    if (!end_slope_known_) derivative(step_end_, x_, k4_);
+    end_slope_known_ = true;
+    const double h = step_end_ - from, s = (t - from) / h;
+    const double a = s * s * (3 - 2 * s), b = s * (1 - s) * (1 - s), c = -s * s * (1 - s);
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      x[i] = before_[i] + a * (x_[i] - before_[i]) + h * (b * k1_[i] + c * k4_[i]);
   }
   void record_until(double t) {
     if (next_ == traces_.t.size() || traces_.t[next_] > t + same_instant(t)) return;
@@ -157,10 +194,14 @@ class FixedSteps {
   std::vector<Step> recording_;
   std::vector<double> tolerance_;  // for the paths of jumps only
   Events events_;
+  ZeroCrossings crossings_;
+  Histories histories_;
+  std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
   Traces traces_;
   std::vector<double> x_, before_, trial_, k1_, k2_, k3_, k4_;
   std::size_t next_ = 0;
-  double t_ = 0;
+  double t_ = 0, step_end_ = 0;
+  bool end_slope_known_ = false;  // k4_ is the slope at the end of the last step
 };
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <tuple>
 
 #include "engine/integrator_parts.h"
+#include "engine/root_bracket.h"
 
 namespace hysteron {
 namespace {
@@ -110,7 +111,7 @@ class ArkodeStepper : public Stepper {
   std::vector<const double*> s_;  // arguments of sensitivity_derivative
   std::vector<double*> ds_;
   Dense dense_;
-  std::vector<double> g_before_, g_after_, g_trial_;
+  std::vector<double> g_before_, g_after_;
   std::vector<char> fired_;
   double began_ = 0, reached_ = 0;  // the last step of ARKODE; a root may have cut it
   double longest_last_ = 0;         // what the last step could have been [s]
@@ -133,7 +134,7 @@ ArkodeStepper::ArkodeStepper(InitialValueProblem& problem) : p_(problem) {
   ds_.resize(s_.size());
   const auto roots = static_cast<std::size_t>(p_.system.roots);
   g_before_.assign(roots, 0.0);
-  g_after_ = g_trial_ = g_before_;
+  g_after_ = g_before_;
   fired_.assign(roots, 0);
 }
 
@@ -234,8 +235,7 @@ bool ArkodeStepper::falls(const std::vector<double>& g) const {
   return false;
 }
 
-/// Looks for the first root of the step just done. The bracket (a, b] holds it: nothing has fallen at a. Secants of
-/// those that fell, the earliest first; halving wherever a secant gained less.
+/// Looks for the first root of the step just done.
 int ArkodeStepper::locate(Step& done) {
   if (const int flag = indicators(reached_, p_.values.data(), g_after_); flag < 0) return flag;
   if (!falls(g_after_)) {
@@ -243,33 +243,16 @@ int ArkodeStepper::locate(Step& done) {
     return 0;
   }
   if (const int flag = make_dense(); flag < 0) return flag;
-  const double end = reached_;
-  const double enough = 100 * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - began_));
-  double a = began_, b = end;
-  auto g_a = g_before_;  // allocates: roots are rare
-  bool halve = false;
-  while (b - a > enough) {
-    double t = b;
-    for (std::size_t i = 0; i < g_a.size(); ++i)
-      if (g_before_[i] > 0 && g_after_[i] <= 0) t = std::min(t, a + (b - a) * g_a[i] / (g_a[i] - g_after_[i]));
-    // A secant that hits the root from one side leaves the bracket long: aim a little past it.
-    t = halve ? (a + b) / 2 : std::clamp(t + enough / 4, a + enough / 2, b - enough / 2);
+  WatchedValues a{began_, g_before_}, b{reached_, g_after_};  // allocates: roots are rare
+  const auto look = [&](double t, std::vector<double>& g) {
     dense_.value(dense_.at(t), 0, size(), trial_.data());
-    if (const int flag = indicators(t, trial_.data(), g_trial_); flag < 0) return flag;
-    const double before = b - a;
-    if (falls(g_trial_)) {
-      b = t;
-      std::swap(g_after_, g_trial_);
-    } else {
-      a = t;
-      std::swap(g_a, g_trial_);
-    }
-    halve = b - a > before / 2;
-  }
-  for (std::size_t i = 0; i < fired_.size(); ++i) fired_[i] = g_before_[i] > 0 && g_after_[i] <= 0;
-  if (b < end) dense_.value(dense_.at(b), 0, size(), p_.values.data());
-  std::swap(g_before_, g_after_);
-  reached_ = done.t = b;
+    return indicators(t, trial_.data(), g);
+  };
+  if (const int flag = first_root(a, b, root_width(began_, reached_), look); flag < 0) return flag;
+  for (std::size_t i = 0; i < fired_.size(); ++i) fired_[i] = g_before_[i] > 0 && b.g[i] <= 0;
+  if (b.t < reached_) dense_.value(dense_.at(b.t), 0, size(), p_.values.data());
+  g_before_ = b.g;
+  reached_ = done.t = b.t;
   done.outcome = Integrator::Outcome::root;
   at_root_ = true;
   return 0;

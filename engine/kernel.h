@@ -44,6 +44,8 @@ struct View {
   double branch = 0;      ///< time that decides which smooth piece of a source applies [s]
   int mode = 0;           ///< of a block with modes: the present one (reset: the one that begins)
   int mode_before = 0;    ///< reset: the mode that ends
+  const signed char* sides = nullptr;  ///< derivative: on which side of each of its kinks an integrator steps (-1, 1);
+                                       ///< null: wherever the numbers are. Both must agree where they meet
   long hit = 0;           ///< of a sampled block: number of the sampling instant, 0 at the offset
   std::uint64_t key = 0;  ///< made of the block's path: random numbers of its own
   const T* y = nullptr;   ///< update: the outputs of this instant, where the caller has them
@@ -82,6 +84,8 @@ struct Sizes {
   bool feedthrough = true;                     ///< outputs depend on inputs at the same instant
   Smoothness smoothness = Smoothness::smooth;  ///< of a source's own signal
   bool history = false;                        ///< remembers the past of its input (dead time)
+  int kinks = 0;                               ///< numbers that Kernel::kinks writes
+  bool keeps_sides = false;                    ///< its derivative asks for View::sides
   std::string error{};  ///< not empty: these shapes do not go together; says what and what instead
 
   // Blocks with vector ports only. `outputs` then counts all elements of all output ports.
@@ -180,6 +184,8 @@ struct Kernel : Functions<double> {
   double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
   double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
+  Call kinks = nullptr;  ///< out: Sizes::kinks numbers, each of which changes its sign where the law has a kink or a
+                         ///< jump that is no change of mode (of parameters, states and inputs)
   void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor a source: made by block.h
   bool uses_time = false;
   std::string (*check)(const View<double>&) =

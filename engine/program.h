@@ -33,6 +33,7 @@ struct BlockInstance {
   int series_index = -1;      ///< into Run::series (recorded inputs and inputs of the diagram)
   int history_index = -1;     ///< into Run::histories
   int mode_index = -1;        ///< into Run::mode
+  int sides_index = -1;       ///< into Run::sides
   int hit_index = -1;         ///< into Run::hits (sampled blocks)
   std::uint64_t key = 0;      ///< made of the path, the same in every program that has it
   int adjacent = -1;          ///< first of the signals that it reads where these stand side by side in Work::y, else -1
@@ -131,6 +132,8 @@ struct Program {
   std::vector<int> memory_blocks;   ///< blocks that have memory, in program order
   std::vector<int> sampled_blocks;  ///< blocks that run at their instants only
   std::vector<int> modal_blocks;    ///< blocks with modes
+  std::vector<int> kinked_blocks;   ///< blocks whose law has kinks or jumps without modes
+  int n_sides = 0;                  ///< kinks of blocks that keep sides
   std::vector<int> time_blocks;     ///< blocks whose functions see time, a series or a history
   std::vector<Step> hit_values;     ///< every value in an order that is right at sampling instants too
   std::vector<int> value_order;     ///< every block, in the order of all_values with the loops written out
@@ -166,6 +169,7 @@ struct Run {
   std::vector<double> x, p, c, m;
   std::vector<signed char> direction;  ///< per memory block: committed direction of its input (-1, 0, 1)
   std::vector<int> mode;               ///< per block with modes
+  std::vector<signed char> sides;      ///< per kink of the blocks that keep sides (View::sides); empty: not kept
   std::vector<long> hits;              ///< per sampled block: sampling instants so far
   std::vector<double> warm;            ///< per tear of the loops: as solved at the last accepted point
   double loop_relative = 0;            ///< loops are solved until the error is below loop_relative * |tear| +

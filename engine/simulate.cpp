@@ -1,4 +1,5 @@
 // The loop of ENGINE 5. At every accepted point, in this order:
+//   0. the step is cut where something inside of it switches that neither of its ends shows (zero_crossings.h);
 //   1. outputs are taken on [t_old, t_new) from the step's own interpolation, with the memory as it was during the
 //   step;
 //   2. the memory is accepted, still with the formulas of the piece that ends here;
@@ -14,12 +15,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "engine/choose_method.h"
 #include "engine/corners.h"
 #include "engine/events.h"
 #include "engine/fixed_step.h"
 #include "engine/folded.h"
+#include "engine/histories.h"
 #include "engine/integrator.h"
 #include "engine/jacobian.h"
 #include "engine/loop_plan.h"
@@ -29,6 +33,7 @@
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
 #include "engine/twins.h"
+#include "engine/zero_crossings.h"
 
 namespace hysteron {
 namespace {
@@ -36,6 +41,9 @@ namespace {
 // A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
 // its error control deals with smaller ones.
 constexpr double noticed_jump = 0.1;
+// A slope of dx/dt that changes by so much times the inverse of the step changes the Newton matrix as much as its
+// identity does.
+constexpr double noticed_slope = 0.5;
 // So many steps on end that together advance less than this share of the span: it would never come to an end.
 constexpr long crawl_steps = 200'000;
 constexpr double crawl_share = 1e-4;
@@ -72,11 +80,20 @@ class Simulation {
   void record(double t, const double* x, bool inside = false);
   void record_inside(double from, double to);
   void make_twins();
-  void restart() { solver_->start(t_, x_, s_); }
+  void restart() {
+    crossings_.choose_sides(run_, work_, t_, x_);
+    crossings_.forget();
+    solver_->start(t_, x_, s_);
+  }
   void record_slopes(double t, const double* x, std::span<const double> s);
   void take_step(double stop);
   void pass_instant();
+  std::optional<ZeroCrossings::Found> find_crossing();
+  bool notice_kink(double seen);
+  bool begin_anew(const ZeroCrossings::Found& crossing);
+  void pass_crossing(const ZeroCrossings::Found& crossing);
   void pass_root();
+  void switch_modes(const std::vector<int>& turned, const std::vector<int>& fell);
   void check_guards();
   void follow_directions();
   void record_due();
@@ -95,15 +112,21 @@ class Simulation {
   std::vector<double> tolerance_;  // absolute, per state
   Events events_;
   Reversals reversals_;
+  ZeroCrossings crossings_;
+  Histories histories_;
   std::unique_ptr<Jacobian> jacobian_;  // before the solver, which calls it
   std::unique_ptr<Twins> twins_;        // as well; null if no slopes are asked for
   std::vector<double> s_, s_inside_;    // dx/dp by columns
   std::vector<std::vector<double>> slopes_now_;
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
+  std::vector<double> slopes_before_, slopes_after_;       // of dx/dt, as jacobian_ gives them
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
   std::size_t next_instant_ = 0;
+  std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
   double t_ = 0, until_ = 0, milestone_ = 0;
+  // Steps have to end here, before a kink, and then there, behind it [s].
+  double look_at_ = std::numeric_limits<double>::infinity(), then_at_ = look_at_;
   long steps_since_milestone_ = 0;
   bool not_finite_ = false;  // the last derivative was not; then these are where
   double bad_t_ = 0;
@@ -123,6 +146,8 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
               tolerance_),
       reversals_(program, sizes_, options.relative_tolerance),
+      crossings_(program, true),
+      histories_(program, sizes_.signals, options.relative_tolerance),
       t_(options.begin),
       until_(std::max(options.begin, instants.back())),
       milestone_(t_) {
@@ -131,6 +156,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   x_ = run_.x;
   if (x_.empty()) x_.push_back(0.0);
   before_ = after_ = interpolated_ = bad_x_ = x_;
+  states_inside_ = [this](double t, std::vector<double>& x) { solver_->interpolate(t, x); };
   traces_.t = std::move(instants);
   traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
   traces_.signals = std::move(signals);
@@ -268,11 +294,13 @@ void Simulation::follow_directions() {
 /// A known instant: corners, samples. What is due there happens; the integrator starts again if it must.
 void Simulation::pass_instant() {
   const bool states = program_.n_x > 0;
+  crossings_.forget();
   if (states) derivative(t_, x_.data(), before_.data());
   events_.take(t_, run_);
   if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
-  const bool moved = events_.pass(run_, work_, t_, x_);
+  bool moved = events_.pass(run_, work_, t_, x_);
   commit();
+  moved = crossings_.choose_sides(run_, work_, t_, x_) || moved;
   if (reversals_.count() > 0) follow_directions();
   if (!states || solver_->counters().steps == 0) return;
   if (!moved && twins_ == nullptr) {
@@ -291,6 +319,11 @@ void Simulation::pass_root() {
     if (solver_->fired(i)) turned.push_back(i);
   for (int i = 0; i < events_.guards(); ++i)
     if (solver_->fired(reversals() + i)) fell.push_back(i);
+  switch_modes(turned, fell);
+}
+
+/// Inputs of memory that turn here, and guards that fall here.
+void Simulation::switch_modes(const std::vector<int>& turned, const std::vector<int>& fell) {
   commit();
   for (const int i : turned) reversals_.turn(run_, i);
   traces_.statistics.reversals += static_cast<long>(turned.size());
@@ -298,6 +331,63 @@ void Simulation::pass_root() {
     commit();
     if (reversals_.count() > 0) follow_directions();
   }
+  restart();
+}
+
+/// Where the step that was just done passes something that switches and that the integrator has not located.
+std::optional<ZeroCrossings::Found> Simulation::find_crossing() {
+  if (!crossings_.watches()) return std::nullopt;
+  return crossings_.first(
+      run_, work_, {t_, solver_->t(), states_inside_, true},
+      [this](double seen, bool missed, bool remembered) { return (missed && remembered) || notice_kink(seen); });
+}
+
+/// Is dx/dt behind a kink, or its slope, so different that a step across it is worth cutting.
+bool Simulation::notice_kink(double seen) {
+  if (program_.n_x == 0) return false;
+  const double h = seen - t_;
+  const auto look = [&](double t, std::vector<double>& slopes, std::vector<double>& dx) {
+    solver_->interpolate(t, interpolated_);
+    derivative(t, interpolated_.data(), dx.data());
+    if (jacobian_ == nullptr) return;
+    slopes.resize(jacobian_->pattern().row.size());
+    (*jacobian_)(run_, t, interpolated_.data(), slopes.data());
+  };
+  look(t_, slopes_before_, before_);
+  look(seen, slopes_after_, after_);
+  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * h;
+  if (!(solver_->weighted_norm(after_) <= noticed_jump)) return true;
+  if (jacobian_ == nullptr) return false;
+  // Newton's iteration with the slopes of one side may not go where the other side leads, and yet seem to converge.
+  const auto& pattern = jacobian_->pattern();
+  for (std::size_t j = 0; j + 1 < pattern.column_begin.size(); ++j)
+    for (auto k = static_cast<std::size_t>(pattern.column_begin[j]);
+         k < static_cast<std::size_t>(pattern.column_begin[j + 1]); ++k) {
+      const double share = tolerance_[j] / tolerance_[static_cast<std::size_t>(pattern.row[k])];
+      if (!(std::abs(slopes_after_[k] - slopes_before_[k]) * h * share <= noticed_slope)) return true;
+    }
+  return false;
+}
+
+/// A Runge-Kutta step evaluates dx/dt inside of itself: where that bends, neither its end nor its interpolation is
+/// anything. True if it is taken again, up to the kink.
+bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
+  if (!crossing.bent || formula_of(options_.method) != Formula::runge_kutta) return false;
+  if (crossing.before - t_ <= 2 * root_width(t_, crossing.t)) return false;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  look_at_ = crossing.before;
+  then_at_ = crossing.seen > crossing.t + 2 * root_width(t_, crossing.seen) ? crossing.seen : never;
+  crossings_.forget();
+  solver_->start(t_, x_, s_);
+  return true;
+}
+
+/// The step ends at the crossing; t_ and x_ are there already.
+void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
+  if (!crossing.guards.empty()) return switch_modes({}, crossing.guards);
+  commit();
+  // What is behind the kink has to be seen by the integrator too: another step may be as long.
+  if (crossing.seen > t_ + 2 * root_width(t_, crossing.seen)) look_at_ = crossing.seen;
   restart();
 }
 
@@ -324,9 +414,19 @@ void Simulation::check_pace() {
 void Simulation::take_step(double stop) {
   check_pace();
   const auto outcome = solver_->step(stop);
-  const double from = t_;
-  record_inside(from, solver_->t());
-  t_ = solver_->t();
+  const auto crossing = find_crossing();
+  if (crossing && begin_anew(*crossing)) return;
+  const double from = t_, to = crossing ? crossing->t : solver_->t();
+  record_inside(from, to);
+  if (histories_.any()) histories_.fill(run_, work_, from, to, states_inside_);
+  t_ = to;
+  if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
+  if (crossing) {
+    const Stopwatch watch(traces_.statistics.phases.events);
+    solver_->interpolate(t_, x_);
+    if (twins_ != nullptr) solver_->interpolate_sensitivities(t_, s_);
+    return pass_crossing(*crossing);
+  }
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
   if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
   if (outcome == Integrator::Outcome::root) {
@@ -342,10 +442,10 @@ void Simulation::walk() {
   {
     const Stopwatch watch(traces_.statistics.phases.events);
     events_.take(t_, run_);
+    events_.begin(run_, work_, t_, x_);
     events_.starting(true);
     if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
     events_.starting(false);
-    events_.begin(run_, work_, t_, x_);
     commit();
     if (reversals_.count() > 0) follow_directions();
     restart();
@@ -357,7 +457,7 @@ void Simulation::walk() {
     }
     record_due();
     if (next_instant_ == traces_.t.size()) return;
-    take_step(std::min(events_.next(), until_));
+    take_step(std::min({events_.next(), until_, look_at_}));
   }
 }
 

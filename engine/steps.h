@@ -94,6 +94,10 @@ void begin(const Program& program, const Run& run, WorkOf<T>& work, double t) {
   }
   for (const int block : program.modal_blocks)
     work.views[at(block)].mode = run.mode[at(program.blocks[at(block)].mode_index)];
+  if (program.n_sides > 0)
+    for (const int block : program.kinked_blocks)
+      if (const int sides = program.blocks[at(block)].sides_index; sides >= 0)
+        work.views[at(block)].sides = run.sides.empty() ? nullptr : run.sides.data() + sides;
   work.unsolved = -1;
   if (work.loops) {
     work.loops->run = &run;

@@ -91,6 +91,7 @@ std::vector<double> Twins::start(const Run& run, const std::function<void(Run&)>
 void Twins::follow(const Run& run, Side& side) {
   side.run.branch = run.branch;
   std::copy(run.mode.begin(), run.mode.end(), side.run.mode.begin());
+  side.run.sides = run.sides;
 }
 
 void Twins::place(Twin& twin, std::span<const double> x, std::span<const double> s) {

@@ -1,0 +1,261 @@
+// What sources in closed form switch: nothing is stepped over, whatever the phase, the end, the output step and the
+// method. Against integrals in closed form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/blocks/bench.h"
+#include "tests/engine/simulate_tools.h"
+
+namespace hysteron {
+namespace {
+
+using tools::block;
+
+std::string number(double value, const std::string& unit = "") {
+  std::string text = fmt::format("{:.17g}", value);
+  return unit.empty() ? text : text + " " + unit;
+}
+Node sine(double amplitude, double frequency, double phase = 0, double offset = 0) {
+  return block("sine", {{"amplitude", amplitude},
+                        {"offset", offset},
+                        {"frequency", number(frequency, "Hz")},
+                        {"phase", number(phase, "rad")}});
+}
+Traces simulated(const Diagram& d, SimulateOptions options) {
+  const auto program = tools::compiled(d);
+  return simulate(*program, start(*program), options);
+}
+Traces simulated(const Diagram& d, double until, Method method = Method::automatic, double every = 0) {
+  SimulateOptions options;
+  options.until = until;
+  options.every = every;
+  options.method = method;
+  options.step = 1e-3;
+  return simulated(d, options);
+}
+
+/// Time in [0, until] in which sin(2 pi f t + phase) is above the level: from asin(level) to pi - asin(level), each
+/// turn. Counted by the whole turns and what is left of them.
+double time_above(double level, double f, double phase, double until) {
+  const double begin = std::asin(level) / (2 * M_PI), end = 0.5 - begin;  // in turns
+  const auto up_to = [&](double turns) {
+    const double whole = std::floor(turns - begin);
+    return whole * (end - begin) + std::min(turns - begin - whole, end - begin);
+  };
+  const double from = phase / (2 * M_PI);
+  return (up_to(from + f * until) - up_to(from)) / f;
+}
+
+// Tolerances below: ten times the relative tolerance of 1e-6, of the largest value.
+
+TEST(ZeroCrossings, ARelayBehindASineSwitchesAtEveryPhaseEndAndMethod) {
+  // On at the level and off again at its opposite: half a turn, whatever the level. The integral of the output.
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> phases(0, 2 * M_PI), levels(0.05, 0.999), ends(0.7, 3.3);
+  for (int i = 0; i < 40; ++i) {
+    const double level = levels(random), phase = phases(random), until = ends(random);
+    const auto d = tools::diagram(
+        {{"s", sine(1, 1, phase)},
+         {"r",
+          block("relay", {{"on_at", level}, {"off_at", -level}, {"on_value", "1 1/s"}, {"off_value", "0 1/s"}}, {"s"})},
+         {"i", block("integrator", {}, {"r"})}},
+        {"i"});
+    // Switching on at sin = level (or at once, where it is above), off at sin = -level falling.
+    double on = 0, t = 0;
+    bool is_on = std::sin(phase) >= level;
+    const auto next = [&](double turn) {  // first time behind t at which the phase is so many turns, modulo one
+      return t + std::fmod(2 + turn - std::fmod(phase / (2 * M_PI) + t, 1.0), 1.0);
+    };
+    while (t < until) {
+      const double change = next(is_on ? 0.5 + std::asin(level) / (2 * M_PI) : std::asin(level) / (2 * M_PI));
+      if (is_on) on += std::min(change, until) - t;
+      t = std::max(change, t + 1e-12);
+      is_on = !is_on;
+    }
+    for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta, Method::rk4, Method::euler})
+      for (const double every : {0.0, until / 3}) {
+        const double got = simulated(d, until, method, every).values[0].back();
+        EXPECT_NEAR(got, on, 1e-5) << "level " << level << ", phase " << phase << ", until " << until << ", "
+                                   << method_name(method) << ", every " << every;
+      }
+  }
+}
+
+TEST(ZeroCrossings, ADeadZoneThatASineJustLeavesIsIntegrated) {
+  // u - sat(u) with u = sin(w t + phase) over whole turns: cos of the angle at which it leaves, less what is cut off:
+  // the integral of its positive part over a turn is (2 cos(a) - level (pi - 2 a)) / w with a = asin(level).
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> phases(0, 2 * M_PI), levels(0.3, 0.995), frequencies(0.3, 5);
+  for (int i = 0; i < 30; ++i) {
+    const double level = levels(random), phase = phases(random), f = frequencies(random);
+    const auto d = tools::diagram({{"u", sine(1, f, phase)},
+                                   {"s", block("saturation", {{"lower", -level}, {"upper", level}}, {"u"})},
+                                   {"d", block("sum", {{"signs", "+-"}}, {"u", "s"})},
+                                   {"p", block("rectifier", {{"mix", 0.5}}, {"d"})},
+                                   {"i", block("integrator", {}, {"p"})}},
+                                  {"i"});
+    const double a = std::asin(level), turn = (2 * std::cos(a) - level * (M_PI - 2 * a)) / (2 * M_PI * f);
+    for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta})
+      EXPECT_NEAR(simulated(d, 4 / f, method).values[0].back(), 4 * turn, 1e-5 * 4 * turn + 1e-6 / f)
+          << "level " << level << ", phase " << phase << ", " << f << " Hz, " << method_name(method);
+  }
+}
+
+TEST(ZeroCrossings, AHalfWaveIsIntegratedBehindEverySource) {
+  // Of a sine above a level over whole turns, as before; of a multisine by a fine sum of its own values.
+  const auto half_wave = [](const Node& source) {
+    return tools::diagram(
+        {{"u", source}, {"p", block("rectifier", {{"mix", 0.5}}, {"u"})}, {"q", block("integrator", {}, {"p"})}},
+        {"u", "q"});
+  };
+  const std::vector<Node> sources{
+      sine(0.5, 3.4, 0, -0.15), block("triangle", {{"amplitude", 1.0}, {"offset", -0.97}, {"frequency", "3 Hz"}}),
+      block("chirp", {{"amplitude", 1.0}, {"offset", -0.95}, {"from", "1 Hz"}, {"to", "20 Hz"}, {"duration", "2 s"}}),
+      block("multisine", {{"rms", 1.0},
+                          {"offset", -1.9},
+                          {"lowest", "1 Hz"},
+                          {"highest", "9 Hz"},
+                          {"spacing", "1 Hz"},
+                          {"seed", 5.0}})};
+  for (const auto& source : sources) {
+    const auto fine = simulated(half_wave(source), 2, Method::bdf, 1e-5);
+    double sum = 0;  // trapezoids: kinks cost (slope step)^2/8 each, some 1e-8
+    for (std::size_t k = 1; k < fine.t.size(); ++k)
+      sum += 5e-6 * (std::max(0.0, fine.values[0][k - 1]) + std::max(0.0, fine.values[0][k]));
+    EXPECT_GT(sum, 1e-4) << source.type;
+    for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta})
+      EXPECT_NEAR(simulated(half_wave(source), 2, method).values[1].back(), sum, 1e-5 * sum + 2e-7) << source.type;
+  }
+}
+
+TEST(ZeroCrossings, ARoundedSineIsIntegrated) {
+  // round(1.2 sin) is 1 where the sine is above 1/2.4, and -1 opposite: the integral of its positive part.
+  const auto d = tools::diagram({{"u", sine(1.2, 2, 0.3)},
+                                 {"r", block("rounding", {{"step", 1.0}}, {"u"})},
+                                 {"p", block("rectifier", {{"mix", 0.5}}, {"r"})},
+                                 {"i", block("integrator", {}, {"p"})}},
+                                {"i"});
+  EXPECT_NEAR(simulated(d, 3).values[0].back(), time_above(0.5 / 1.2, 2, 0.3, 3), 1e-5);
+}
+
+TEST(ZeroCrossings, AMassBehindABreakawayThatASineJustPassesSlides) {
+  // Largest speed of the mass, by an independent integration with fine fixed steps: 0.06013 m/s.
+  const auto d = tools::diagram(
+      {{"f", block("sine", {{"amplitude", "1.175 N"}, {"frequency", "1 Hz"}})},
+       {"m", block("mass_with_friction", {{"mass", "1 kg"}, {"coulomb", "0.8 N"}, {"breakaway", "1 N"}}, {"f"})}},
+      {"m.velocity"});
+  for (const Method method : {Method::bdf, Method::runge_kutta}) {
+    const auto traces = simulated(d, 3, method);
+    EXPECT_NEAR(*std::max_element(traces.values[0].begin(), traces.values[0].end()), 0.06013, 5e-6);
+  }
+}
+
+TEST(ZeroCrossings, AFollowerOfLimitedRateBehindAStepComesToAnEnd) {
+  // 0.5 V/s until 1 V at 2 s. The gap closes within a nanosecond, far below the tolerance of 1e-6.
+  const auto d = tools::diagram(
+      {{"s", block("step", {{"after", "1 V"}})}, {"r", block("slew_limit", {{"rate", "0.5 V/s"}}, {"s"})}}, {"r"});
+  const auto traces = simulated(d, 4, Method::bdf, 0.5);
+  for (std::size_t k = 0; k < traces.t.size(); ++k)
+    EXPECT_NEAR(traces.values[0][k], std::min(1.0, 0.5 * traces.t[k]), 1e-6);
+  EXPECT_LT(traces.statistics.steps, 2000);
+}
+
+TEST(ZeroCrossings, ADeadTimeKeepsTheSignalAndNotItsValuesAtTheStepsOnly) {
+  // Beside a state that is quiet half of the time; a kink and a jump in the past as well.
+  const auto d = tools::diagram({{"s", sine(1.6, 0.8, -M_PI / 2)},
+                                 {"d", block("dead_time", {{"delay", "0.25 s"}}, {"s"})},
+                                 {"a", block("rectifier", {{"mix", 1.0}}, {"s"})},
+                                 {"da", block("dead_time", {{"delay", "0.13 s"}}, {"a"})},
+                                 {"j", block("rounding", {{"step", 0.5}}, {"s"})},
+                                 {"dj", block("dead_time", {{"delay", "0.13 s"}}, {"j"})},
+                                 {"p", block("rectifier", {{"mix", 0.5}}, {"s"})},
+                                 {"q", block("integrator", {}, {"p"})}},
+                                {"d", "da", "dj", "q"});
+  const auto s = [](double t) { return 1.6 * std::sin(2 * M_PI * 0.8 * std::max(0.0, t) - M_PI / 2); };
+  for (const Method method : {Method::bdf, Method::runge_kutta, Method::rk4}) {
+    const auto traces = simulated(d, 4, method, 0.01);
+    for (std::size_t k = 0; k < traces.t.size(); ++k) {
+      const double t = traces.t[k];
+      ASSERT_NEAR(traces.values[0][k], s(t - 0.25), 1e-5) << t << " " << method_name(method);
+      ASSERT_NEAR(traces.values[1][k], std::abs(s(t - 0.13)), 1e-5) << t << " " << method_name(method);
+      ASSERT_NEAR(traces.values[2][k], 0.5 * std::round(s(t - 0.13) / 0.5), 1e-5) << t << " " << method_name(method);
+    }
+  }
+}
+
+TEST(ZeroCrossings, ASampleAtTheStartSeesARelayThatItsInputHasSet) {
+  const auto relay = [](const std::string& in) {
+    return block("relay", {{"on_at", -0.2}, {"off_at", -0.9}, {"on_value", 1.0}, {"off_value", 0.0}}, {in});
+  };
+  const auto d = tools::diagram({{"s", sine(0.7, 0.85, M_PI / 2)},
+                                 {"r", relay("s")},
+                                 {"h", block("sample_hold", {{"period", "0.1 s"}}, {"r"})},
+                                 {"c", block("constant", {{"value", -0.5}})},
+                                 {"hc", block("sample_hold", {{"period", "0.1 s"}}, {"c"})},
+                                 {"rc", relay("hc")}},
+                                {"h", "rc"});
+  for (const Method method : {Method::bdf, Method::runge_kutta, Method::rk4}) {
+    const auto traces = simulated(d, 0.5, method, 0.05);
+    for (const double h : traces.values[0]) EXPECT_EQ(h, 1);
+    for (const double rc : traces.values[1]) EXPECT_EQ(rc, 0);  // nothing but the sample decides: -0.5 leaves it off
+  }
+}
+
+TEST(ZeroCrossings, ChatteringEndsWithTheBlockWhateverItsWidth) {
+  for (const double width : {1e-8, 1e-9, 1e-11}) {
+    const auto d = tools::diagram(
+        {{"r", block("relay", {{"on_at", 0.5}, {"off_at", 0.5 - width}, {"on_value", "-1 1/s"}, {"off_value", "1 1/s"}},
+                     {"x"})},
+         {"x", block("integrator", {}, {"r"})}},
+        {"x"});
+    for (const Method method : {Method::bdf, Method::runge_kutta}) try {
+        simulated(d, 1, method);
+        ADD_FAILURE() << width << " " << method_name(method);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.problems.front().code, "chattering") << error.problems.front().what;
+        EXPECT_EQ(error.problems.front().path, "r");
+      }
+  }
+}
+
+/// Where a law of one input bends or jumps, it says so: a kink between two points is a change of sign of one of its
+/// kinks. Blocks with memory follow turning points, those with modes have guards.
+TEST(ZeroCrossings, EveryLawNamesItsKinks) {
+  constexpr double step = 1e-3, enough = 0.02;
+  for (const auto& sample : bench::samples()) {
+    const bench::Bench b(sample.type, sample.values, sample.inputs);
+    if (b.n_u != 1 || b.sizes.memory > 0 || b.states() > 0 || b.kernel.has_modes() || b.kernel.is_sampled() ||
+        b.sizes.history)
+      continue;
+    const auto y = [&](double u) { return b.output(0, {u})[0]; };
+    const auto kinks = [&](double u) {
+      View<double> v;
+      v.p = b.p.data();
+      v.p_at = b.p_at.data();
+      v.c = b.c.data();
+      v.u = &u;
+      v.n_u = 1;
+      std::vector<double> k(static_cast<std::size_t>(b.sizes.kinks));
+      v.out = k.data();
+      if (!k.empty()) b.kernel.kinks(v);
+      return k;
+    };
+    const double size = std::abs(y(2.5)) + std::abs(y(-2.5)) + 1;
+    for (double u = -2.5; u < 2.5; u += step) {
+      const double bend = (y(u + step) - 2 * y(u) + y(u - step)) / step;  // change of slope
+      if (std::abs(bend) < enough * size) continue;
+      const auto before = kinks(u - step), after = kinks(u + step);
+      bool named = false;
+      for (std::size_t i = 0; i < before.size(); ++i) named = named || (before[i] > 0) != (after[i] > 0);
+      EXPECT_TRUE(named) << sample.type << " bends at " << u << " and names no kink there";
+      if (!named) break;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
