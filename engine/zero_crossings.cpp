@@ -44,15 +44,16 @@ ZeroCrossings::ZeroCrossings(const Program& program, bool kinks) : program_(prog
   for (const int block : kinks ? program.kinked_blocks : std::vector<int>{}) {
     const auto& own = program.blocks[at(block)];
     const auto reached = program.downstream_of(block);
-    bool matters = own.sizes.states > 0, remembered = false;
+    bool matters = own.sizes.states > 0, remembered = false, switches = false;
     for (std::size_t b = 0; b < program.blocks.size(); ++b) {
       if (!reached[b]) continue;
       const auto& other = program.blocks[b];
       remembered = remembered || other.sizes.memory > 0 || other.sizes.history;
-      matters = matters || other.sizes.states > 0 || remembered;
+      switches = switches || other.mode_index >= 0 || other.sizes.kinks > 0;
+      matters = matters || other.sizes.states > 0 || other.mode_index >= 0 || remembered;
     }
     if (!matters) continue;
-    kinked_.push_back({block, remembered, own.sides_index >= 0});
+    kinked_.push_back({block, remembered, switches, own.sides_index >= 0});
     kinks_ += at(own.sizes.kinks);
     read(block);
   }
@@ -145,17 +146,36 @@ std::optional<ZeroCrossings::Bracket> ZeroCrossings::bracket(const Run& run, Wor
 
 std::optional<ZeroCrossings::Found> ZeroCrossings::first(const Run& run, Work& work, const Step& step,
                                                          const Noticed& noticed) {
+  auto found = look(run, work, step, noticed);
+  if (functions() == 1) return found;
+  // A function with a corner at the kink (what a rectifier does to a level) may have crossed before it.
+  while (found && found->bent) {
+    const auto behind = side_behind_;
+    auto earlier = look(run, work, {step.from, found->before, step.states, false}, noticed);
+    if (!earlier) {
+      last_ = *found;
+      side_behind_ = behind;
+      break;
+    }
+    earlier->bent = true;
+    found = std::move(earlier);
+  }
+  return found;
+}
+
+std::optional<ZeroCrossings::Found> ZeroCrossings::look(const Run& run, Work& work, const Step& step,
+                                                        const Noticed& noticed) {
   if (step.to - step.from <= 2 * root_width(step.from, step.to)) return forget(), std::nullopt;
-  const auto look = [&](double t, WatchedValues& into) {
+  const auto look_at = [&](double t, WatchedValues& into) {
     step.states(t, x_);
     evaluate(run, work, into.t = t, into.g);
   };
   if (end_.t == step.from)
     std::swap(begin_, end_);
   else
-    look(step.from, begin_);
-  look(step.from + (step.to - step.from) / 2, middle_);
-  look(step.to, end_);
+    look_at(step.from, begin_);
+  look_at(step.from + (step.to - step.from) / 2, middle_);
+  look_at(step.to, end_);
   const double width = 2 * root_width(step.from, step.to);
   const bool at_crossing = step.from >= last_.before - width && step.from <= last_.t + width;
   for (std::size_t i = 0; i < functions(); ++i) {
@@ -180,7 +200,7 @@ std::optional<ZeroCrossings::Found> ZeroCrossings::first(const Run& run, Work& w
     }
     if (i >= guards()) {
       const auto& k = kinked(i);
-      if (!k.keeps_sides && !noticed(here->seen.t, here->missed, k.remembered)) {
+      if (!k.keeps_sides && !k.switches && !noticed(here->seen.t, here->missed, k.remembered)) {
         side_[i] = 0;
         continue;
       }

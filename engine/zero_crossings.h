@@ -52,12 +52,14 @@ class ZeroCrossings {
   struct Kinked {
     int block;
     bool remembered;  // memory or a dead time is behind it
+    bool switches;    // so is something else that switches: its function has a corner where this one is zero
     bool keeps_sides;
   };
   struct Bracket {
     WatchedValues seen;  // where the function has the other sign
     bool missed = false;
   };
+  std::optional<Found> look(const Run& run, Work& work, const Step& step, const Noticed& noticed);
   std::size_t guards() const { return program_.modal_blocks.size(); }
   std::size_t functions() const { return guards() + kinks_; }
   const Kinked& kinked(std::size_t function) const;
