@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/shell_word.h"
 #include "app/starter.h"
 #include "app/terminal.h"
 #include "app/verb.h"
@@ -88,8 +89,8 @@ int make_new(const Arguments& arguments) {
     fmt::print("assumed:\n");
     for (const auto& line : starter.assumed) fmt::print("{}", wrapped("- " + line, 2));
   }
-  fmt::print("next: hysteron compare {} --data {}\n", (folder / "diagram.json").string(),
-             (folder / "dataset.json").string());
+  fmt::print("next: hysteron compare {} --data {}\n", shell_word((folder / "diagram.json").string()),
+             shell_word((folder / "dataset.json").string()));
   return exit_code::done;
 }
 

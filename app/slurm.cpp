@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/child_process.h"
+#include "app/shell_word.h"
 #include "engine/error.h"
 #include "io/atomic_file.h"
 
@@ -127,7 +128,7 @@ std::string slurm_hints(const SlurmStudy& study, const SlurmJobs& jobs) {
       "  stop   scancel {3}\n"
       "A shard whose node is lost, or that is killed, is started again. Should the merge find shards missing, the same "
       "command\ncomputes those and keeps the rest.\n",
-      array ? jobs.shards + "," + jobs.merge : jobs.merge, study.folder, array ? "task-*.log, then " : "",
+      array ? jobs.shards + "," + jobs.merge : jobs.merge, shell_word(study.folder), array ? "task-*.log, then " : "",
       array ? jobs.shards + " " + jobs.merge : jobs.merge);
 }
 

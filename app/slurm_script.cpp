@@ -7,6 +7,8 @@
 
 #include <set>
 
+#include "app/shell_word.h"
+
 namespace hysteron {
 namespace {
 
@@ -19,7 +21,7 @@ std::string shell_words(const std::vector<std::string>& words) {
 /// A title as a comment or as the name of a job: one line, no quotes.
 std::string plain(const std::string& title) {
   std::string text;
-  for (const char c : title) text += static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\\' ? ' ' : c;
+  for (const char c : title) text += is_control(c) || c == '"' || c == '\\' ? ' ' : c;
   return text;
 }
 
@@ -75,12 +77,6 @@ exit "$code"
 )bash";
 
 }  // namespace
-
-std::string shell_word(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 std::string array_of_tasks(const SlurmStudy& study) {
   std::set<int> tasks;

@@ -22,9 +22,6 @@ struct SlurmStudy {
 /// How often a task that was killed asks to be started again.
 inline constexpr int most_restarts = 5;
 
-/// One word of bash, whatever stands in it.
-std::string shell_word(const std::string& word);
-
 /// The tasks that have a shard to compute, as sbatch --array wants them: "1-4,7". "" where none is missing.
 std::string array_of_tasks(const SlurmStudy& study);
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "app/numbers.h"
+#include "app/shell_word.h"
 #include "app/slurm.h"
 #include "engine/error.h"
 

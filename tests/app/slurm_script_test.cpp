@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/shell_word.h"
 #include "app/slurm.h"
 #include "engine/error.h"
 #include "tests/app/hysteron_process.h"
@@ -30,8 +31,13 @@ SlurmStudy study_of(int shards, int tasks, std::vector<int> missing) {
 TEST(SlurmScript, AnyWordComesThroughBashAsItIs) {
   const Folder folder;
   for (const std::string word :
-       {"plain", "two words", "it's", "'", "a\"b", "$HOME `id` \\", "50% #done", "-n", "", "µm"})
-    EXPECT_EQ(shell(folder.path(), "printf %s " + shell_word(word)).out, word);
+       {"plain", "two words", "it's", "'", "a\"b", "$HOME `id` \\", "50% #done", "-n", "", "µm", "a\nb", "\n",
+        "$'\t\\n'", "\x01\x7f\r1", "~", "*", "{a,b}", "!x", "a;b&c|d<e>f(g)[h]"}) {
+    folder.write("script", "printf %s " + shell_word(word));
+    EXPECT_EQ(shell(folder.path(), "bash script").out, word);
+    EXPECT_EQ(shell_word(word).find('\n'), std::string::npos) << "a comment must not end in it";
+  }
+  EXPECT_EQ(shell_word("/home/me/a-1_2.json"), "/home/me/a-1_2.json");
 }
 
 TEST(SlurmScript, TheArrayHoldsTheTasksWithAShardToCompute) {
@@ -118,6 +124,23 @@ TEST(SlurmScript, WordsForSbatchStandLastAndThoseThatHysteronDecidesAreRefused) 
   check_slurm_options(study.options);
   for (const char* words : {"--array=1-3", "--mem=1G -d afterok:1", "--output=/tmp/x", "--mem=1G\nrm x"})
     EXPECT_THROW(check_slurm_options(words), Error) << words;
+}
+
+TEST(SlurmScript, NoWordInItBecomesACommand) {
+  const std::string bad = "o\ntouch broken;#'\"$(touch broken)`touch broken`\n#SBATCH --wrap=x";
+  SlurmStudy study = study_of(1, 1, {1});
+  study.title = study.folder = bad;
+  study.shard_words = study.merge_words = {"printf", "%s", bad};
+  const Folder folder;
+  for (const auto& script : {shards_script(study), merge_script(study)}) {
+    folder.write("script", script);
+    const Outcome outcome = shell(folder.path(), "SLURM_ARRAY_TASK_ID=1 bash script");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(bad), std::string::npos) << outcome.out;
+    EXPECT_FALSE(folder.has("broken")) << script;
+    for (std::size_t at = script.find('\n'); at + 1 < script.size(); at = script.find('\n', at + 1))
+      EXPECT_FALSE(script.compare(at + 1, 14, "#SBATCH --wrap") == 0) << script;
+  }
 }
 
 TEST(SlurmScript, ATitleCannotBreakTheScript) {
