@@ -25,6 +25,8 @@ void on_signal(int) {
   _exit(130);
 }
 
+void ignore(int) {}
+
 }  // namespace
 
 void watch_interrupts() {
@@ -34,6 +36,10 @@ void watch_interrupts() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A file beyond the limit of the shell (ulimit -f): the write that fails tells more than death by a signal. A
+  // handler, not SIG_IGN, which programs that are started from here would inherit.
+  action.sa_handler = ignore;
+  sigaction(SIGXFSZ, &action, nullptr);
 }
 
 DeferInterrupts::DeferInterrupts(bool never_at_once)
@@ -41,5 +47,6 @@ DeferInterrupts::DeferInterrupts(bool never_at_once)
 DeferInterrupts::~DeferInterrupts() { mode = before_; }
 
 bool interrupted() { return count.load() > 0; }
+int interrupts() { return count.load(); }
 
 }  // namespace hysteron

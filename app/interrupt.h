@@ -13,7 +13,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// From now on Ctrl-C (SIGINT, SIGTERM) prints "interrupted; nothing was written" and ends with 130.
+/// From now on Ctrl-C (SIGINT, SIGTERM) prints "interrupted; nothing was written" and ends with 130; a file that grows
+/// beyond the limit of the shell is an error of its write and no signal.
 void watch_interrupts();
 
 /// While one of these lives, the first Ctrl-C only sets interrupted(); a second one ends at once all the same,
@@ -30,5 +31,6 @@ class DeferInterrupts {
 };
 
 bool interrupted();
+int interrupts();  ///< so many until now
 
 }  // namespace hysteron

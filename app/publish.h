@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "app/verb.h"
+#include "io/folder_lock.h"
 #include "io/result.h"
+#include "io/staged_results.h"
 
 namespace hysteron {
 
-/// The folder of results alone; nothing is printed.
+/// The folder of results alone; nothing is printed. Throws Interrupted, and then nothing was replaced.
 void write_results(const std::string& folder, const Document& document);
 
 /// Writes `folder` whole or not at all, then prints headline, sentences, warnings, what is said here only (times, which
@@ -18,9 +20,12 @@ void write_results(const std::string& folder, const Document& document);
 void publish(const Arguments& arguments, const std::string& folder, const Document& document,
              const std::vector<std::string>& said_here_only = {});
 
-/// The same in a folder that holds other files of ours besides, and keeps them: each file whole or not at all.
-void publish_into(const Arguments& arguments, const std::string& folder, const Document& document,
-                  const std::vector<std::string>& said_here_only = {});
+/// The same where the folder is locked and some of its files were written before.
+void publish_staged(const Arguments& arguments, StagedResults& staged, const std::string& folder,
+                    const Document& document, const std::vector<std::string>& said_here_only = {});
+
+/// Says once, on the error stream, for whom this program waits.
+FolderLock::Waiting say_who_writes(const std::string& folder);
 
 /// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
 std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);

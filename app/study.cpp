@@ -6,10 +6,12 @@
 #include <charconv>
 #include <chrono>
 
+#include "app/interrupt.h"
 #include "app/load.h"
 #include "app/numbers.h"
 #include "app/progress.h"
 #include "app/publish.h"
+#include "app/shell_word.h"
 #include "app/study_merge.h"
 #include "app/study_page.h"
 #include "app/study_shards.h"
@@ -17,7 +19,10 @@
 #include "app/verb.h"
 #include "engine/error.h"
 #include "engine/lanes.h"
+#include "engine/stop.h"
 #include "io/diagram_file.h"
+#include "io/folder_lock.h"
+#include "io/staged_results.h"
 
 namespace hysteron {
 namespace {
@@ -95,7 +100,8 @@ std::string digest_of(const Study& study) {
 }
 
 std::string again_text(const Arguments& arguments, const Asked& asked) {
-  std::string text = fmt::format("hysteron study {} -o {}", arguments.text("job"), asked.folder);
+  std::string text =
+      fmt::format("hysteron study {} -o {}", shell_word(arguments.text("job")), shell_word(asked.folder));
   if (arguments.has("--shards")) text += fmt::format(" --shards {}", asked.shards);
   return text;
 }
@@ -112,11 +118,12 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
   std::vector<std::string> said;
   if (folder.open())
     said.push_back("note: the job or its diagram was changed since shards were computed here; those are computed anew");
+  folder.clean();
   std::vector<int> missing;
   int damaged = 0;
   for (const int k : wanted) {
     const ShardState state = folder.state(k);
-    if (state != ShardState::finished) missing.push_back(k);
+    if (!can_be_merged(state)) missing.push_back(k);
     damaged += state == ShardState::damaged ? 1 : 0;
   }
   if (damaged > 0)
@@ -131,7 +138,7 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
   const double all = part * static_cast<double>(study.draws > 0 ? study.draws : study.accepted);
   StudyProgress last;
   Progress progress(arguments.quiet());
-  folder.compute(missing, threads, [&](const StudyProgress& now) {
+  folder.compute(missing, wanted.size() - missing.size(), threads, [&](const StudyProgress& now) {
     last = now;
     progress.show(std::min(1.0, static_cast<double>(study.draws > 0 ? now.draws : now.accepted) / all),
                   progress_text(now, study));
@@ -172,12 +179,38 @@ int one_shard(const Arguments& arguments, Asked& asked) {
 int submit(const Arguments& arguments, const Asked& asked, const StudyFolder& folder) {
   std::vector<std::string> words;
   if (arguments.has("--shards")) words = {"--shards", fmt::format("{}", asked.shards)};
-  for (const auto& allowed : arguments.list("--allow")) words.insert(words.end(), {"--allow", allowed});
+  for (const auto& allowed : arguments.list("--allow")) words.push_back("--allow=" + allowed);
   std::vector<std::string> merge_words;
   if (arguments.has("--csv")) merge_words = {"--csv"};
+  const StopScope to_its_end(nullptr);  // what Slurm has taken must be written down
   folder.open();
   return submit_study(arguments, arguments.text("job"), asked.job.title.empty() ? asked.job.name : asked.job.title,
                       folder, words, merge_words);
+}
+
+/// Every shard that is missing, unless only those that are there are to be joined; then the results.
+int whole_study(const Arguments& arguments, Asked& asked, const StudyFolder& folder, const FolderLock& lock) {
+  std::vector<std::string> said;
+  if (arguments.has("--merge")) {
+    folder.clean();
+  } else {
+    std::vector<int> all;
+    for (int k = 0; k < asked.shards; ++k) all.push_back(k);
+    said = compute(arguments, asked, folder, all);
+  }
+  StagedResults staged(lock, {"study.h5", "study.csv"});
+  const MergedStudy merged = merge_shards(folder, asked.problem, asked.job.title, arguments.has("--csv"),
+                                          again_text(arguments, asked), staged);
+  if (merged.unsealed > 0)
+    said.push_back(fmt::format(
+        "note: {} by an earlier version of hysteron; whether their numbers have changed on the disk since "
+        "cannot be seen. Without {}/shards the same command computes them anew",
+        merged.unsealed == 1 ? "1 shard was written" : fmt::format("{} shards were written", merged.unsealed),
+        asked.folder));
+  Document document = study_document(asked.job, asked.problem, folder, merged);
+  document.data = merged.files;
+  publish_staged(arguments, staged, asked.folder, document, said);
+  return exit_code::done;
 }
 
 int study(const Arguments& arguments) {
@@ -190,20 +223,19 @@ int study(const Arguments& arguments) {
            fmt::format("{} and --slurm exclude each other: shards and merge become jobs of one core each", other),
            "leave one of them out; a shard computed by --shard before is kept and not submitted");
   Asked asked = read(arguments);
-  if (arguments.has("--shard")) return one_shard(arguments, asked);
-  const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), asked.shards);
-  if (wants_slurm(arguments)) return submit(arguments, asked, folder);
-  std::vector<std::string> said;
-  if (!arguments.has("--merge")) {
-    std::vector<int> all;
-    for (int k = 0; k < asked.shards; ++k) all.push_back(k);
-    said = compute(arguments, asked, folder, all);
+  const DeferInterrupts until_safe;
+  const StopScope scope(interrupted);
+  try {
+    if (arguments.has("--shard")) return one_shard(arguments, asked);
+    const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), asked.shards);
+    folder.check();
+    const FolderLock lock(asked.folder, say_who_writes(asked.folder));
+    return wants_slurm(arguments) ? submit(arguments, asked, folder) : whole_study(arguments, asked, folder, lock);
+  } catch (const Stopped&) {
+    throw Interrupted(fmt::format(
+        "interrupted; shards that are finished are kept in {}/shards, and the same command goes on from there",
+        asked.folder));
   }
-  const MergedStudy merged =
-      merge_shards(folder, asked.problem, asked.job.title, arguments.has("--csv"), again_text(arguments, asked));
-  folder.clean();
-  publish_into(arguments, asked.folder, study_document(asked.job, asked.problem, folder, merged), said);
-  return exit_code::done;
 }
 
 }  // namespace

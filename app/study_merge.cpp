@@ -187,12 +187,15 @@ std::string numbers_text(const std::vector<int>& list) {
                      list.size() > shown ? fmt::format(" ... ({} in all)", list.size()) : "");
 }
 
-void need_all_shards(const StudyFolder& folder, const std::string& again) {
+/// Returns how many are there that do not show whether they have changed.
+int need_all_shards(const StudyFolder& folder, const std::string& again) {
+  std::vector<ShardState> states;
+  for (int k = 0; k < folder.shards(); ++k) states.push_back(folder.state(k));
   Problems problems;
   const auto tell = [&](ShardState state, const char* code, const char* what) {
     std::vector<int> list;
     for (int k = 0; k < folder.shards(); ++k)
-      if (folder.state(k) == state) list.push_back(k + 1);
+      if (states[static_cast<std::size_t>(k)] == state) list.push_back(k + 1);
     if (list.empty()) return;
     problems.add(code, folder.file("shards"),
                  fmt::format("of {} shards {}: {}", folder.shards(), what, numbers_text(list)),
@@ -204,6 +207,7 @@ void need_all_shards(const StudyFolder& folder, const std::string& again) {
        "these belong to another study, or to this one before its job or diagram was changed");
   tell(ShardState::damaged, "damaged_file", "these are damaged");
   problems.throw_if_any();
+  return static_cast<int>(std::count(states.begin(), states.end(), ShardState::unsealed));
 }
 
 FileFacts facts_of(const StudyFolder& folder, const Study& study, const StudyCounts& counts, const std::string& title) {
@@ -217,11 +221,12 @@ FileFacts facts_of(const StudyFolder& folder, const Study& study, const StudyCou
 }  // namespace
 
 MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem, const std::string& title, bool csv,
-                         const std::string& again) {
+                         const std::string& again, StagedResults& staged) {
   const Study& study = problem.study;
-  const DeferInterrupts until_safe;
-  need_all_shards(folder, again);
   MergedStudy merged;
+  merged.unsealed = need_all_shards(folder, again);
+  merged.files = {"study.h5"};
+  if (csv) merged.files.emplace_back("study.csv");
   merged.counts = StudyCounts::of(study);
   for (int k = 0; k < folder.shards(); ++k) merged.counts.add(read_counts(study, ColumnReader(folder.shard_file(k))));
   merged.columns.resize(study.columns.size());
@@ -229,9 +234,9 @@ MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem,
   for (const auto& plot : problem.plots) plots.emplace_back(plot, study);
 
   const auto heads = study_heads(study);
-  ColumnWriter writer(folder.file("study.h5"), heads);
+  ColumnWriter writer(staged.place(merged.files.front()), heads);
   std::unique_ptr<CsvStream> text;
-  if (csv) text = std::make_unique<CsvStream>(folder.file("study.csv"), heads);
+  if (csv) text = std::make_unique<CsvStream>(staged.place(merged.files.back()), heads);
   for_each_row(folder, study, [&](const Row& row) {
     writer.append(row.all);
     if (text) text->append(row.all);
@@ -247,10 +252,7 @@ MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem,
     });
   for (auto& plot : plots) merged.figures.push_back(plot.figure(merged.counts));
   writer.finish(facts_of(folder, study, merged.counts, title));
-  if (text)
-    text->finish();
-  else
-    std::remove(folder.file("study.csv").c_str());  // of other samples
+  if (text) text->finish();
   return merged;
 }
 

@@ -8,6 +8,7 @@
 #include "app/study_shards.h"
 #include "fit/study_problem.h"
 #include "io/result.h"
+#include "io/staged_results.h"
 
 namespace hysteron {
 
@@ -21,11 +22,13 @@ struct MergedStudy {
   StudyCounts counts;
   std::vector<ColumnSummary> columns;  ///< as Study::columns
   std::vector<Figure> figures;         ///< as StudyProblem::plots
+  std::vector<std::string> files;      ///< "study.h5", "study.csv"
+  int unsealed = 0;                    ///< shards that do not show whether they have changed since
 };
 
-/// Writes study.h5 (and study.csv) into the folder. Throws Error "missing_shards" that says how they are made (`again`:
+/// Stages study.h5 (and study.csv). Throws Error "missing_shards" that says how they are made (`again`:
 /// the command line up to its options).
 MergedStudy merge_shards(const StudyFolder& folder, const StudyProblem& problem, const std::string& title, bool csv,
-                         const std::string& again);
+                         const std::string& again, StagedResults& staged);
 
 }  // namespace hysteron

@@ -10,12 +10,16 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <string_view>
 #include <thread>
 
 #include "app/interrupt.h"
 #include "app/numbers.h"
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "io/atomic_file.h"
+#include "io/folder_lock.h"
+#include "io/sealed_file.h"
 
 namespace hysteron {
 namespace {
@@ -37,20 +41,38 @@ std::vector<std::uint64_t> counts_of(const std::vector<std::int64_t>& list) { re
 /// Empty, or what a study leaves that is killed before it has said whose the folder is.
 bool hardly_begun(const fs::path& folder) {
   std::error_code code;
+  if (is_free(folder)) return true;
   for (const auto& entry : fs::directory_iterator(folder, code))
-    if (entry.path().filename() != "shards" || !entry.is_directory(code)) return false;
+    if (entry.path().filename() != unfinished_folder &&
+        (entry.path().filename() != "shards" || !entry.is_directory(code)))
+      return false;
   for (const auto& entry : fs::directory_iterator(folder / "shards", code))
     if (!entry.path().filename().string().starts_with("study.txt.")) return false;
   return true;
 }
 
-/// True for what io/atomic_file.h leaves of one of our files where the process was killed: its name and six letters.
-bool left_over(const std::string& name) {
-  if (name.find(unfinished_prefix(".h5")) != std::string::npos ||
-      name.find(unfinished_prefix(".csv")) != std::string::npos)
-    return true;
-  for (const std::string file : {"study.txt", "result.json", "result.schema.json", "report.html"})
-    if (name.starts_with(file + ".") && name.size() == file.size() + 7) return true;
+/// "3-of-16.h5": the name of a shard, of however many?
+bool is_shard_name(std::string_view name) {
+  const auto number = [&] {
+    const auto end = std::min(name.find_first_not_of("0123456789"), name.size());
+    name.remove_prefix(end);
+    return end > 0;
+  };
+  const auto word = [&](std::string_view text) {
+    const bool begins = name.starts_with(text);
+    if (begins) name.remove_prefix(text.size());
+    return begins;
+  };
+  return number() && word("-of-") && number() && name == ".h5";
+}
+
+/// True for what may be left of a file of ours whose process was killed, by this version or an earlier one.
+bool may_be_left_over(const std::string& name) {
+  const std::string file = name.substr(0, name.find(unfinished_prefix("")));
+  if (file.size() < name.size())
+    return file == "study.h5" || file == "study.csv" || file == "study.txt" || is_shard_name(file);
+  for (const std::string own : {"study.txt", "result.json", "result.schema.json", "report.html"})
+    if (name.starts_with(own + ".") && name.size() == own.size() + 7) return true;
   return false;
 }
 
@@ -79,18 +101,19 @@ class ShardWork {
     while (done_ < threads) {
       changed_.wait_for(lock, std::chrono::milliseconds(100));
       if (interrupted()) stop_ = true;
-      if (show) show({static_cast<int>(shards_.size()), finished_, draws_, accepted_});
+      if (show) show({static_cast<int>(shards_.size()), static_cast<int>(finished_), draws_, accepted_});
     }
   }
 
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
-  bool stopped() const { return stop_; }
+  std::size_t finished() const { return finished_; }
 
  private:
-  bool compute(int shard) {
+  bool compute(int shard) try {
     StudyCounts before;
+    const StopScope scope([&] { return stop_ || interrupted(); });
     return folder_.compute(shard, [&](const StudyCounts& counts) {
       draws_ += counts.draws - before.draws;
       accepted_ += counts.accepted - before.accepted;
@@ -98,12 +121,14 @@ class ShardWork {
       before.accepted = counts.accepted;
       return !stop_ && !interrupted();
     });
+  } catch (const Stopped&) {
+    return false;
   }
 
   const StudyFolder& folder_;
   const std::vector<int>& shards_;
   std::atomic<std::size_t> next_{0};
-  std::atomic<int> finished_{0};
+  std::atomic<std::size_t> finished_{0};
   std::atomic<std::uint64_t> draws_{0}, accepted_{0};
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
@@ -173,13 +198,21 @@ StudyFolder::StudyFolder(std::string folder, const Study& study, std::string job
   while (folder_.size() > 1 && folder_.back() == '/') folder_.pop_back();
 }
 
+void StudyFolder::check() const {
+  const fs::path folder(folder_);
+  std::error_code code;
+  if (fs::exists(folder / marker, code) || !fs::exists(folder, code)) return;
+  const bool free = fs::is_directory(folder, code) && hardly_begun(folder);
+  if (!free && !fs::exists(folder / marker, code))  // another process may have begun this instant
+    fail("folder_in_use", folder_, "there are other files, and no study of hysteron",
+         "choose another folder with -o, or empty this one");
+}
+
 bool StudyFolder::open() const {
+  check();
   const fs::path folder(folder_);
   std::error_code code;
   const bool known = fs::exists(folder / marker, code);
-  if (!known && fs::exists(folder, code) && (!fs::is_directory(folder, code) || !hardly_begun(folder)))
-    fail("folder_in_use", folder_, "there are other files, and no study of hysteron",
-         "choose another folder with -o, or empty this one");
   fs::create_directories(folder / "shards", code);
   if (code) cannot_write(folder_, code);
   const std::string text =
@@ -195,11 +228,14 @@ std::string StudyFolder::shard_file(int shard) const {
 
 ShardState StudyFolder::state(int shard) const {
   if (!fs::exists(shard_file(shard))) return ShardState::absent;
+  const Seal seal = seal_of(shard_file(shard));
+  if (seal == Seal::broken) return ShardState::damaged;
   try {
     const ColumnReader file(shard_file(shard));
     const bool ours = file.text("content") == content_of_shard && file.whole("format") == shard_format &&
                       file.text("job") == job_ && file.whole("shard") == shard + 1 && file.whole("shards") == shards_;
-    return ours ? ShardState::finished : ShardState::other_study;
+    if (!ours) return ShardState::other_study;
+    return seal == Seal::whole ? ShardState::finished : ShardState::unsealed;
   } catch (const Error& error) {
     if (error.problems.front().code != "damaged_file") throw;
     return ShardState::damaged;
@@ -225,11 +261,11 @@ bool StudyFolder::compute(int shard, const std::function<bool(const StudyCounts&
                   {"shards", std::int64_t{shards_}},
                   {"seed", static_cast<std::int64_t>(study_.seed)}};
   add_counts(*counts, facts);
-  writer.finish(facts);
+  writer.finish(facts, true);
   return true;
 }
 
-void StudyFolder::compute(const std::vector<int>& list, int threads,
+void StudyFolder::compute(const std::vector<int>& list, std::size_t there, int threads,
                           const std::function<void(const StudyProgress&)>& show) const {
   if (list.empty()) return;
   const DeferInterrupts until_safe;
@@ -240,20 +276,17 @@ void StudyFolder::compute(const std::vector<int>& list, int threads,
   work.wait_for(n, show);
   for (auto& worker : workers) worker.join();
   work.rethrow();
-  if (!interrupted() || !work.stopped()) return;
-  int finished = 0;
-  for (int k = 0; k < shards_; ++k) finished += state(k) == ShardState::finished ? 1 : 0;
+  if (!interrupted() || work.finished() == list.size()) return;
   throw Interrupted(fmt::format(
-      "interrupted; {} of {} shards are finished and kept in {}/shards; the same command goes on from there", finished,
-      shards_, folder_));
+      "interrupted; {} of {} shards are finished and kept in {}/shards; the same command goes on from there",
+      there + work.finished(), there + list.size(), folder_));
 }
 
 void StudyFolder::clean() const {
   std::error_code ignored;
   for (const auto& folder : {folder_, folder_ + "/shards"})
     for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (left_over(entry.path().filename().string()) && !is_being_written(entry.path().string()))
-        fs::remove(entry.path(), ignored);  // HDF5 locks what it writes
+      if (may_be_left_over(entry.path().filename().string())) remove_leftover(entry.path().string());
 }
 
 }  // namespace hysteron

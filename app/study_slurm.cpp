@@ -45,7 +45,7 @@ int tasks_for(const Arguments& arguments, int shards) {
 std::vector<int> missing_shards(const StudyFolder& folder) {
   std::vector<int> missing;
   for (int k = 0; k < folder.shards(); ++k)
-    if (folder.state(k) != ShardState::finished) missing.push_back(k + 1);
+    if (!can_be_merged(folder.state(k))) missing.push_back(k + 1);
   return missing;
 }
 

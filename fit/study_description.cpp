@@ -2,32 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdint>
-#include <cstring>
-
 #include "fit/study_problem.h"
+#include "io/digest.h"
 
 namespace hysteron {
 namespace {
-
-/// Digest of what is too long to be written.
-class Digest {
- public:
-  void add(const void* bytes, std::size_t size) {
-    const auto* b = static_cast<const unsigned char*>(bytes);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ b[i]) * 0x100000001b3ULL;
-  }
-  template <class T>
-  void add(const std::vector<T>& list) {
-    const auto n = static_cast<std::uint64_t>(list.size());
-    add(&n, sizeof n);
-    if (!list.empty()) add(list.data(), list.size() * sizeof(T));
-  }
-  std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
 
 /// Blocks, what they are made of, their wires and every number at the start.
 std::string program_text(const Program& program, const Run& base) {

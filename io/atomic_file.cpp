@@ -6,11 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "engine/error.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -27,6 +30,7 @@ namespace fs = std::filesystem;
     cure = "free space there, or choose another place with -o; nothing was left half written";
   if (error == ENOENT || error == ENOTDIR) cure = "make the folder first, or choose another place with -o";
   if (error == EISDIR) cure = "name a file, not a folder";
+  if (error == EFBIG) cure = "raise the limit for the size of files (ulimit -f), or choose another place with -o";
   fail_file("cannot_write", file, fmt::format("cannot write {}: {}", file, std::strerror(error)), cure);
 }
 
@@ -47,10 +51,13 @@ struct Handle {
   int fd;
 };
 
+constexpr std::size_t written_at_once = 16 << 20;  // tens of milliseconds of a disk, then work may be asked to stop
+
 /// Returns errno, or 0 if everything was written.
 int write_all(int fd, std::string_view content) {
   while (!content.empty()) {
-    const auto written = ::write(fd, content.data(), content.size());
+    look_up();
+    const auto written = ::write(fd, content.data(), std::min(content.size(), written_at_once));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     content.remove_prefix(static_cast<std::size_t>(written));
@@ -75,34 +82,15 @@ std::string behind_links(const std::string& file) {
   return ignored ? file : target.string();
 }
 
-void write_and_rename(const std::string& file, std::string_view content, mode_t mode) {
-  std::string temporary = file + ".XXXXXX";
-  Handle handle(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (handle.fd < 0) fail_write(file, errno);
-  int error = write_all(handle.fd, content);
-  if (error == 0 && ::fchmod(handle.fd, mode) != 0) error = errno;
-  if (error == 0 && ::fsync(handle.fd) != 0) error = errno;
-  const int at_close = handle.close();
-  if (error == 0) error = at_close;
-  if (error == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    fail_write(file, error);
-  }
+/// Does `path` still name what was opened? Another process may have removed or renamed it meanwhile.
+bool is_named(int fd, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(fd, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
 }
 
-/// Permissions of a new file under the user's mask. umask() can only be read by setting it, which would race between
-/// threads; Linux shows it in /proc.
-mode_t mode_of_new_files() {
-  Handle handle(::open("/proc/self/status", O_RDONLY | O_CLOEXEC));
-  char buffer[4096];
-  const auto count = handle.fd < 0 ? -1 : ::read(handle.fd, buffer, sizeof buffer - 1);
-  if (count <= 0) return 0644;
-  buffer[count] = '\0';
-  const char* line = std::strstr(buffer, "Umask:");
-  if (line == nullptr) return 0644;
-  return static_cast<mode_t>(0666 & ~std::strtoul(line + 6, nullptr, 8));
-}
+constexpr int most_writers = 1000;  // of one file at once
 
 }  // namespace
 
@@ -112,35 +100,58 @@ void write_file(const std::string& file, std::string_view content) {
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail_write(file, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) return write_directly(target, content);
-  write_and_rename(target, content, exists ? (status.st_mode & 07777) : mode_of_new_files());
-}
-
-bool is_being_written(const std::string& unfinished) {
-  Handle handle(::open(unfinished.c_str(), O_RDONLY | O_CLOEXEC));
-  return handle.fd >= 0 && ::flock(handle.fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  UnfinishedFile unfinished(target);
+  unfinished.append(content);
+  unfinished.finish();
 }
 
 std::string unfinished_prefix(const std::string& file) { return file + ".partial-"; }
 
+bool remove_leftover(const std::string& unfinished) {
+  const Handle handle(::open(unfinished.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat status {};
+  return handle.fd >= 0 && ::fstat(handle.fd, &status) == 0 && S_ISREG(status.st_mode) &&
+         ::flock(handle.fd, LOCK_EX | LOCK_NB) == 0 && is_named(handle.fd, unfinished) &&
+         ::unlink(unfinished.c_str()) == 0;
+}
+
 UnfinishedFile::UnfinishedFile(std::string file) : file_(std::move(file)) {
-  temporary_ = unfinished_prefix(file_) + "XXXXXX";
-  Handle handle(::mkostemp(temporary_.data(), O_CLOEXEC));
+  for (int writer = 1; writer <= most_writers; ++writer) {
+    const std::string name = unfinished_prefix(file_) + "hysteron" + (writer == 1 ? "" : std::to_string(writer));
+    if (begin(name) || (remove_leftover(name) && begin(name))) return;
+  }
+  fail_write(file_, EEXIST);
+}
+
+/// Makes `temporary` and locks it; false where that name is taken.
+bool UnfinishedFile::begin(const std::string& temporary) {
+  Handle handle(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+  if (handle.fd < 0 && errno == EEXIST) return false;
   if (handle.fd < 0) fail_write(file_, errno);
-  ::fchmod(handle.fd, mode_of_new_files());
+  // Another process may take it for a leftover until it is locked; a file system may have no locks at all.
+  if (::flock(handle.fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  if (!is_named(handle.fd, temporary)) return false;
+  descriptor_ = std::exchange(handle.fd, -1);
+  temporary_ = temporary;
+  return true;
 }
 
 UnfinishedFile::~UnfinishedFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void UnfinishedFile::fail_now() const { fail_write(file_, errno != 0 ? errno : EIO); }
 
+void UnfinishedFile::append(std::string_view content) {
+  if (const int error = write_all(descriptor_, content); error != 0) fail_write(file_, error);
+}
+
 void UnfinishedFile::finish() {
-  Handle handle(::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC));
-  if (handle.fd >= 0) ::flock(handle.fd, LOCK_EX | LOCK_NB);  // nobody takes it for a leftover
-  int error = handle.fd < 0 || ::fsync(handle.fd) != 0 ? errno : 0;
-  const int at_close = handle.fd < 0 ? 0 : handle.close();
-  if (error == 0) error = at_close;
+  struct stat status {};
+  const bool replaces = ::stat(file_.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  int error = replaces && ::fchmod(descriptor_, status.st_mode & 07777) != 0 ? errno : 0;
+  if (error == 0 && ::fsync(descriptor_) != 0) error = errno;  // some file systems tell of a full disk only here
   if (error == 0 && ::rename(temporary_.c_str(), file_.c_str()) != 0) error = errno;
   if (error != 0) fail_write(file_, error);
   temporary_.clear();

@@ -11,6 +11,7 @@
 #include "engine/error.h"
 #include "io/atomic_file.h"
 #include "io/hdf5_library.h"
+#include "io/sealed_file.h"
 
 namespace hysteron {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 constexpr hsize_t rows_at_once = 1024;           // of a column: 8 kB, so that a small study is a small file
 constexpr unsigned truncate = 2, read_only = 0;  // as hdf5.h has them, without the calls that it hides in their names
 constexpr char names_fact[] = "columns";
+constexpr std::size_t largest_fact = 1 << 26;  // more is damage: a fact is kept in memory
 
 /// An open thing of the library, closed with its function. The mutex is held by whoever has one.
 class Id {
@@ -89,6 +91,7 @@ struct ColumnWriter::Content {
     const Id dataset(h.H5Pcreate(h.dataset_creation), h.H5Pclose);
     h.H5Pset_obj_track_times(dataset, false);
     h.H5Pset_chunk(dataset, 1, &rows_at_once);
+    h.H5Pset_fletcher32(dataset);
     const hsize_t none = 0, unlimited = H5S_UNLIMITED;
     const Id space(h.H5Screate_simple(1, &none, &unlimited), h.H5Sclose);
     for (const auto& head : heads) {
@@ -149,7 +152,7 @@ void ColumnWriter::append(std::span<const double> row) {
   c.flush(hdf5());
 }
 
-void ColumnWriter::finish(const FileFacts& facts) {
+void ColumnWriter::finish(const FileFacts& facts, bool sealed) {
   Content& c = *content_;
   const Hdf5Library& h = hdf5();
   {
@@ -164,6 +167,7 @@ void ColumnWriter::finish(const FileFacts& facts) {
     good = c.open->close() && good;
     if (!good) c.file.fail_now();
   }
+  if (sealed) c.file.append(seal_line(c.file.path()));
   c.file.finish();
 }
 
@@ -180,6 +184,7 @@ struct ColumnReader::Content {
     const Id attribute(h.H5Aopen(from, fact, 0), h.H5Aclose);
     const Id type(h.H5Aget_type(attribute), h.H5Tclose);
     if (!attribute.good() || h.H5Tget_class(type) != H5T_STRING) return otherwise;
+    if (h.H5Tget_size(type) > largest_fact) damaged("a text is too long");
     std::string text(h.H5Tget_size(type), '\0');
     if (h.H5Aread(attribute, type, text.data()) < 0) damaged("a text cannot be read");
     text.resize(std::min(text.size(), text.find('\0')));
@@ -246,8 +251,9 @@ std::vector<std::int64_t> ColumnReader::list(const std::string& fact) const {
   const Id attribute(h.H5Aopen(*content_->open, fact.c_str(), 0), h.H5Aclose);
   const Id space(h.H5Aget_space(attribute), h.H5Sclose), type(h.H5Aget_type(attribute), h.H5Tclose);
   if (h.H5Tget_class(type) != H5T_INTEGER) return {};
-  std::vector<std::int64_t> numbers(
-      static_cast<std::size_t>(std::max<hssize_t>(0, h.H5Sget_simple_extent_npoints(space))));
+  const auto size = static_cast<std::size_t>(std::max<hssize_t>(0, h.H5Sget_simple_extent_npoints(space)));
+  if (size > largest_fact) content_->damaged("a list is too long");
+  std::vector<std::int64_t> numbers(size);
   if (!numbers.empty() && h.H5Aread(attribute, h.whole, numbers.data()) < 0)
     content_->damaged("a number cannot be read");
   return numbers;

@@ -24,10 +24,11 @@ using FileFact = std::variant<std::string, std::int64_t, std::vector<std::int64_
 /// In the order in which they are written.
 using FileFacts = std::vector<std::pair<std::string, FileFact>>;
 
-/// Several may be open in several threads.
+/// Several may be open in several threads. Numbers that changed on the disk are refused by whoever reads them (the
+/// library's Fletcher checksums).
 class ColumnWriter {
  public:
-  /// Writes beside `file` (unfinished_prefix in atomic_file.h) until finish(). Throws Error "cannot_write", "no_hdf5".
+  /// Writes beside `file` (UnfinishedFile in atomic_file.h) until finish(). Throws Error "cannot_write", "no_hdf5".
   ColumnWriter(std::string file, std::vector<ColumnHead> columns);
   /// Without finish() nothing is left.
   ~ColumnWriter();
@@ -36,8 +37,8 @@ class ColumnWriter {
 
   /// One number per column.
   void append(std::span<const double> row);
-  /// On the disk, under its name.
-  void finish(const FileFacts& facts);
+  /// On the disk, under its name. `sealed`: seal_of() tells later whether anything in it has changed.
+  void finish(const FileFacts& facts, bool sealed = false);
 
  private:
   struct Content;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "io/atomic_file.h"
 #include "io/encoding.h"
 
@@ -258,7 +259,9 @@ void write_csv(const std::string& file, const CsvTable& table, const std::vector
     fmt::format_to(std::back_inserter(out), "{}{}", i > 0 ? "," : "", heading_text(column));
   }
   out.push_back('\n');
+  LookUp look_up;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    look_up();
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       if (i > 0) out.push_back(',');
       fmt::format_to(std::back_inserter(out), "{}", table.columns[i].values[row]);

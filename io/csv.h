@@ -27,7 +27,7 @@ struct CsvTable {
 CsvTable read_csv(const std::string& file);
 
 /// Writes a CSV, whole or not at all (temporary file, then rename; a device such as /dev/full fails with
-/// "cannot_write").
+/// "cannot_write"). Ends early where work is asked to stop (engine/stop.h).
 void write_csv(const std::string& file, const CsvTable& table, const std::vector<std::string>& comments = {});
 
 }  // namespace hysteron

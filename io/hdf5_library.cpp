@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include "engine/error.h"
 
@@ -26,8 +27,12 @@ Hdf5Library load() {
 #define HYSTERON_FIND(name) h.name = reinterpret_cast<decltype(h.name)>(symbol(library, #name));
   HYSTERON_HDF5_FUNCTIONS(HYSTERON_FIND)
 #undef HYSTERON_FIND
+  // A file whose disk is full cannot be closed; at the end of the program the library would try it once more, and
+  // crash.
+  h.H5dont_atexit();
+  // Its own locks would meet those of atomic_file.h, whatever the file properties say, if the user has asked for them.
+  ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
   if (h.H5open() < 0) cannot_load("it does not start");
-  h.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told by us
   const auto number = [&](const char* name) { return *static_cast<hid_t*>(symbol(library, name)); };
   h.real = number("H5T_IEEE_F64LE_g");
   h.whole = number("H5T_STD_I64LE_g");
@@ -42,6 +47,8 @@ Hdf5Library load() {
 
 const Hdf5Library& hdf5() {
   static const Hdf5Library library = load();
+  // What fails is told by us. Each thread has errors of its own.
+  [[maybe_unused]] thread_local const herr_t silent = library.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   return library;
 }
 

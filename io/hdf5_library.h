@@ -9,14 +9,15 @@
 namespace hysteron {
 
 // Every function that column_file.cpp calls, by its name in the library.
-#define HYSTERON_HDF5_FUNCTIONS(X)                                                                                     \
-  X(H5open)                                                                                                            \
-  X(H5Eset_auto2) X(H5Fcreate) X(H5Fopen) X(H5Fclose) X(H5Pcreate) X(H5Pclose) X(H5Pset_chunk)                         \
-      X(H5Pset_obj_track_times) X(H5Pset_file_locking) X(H5Screate) X(H5Screate_simple) X(H5Sclose)                    \
-          X(H5Sselect_hyperslab) X(H5Sget_simple_extent_npoints) X(H5Dcreate2) X(H5Dopen2) X(H5Dclose) X(H5Dwrite)     \
-              X(H5Dread) X(H5Dset_extent) X(H5Dget_space) X(H5Acreate2) X(H5Aopen) X(H5Aexists) X(H5Awrite) X(H5Aread) \
-                  X(H5Aclose) X(H5Aget_space) X(H5Aget_type) X(H5Tcopy) X(H5Tset_size) X(H5Tget_size) X(H5Tget_class)  \
-                      X(H5Tclose)
+#define HYSTERON_HDF5_FUNCTIONS(X)                                                                                 \
+  X(H5open)                                                                                                        \
+  X(H5dont_atexit)                                                                                                 \
+  X(H5Eset_auto2) X(H5Fcreate) X(H5Fopen) X(H5Fclose) X(H5Pcreate) X(H5Pclose) X(H5Pset_chunk)                     \
+      X(H5Pset_obj_track_times) X(H5Pset_file_locking) X(H5Pset_fletcher32) X(H5Screate) X(H5Screate_simple)       \
+          X(H5Sclose) X(H5Sselect_hyperslab) X(H5Sget_simple_extent_npoints) X(H5Dcreate2) X(H5Dopen2) X(H5Dclose) \
+              X(H5Dwrite) X(H5Dread) X(H5Dset_extent) X(H5Dget_space) X(H5Acreate2) X(H5Aopen) X(H5Aexists)        \
+                  X(H5Awrite) X(H5Aread) X(H5Aclose) X(H5Aget_space) X(H5Aget_type) X(H5Tcopy) X(H5Tset_size)      \
+                      X(H5Tget_size) X(H5Tget_class) X(H5Tclose)
 
 /// The functions, and the numbers by which the library calls its types and lists of properties.
 struct Hdf5Library {

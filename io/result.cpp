@@ -193,6 +193,7 @@ std::string result_text(const Document& d) {
   for (const auto& trace : d.traces) j["traces"].push_back(trace.file);
   j["files"] = Json::array();
   for (const auto& [name, content] : d.files) j["files"].push_back(name);
+  if (!d.data.empty()) j["data"] = d.data;
   std::string text;
   print(j, 0, text);
   return text + '\n';
@@ -217,6 +218,7 @@ Document read_result(const std::string& folder) {
     take(j, "verdict", d.verdict);
     take(j, "sentences", d.sentences);
     take(j, "warnings", d.warnings);
+    take(j, "data", d.data);
     d.facts = std::make_shared<nlohmann::json>(j.value("facts", Json::object()));
     read_all(j, "sections", d.sections);
     for (const auto& name : j.value("traces", std::vector<std::string>{})) {

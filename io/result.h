@@ -1,5 +1,5 @@
 // Decides what a verb leaves behind: result.json for programs, traces as CSV, and the sections that report/ draws.
-// A folder of results is written whole or not at all.
+// A folder of results is written whole or not at all (staged_results.h).
 #pragma once
 
 #include <memory>
@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "io/csv.h"
+#include "io/folder_lock.h"
 
 namespace hysteron {
+
+class StagedResults;
 
 /// One curve of a figure: two columns of a trace file, or numbers given here.
 struct Curve {
@@ -68,6 +71,8 @@ struct Document {
   std::vector<CsvTable> traces;  ///< file = name in traces/ ("01.csv")
   /// Further files of the folder: name, content ("step1.json").
   std::vector<std::pair<std::string, std::string>> files;
+  /// Files that were too large to be held here, and are written before the document: "study.h5".
+  std::vector<std::string> data;
   std::shared_ptr<nlohmann::json> facts;  ///< may be null
 };
 
@@ -80,12 +85,15 @@ Document read_result(const std::string& folder);  ///< from result.json and trac
 std::string trace_file_name(const std::string& name);
 
 /// Writes the folder: result.json with its schema, traces/*.csv, further files, and report.html (made by the caller
-/// from the document). Built beside it under a temporary name and then renamed; an existing folder is replaced only if
-/// it holds a result.json of ours or is empty. Throws Error "cannot_write", "folder_in_use".
-void write_result(const std::string& folder, const Document& document, const std::string& report_html);
+/// from the document); all of them or none. A folder that is there stays: what an earlier run of the same verb wrote is
+/// replaced, and what others put there is not touched. Two at once take turns; `waiting` is told of the other. Throws
+/// Error "cannot_write", "folder_in_use"; Stopped (engine/stop.h) before anything is replaced.
+void write_result(const std::string& folder, const Document& document, const std::string& report_html,
+                  const FolderLock::Waiting& waiting = {});
 
-/// Writes the same files into a folder that is there and keeps what else it holds; each file whole or not at all,
-/// result.json last. Throws Error "cannot_write".
-void add_result(const std::string& folder, const Document& document, const std::string& report_html);
+/// The same where the folder is locked, is known to be ours, and some of its new files (Document::data) were written
+/// before.
+void finish_result(StagedResults& staged, const std::string& folder, const Document& document,
+                   const std::string& report_html);
 
 }  // namespace hysteron

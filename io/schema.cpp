@@ -134,6 +134,7 @@ std::string result_schema() {
   properties["sections"] = list_of("what the report shows", section());
   properties["traces"] = list_of("files in traces/", {{"type", "string"}});
   properties["files"] = list_of("further files of the folder", {{"type", "string"}});
+  properties["data"] = list_of("large files of numbers in the folder", {{"type", "string"}});
   json.update(object(
       "What one verb found: for programs. report.html shows the same to people.", std::move(properties),
       {"format", "program", "version", "verb", "headline", "verdict", "sentences", "warnings", "facts", "sections"}));

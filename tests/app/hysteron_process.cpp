@@ -83,6 +83,17 @@ Outcome hysteron_killed(const std::string& folder, const std::vector<std::string
   return run(folder, all, "", after_ms, SIGKILL);
 }
 
+Outcome hysteron_terminated(const std::string& folder, const std::vector<std::string>& words) {
+  std::vector<std::string> all{HYSTERON_PROGRAM};
+  all.insert(all.end(), words.begin(), words.end());
+  Outcome outcome;
+  for (int milliseconds = 400; milliseconds < 20000; milliseconds *= 2) {
+    outcome = run(folder, all, "", milliseconds, SIGTERM);
+    if (outcome.code != 128 + SIGTERM) break;
+  }
+  return outcome;
+}
+
 Outcome shell(const std::string& folder, const std::string& command) {
   const std::string path = fs::path(HYSTERON_PROGRAM).parent_path().string();
   return run(folder, {"/bin/sh", "-c", "PATH=\"" + path + ":$PATH\"\n" + command}, "", 0);

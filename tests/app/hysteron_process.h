@@ -20,6 +20,10 @@ Outcome hysteron(const std::string& folder, const std::vector<std::string>& word
 /// The same with SIGKILL: code 137 where it came in time.
 Outcome hysteron_killed(const std::string& folder, const std::vector<std::string>& words, int after_ms);
 
+/// The same with SIGTERM, of a program that has so much to do that it comes in time: on a slow machine, or under a
+/// sanitizer, it may not have begun to listen, and is started anew.
+Outcome hysteron_terminated(const std::string& folder, const std::vector<std::string>& words);
+
 /// Runs a command line of a shell in `folder`, with the built program first in PATH.
 Outcome shell(const std::string& folder, const std::string& command);
 

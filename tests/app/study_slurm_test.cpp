@@ -2,6 +2,7 @@
 // are asked in slurm_cluster_test.cpp.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hysteron_process.h"
@@ -10,7 +11,9 @@
 namespace hysteron {
 namespace {
 
+namespace fs = std::filesystem;
 using process::Folder;
+using process::hysteron;
 using process::Outcome;
 using process::shell;
 
@@ -149,6 +152,30 @@ TEST(StudySlurm, ADryRunWritesTheScriptsAndSubmitsNothing) {
   EXPECT_EQ(site.calls(), "");
   EXPECT_TRUE(site.has("out/slurm/shards.sh"));
   EXPECT_TRUE(site.has("out/slurm/merge.sh"));
+}
+
+TEST(StudySlurm, AnyNameOfAFolderComesThroughTheScripts) {
+  for (const std::string name :
+       {"o\ntouch broken;#", "$(touch broken)", "`touch broken`", "a'b\"c; touch broken", "./-o", "\t\\n"}) {
+    const Folder folder;
+    small_study::write(folder, "", 8);
+    const Outcome dry =
+        hysteron(folder.path(), {"study", "job.json", "-o", name, "--slurm-dry-run", "--slurm-tasks", "1"});
+    ASSERT_EQ(dry.code, 0) << dry.err;
+    const std::string scripts = folder.path() + "/" + name + "/slurm/";
+    for (const char* script : {"shards.sh", "merge.sh"}) {
+      fs::copy_file(scripts + script, folder.path() + "/script", fs::copy_options::overwrite_existing);
+      const Outcome done = shell(folder.path(), "SLURM_ARRAY_TASK_ID=1 bash script");
+      EXPECT_EQ(done.code, 0) << name << done.out << done.err;
+    }
+    EXPECT_TRUE(folder.has(name + "/study.h5")) << name;
+    EXPECT_FALSE(folder.has("broken")) << name;
+    // The command by which the user goes there, in the script and on the terminal.
+    const std::string text = folder.read("/" + name + "/slurm/shards.sh");
+    const auto at = text.find("#   cd ") + 4;
+    folder.write("go", text.substr(at, text.find('\n', at) - at) + "\n[ -e merge.sh ]\n");
+    EXPECT_EQ(shell(folder.path(), "bash go").code, 0) << name;
+  }
 }
 
 TEST(StudySlurm, WrongInputIsToldHereAndNotByTheCluster) {

@@ -197,6 +197,51 @@ TEST_F(StudyVerb, WhatAnotherProcessIsWritingIsNoLeftover) {
   EXPECT_FALSE(folder_.has(partial));
 }
 
+/// The file with one bit turned over inside the number that its shard's first accepted sample has.
+void turn_a_bit(const Folder& folder, const std::string& file, double number) {
+  std::string bytes = folder.read(file);
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&number), sizeof number));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 6] = static_cast<char>(bytes[at + 6] ^ 0x10);
+  folder.write(file, bytes);
+}
+
+TEST_F(StudyVerb, AShardOfWhichABitWasTurnedOverIsNotMergedButComputedAnew) {
+  done({"study", "limits.json", "--csv"});
+  const std::string right = bytes("limits.study"), csv = folder_.read("limits.study/study.csv");
+  const std::string row = csv.substr(csv.find('\n') + 1);
+  turn_a_bit(folder_, "limits.study/shards/1-of-5.h5", std::stod(row.substr(row.find(',') + 1)));
+  const Outcome merge = hysteron(folder_.path(), {"study", "limits.json", "--csv", "--merge"});
+  EXPECT_EQ(merge.code, 2) << merge.out;
+  EXPECT_NE(merge.err.find("these are damaged: 1"), std::string::npos) << merge.err;
+  EXPECT_TRUE(bytes("limits.study") == right) << "the results are those of before";
+  EXPECT_NE(done({"study", "limits.json", "--csv"}).out.find("1 shard was damaged"), std::string::npos);
+  EXPECT_TRUE(bytes("limits.study") == right);
+  EXPECT_EQ(folder_.read("limits.study/study.csv"), csv);
+  done({"study", "limits.json"});
+  EXPECT_FALSE(folder_.has("limits.study/study.csv")) << "of an earlier command that wanted it";
+}
+
+TEST_F(StudyVerb, AShardOfAnEarlierVersionIsMergedAndSaysSo) {
+  done({"study", "limits.json"});
+  const std::string right = bytes("limits.study");
+  const std::string shard = folder_.read("limits.study/shards/2-of-5.h5");
+  folder_.write("limits.study/shards/2-of-5.h5", shard.substr(0, shard.rfind("\nhysteron digest ")));
+  const Outcome again = done({"study", "limits.json"});
+  EXPECT_NE(again.out.find("5 of 5 shards were there already"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("1 shard was written by an earlier version"), std::string::npos) << again.out;
+  EXPECT_TRUE(bytes("limits.study") == right);
+}
+
+TEST_F(StudyVerb, FilesOfTheUserInItsFolderAreNotTouched) {
+  done({"study", "limits.json"});
+  for (const char* name : {"notes.txt", "mine.h5.partial-old", "shards/mine.h5.partial-old", "shards/1-of-5.h5.bak"})
+    folder_.write(std::string("limits.study/") + name, "mine");
+  done({"study", "limits.json"});
+  for (const char* name : {"notes.txt", "mine.h5.partial-old", "shards/mine.h5.partial-old", "shards/1-of-5.h5.bak"})
+    EXPECT_EQ(folder_.read(std::string("limits.study/") + name), "mine");
+}
+
 TEST_F(StudyVerb, AFolderThatIsNotItsOwnIsLeftAlone) {
   folder_.write("mine/notes.txt", "keep");
   const Outcome outcome = hysteron(folder_.path(), {"study", "limits.json", "-o", "mine"});

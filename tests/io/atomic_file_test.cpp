@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -56,6 +57,51 @@ TEST(AtomicFile, ASymbolicLinkStaysOneAndItsTargetIsReplaced) {
 TEST(AtomicFile, AFullDiskIsAnErrorAndNotSilence) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   EXPECT_EQ(code_of([] { write_file("/dev/full", "content"); }), "cannot_write");
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedByTheNextWrite) {
+  const TemporaryFolder folder;
+  std::string left;
+  {
+    const UnfinishedFile unfinished(folder.path("x"));
+    left = unfinished.path();
+  }
+  folder.write(left.substr(folder.path("").size()), "half of it");  // as if nobody had removed it
+  ASSERT_TRUE(std::filesystem::exists(left));
+  write_file(folder.path("x"), "whole");
+  EXPECT_EQ(folder.count(), 1U);
+  EXPECT_EQ(TemporaryFolder::read(folder.path("x")), "whole");
+}
+
+TEST(AtomicFile, WhatAnotherProcessIsWritingStays) {
+  const TemporaryFolder folder;
+  UnfinishedFile slow(folder.path("x"));
+  slow.append("the ");
+  EXPECT_FALSE(remove_leftover(slow.path()));
+  write_file(folder.path("x"), "quick");
+  EXPECT_EQ(TemporaryFolder::read(folder.path("x")), "quick");
+  slow.append("slow one");
+  slow.finish();
+  EXPECT_EQ(TemporaryFolder::read(folder.path("x")), "the slow one");
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(AtomicFile, OnlyAFileIsTakenForALeftover) {
+  const TemporaryFolder folder;
+  const std::string name = folder.path("x.partial-hysteron");
+  ASSERT_EQ(::mkfifo(name.c_str(), 0600), 0);
+  EXPECT_FALSE(remove_leftover(name));
+  write_file(folder.path("x"), "content");
+  EXPECT_TRUE(std::filesystem::is_fifo(name));
+}
+
+TEST(AtomicFile, WorkThatIsAskedToStopLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  folder.write("x", "old");
+  const StopScope scope([] { return true; });
+  EXPECT_THROW(write_file(folder.path("x"), "new"), Stopped);
+  EXPECT_EQ(TemporaryFolder::read(folder.path("x")), "old");
+  EXPECT_EQ(folder.count(), 1U);
 }
 
 TEST(AtomicFile, AFolderAsTargetAndAMissingFolderAreErrors) {

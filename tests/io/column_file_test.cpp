@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "engine/error.h"
+#include "io/sealed_file.h"
+#include "tests/io/small_disk.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -20,14 +22,23 @@ std::vector<double> row(int i) {
   return {static_cast<double>(i) * 1e12, 0.1 * i, i == 7 ? std::numeric_limits<double>::quiet_NaN() : -1e-300 * i};
 }
 
-void write(const std::string& file, int rows) {
+void write(const std::string& file, int rows, bool sealed = false) {
   ColumnWriter writer(file, heads);
   for (int i = 0; i < rows; ++i) writer.append(row(i));
   writer.finish({{"job", "a1b2"},
                  {"remark", ""},
                  {"draws", std::int64_t{1} << 60},
                  {"passed", std::vector<std::int64_t>{3, -4, 5}},
-                 {"none", std::vector<std::int64_t>{}}});
+                 {"none", std::vector<std::int64_t>{}}},
+                sealed);
+}
+
+/// All numbers of a column; throws what the reader throws.
+std::vector<double> column(const std::string& file, std::size_t which) {
+  const ColumnReader reader(file);
+  std::vector<double> values(reader.rows());
+  reader.read(which, 0, values);
+  return values;
 }
 
 std::string problem(const std::string& file) {
@@ -101,6 +112,52 @@ TEST(ColumnFile, SeveralAreWrittenAtOnce) {
   for (int i = 0; i < 4; ++i) threads.emplace_back([&, i] { write(name(i), 5000); });
   for (auto& thread : threads) thread.join();
   for (int i = 1; i < 4; ++i) EXPECT_TRUE(TemporaryFolder::read(name(i)) == TemporaryFolder::read(name(0)));
+}
+
+TEST(ColumnFile, ANumberThatChangedOnTheDiskIsRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() + "/a.h5";
+  write(file, 1500);
+  std::string bytes = TemporaryFolder::read(file);
+  const double number = row(700)[1];
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&number), sizeof number));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 6] = static_cast<char>(bytes[at + 6] ^ 0x10);
+  folder.write("a.h5", bytes);
+  EXPECT_EQ(column(file, 0).size(), 1500U);
+  try {
+    column(file, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems.front().code, "damaged_file");
+  }
+}
+
+TEST(ColumnFile, ASealedOneIsReadAsOneWithoutSeal) {
+  const TemporaryFolder folder;
+  write(folder.path() + "/a.h5", 1500, true);
+  write(folder.path() + "/b.h5", 1500);
+  EXPECT_EQ(seal_of(folder.path() + "/a.h5"), Seal::whole);
+  EXPECT_EQ(seal_of(folder.path() + "/b.h5"), Seal::none);
+  EXPECT_EQ(column(folder.path() + "/a.h5", 1), column(folder.path() + "/b.h5", 1));
+  EXPECT_TRUE(
+      TemporaryFolder::read(folder.path() + "/a.h5").starts_with(TemporaryFolder::read(folder.path() + "/b.h5")));
+}
+
+TEST(ColumnFile, AFullDiskIsToldAndTheNextFileCanBeWritten) {
+  const TemporaryFolder folder;
+  for (const rlim_t size : {100, 4000, 20000, 50000}) {
+    const SmallDisk disk(size);
+    try {
+      write(folder.path() + "/a.h5", 3000);
+      ADD_FAILURE() << size;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.problems.front().code, "cannot_write");
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << size;
+  }
+  write(folder.path() + "/a.h5", 3000);
+  EXPECT_EQ(column(folder.path() + "/a.h5", 1).back(), row(2999)[1]);
 }
 
 TEST(ColumnFile, WhatIsNoFileOfColumnsIsTold) {
