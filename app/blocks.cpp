@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/block_words.h"
 #include "app/facts.h"
 #include "app/load.h"
 #include "app/numbers.h"
@@ -253,8 +254,7 @@ int blocks(const Arguments& arguments) {
   }
   const std::string type = arguments.text("type");
   const Kernel* kernel = registry().find(type);
-  if (kernel == nullptr)
-    fail("unknown_block", type, "there is no block type \"" + type + "\"", did_you_mean(type, shown_types()));
+  if (kernel == nullptr) fail("unknown_block", type, "there is no block type \"" + type + "\"", instead_of_type(type));
   if (arguments.has("--json"))
     fmt::print("{}\n", json_text(facts_of(kernel->declaration)));
   else

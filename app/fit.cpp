@@ -158,8 +158,22 @@ Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
   Comparison after = compare(model, judge, end, recordings);
   // A start that cannot be simulated is no obstacle to a fit; then there is nothing to show before it.
   Comparison before = start.ok ? compare(model, judge, start, recordings) : after;
-  return {std::move(result), std::move(with_noise.noise),    std::move(before),
-          std::move(after),  find_delays(model, judge, end), std::move(attempts)};
+  const auto weighed = [&](const Prediction& prediction) {
+    if (!prediction.ok) return std::numeric_limits<double>::infinity();
+    const Score score = judge.score(model, prediction, recordings);
+    return std::sqrt(score.chi2(Role::train) / std::max(1.0, score.n(Role::train)));
+  };
+  Fitted fitted;
+  fitted.weighed_before = weighed(start);
+  fitted.weighed_after = weighed(end);
+  fitted.by_search = !of_thesis;
+  fitted.delays = find_delays(model, judge, end);
+  fitted.result = std::move(result);
+  fitted.noise = std::move(with_noise.noise);
+  fitted.before = std::move(before);
+  fitted.after = std::move(after);
+  fitted.attempts = std::move(attempts);
+  return fitted;
 }
 
 /// The job of the arguments: its file, or what the options say.

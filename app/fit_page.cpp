@@ -108,6 +108,32 @@ std::string rms_text(const DataModel& model, const Comparison& before, const Com
   return parts.empty() ? "" : fmt::format("{}: {}", to_text(role), fmt::join(parts, "; "));
 }
 
+/// Why an output ends with a larger rms on the train rows than it began with; "" if none does.
+std::string risen_text(const DataModel& model, const Fitted& fitted) {
+  constexpr double rounding = 1e-6;  // of the rms: less than is printed
+  std::vector<std::string> risen;
+  for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
+    const Metrics* before = fitted.before.find(Role::train, y);
+    const Metrics* after = fitted.after.find(Role::train, y);
+    if (before == nullptr || after == nullptr || !(after->rms > before->rms * (1 + rounding))) continue;
+    const Unit unit = output_unit(model, y);
+    risen.push_back(fmt::format("{} from {} to {}", model.outputs()[static_cast<std::size_t>(y)],
+                                difference_text(before->rms, unit), difference_text(after->rms, unit)));
+  }
+  if (risen.empty()) return "";
+  const std::string what = fmt::format("The rms of the train recordings has risen, {}", fmt::join(risen, ", "));
+  if (!fitted.by_search)
+    return fmt::format("{}: method {} does not minimize it. Compare with --method search.", what, fitted.result.method);
+  if (!(fitted.weighed_after < fitted.weighed_before))
+    return what +
+           ", and so has the error as the fit weighs it: the start was better. Try --starts 50, or other bounds.";
+  std::string why = fmt::format(
+      "{}. The fit minimizes another sum: each residual over its noise, where slow errors count less than fast ones as "
+      "far as the noise is 1/f, and outputs count by their noise. That error fell from {} to {} of the noise.",
+      what, percent_text(fitted.weighed_before), percent_text(fitted.weighed_after));
+  return why + " Where every row shall count alike, state the noise in the data set with \"one_over_f\": 0.";
+}
+
 Table noise_table(const DataModel& model, const NoiseModel& noise) {
   Table table;
   table.columns = {"output", "white rms", "1/f rms", "known from"};
@@ -241,6 +267,7 @@ void tell(Document& document, const DataModel& model, const Fitted& fitted) {
   document.headline = fmt::format("{} fitted; {}", count_text(static_cast<long>(result.estimates.size()), "parameter"),
                                   validate.empty() ? train : validate);
   if (!validate.empty()) document.sentences.push_back(train);
+  if (auto risen = risen_text(model, fitted); !risen.empty()) document.warnings.push_back(std::move(risen));
   for (const auto& e : result.estimates)
     if (e.value) {
       const std::string interval = interval_text(e);

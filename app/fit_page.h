@@ -30,6 +30,9 @@ struct Fitted {
   Comparison before, after;
   std::vector<DelayFinding> delays;
   std::vector<Attempt> attempts;
+  /// Root of chi2 per row over the train recordings, before and after: the error as the fit weighs it.
+  double weighed_before = 0, weighed_after = 0;
+  bool by_search = true;  ///< false: a method of the thesis, which does not minimize it
 };
 
 /// Headline and sentences: how far the error fell, and every value with its interval.

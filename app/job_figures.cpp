@@ -48,7 +48,7 @@ class Plotter {
       return;
     }
     Figure figure = empty(plot);
-    for (const auto& run : runs_of(plot)) runner_.at(plot.pointer, [&] { add_run(plot, run, figure); });
+    for (const auto& run : runs_drawn(runner_, plot)) runner_.at(plot.pointer, [&] { add_run(plot, run, figure); });
     ranges(plot, figure);
     page_.section.figures.push_back(std::move(figure));
   }
@@ -61,24 +61,6 @@ class Plotter {
     figure.log_x = plot.x.log;
     figure.log_y = plot.y.log;
     return figure;
-  }
-
-  /// Those that are named; else all that have the signals.
-  std::vector<WrittenText> runs_of(const PlotWish& plot) {
-    if (!plot.runs.empty()) return plot.runs;
-    std::vector<WrittenText> list;
-    std::string first;
-    for (const auto& run : runner_.job().runs) {
-      const RunResult& result = runner_.result({run.name, run.pointer});
-      const auto has = [&](const SignalWish& s) { return result.find(s.signal.text) != nullptr; };
-      if (!result.columns.empty() && std::all_of(plot.y.signals.begin(), plot.y.signals.end(), has) &&
-          std::all_of(plot.x.signals.begin(), plot.x.signals.end(), has))
-        list.push_back({run.name, run.pointer});
-      else if (!result.columns.empty() && first.empty())
-        first = run.name;
-    }
-    if (list.empty() && !first.empty()) list.push_back({first, plot.pointer});  // says which signal it lacks
-    return list;
   }
 
   std::string title_of(const std::string& run) const {
@@ -160,7 +142,7 @@ class Plotter {
     figure.title = plot.title.empty() ? what : plot.title + ": " + what;
     figure.log_x = true;
     figure.log_y = what == "gain";
-    for (const auto& run : plot.runs.empty() ? bode_runs() : plot.runs)
+    for (const auto& run : runs_drawn(runner_, plot))
       runner_.at(run.pointer, [&] {
         const RunResult& result = runner_.result(run);
         const RunColumn& f = column_of(result, {"f", run.pointer});
@@ -175,13 +157,6 @@ class Plotter {
     if (plot.x.from && plot.x.to)
       figure.x_range = {JobRunner::si(*plot.x.from, parse_unit("Hz")), JobRunner::si(*plot.x.to, parse_unit("Hz"))};
     page_.section.figures.push_back(std::move(figure));
-  }
-
-  std::vector<WrittenText> bode_runs() const {
-    std::vector<WrittenText> list;
-    for (const auto& run : runner_.job().runs)
-      if (run.kind == RunKind::linearize) list.push_back({run.name, run.pointer});
-    return list;
   }
 
   void add_curve(Figure& figure, const std::string& name, const std::string& style, const std::string& file,
@@ -274,6 +249,27 @@ std::string figure_name(const std::string& job) {
   std::string name = "Fig. " + job.substr(3);
   std::replace(name.begin(), name.end(), '_', '.');
   return name;
+}
+
+std::vector<WrittenText> runs_drawn(JobRunner& runner, const PlotWish& plot) {
+  if (!plot.runs.empty()) return plot.runs;
+  std::vector<WrittenText> list;
+  std::string first;
+  for (const auto& run : runner.job().runs) {
+    if (plot.kind == "bode") {
+      if (run.kind == RunKind::linearize) list.push_back({run.name, run.pointer});
+      continue;
+    }
+    const RunResult& result = runner.result({run.name, run.pointer});
+    const auto has = [&](const SignalWish& s) { return result.find(s.signal.text) != nullptr; };
+    if (!result.columns.empty() && std::all_of(plot.y.signals.begin(), plot.y.signals.end(), has) &&
+        std::all_of(plot.x.signals.begin(), plot.x.signals.end(), has))
+      list.push_back({run.name, run.pointer});
+    else if (!result.columns.empty() && first.empty())
+      first = run.name;
+  }
+  if (list.empty() && !first.empty()) list.push_back({first, plot.pointer});  // says which signal it lacks
+  return list;
 }
 
 JobPage page_of(JobRunner& runner, const std::vector<std::string>& allowed) {

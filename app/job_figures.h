@@ -14,6 +14,9 @@ namespace hysteron {
 /// "Fig. 2.15" of "fig2_15"; any other name as it is.
 std::string figure_name(const std::string& job);
 
+/// The runs that a plot draws: those that it names; else all that have its signals.
+std::vector<WrittenText> runs_drawn(JobRunner& runner, const PlotWish& plot);
+
 /// What one job shows; its curves go into traces of their own ("fig2_15-1-none.csv"), its drawings into files.
 struct JobPage {
   Section section;

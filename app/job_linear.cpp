@@ -77,9 +77,11 @@ RunResult bode_result(const Program& program, const LinearizeOptions& wanted, co
 }  // namespace
 
 RunResult JobRunner::linearized(const RunWish& run) {
-  const ProgramPointer program = program_of(run);
+  const auto compiled = program_of(run);
+  const Diagram& diagram = compiled.first;
+  const ProgramPointer& program = compiled.second;
   const auto signal = [&](const WrittenText& name) {
-    return at(name.pointer, [&] { return named_signal(*program, name.text); });
+    return at(name.pointer, [&] { return named_signal(*program, diagram, name.text); });
   };
   LinearizeOptions wanted_of;
   wanted_of.from = {signal(run.from)};

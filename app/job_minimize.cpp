@@ -24,11 +24,12 @@ struct Sought {
 };
 
 const ParameterInfo& parameter_named(const Program& program, const WrittenText& name) {
-  if (const ParameterInfo* info = program.find_parameter(name.text)) return *info;
-  std::vector<std::string> names;
-  for (const auto& p : program.parameters) names.push_back(p.path);
-  fail("unknown_parameter", name.pointer, fmt::format("there is no parameter \"{}\"", name.text),
-       did_you_mean(name.text, names));
+  try {
+    return program.parameters[static_cast<std::size_t>(named_parameter(program, name.text))];
+  } catch (Error& error) {
+    for (auto& p : error.problems) p.path = name.pointer;
+    throw Error(error.fault, error.problems);
+  }
 }
 
 std::vector<Sought> sought_in(const Program& program, const SearchWish& wish) {
@@ -56,11 +57,12 @@ Attractor attractor_of(const AttractorWish& wish, const SearchWish& search) {
 }
 
 /// The signals of the run itself on which a value rests; what else the job takes from a search are its own columns.
-std::vector<std::pair<std::string, int>> signals_under(const ValueWish& aim, const Program& program) {
+std::vector<std::pair<std::string, int>> signals_under(const ValueWish& aim, const Diagram& diagram,
+                                                       const Program& program) {
   std::vector<std::pair<std::string, int>> list;
   const auto add = [&](const WrittenText& name) {
     if (name.text.empty() || name.text == "t") return;
-    list.emplace_back(name.text, named_signal(program, name.text));
+    list.emplace_back(name.text, named_signal(program, diagram, name.text));
   };
   const auto add_wish = [&](const SignalWish& s) {
     add(s.signal);
@@ -88,9 +90,10 @@ void add_history(RunResult& r, int seed, const GlobalResult& found, const Global
 
 RunResult JobRunner::minimized(const RunWish& run) {
   const SearchWish& search = *run.search;
-  const ProgramPointer program = program_of(run);
+  const auto [diagram, compiled] = program_of(run);
+  const Program* const program = compiled.get();
   const SimulateOptions options = options_of(run, *program);
-  const auto asked = at(run.aim.pointer, [&] { return signals_under(run.aim, *program); });
+  const auto asked = at(run.aim.pointer, [&] { return signals_under(run.aim, diagram, *program); });
   const std::vector<Sought> sought = sought_in(*program, search);
   const Run base = with_settings(run, *program);
   Quantity kind;  // unit of the cost

@@ -26,9 +26,8 @@ std::string last_name(const std::string& path) {
 }
 
 void put(const Program& program, Run& run, const std::string& path, double si) {
-  const ParameterInfo* info = program.find_parameter(path);
-  if (info == nullptr) set_parameter(program, run, path, si);  // throws, with the nearest name
-  for (const int slot : info->slots) run.p[static_cast<std::size_t>(slot)] = si;
+  const auto& info = program.parameters[static_cast<std::size_t>(named_parameter(program, path))];
+  for (const int slot : info.slots) run.p[static_cast<std::size_t>(slot)] = si;
 }
 
 void check_dimension(const Unit& found, const Unit& expected, const std::string& path, const std::string& what) {
@@ -89,6 +88,14 @@ void JobPool::open(const RunWish& run, const std::string& from) {
 
 JobRunner::JobRunner(JobPool& pool, RunsJob job) : pool_(&pool), job_(std::move(job)) {
   for (const auto& run : job_.runs) slots_[run.name];
+}
+
+std::unique_ptr<JobRunner> JobRunner::with_result(const std::string& run, RunResult result) {
+  auto other = std::make_unique<JobRunner>(*pool_, job_);
+  for (const auto& r : job_.runs)
+    other->slots_.at(r.name).result =
+        r.name == run ? std::make_shared<const RunResult>(std::move(result)) : shared_result({r.name, r.pointer});
+  return other;
 }
 
 void JobRunner::blame(Error& error, const std::string& pointer) const {
@@ -183,7 +190,8 @@ std::vector<WrittenText> JobRunner::wanted(const RunWish& run) const {
 }
 
 /// By name: what the diagram records, what the job asks of this run, and what plots ask of every run that has it.
-std::vector<std::pair<std::string, int>> JobRunner::signals_of(const RunWish& run, const Program& program) {
+std::vector<std::pair<std::string, int>> JobRunner::signals_of(const RunWish& run, const Diagram& diagram,
+                                                               const Program& program) {
   std::vector<std::pair<std::string, int>> list;
   const auto add = [&](const std::string& name, int signal) {
     const bool known = std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.first == name; });
@@ -192,13 +200,13 @@ std::vector<std::pair<std::string, int>> JobRunner::signals_of(const RunWish& ru
   for (std::size_t i = 0; i < program.output_names.size(); ++i) add(program.output_names[i], program.output_signals[i]);
   for (const int s : program.record_signals) add(program.signals[static_cast<std::size_t>(s)].path, s);
   for (const auto& name : wanted(run))
-    if (name.text != "t") at(name.pointer, [&] { add(name.text, named_signal(program, name.text)); });
+    if (name.text != "t") at(name.pointer, [&] { add(name.text, named_signal(program, diagram, name.text)); });
   for (const auto& p : job_.plots)
     if (p.runs.empty())
       for (const auto* axis : {&p.x, &p.y})
         for (const auto& s : axis->signals) {
-          add(s.signal.text, find_named(program, s.signal.text));
-          if (s.minus && !s.minus_run) add(s.minus->text, find_named(program, s.minus->text));
+          add(s.signal.text, find_named_signal(program, diagram, s.signal.text));
+          if (s.minus && !s.minus_run) add(s.minus->text, find_named_signal(program, diagram, s.minus->text));
         }
   return list;
 }
@@ -246,17 +254,18 @@ Run JobRunner::started(const RunWish& run, const Program& program) {
 }
 
 /// The diagram of a run with its settings, compiled. Problems of the settings belong to the job, others to the diagram.
-ProgramPointer JobRunner::program_of(const RunWish& run) const {
+std::pair<Diagram, ProgramPointer> JobRunner::program_of(const RunWish& run) const {
   Diagram diagram = read_diagram(run.file, pool_->allowed());
   apply_settings(diagram, run.set, run.choose);
-  return compile_file(diagram);
+  ProgramPointer program = compile_file(diagram);
+  return {std::move(diagram), std::move(program)};
 }
 
 RunResult JobRunner::simulated(const RunWish& run) {
-  const ProgramPointer program = program_of(run);
+  const auto [diagram, program] = program_of(run);
   const SimulateOptions options = options_of(run, *program);
   Run start_of = started(run, *program);
-  const auto asked = signals_of(run, *program);
+  const auto asked = signals_of(run, diagram, *program);
   if (asked.empty())
     fail("nothing_recorded", run.pointer, "no plot and no value asks for a signal of this run",
          "name one, or take the run out");
@@ -293,15 +302,11 @@ RunResult JobRunner::table(const RunWish& run) const {
 /// Secant steps that keep the sign change between them (Illinois), until the aim is met to a relative 1e-12 or the
 /// parameter no longer changes.
 RunResult JobRunner::sought(const RunWish& run) {
-  const ProgramPointer program = program_of(run);
-  const ParameterInfo* info = program->find_parameter(run.parameter.text);
-  if (info == nullptr) {
-    std::vector<std::string> names;
-    for (const auto& p : program->parameters) names.push_back(p.path);
-    fail("unknown_parameter", run.parameter.pointer, fmt::format("there is no parameter \"{}\"", run.parameter.text),
-         did_you_mean(run.parameter.text, names));
-  }
-  const Unit unit = parameter_unit(*program, *info);
+  const auto [diagram, compiled] = program_of(run);
+  const ProgramPointer& program = compiled;
+  const int place = at(run.parameter.pointer, [&] { return named_parameter(*program, run.parameter.text); });
+  const ParameterInfo& info = program->parameters[static_cast<std::size_t>(place)];
+  const Unit unit = parameter_unit(*program, info);
   double low = si(run.range[0], unit), high = si(run.range[1], unit), goal_size = 0;
   RunWish trial = run;
   trial.kind = RunKind::simulate;
@@ -338,7 +343,7 @@ RunResult JobRunner::sought(const RunWish& run) {
     f_high = f;
   }
   RunResult r;
-  r.numbers.emplace_back(run.parameter.text, Quantity{x, unit, info->difference});
+  r.numbers.emplace_back(run.parameter.text, Quantity{x, unit, info.difference});
   return r;
 }
 

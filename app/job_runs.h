@@ -89,6 +89,10 @@ class JobRunner {
   static double si(const WrittenNumber& number, const Unit& expected);
   static double seconds(const WrittenNumber& number);
 
+  /// The same job if one of its runs had given `result`; the others have given what they gave here. A claim that cannot
+  /// fail is found by it. Throws Error as result().
+  std::unique_ptr<JobRunner> with_result(const std::string& run, RunResult result);
+
   /// Runs `action`; problems of an Error that stand nowhere yet get `pointer` of this job and its line.
   template <class Action>
   auto at(const std::string& pointer, const Action& action) -> decltype(action());
@@ -96,9 +100,11 @@ class JobRunner {
  private:
   const RunWish& wish(const WrittenText& run) const;
   std::shared_ptr<const RunResult> done(const RunWish& run);
-  ProgramPointer program_of(const RunWish& run) const;
+  /// The diagram of a run with its settings, and what it is compiled to.
+  std::pair<Diagram, ProgramPointer> program_of(const RunWish& run) const;
   Run started(const RunWish& run, const Program& program);
-  std::vector<std::pair<std::string, int>> signals_of(const RunWish& run, const Program& program);
+  std::vector<std::pair<std::string, int>> signals_of(const RunWish& run, const Diagram& diagram,
+                                                      const Program& program);
   DataSet data_of(const FitDataWish& wish);
   RunResult simulated(const RunWish& run);
   RunResult linearized(const RunWish& run);

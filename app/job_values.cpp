@@ -178,6 +178,25 @@ Quantity of_set(const ValueWish& wish, const JobRunner::Rows& r, const JobRunner
 
 }  // namespace
 
+namespace {
+
+/// How far the rows lie from the points at most; between rows on straight lines.
+Quantity off_points(const ValueWish& wish, const RunResult& result, const JobRunner::Rows& r) {
+  const Unit base = result.columns.front().unit;
+  double furthest = 0;
+  for (const auto& [where, value] : wish.points) {
+    const double x = JobRunner::si(where, base);
+    if (r.t.empty() || x < r.t.front() || x > r.t.back())
+      fail("bad_value", where.pointer, fmt::format("there is no row at {} {}", base.from_si(x), base.text),
+           "name a place between the first and the last row");
+    const double off = std::abs(features::value_at(r.t, r.y, x) - JobRunner::si(value, r.unit));
+    furthest = off > furthest || std::isnan(off) ? off : furthest;
+  }
+  return {furthest, without_offset(r.unit), true};
+}
+
+}  // namespace
+
 Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
   static const std::vector<std::string> numbers{"parameter",    "cost",        "dc_gain",   "bandwidth", "crossover",
                                                 "phase_margin", "gain_margin", "frequency", "damping",   "peak"};
@@ -188,6 +207,7 @@ Quantity JobRunner::take(const ValueWish& wish, const RunResult& result) {
     return {features::value_at(all.t, all.y, seconds(*wish.at)), all.unit, all.difference};
   }
   const Rows r = rows(wish.of, result, wish.between, wish.rezero, wish.where);
+  if (what == "off_points") return off_points(wish, result, r);
   if (what == "share" || what == "median" || what == "rows" || what == "ks_distance")
     return of_set(wish, r, what == "ks_distance" ? rows(wish.of, result, wish.between, wish.rezero) : r);
   if (r.y.empty()) fail("no_rows", wish.pointer, "no row fulfils what \"where\" asks for", "give wider conditions");

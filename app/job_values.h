@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/job_runs.h"
+#include "engine/names.h"
 #include "engine/program.h"
 #include "fit/features.h"
-#include "fit/signal_names.h"
 #include "fit/unit_algebra.h"
 
 namespace hysteron {

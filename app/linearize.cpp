@@ -15,6 +15,7 @@
 #include "app/verb.h"
 #include "engine/error.h"
 #include "engine/margins.h"
+#include "engine/names.h"
 #include "engine/simulate.h"
 
 namespace hysteron {
@@ -55,9 +56,9 @@ Run operating_point(const Arguments& arguments, const Program& program) {
   return *simulate(program, std::move(run), settings).end;
 }
 
-int signal_of(const Arguments& arguments, const char* option, const Program& program,
+int signal_of(const Arguments& arguments, const char* option, const Diagram& diagram, const Program& program,
               const std::vector<int>& otherwise) {
-  if (arguments.has(option)) return program.signal(arguments.text(option));
+  if (arguments.has(option)) return named_signal(program, diagram, arguments.text(option));
   if (otherwise.size() == 1) return otherwise.front();
   fail(
       "bad_command_line", option,
@@ -198,9 +199,9 @@ int linearize_verb_act(const Arguments& arguments) {
   const Diagram diagram = load_diagram(arguments);
   const ProgramPointer program = compile_file(diagram);
   LinearizeOptions wanted;
-  wanted.from = {signal_of(arguments, "--from", *program, program->input_signals)};
-  wanted.to = {signal_of(arguments, "--to", *program, program->output_signals)};
-  for (const auto& name : arguments.list("--open")) wanted.open.push_back(program->signal(name));
+  wanted.from = {signal_of(arguments, "--from", diagram, *program, program->input_signals)};
+  wanted.to = {signal_of(arguments, "--to", diagram, *program, program->output_signals)};
+  for (const auto& name : arguments.list("--open")) wanted.open.push_back(named_signal(*program, diagram, name));
   const auto& from = program->signals[static_cast<std::size_t>(wanted.from.front())];
   const auto& to = program->signals[static_cast<std::size_t>(wanted.to.front())];
 

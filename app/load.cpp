@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/block_words.h"
 #include "blocks/register_all.h"
 #include "discover/effect_file.h"
 #include "engine/error.h"
+#include "engine/settings.h"
 #include "fit/inspection.h"
 #include "io/diagram_file.h"
 
@@ -53,12 +55,34 @@ Diagram load_diagram(const Arguments& arguments) {
 }
 
 void apply_overrides(Diagram& diagram, const Arguments& arguments) {
-  apply_settings(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
+  const auto notes = settings_applied(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
+  for (const auto& note : notes)
+    if (!arguments.quiet()) fmt::print(stderr, "note: {}\n", note);
 }
+
+namespace {
+
+/// The engine knows no words from elsewhere: where a block type is missing the cure is told here.
+void tell_other_names(Error& error) {
+  for (auto& p : error.problems) {
+    const auto open = p.what.find('"'), close = p.what.rfind('"');
+    if (p.code == "unknown_block" && p.path.ends_with("/type") && close > open)
+      p.cure = instead_of_type(p.what.substr(open + 1, close - open - 1));
+  }
+}
+
+}  // namespace
 
 ProgramPointer compile_file(const Diagram& diagram) {
   ProgramPointer program;
-  with_lines_of(diagram, [&] { program = compile(diagram, registry()); });
+  with_lines_of(diagram, [&] {
+    try {
+      program = compile(diagram, registry());
+    } catch (Error& error) {
+      tell_other_names(error);
+      throw Error(error.fault, error.problems);
+    }
+  });
   return program;
 }
 

@@ -7,7 +7,10 @@
 //   lay_out       offsets (here)
 #include <fmt/format.h>
 
+#include <map>
+
 #include "engine/graph.h"
+#include "engine/names.h"
 #include "engine/past.h"
 
 namespace hysteron {
@@ -108,9 +111,33 @@ class ParameterTable {
           add(static_cast<int>(b), static_cast<int>(i));
     }
     apply_bounds();
+    name_nested();
   }
 
  private:
+  /// A number of a nested diagram has more names: "stage.k" as its block is written, and that of the parameter around
+  /// it which the block was given.
+  void name_nested() {
+    const auto names = program_.parameter_names;
+    std::map<std::string, std::string> stands_for;
+    for (const auto& parameter : graph_.parameters) stands_for[parameter.path] = parameter.stands_for;
+    for (const auto& parameter : graph_.parameters) {
+      std::string number = parameter.path;
+      // resolve.cpp has refused chains that lead back to themselves.
+      for (auto next = stands_for.find(number); next != stands_for.end() && !next->second.empty();
+           next = stands_for.find(number))
+        number = next->second;
+      for (auto at = names.lower_bound(number); at != names.end() && at->first.starts_with(number); ++at) {
+        const std::string index = at->first.substr(number.size());
+        if (!index.empty() && index.front() != '[') continue;
+        program_.parameter_names.emplace(parameter.path + index, at->second);
+        if (const auto slash = parameter.path.rfind('/'); slash != std::string::npos)
+          program_.parameter_names.emplace(
+              parameter.path.substr(0, slash) + "." + parameter.path.substr(slash + 1) + index, at->second);
+      }
+    }
+  }
+
   void add(int b, int i) {
     const GraphBlock& block = graph_.blocks[static_cast<std::size_t>(b)];
     const BlockInstance& instance = program_.blocks[static_cast<std::size_t>(b)];
@@ -210,11 +237,10 @@ LoopWishes loop_wishes(const SimulateSettings& settings, const Program& program)
   wishes.forbidden = settings.loops && *settings.loops == "error";
   for (const auto& [path, number] : settings.guess) {
     const std::string place = place_of_guess(path);
-    const int signal = program.find_signal(path);
+    const int signal = find_named_signal(program, path);
     if (signal < 0) {
-      std::vector<std::string> names;
-      for (const auto& s : program.signals) names.push_back(s.path);
-      problems.add("unknown_signal", place, fmt::format("there is no signal \"{}\"", path), did_you_mean(path, names));
+      problems.add("unknown_signal", place, fmt::format("there is no signal \"{}\"", path),
+                   did_you_mean(path, signal_names(program)));
       continue;
     }
     const Dimension& dimension = program.signals[static_cast<std::size_t>(signal)].dimension;

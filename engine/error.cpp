@@ -9,6 +9,8 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t problems_in_full = 20;  // DESIGN 4.1
+constexpr std::size_t names_in_full = 12;     // more of them nobody reads
+constexpr std::size_t nearest = 3;
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -28,6 +30,28 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 bool differs_in_case_only(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// "gain" of "stage/core.gain".
+std::string_view last_part(std::string_view path) {
+  const auto cut = path.find_last_of("./");
+  return cut == std::string_view::npos ? path : path.substr(cut + 1);
+}
+
+double distance_over_length(std::string_view a, std::string_view b) {
+  return static_cast<double>(edit_distance(a, b)) / static_cast<double>(std::max({a.size(), b.size(), std::size_t{1}}));
+}
+
+/// 0: the same but for capital letters; 1: nothing in common.
+double unlikeness(std::string_view name, std::string_view candidate) {
+  if (differs_in_case_only(name, candidate)) return 0;
+  const double whole = distance_over_length(name, candidate);
+  const double last = distance_over_length(last_part(name), last_part(candidate));
+  // A name inside the other ("lookup" of "lookup_table") is nearer than its length says; of two that end alike the one
+  // that also begins alike.
+  const bool inside = name.size() >= 3 && (candidate.find(name) != std::string_view::npos ||
+                                           (candidate.size() >= 3 && name.find(candidate) != std::string_view::npos));
+  return std::min({whole, (3 * last + whole) / 4, inside ? 0.25 + whole / 4 : 1.0});
 }
 
 }  // namespace
@@ -68,8 +92,35 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return best;
 }
 
+namespace {
+
+/// At most `count` known names, the most similar first: those that differ in capital letters only, then by the edit
+/// distance over the length, where the last part of a path ("gain" of "stage/core.gain") may stand for the whole.
+std::vector<std::string> nearest_names(std::string_view name, const std::vector<std::string>& known,
+                                       std::size_t count) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < known.size(); ++i) order.emplace_back(unlikeness(name, known[i]), i);
+  count = std::min(count, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.push_back(known[order[i].second]);
+  return names;
+}
+
+/// "Did you mean "b", "c" or "d"? They are the nearest of 57."
+std::string nearest_of_many(std::string_view name, const std::vector<std::string>& known) {
+  std::string text;
+  const auto names = nearest_names(name, known, nearest);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < names.size() ? ", " : " or ", names[i]);
+  return fmt::format("Did you mean {}? They are the nearest of {}.", text, known.size());
+}
+
+}  // namespace
+
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   if (known.empty()) return "there are none";
+  if (known.size() > names_in_full) return nearest_of_many(name, known);
   std::string text = fmt::format("known: {}.", fmt::join(known, ", "));
   if (const auto best = nearest_name(name, known); !best.empty()) text += fmt::format(" Did you mean \"{}\"?", best);
   return text;

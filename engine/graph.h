@@ -38,6 +38,7 @@ struct GraphParameter {  ///< a parameter of some diagram scope
   std::string path;      ///< "kp", "stage/kp"
   const DiagramParameter* given = nullptr;
   bool used = false;
+  std::string stands_for{};  ///< the parameter of this diagram, or of the one around it, that it refers to, if any
 };
 
 /// Place of one number in the vector that its port carries.

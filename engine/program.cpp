@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/loops.h"
+#include "engine/names.h"
 #include "engine/past.h"
 #include "engine/simulate.h"
 
@@ -27,13 +28,7 @@ int Program::find_signal(const std::string& path) const {
   return -1;
 }
 
-int Program::signal(const std::string& path) const {
-  const int found = find_signal(path);
-  if (found >= 0) return found;
-  std::vector<std::string> names;
-  for (const auto& s : signals) names.push_back(s.path);
-  fail("unknown_signal", path, fmt::format("there is no signal \"{}\"", path), did_you_mean(path, names));
-}
+int Program::signal(const std::string& path) const { return named_signal(*this, path); }
 
 const ParameterInfo* Program::find_parameter(const std::string& path) const {
   const auto found = parameter_names.find(path);
@@ -166,13 +161,7 @@ void set_parameter(const Program& program, Run& run, const ParameterInfo& parame
 }
 
 void set_parameter(const Program& program, Run& run, const std::string& path, double si) {
-  const ParameterInfo* info = program.find_parameter(path);
-  if (info == nullptr) {
-    std::vector<std::string> names;
-    for (const auto& p : program.parameters) names.push_back(p.path);
-    fail("unknown_parameter", path, fmt::format("there is no parameter \"{}\"", path), did_you_mean(path, names));
-  }
-  set_parameter(program, run, *info, si);
+  set_parameter(program, run, program.parameters[static_cast<std::size_t>(named_parameter(program, path))], si);
 }
 
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series) {

@@ -190,10 +190,12 @@ class Resolver {
         if (const auto* next = std::get_if<Reference>(&outer->content)) {
           scope = scope->parent;
           name = next->name;
+          stands_for(path, scope->prefix + name);
           continue;
         }
       } else if (const auto* next = std::get_if<Reference>(&value->content)) {
         name = next->name;
+        stands_for(path, scope->prefix + name);
         continue;
       }
       return from_value(p, *value, path, depth);
@@ -207,6 +209,11 @@ class Resolver {
         return;
       }
     parameters_.push_back({path, given, true});
+  }
+
+  void stands_for(const std::string& path, const std::string& other) {
+    for (auto& known : parameters_)
+      if (known.path == path) known.stands_for = other;
   }
 
   ResolvedNumber resolve(const ParameterDeclaration& p, const Number& number, const std::string& name,

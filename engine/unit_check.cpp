@@ -74,9 +74,12 @@ class UnitCheck {
   }
 
   void run() {
-    // What was set on the command line stands against what the file says, not the other way round.
-    for (const bool those_set : {false, true}) {
+    find_contested();
+    // What was set on the command line stands against what the file says, not the other way round; and a block whose
+    // own parameters contradict each other against what its wires say, or its neighbours would be blamed for it.
+    for (const auto& [those_set, those_contested] : {std::pair{false, false}, {true, false}, {true, true}}) {
       believe_those_set_ = those_set;
+      believe_contested_ = those_contested;
       do {
         changed_ = false;
         for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
@@ -88,6 +91,29 @@ class UnitCheck {
   }
 
  private:
+  /// Blocks whose parameters do not agree among themselves on a unit.
+  void find_contested() {
+    contested_.assign(graph_.blocks.size(), false);
+    for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
+      const auto each_of_parameters = [&](auto visit) {
+        each_constraint(b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal,
+                               const std::string&) {
+          if (signal < 0 && actual) visit(parse_expression(unit), *actual, why);
+        });
+      };
+      do {
+        changed_ = false;
+        each_of_parameters(
+            [&](const Expression& e, const Dimension& d, const std::string& why) { learn(b, e, d, why); });
+      } while (changed_);
+      each_of_parameters([&](const Expression& e, const Dimension& d, const std::string&) {
+        const Known expected = value(b, e);
+        if (expected && dimension_factor(d, *expected) != 1) contested_[b] = true;
+      });
+      units_[b] = {};
+    }
+  }
+
   Known value(std::size_t b, const Expression& e) const {
     Dimension d = e.known;
     for (const auto& [name, power] : e.variables) {
@@ -167,6 +193,7 @@ class UnitCheck {
   void visit(std::size_t b) {
     each_constraint(
         b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal, const std::string&) {
+          if (signal < 0 && contested_[b] && !believe_contested_) return;
           const Expression e = parse_expression(unit);
           if (actual) {
             learn(b, e, *actual, why);
@@ -187,7 +214,7 @@ class UnitCheck {
             std::string chain;
             for (const auto& [name, power] : parse_expression(unit).variables)
               if (const auto f = units_[b].fixed_by.find(name); f != units_[b].fixed_by.end())
-                chain += fmt::format("; {} fixes {}", f->second, to_text(units_[b].variables[name]));
+                chain += fmt::format("; {} says {}", f->second, named(units_[b].variables[name]));
             problems.add("wrong_unit", where,
                          fmt::format("\"{}\": {} is {}, expected {}{}", graph_.blocks[b].path, why, named(*actual),
                                      named(*expected), chain),
@@ -196,9 +223,14 @@ class UnitCheck {
     problems.throw_if_any();
   }
 
-  static std::string named(const Dimension& d) {
-    const std::string text = si_unit(d).text;
-    return text.empty() ? "a plain number" : "in " + text;
+  /// In a unit that the file writes, where it writes one of this kind.
+  std::string named(const Dimension& d) const {
+    if (d.none()) return "a plain number";
+    for (const auto& block : graph_.blocks)
+      for (const auto& parameter : block.parameters)
+        for (const auto& number : parameter.numbers)
+          if (number.has_unit && number.unit.dimension == d) return "in " + number.unit.text;
+    return "in " + si_unit(d).text;
   }
 
   /// The words of a unit ("V", "um", "s" of "V/(um s)"), each noted if it is a unit of its own.
@@ -248,7 +280,8 @@ class UnitCheck {
   Graph& graph_;
   std::vector<BlockUnits> units_;
   std::vector<Known> signals_;
-  bool changed_ = false, believe_those_set_ = false;
+  std::vector<bool> contested_;
+  bool changed_ = false, believe_those_set_ = false, believe_contested_ = false;
 };
 
 }  // namespace

@@ -426,7 +426,7 @@ class Builder {
     for (const auto& [name, signal] : top.outputs)
       wired_.outputs.emplace_back(name, resolve(0, signal, "/outputs/" + name));
     for (std::size_t i = 0; i < top.record.size(); ++i)
-      wired_.record.push_back(resolve(0, top.record[i], fmt::format("/record/{}", i)));
+      wired_.record.push_back(resolve_recorded(top, top.record[i], fmt::format("/record/{}", i)));
     for (const auto& [kind, wires] : top.places)
       for (const auto& wire : wires) {
         const auto dot = wire.find('.');
@@ -434,6 +434,16 @@ class Builder {
         if (dot != std::string::npos && (wire.substr(dot + 1) == "in" || is_input_port(wire))) continue;
         wired_.places_read.push_back(resolve(0, wire, "/places/" + kind));
       }
+  }
+
+  /// A signal, or an output of the diagram ("y", "y[1]") where no block and no input has this name.
+  PortEnd resolve_recorded(const Diagram& top, const std::string& name, const std::string& place) {
+    const auto open = name.find('[');
+    const std::string* wire = top.outputs.find(name.substr(0, open));
+    const std::string head = head_of_wire(name);
+    if (wire == nullptr || top.blocks.find(head) != nullptr || top.inputs.find(head) != nullptr)
+      return resolve(0, name, place);
+    return resolve(0, open == std::string::npos ? *wire : *wire + name.substr(open), place);
   }
 
   bool is_input_port(const std::string& wire) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/names.h"
 #include "fit/model.h"
 
 namespace hysteron {
@@ -134,10 +135,7 @@ std::vector<FreeParameter> free_parameters(const Program& program, const std::ve
   std::vector<bool> chosen(program.parameters.size(), false);
   for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = program.parameters[i].free;
   for (const auto& path : extra) {
-    bool list = false;
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      if (program.parameters[i].path.rfind(path + "[", 0) == 0) list = chosen[i] = true;
-    if (!list) chosen[static_cast<std::size_t>(parameter_index(program, path))] = true;
+    for (const int place : named_parameters(program, path)) chosen[static_cast<std::size_t>(place)] = true;
   }
   std::vector<FreeParameter> free;
   for (std::size_t i = 0; i < chosen.size(); ++i)

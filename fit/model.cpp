@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/names.h"
 #include "fit/model_content.h"
 #include "fit/threads.h"
 
@@ -174,11 +175,6 @@ const std::vector<std::string>& DataModel::remarks() const { return content_->re
 long DataModel::runs() const { return content_->runs; }
 long DataModel::failures() const { return content_->failures; }
 
-int parameter_index(const Program& program, const std::string& path) {
-  if (const auto* info = program.find_parameter(path)) return static_cast<int>(info - program.parameters.data());
-  std::vector<std::string> names;
-  for (const auto& p : program.parameters) names.push_back(p.path);
-  fail("unknown_parameter", path, fmt::format("there is no parameter \"{}\"", path), did_you_mean(path, names));
-}
+int parameter_index(const Program& program, const std::string& path) { return named_parameter(program, path); }
 
 }  // namespace hysteron

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/names.h"
 #include "fit/thesis_methods.h"
 
 namespace hysteron {
@@ -29,17 +30,13 @@ class Reader {
  private:
   /// Places of a path in the program: one, or all elements of a list.
   std::vector<int> places(const WrittenText& path) {
-    std::vector<int> list;
-    for (std::size_t i = 0; i < program_.parameters.size(); ++i)
-      if (program_.parameters[i].path.rfind(path.text + "[", 0) == 0) list.push_back(static_cast<int>(i));
-    if (!list.empty()) return list;
     try {
-      list.push_back(parameter_index(program_, path.text));
+      return named_parameters(program_, path.text);
     } catch (const Error& error) {
       const auto& p = error.problems.front();
       problems_.add(p.code, pointer(path), p.what, p.cure);
+      return {};
     }
-    return list;
   }
 
   /// Where it stands in the job; on the command line, what was written there.

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/names.h"
 #include "engine/simulate_parts.h"
 #include "fit/features.h"
 #include "fit/model.h"
-#include "fit/signal_names.h"
 #include "fit/unit_algebra.h"
 #include "io/csv.h"
 

@@ -397,6 +397,24 @@ class RunsReader {
     return list;
   }
 
+  /// "points": [["0.1 s", "2 um"], ["0.2 s", "3 um"]]
+  static void points(const JsonPlace& object, ValueWish& v) {
+    constexpr char example[] = "[[\"0.1 s\", \"2 um\"], [\"0.2 s\", \"3 um\"]]";
+    const auto place = object.need("points", fmt::format("say where the curve has to pass: \"points\": {}", example));
+    if (!place || !place->expect_array(example)) return;
+    for (const auto& point : place->elements()) {
+      if (!point.expect_array("[\"0.1 s\", \"2 um\"]")) continue;
+      const auto ends = point.elements();
+      if (ends.size() != 2) {
+        point.add("bad_value", "a point is a place and the value there", "write [\"0.1 s\", \"2 um\"]");
+        continue;
+      }
+      const auto x = read_number(ends[0]), y = read_number(ends[1]);
+      if (x && y) v.points.push_back({{*x, ends[0].pointer()}, {*y, ends[1].pointer()}});
+    }
+    if (v.points.empty()) place->add("bad_value", "there is no point", fmt::format("write {}", example));
+  }
+
   static ValueWish value(const std::string& name, const JsonPlace& place, bool needs_run) {
     ValueWish v;
     v.name = name;
@@ -418,7 +436,7 @@ class RunsReader {
       return v;
     }
     place.only({"take", "of", "minus", "same_stroke", "over", "run", "between", "rezero", "where", "at", "above",
-                "below", "figure", "parameter", "remark"});
+                "below", "figure", "parameter", "points", "remark"});
     text_member(place, "remark");
     const auto take = place.need("take", "say what is taken: \"stroke\", \"rms\", \"area\" ...");
     if (take) v.take = text_at(*take);
@@ -435,6 +453,7 @@ class RunsReader {
     if (v.take.text == "area" && !v.over)
       place.add("missing_key", "an area is of one signal over another", "write \"over\": \"drive\"");
     if (v.take.text == "at") place.need("at", "say when: \"at\": \"0.2 s\"");
+    if (v.take.text == "off_points") points(place, v);
     v.between = window_of(place);
     v.rezero = truth_of(place, "rezero");
     v.where = conditions(place);
@@ -543,10 +562,11 @@ class RunsReader {
 
 const std::vector<std::string>& takes() {
   static const std::vector<std::string> names{
-      "at",        "first", "last",      "min",       "max",       "stroke",       "mean",        "rms",
-      "max_abs",   "area",  "remanence", "overshoot", "settling",  "sum_squares",  "rss_above",   "line_above",
-      "parameter", "cost",  "dc_gain",   "bandwidth", "crossover", "phase_margin", "gain_margin", "frequency",
-      "damping",   "peak",  "deviation", "computed",  "share",     "median",       "rows",        "ks_distance"};
+      "at",           "first",       "last",      "min",         "max",       "stroke",    "mean",
+      "rms",          "max_abs",     "area",      "remanence",   "overshoot", "settling",  "sum_squares",
+      "rss_above",    "line_above",  "parameter", "cost",        "dc_gain",   "bandwidth", "crossover",
+      "phase_margin", "gain_margin", "frequency", "damping",     "peak",      "deviation", "computed",
+      "share",        "median",      "rows",      "ks_distance", "off_points"};
   return names;
 }
 

@@ -58,6 +58,7 @@ struct ValueWish {
   std::optional<WrittenNumber> at{}, above{}, below{};
   std::optional<WrittenNumber> constant{};  ///< instead of all this: a number as it stands
   WrittenText figure;                       ///< of a computed value: its name; of a parameter: its path
+  std::vector<std::pair<WrittenNumber, WrittenNumber>> points{};  ///< of off_points: where, and the value there
 };
 
 enum class RunKind { simulate, linearize, fit, table, elsewhere, find, minimize, study, select, rows, computed };

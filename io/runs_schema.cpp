@@ -51,6 +51,12 @@ Json where() {
                                                                   {"signal"}));
 }
 
+Json points() {
+  Json point = list_of("a place along the run, and the value there", {{"$ref", "#/definitions/quantity"}});
+  point["minItems"] = point["maxItems"] = 2;
+  return list_of("of off_points: [[\"0.1 s\", \"2 um\"], ...]", std::move(point));
+}
+
 Json value(bool with_run) {
   Json properties{{"take", choice_of("what is taken", takes())},
                   {"of", text("the signal")},
@@ -63,6 +69,7 @@ Json value(bool with_run) {
                   {"where", where()},
                   {"above", quantity("of rss_above and line_above: frequency; of share: counted above it", false)},
                   {"below", quantity("of share: counted below it", false)},
+                  {"points", points()},
                   {"parameter", text("of parameter: its path in the fit")},
                   {"figure", text("of frequency and damping: 1, 2 ... by rising frequency; of computed: the formula")},
                   {"remark", text("what a reader should know")}};

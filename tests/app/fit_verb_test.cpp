@@ -1,7 +1,10 @@
 // `hysteron fit`: what it finds, writes and says, by hand and by a job.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
@@ -85,6 +88,32 @@ TEST_F(FitVerb, FitReadsWeightsOffTheSlopesAsTheThesisDoes) {
       hysteron(folder_.path(), {"fit", "diagram.json", "--data", "dataset.json", "--method", "slopes"});
   EXPECT_EQ(wrong.code, 2);  // its model has no such block
   EXPECT_NE(wrong.err.find("prandtl_ishlinskii"), std::string::npos) << wrong.err;
+}
+
+TEST_F(FitVerb, AFitThatEndsWithALargerRmsSaysSoAndWhy) {
+  // The gain is 1 um/V for slow motion and 1.5 um/V for fast one. Slow motion is three times as large, so that 1 is
+  // best for the rms; noise stated to be 1/f makes slow errors count little, so that the fit goes to 1.5.
+  std::string rows = "t [s],u [V],y [um]\n";
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = 0.01 * k, slow = 3 * std::sin(0.2 * std::numbers::pi * t),
+                 fast = std::sin(20 * std::numbers::pi * t + 0.3);
+    rows += fmt::format("{:.2f},{:.9f},{:.9f}\n", t, slow + fast, slow + 1.5 * fast);
+  }
+  folder_.write("two.csv", rows);
+  const auto fit = [&](const std::string& noise) {
+    folder_.write("two.json", R"({"format": 1, "columns": {"y": {"noise": )" + noise +
+                                  R"(}}, "recordings": [{"file": "two.csv", "role": "train"}]})");
+    std::string text = lab::diagram();
+    text.replace(text.find("\"value\": 1.5"), 12, "\"value\": 1");
+    folder_.write("one.json", text);
+    const Outcome outcome = hysteron(folder_.path(), {"fit", "one.json", "--data", "two.json", "-o", "out"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string risen = fit(R"({"white": "1 nm", "one_over_f": 100})");
+  EXPECT_NE(risen.find("has risen"), std::string::npos) << risen;
+  EXPECT_NE(risen.find("one_over_f"), std::string::npos) << risen;
+  EXPECT_EQ(fit(R"({"white": "1 nm", "one_over_f": 0})").find("has risen"), std::string::npos);
 }
 
 TEST_F(FitVerb, AWrongJobIsToldWithItsLineAndCure) {

@@ -353,5 +353,38 @@ TEST_F(Verbs, ADiagramIsWrittenOverDiagramsOnly) {
   EXPECT_EQ(hysteron(folder_.path(), {"remove", "creep", "next.json", "-o", "next.json"}).code, 0);  // its own
 }
 
+TEST_F(Verbs, NamesOfNestedDiagramsAndOfNumbersBehindOthersAreTakenEverywhere) {
+  folder_.write("axis.json",
+                R"({"format": 1, "title": "axis", "parameters": {"k": {"value": 2}}, "inputs": {"u": {"unit": "V"}},
+    "blocks": {"g": {"type": "gain", "gain": "$k", "in": "u"}, "l": {"type": "lag", "times": ["1 ms"], "in": "g"}},
+    "outputs": {"pos": "l", "raw": "g"}})");
+  folder_.write(
+      "two.json",
+      R"({"format": 1, "title": "two", "blocks": {"r": {"type": "sine", "amplitude": "1 V", "frequency": "5 Hz"},
+    "x": {"type": "diagram", "file": "axis.json", "in": "r"}},
+    "record": ["r", "x.pos", "x.raw"], "simulate": {"until": "0.2 s", "every": "1 ms"}})");
+  for (const char* name : {"x.k", "x/k", "x/g.gain"}) {
+    const Outcome set = hysteron(folder_.path(), {"run", "two.json", "--set", std::string(name) + "=3", "-o", "out"});
+    ASSERT_EQ(set.code, 0) << name << set.err;
+    EXPECT_NEAR(result("out")["facts"]["traces"]["signals.csv"]["x/g"]["largest"].get<double>(), 3, 1e-6) << name;
+  }
+  const Outcome lin = hysteron(folder_.path(), {"linearize", "two.json", "--from", "r", "--to", "x.pos", "-o", "lin"});
+  ASSERT_EQ(lin.code, 0) << lin.err;
+  EXPECT_NEAR(result("lin")["facts"]["gain_at_low_frequencies"].get<double>(), 2, 1e-9);
+  const Outcome alone = hysteron(folder_.path(), {"check", "axis.json", "--set", "g.gain=3"});
+  EXPECT_EQ(alone.code, 0) << alone.err;  // nobody says that k is not read
+}
+
+TEST_F(Verbs, ABlockTypeThatIsCalledOtherwiseElsewhereIsToldWithWhatToWrite) {
+  folder_.write("zone.json", R"({"format": 1, "title": "zone", "blocks": {"b": {"type": "constant", "value": 1},
+    "a": {"type": "dead_zone", "in": "b"}}, "record": ["a"]})");
+  const Outcome outcome = hysteron(folder_.path(), {"check", "zone.json"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("\"saturation\""), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("dead_time"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("hysteron blocks"), std::string::npos) << outcome.err;
+  EXPECT_LT(outcome.err.size(), 400U) << "no list of ninety types";
+}
+
 }  // namespace
 }  // namespace hysteron

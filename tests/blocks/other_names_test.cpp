@@ -1,0 +1,62 @@
+// Words from elsewhere: each leads to types that are here.
+#include "blocks/other_names.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "blocks/register_all.h"
+
+namespace hysteron {
+namespace {
+
+/// What stands in quotes.
+std::vector<std::string> quoted(const std::string& text) {
+  std::vector<std::string> words;
+  for (auto open = text.find('"'); open != std::string::npos;) {
+    const auto close = text.find('"', open + 1);
+    words.push_back(text.substr(open + 1, close - open - 1));
+    open = text.find('"', close + 1);
+  }
+  return words;
+}
+
+TEST(OtherNames, EachLeadsToATypeOrAKeyThatIsThere) {
+  const Registry registry = all_blocks();
+  const std::set<std::string> keys{"record", "outputs", "inputs", "diagram"};
+  for (const auto& word : other_names()) {
+    bool leads = false;
+    for (const auto& name : quoted(instead_of_other_name(word)))
+      leads = leads || keys.contains(name) || registry.find(name) != nullptr;
+    EXPECT_TRUE(leads) << word << ": " << instead_of_other_name(word);
+  }
+}
+
+TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
+  const auto says = [](const char* word, const char* type) {
+    EXPECT_NE(instead_of_other_name(word).find(std::string("\"") + type + "\""), std::string::npos) << word;
+  };
+  for (const char* word : {"dead_zone", "DeadZone", "dead zone", "dead-band"}) {
+    says(word, "saturation");
+    says(word, "sum");
+  }
+  says("ramp", "integrator");
+  says("pulse", "step");
+  says("lookup_table", "polynomial");
+  says("derivative", "transfer_function");
+  says("switch", "relay");
+  says("abs", "rectifier");
+  says("transport_delay", "dead_time");
+  says("PID", "sampled_pid");
+  EXPECT_EQ(instead_of_other_name("sawn_off"), "");
+}
+
+TEST(OtherNames, AWordIsThereOnceAndIsNoTypeItself) {
+  const Registry registry = all_blocks();
+  std::set<std::string> seen;
+  for (const auto& word : other_names()) EXPECT_TRUE(seen.insert(word).second) << word;
+  for (const auto& word : other_names()) EXPECT_EQ(registry.find(word), nullptr) << word;
+}
+
+}  // namespace
+}  // namespace hysteron
