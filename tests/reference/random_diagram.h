@@ -1,0 +1,27 @@
+// Decides what random diagrams are tried: sources, laws that switch or remember, bodies, sampled parts, dead times,
+// loops, nested diagrams, choices and $names, of 2 to 12 blocks.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace reference {
+
+/// What is changed of a diagram without changing what it means.
+struct Variant {
+  bool other_order = false;  ///< the blocks stand in another order and have other names
+  double until = 0;          ///< another end [s]; 0 = as generated
+  double every = 0;          ///< other rows [s]; 0 = as generated
+  std::string method{};      ///< of the solver; "" = auto
+  double tolerance = 0;      ///< relative; 0 = as declared
+};
+
+struct RandomDiagram {
+  std::string text{};                          ///< of the diagram file
+  std::map<std::string, std::string> files{};  ///< what it names: nested diagrams, recordings
+};
+
+RandomDiagram random_diagram(std::uint64_t seed, const Variant& variant = {});
+
+}  // namespace reference

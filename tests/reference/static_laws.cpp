@@ -1,0 +1,162 @@
+// Laws without memory, and those whose only memory is a level that they are at: relay and rounding.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/reference/law.h"
+
+namespace reference {
+namespace {
+
+class Gain : public Law {
+ public:
+  Gain(double gain_, double offset_) : gain(gain_), offset(offset_) {}
+  void output(const Point& p, double* y) const override { *y = gain * u(p) + offset; }
+
+ private:
+  double gain, offset;
+};
+
+class Sum : public Law {
+ public:
+  explicit Sum(const Block& b) : signs(b.text("signs", std::string(b.in.size(), '+'))), count(b.in.size()) {}
+  std::vector<std::string> inputs() const override { return std::vector<std::string>(count, ""); }
+  void output(const Point& p, double* y) const override {
+    *y = 0;
+    for (std::size_t i = 0; i < count; ++i) *y += signs[i] == '-' ? -u(p, i) : u(p, i);
+  }
+
+ private:
+  std::string signs;
+  std::size_t count;
+};
+
+class Product : public Law {
+ public:
+  std::vector<std::string> inputs() const override { return {"a", "b"}; }
+  void output(const Point& p, double* y) const override { *y = u(p, 0) * u(p, 1); }
+};
+
+class CrossCoupling : public Law {
+ public:
+  explicit CrossCoupling(const Block& b) : c(b.number("coefficient")) {}
+  std::vector<std::string> inputs() const override { return {"u", "other"}; }
+  void output(const Point& p, double* y) const override { *y = u(p, 0) + c * u(p, 1); }
+
+ private:
+  double c;
+};
+
+class Saturation : public Law {
+ public:
+  explicit Saturation(const Block& b) : lower(b.number("lower")), upper(b.number("upper")) {}
+  void output(const Point& p, double* y) const override { *y = std::max(lower, std::min(upper, u(p))); }
+  long branch(const Point& p) const override { return u(p) > upper ? 1 : u(p) < lower ? -1 : 0; }
+
+ private:
+  double lower, upper;
+};
+
+class SoftSaturation : public Law {
+ public:
+  explicit SoftSaturation(const Block& b) : limit(b.number("limit")), sharpness(b.number("sharpness", 2)) {}
+  void output(const Point& p, double* y) const override {
+    *y = u(p) / std::pow(1 + std::pow(std::abs(u(p) / limit), sharpness), 1 / sharpness);
+  }
+
+ private:
+  double limit, sharpness;
+};
+
+class Rectifier : public Law {
+ public:
+  explicit Rectifier(const Block& b) : mix(b.number("mix")) {}
+  void output(const Point& p, double* y) const override { *y = (1 - mix) * u(p) + mix * std::abs(u(p)); }
+  long branch(const Point& p) const override { return u(p) < 0; }
+
+ private:
+  double mix;
+};
+
+class Polynomial : public Law {
+ public:
+  explicit Polynomial(const Block& b)
+      : c(b.list("coefficients")),
+        reference(b.number("reference")),
+        lower(b.number("lower")),
+        upper(b.number("upper")),
+        about(b.number("about", 0)) {}
+  void output(const Point& p, double* y) const override {
+    const double at = std::clamp(u(p), lower, upper), z = (at - about) / reference;
+    double value = 0, slope = 0;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const auto n = static_cast<double>(k);
+      value += c[k] * std::pow(z, n);
+      if (k > 0) slope += n * c[k] * std::pow(z, n - 1) / reference;
+    }
+    *y = value + slope * (u(p) - at);
+  }
+
+ private:
+  std::vector<double> c;
+  double reference, lower, upper, about;
+};
+
+class Rounding : public Law {
+ public:
+  explicit Rounding(const Block& b) : step(b.number("step")) {}
+  void output(const Point& p, double* y) const override {
+    *y = step == 0 ? u(p) : step * static_cast<double>(p.free ? nearest(p) : level);
+  }
+  long branch(const Point& p) const override { return step == 0 ? 0 : nearest(p); }
+  int roughness() const override { return 0; }
+  void keep(const Point& p) override {
+    if (p.free && step > 0) level = nearest(p);
+  }
+
+ private:
+  long nearest(const Point& p) const { return std::lround(u(p) / step); }
+  double step;
+  long level = 0;
+};
+
+class Relay : public Law {
+ public:
+  explicit Relay(const Block& b)
+      : on_at(b.number("on_at")),
+        off_at(b.number("off_at")),
+        on_value(b.number("on_value")),
+        off_value(b.number("off_value")),
+        on(b.text("initial", "off") == "on") {}
+  void output(const Point& p, double* y) const override { *y = (p.free ? switched(p) : on) ? on_value : off_value; }
+  long branch(const Point& p) const override { return switched(p); }
+  int roughness() const override { return 0; }
+  void keep(const Point& p) override {
+    if (p.free) on = switched(p);
+  }
+
+ private:
+  bool switched(const Point& p) const { return u(p) >= on_at || (u(p) > off_at && on); }
+  double on_at, off_at, on_value, off_value;
+  bool on;
+};
+
+}  // namespace
+
+LawPointer make_static(const Block& b) {
+  if (b.type == "gain") return std::make_unique<Gain>(b.number("gain"), 0);
+  if (b.type == "pass") return std::make_unique<Gain>(1, 0);
+  if (b.type == "calibration") return std::make_unique<Gain>(b.number("gain", 1), b.number("offset", 0));
+  if (b.type == "sum") return std::make_unique<Sum>(b);
+  if (b.type == "product") return std::make_unique<Product>();
+  if (b.type == "cross_coupling") return std::make_unique<CrossCoupling>(b);
+  if (b.type == "saturation") return std::make_unique<Saturation>(b);
+  if (b.type == "soft_saturation") return std::make_unique<SoftSaturation>(b);
+  if (b.type == "rectifier") return std::make_unique<Rectifier>(b);
+  if (b.type == "polynomial") return std::make_unique<Polynomial>(b);
+  if (b.type == "rounding") return std::make_unique<Rounding>(b);
+  if (b.type == "relay") return std::make_unique<Relay>(b);
+  return nullptr;
+}
+
+}  // namespace reference
