@@ -34,9 +34,7 @@ void try_seeds(std::uint64_t first, std::uint64_t last, const std::string& name)
   EXPECT_GT(answered, 0.9 * static_cast<double>(last - first + 1));
 }
 
-TEST(RandomDiagrams, AgreeWithTheReference) { try_seeds(1, 200, "random_diagrams"); }
-
-TEST(LongRandomDiagrams, AgreeWithTheReference) { try_seeds(201, 20200, "long_random_diagrams"); }
+TEST(RandomDiagrams, AgreeWithTheReference) { try_seeds(1, 60, "random_diagrams"); }
 
 }  // namespace
 }  // namespace reference
