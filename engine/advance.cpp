@@ -34,6 +34,7 @@
 #include "engine/corners.h"
 #include "engine/sampling.h"
 #include "engine/schedule.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -200,7 +201,9 @@ void Advance::Content::advance_points(const Run& start, std::span<const double> 
   points.start(run);
   state.start(points.due(), t, branch_behind(t, 0), options.at_rest, sampling);
   record(t);
+  LookUp look_up;
   while (!points.at_end()) {
+    look_up();
     const double before = t;
     t = points.advance(before, run);
     const double h = t - before, branch = before + 0.5 * h;

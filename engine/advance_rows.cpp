@@ -7,6 +7,7 @@
 
 #include "engine/linear_part.h"
 #include "engine/steps.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 
@@ -277,6 +278,7 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
     ++next_instant_;
   }
   for (std::size_t first = 1; first < schedule.t.size(); first += points_at_once) {
+    look_up();
     const std::size_t points = std::min(points_at_once, schedule.t.size() - first);
     const std::size_t rows = lay_out_rows(schedule, first, points, substeps);
     fill_sources(schedule, first, points, substeps);

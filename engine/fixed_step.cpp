@@ -12,6 +12,7 @@
 #include "engine/needed.h"
 #include "engine/nominal.h"
 #include "engine/simulate_parts.h"
+#include "engine/stop.h"
 #include "engine/zero_crossings.h"
 
 namespace hysteron {
@@ -64,6 +65,7 @@ class FixedSteps {
       commit();
     }
     for (long grid = 1;;) {
+      look_up_();
       while (events_.next() <= t_ + same_instant(t_)) {
         const Stopwatch watch(traces_.statistics.phases.events);
         events_.take(t_, run_);
@@ -191,6 +193,7 @@ class FixedSteps {
   const SimulateOptions& options_;
   Work work_;
   FoldedDerivative derivative_;
+  LookUp look_up_;
   std::vector<Step> recording_;
   std::vector<double> tolerance_;  // for the paths of jumps only
   Events events_;

@@ -11,6 +11,7 @@
 #include "engine/lane_grid.h"
 #include "engine/needed.h"
 #include "engine/simulate_parts.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -148,7 +149,9 @@ std::vector<std::optional<Problem>> Lanes::Advance::operator()(std::span<const d
   evaluation_.begin(*values_);
   row_ = 0;
   std::fill_n(watched_.data(), watched_.size(), 0.0);
+  LookUp look_up;
   for (std::size_t i = 0; i < points_.size(); ++i) {
+    look_up();
     if (i > 0 && program_->n_x > 0) take_step(points_[i], points_[i - 1].t);
     arrive(i, sink);
   }

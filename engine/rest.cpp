@@ -9,6 +9,7 @@
 #include "engine/loops.h"
 #include "engine/nominal.h"
 #include "engine/simulate.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -208,6 +209,7 @@ Settled settle_from(RestProblem& problem, Eigen::VectorXd z) {
   Eigen::VectorXd rate = problem.residual(z);
   Eigen::VectorXd relative = Eigen::VectorXd::Zero(z.size());
   for (int iteration = 0; iteration < iterations_allowed && z.size() > 0; ++iteration) {
+    look_up();
     Eigen::MatrixXd jacobian = problem.jacobian(z);
     const Eigen::VectorXd row = problem.row_size(jacobian);
     relative = rate.cwiseQuotient(row);

@@ -32,6 +32,7 @@
 #include "engine/nominal.h"
 #include "engine/reversals.h"
 #include "engine/simulate_parts.h"
+#include "engine/stop.h"
 #include "engine/twins.h"
 #include "engine/zero_crossings.h"
 
@@ -107,6 +108,7 @@ class Simulation {
   const SimulateOptions& options_;
   Work work_;
   FoldedDerivative derivative_;
+  LookUp look_up_;
   std::vector<Step> recording_;
   NominalSizes sizes_;
   std::vector<double> tolerance_;  // absolute, per state
@@ -413,6 +415,7 @@ void Simulation::check_pace() {
 }
 
 void Simulation::take_step(double stop) {
+  look_up_();
   check_pace();
   const auto outcome = solver_->step(stop);
   const auto crossing = find_crossing();
@@ -453,6 +456,7 @@ void Simulation::walk() {
   }
   for (;;) {
     while (events_.next() <= t_ + same_instant(t_)) {
+      look_up_();
       const Stopwatch watch(traces_.statistics.phases.events);
       pass_instant();
     }

@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/stop.h"
+
 namespace hysteron {
 
 Threads::Threads(int count) {
@@ -30,7 +32,8 @@ void Threads::each(std::size_t n, const std::function<void(std::size_t)>& job) c
   };
   std::vector<std::jthread> others;
   while (others.size() + 1 < n && take())
-    others.emplace_back([&] {
+    others.emplace_back([&, asked = current_stop()] {
+      const StopScope same(asked);
       work();
       give();
     });

@@ -17,7 +17,7 @@ class Threads {
   int count() const { return shared_->count; }
   /// Calls job(i) once for each i in [0, n), begun in this order. What a job leaves must be its own: then nothing
   /// depends on the number of threads. A job that throws stops no other one; afterwards the exception of the first of
-  /// them, by i, is thrown.
+  /// them, by i, is thrown. What the caller's work is stopped by (engine/stop.h) stops all of them.
   void each(std::size_t n, const std::function<void(std::size_t)>& job) const;
 
  private:

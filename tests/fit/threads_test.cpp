@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/stop.h"
+
 namespace hysteron {
 namespace {
 
@@ -28,6 +30,23 @@ TEST(Threads, EachPieceIsDoneOnce) {
     for (std::size_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i], 1) << i << " of " << count << " threads";
   }
   Threads(2).each(0, [](std::size_t) { FAIL(); });
+}
+
+TEST(Threads, AreStoppedByWhatStopsTheCaller) {
+  std::atomic<int> stopped{0}, arrived{0};
+  const StopScope scope([] { return true; });
+  EXPECT_THROW(Threads(2).each(2,
+                               [&](std::size_t) {
+                                 meets(arrived);
+                                 try {
+                                   look_up();
+                                 } catch (const Stopped&) {
+                                   ++stopped;
+                                   throw;
+                                 }
+                               }),
+               Stopped);
+  EXPECT_EQ(stopped, 2);
 }
 
 TEST(Threads, OneIsTheCaller) {
