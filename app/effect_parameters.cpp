@@ -8,6 +8,7 @@
 
 #include "app/numbers.h"
 #include "discover/add.h"
+#include "engine/number_text.h"
 
 namespace hysteron {
 namespace {
@@ -29,7 +30,7 @@ std::map<std::string, int> freed_by(const Effect& effect, const Circumstances& a
     for (const auto& parameter : law.free) {
       const auto bracket = parameter.path.find('[');
       const std::string name = parameter.path.substr(0, bracket);
-      const int index = bracket == std::string::npos ? 0 : std::stoi(parameter.path.substr(bracket + 1));
+      const int index = bracket == std::string::npos ? 0 : leading_whole_number(parameter.path.substr(bracket + 1), 0);
       const auto [known, is_new] = first.emplace(name, index);
       if (!is_new) known->second = std::min(known->second, index);
     }

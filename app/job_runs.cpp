@@ -219,7 +219,8 @@ SimulateOptions JobRunner::options_of(const RunWish& run, const Program& program
          "write \"until\": \"1 s\" here or in the diagram");
   if (run.until) options.until = seconds(*run.until);
   if (run.every) options.every = seconds(*run.every);
-  if (options.every < 0 || options.until <= 0 || (options.every > 0 && options.until / options.every > most_rows))
+  if ((run.every && !(options.every > 0)) || !(options.until > 0) ||
+      (options.every > 0 && options.until / options.every > most_rows))
     fail("bad_value", run.every ? run.every->pointer : pointer,
          fmt::format("{} s, every {} s, cannot be simulated", options.until, options.every),
          "give times above 0 s, and not more than twenty million rows");

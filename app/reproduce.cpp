@@ -21,6 +21,7 @@
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "report/report.h"
 
 namespace hysteron {
@@ -78,8 +79,8 @@ bool natural_less(const std::string& a, const std::string& b) {
       std::size_t i_end = i, k_end = k;
       while (i_end < a.size() && digit(a[i_end])) ++i_end;
       while (k_end < b.size() && digit(b[k_end])) ++k_end;
-      const auto x = std::stol(a.substr(i, std::min<std::size_t>(i_end - i, 9)));
-      const auto y = std::stol(b.substr(k, std::min<std::size_t>(k_end - k, 9)));
+      const int x = leading_whole_number(a.substr(i, std::min<std::size_t>(i_end - i, 9)), 0);
+      const int y = leading_whole_number(b.substr(k, std::min<std::size_t>(k_end - k, 9)), 0);
       if (x != y) return x < y;
       i = i_end;
       k = k_end;

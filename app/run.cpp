@@ -190,6 +190,7 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   section.text.push_back(fmt::format(
       "{}; method {}, {}, {} rejected, {} evaluations, {}.", count_text(static_cast<long>(traces.t.size()), "row"),
       s.method, count_text(s.steps, "step"), s.rejected, s.evaluations, count_text(s.reversals, "reversal")));
+  document.warnings.insert(document.warnings.end(), s.warnings.begin(), s.warnings.end());
   if (!s.why.empty()) section.text.push_back(fmt::format("Method {}: {}.", s.method, s.why));
   if (const std::string events = events_text(s); !events.empty()) section.text.push_back(events);
   for (auto& text : loop_texts(s)) section.text.push_back(std::move(text));
@@ -214,21 +215,29 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   document.sections.push_back(std::move(section));
 }
 
+/// A time of the command line, above zero; `otherwise` where it is not given.
+double positive_seconds(const Arguments& arguments, const std::string& name, double otherwise) {
+  const double value = arguments.seconds(name, otherwise);
+  if (arguments.has(name) && !(value > 0))
+    fail("bad_value", name, fmt::format("{} s is not possible", value), "give a time above 0 s");
+  return value;
+}
+
 SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diagram, const Program& program) {
   if (!arguments.has("--until") && !diagram.simulate.until)
     fail("no_end_time", "/simulate/until", "nothing says until when to simulate",
          "write \"simulate\": {\"until\": \"1 s\"} into the diagram, or give --until \"1 s\"");
   SimulateOptions settings = simulate_options(program);
-  settings.until = arguments.seconds("--until", settings.until);
-  settings.every = arguments.seconds("--every", settings.every);
-  if (settings.until <= settings.begin || settings.every < 0)
-    fail("bad_value", "--until", "the simulation would end before it begins", "give times above 0 s");
+  settings.until = positive_seconds(arguments, "--until", settings.until);
+  settings.every = positive_seconds(arguments, "--every", settings.every);
+  settings.signals = signals_to_record(program);
   if (settings.every > 0 &&
       (settings.until / settings.every) * static_cast<double>(settings.signals.size() + 1) > most_numbers)
-    fail("too_many_rows", "--every",
-         fmt::format("{:.3g} rows of {} would be recorded", settings.until / settings.every,
-                     count_text(static_cast<long>(settings.signals.size()), "signal")),
-         "take a larger --every, a smaller --until, or name fewer signals in \"record\"");
+    fail("too_many_rows", arguments.has("--every") ? "--every" : "/simulate/every",
+         fmt::format("{:.3g} rows of {} would be recorded: every {:.4g} s until {:.4g} s",
+                     settings.until / settings.every, count_text(static_cast<long>(settings.signals.size()), "signal"),
+                     settings.every, settings.until),
+         "record less often, end earlier, or name fewer signals in \"record\"");
   return settings;
 }
 
@@ -238,9 +247,8 @@ void run_own_time(const Arguments& arguments, const Diagram& diagram, const Prog
     fail("unbound_input", "/inputs/" + program.input_names.front(),
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
          "give --data FILE with that column, or put a source block (sine, step ...) in its place");
-  SimulateOptions settings = own_time_options(arguments, diagram, program);
-  settings.signals = signals_to_record(program);
   with_lines_of(diagram, [&] {
+    const SimulateOptions settings = own_time_options(arguments, diagram, program);
     const Traces traces = simulate(program, start(program), settings);
     document.headline = fmt::format("{}: simulated {} s, {} recorded", document.title, number_text(settings.until, 6),
                                     count_text(static_cast<long>(settings.signals.size()), "signal"));

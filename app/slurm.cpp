@@ -4,13 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
 #include "app/child_process.h"
 #include "app/shell_word.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "io/atomic_file.h"
 
 namespace hysteron {
@@ -74,7 +75,8 @@ int most_slurm_tasks() {
   int size = usual_array_size;
   std::istringstream lines(answer.out);
   for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("MaxArraySize")) size = std::atoi(line.substr(line.find('=') + 1).c_str());
+    if (line.starts_with("MaxArraySize"))
+      size = leading_whole_number(line.substr(std::min(line.find_first_of("0123456789"), line.size())), 0);
   return size > 1 ? size - 1 : 1;
 }
 

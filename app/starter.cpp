@@ -12,6 +12,7 @@
 
 #include "app/numbers.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "fit/linear.h"
 #include "io/recording_file.h"
 #include "io/value_text.h"
@@ -87,7 +88,7 @@ std::string quotient(const std::string& above, const std::string& below) {
   return fmt::format("{}/{}", above.empty() ? "1" : above, composed ? "(" + below + ")" : below);
 }
 
-double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+double rounded(double value) { return rounded_to_digits(value, 5); }
 
 /// A signal that stays and jumps was held between samples; one that moves was sampled.
 bool looks_held(const CsvColumn& column) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <thread>
 
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "engine/units.h"
 
 namespace hysteron {
@@ -32,11 +32,10 @@ std::vector<std::string> Arguments::list(const std::string& name) const {
 double Arguments::number(const std::string& name, double otherwise) const {
   if (!has(name)) return otherwise;
   const std::string written = text(name);
-  double value = 0;
-  const auto [end, code] = std::from_chars(written.data(), written.data() + written.size(), value);
-  if (code != std::errc{} || end != written.data() + written.size() || !std::isfinite(value))
+  const auto value = number_of(written);
+  if (!value || !std::isfinite(*value))
     fail("bad_command_line", name, "\"" + written + "\" is no number", "write it as in " + name + "=4");
-  return value;
+  return *value;
 }
 
 int Arguments::whole_number(const std::string& name, int otherwise, int most) const {

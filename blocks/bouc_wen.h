@@ -48,6 +48,9 @@ struct BoucWen {
   static std::string check(const Params<double>& p);
 };
 
+/// "" or why these numbers leave z without a limit, and the cure. Of every block of the law.
+std::string bouc_wen_limit_check(double alpha, double beta, double gamma);
+
 Kernel bouc_wen_block();
 
 }  // namespace hysteron::blocks

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "blocks/bouc_wen.h"
+
 namespace hysteron::blocks {
 
 namespace {
@@ -20,7 +22,7 @@ void law_parameters(BlockSpec<B>& spec) {
       "origin "
       "its opposite.");
   spec.param(&P::alpha, "alpha", "$b/$a", "slope of z at z = 0");
-  spec.param(&P::beta, "beta", "1/$a", "loop shape, dissipative part");
+  spec.param(&P::beta, "beta", "1/$a", "loop shape, dissipative part").not_negative();
   spec.param(&P::gamma, "gamma", "1/$a", "loop shape, conservative part");
   spec.param(&P::d_p, "d_p", "$b/$a", "slope of the linear part");
   spec.param(&P::exponent, "exponent", "", "sharpness of the bend, at least 1").optional("1").minimum = 1;
@@ -43,7 +45,7 @@ std::string law_check(const P& p) {
         "the actuator's slope at z = 0, d_p - alpha = {:.4g} [SI], is not of the sign of d_p: it has no inverse; give "
         "alpha below d_p",
         p.d_p - p.alpha);
-  return "";
+  return bouc_wen_limit_check(p.alpha, p.beta, p.gamma);
 }
 
 }  // namespace

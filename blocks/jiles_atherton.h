@@ -9,10 +9,18 @@
 
 namespace hysteron::blocks {
 
+/// The law behind the parameters of a block, its curve by the place among the choices of "anhysteretic".
+template <class P>
+auto jiles_atherton_law(const P& p) {
+  return jiles_atherton::Params<decltype(p.p_s)>{
+      p.p_s, p.a, p.alpha,
+      p.k,   p.c, value_of(p.anhysteretic) == 0 ? jiles_atherton::Curve::tanh : jiles_atherton::Curve::langevin};
+}
+
 struct JilesAtherton {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial, scale;
+    T p_s, a, alpha, k, c, anhysteretic, initial, scale;
   };
   template <class T>
   struct In {
@@ -33,8 +41,7 @@ struct JilesAtherton {
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in, const In<T>& rate) {
-    const jiles_atherton::Params<T> law{p.p_s, p.a, p.alpha, p.k, p.c};
-    return {jiles_atherton::polarisation_rate(law, s.p, in.u, rate.u)};
+    return {jiles_atherton::polarisation_rate(jiles_atherton_law(p), s.p, in.u, rate.u)};
   }
   static State<double> initial(const Params<double>& p) { return {p.initial}; }
   static std::string check(const Params<double>& p);
@@ -43,7 +50,7 @@ struct JilesAtherton {
 struct JilesAthertonInverse {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial, origin, scale;
+    T p_s, a, alpha, k, c, anhysteretic, initial, origin, scale;
   };
   template <class T>
   struct In {
@@ -64,7 +71,7 @@ struct JilesAthertonInverse {
   }
   template <class T>
   static State<T> derivative(const Params<T>& p, const State<T>& s, const In<T>& in, const In<T>& rate) {
-    const auto law = jiles_atherton::scaled(jiles_atherton::Params<T>{p.p_s, p.a, p.alpha, p.k, p.c}, p.scale);
+    const auto law = jiles_atherton::scaled(jiles_atherton_law(p), p.scale);
     return {jiles_atherton::field_rate(law, s.u, T{in.y + p.origin}, rate.y)};
   }
   static State<double> initial(const Params<double>& p) { return {p.initial}; }
@@ -74,7 +81,7 @@ struct JilesAthertonInverse {
 struct SampledJilesAthertonInverse {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, initial, origin, scale, period, offset;
+    T p_s, a, alpha, k, c, anhysteretic, initial, origin, scale, period, offset;
   };
   template <class T>
   struct In {
@@ -91,7 +98,7 @@ struct SampledJilesAthertonInverse {
   static void describe(BlockSpec<SampledJilesAthertonInverse>& spec);
   template <class T>
   static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
-    const auto law = jiles_atherton::scaled(jiles_atherton::Params<T>{p.p_s, p.a, p.alpha, p.k, p.c}, p.scale);
+    const auto law = jiles_atherton::scaled(jiles_atherton_law(p), p.scale);
     return {jiles_atherton::field_after(law, s.u, T{s.y + p.origin}, T{in.y + p.origin})};
   }
   template <class T>

@@ -43,7 +43,9 @@ void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
   spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "part by which it is harder one way than the other")
       .optional("0");
   spec.param(&Params<double>::quintic, "quintic", "N/m^5", "part of large travel").optional("0");
-  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed").optional("0");
+  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
+      .optional("0")
+      .not_negative();
   spec.variation("drag", "mass_on_stiffening_spring", {{"drag", "0"}});
   describe_memories(spec);
   describe_start(spec);
@@ -54,7 +56,9 @@ void MassWithDrag::describe(BlockSpec<MassWithDrag>& spec) {
   spec.law("mass dv/dt = force - damping v - drag v |v| - stiffness x, dx/dt = v")
       .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
   describe_motion(spec);
-  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed").optional("0");
+  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
+      .optional("0")
+      .not_negative();
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}});
   describe_memories(spec);
   describe_start(spec);
@@ -79,7 +83,7 @@ void describe_beyond_linear(Declaration& d) {
   d.parameter("stiffening", "N/m^3", "cubic part of the spring").optional("0");
   d.parameter("quadratic", "N/m^2", "part by which it is harder one way than the other").optional("0");
   d.parameter("quintic", "N/m^5", "part of large travel").optional("0");
-  d.parameter("drag", "N*s^2/m^2", "drag over the square of the speed").optional("0");
+  d.parameter("drag", "N*s^2/m^2", "drag over the square of the speed").optional("0").not_negative();
   d.remark("The spring may stiffen and a fluid hold the mass as in mass_on_stiffening_spring.");
   d.variation("stiffening", d.type, {{"stiffening", "0"}}).variation("drag", d.type, {{"drag", "0"}});
 }

@@ -7,6 +7,7 @@
 
 #include "discover/effects/library.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 
 namespace hysteron {
 
@@ -67,8 +68,9 @@ void give(Node& block, const std::string& parameter, Value value) { block.parame
 double rounded(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double scale = std::pow(10.0, 2 - std::floor(std::log10(std::abs(value))));
+  if (!std::isfinite(scale)) return rounded_to_digits(value, 3);
   // Through text, so that the number in the file is the shortest that means this value.
-  return std::stod(fmt::format("{:.6g}", std::round(value * scale) / scale));
+  return rounded_to_digits(std::round(value * scale) / scale, 6);
 }
 
 std::vector<double> per_decade(double from, double to, double per_decade) {

@@ -12,6 +12,7 @@
 #include "discover/effects/library.h"
 #include "discover/wiring.h"
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "engine/program.h"
 #include "io/diagram_file.h"
 #include "io/json_reader.h"
@@ -78,7 +79,7 @@ std::pair<std::string, int> list_and_index(const std::string& path) {
   const std::string digits = path.substr(open + 1, path.size() - open - 2);
   const bool whole =
       !digits.empty() && digits.size() < 4 && digits.find_first_not_of("0123456789") == std::string::npos;
-  return {path.substr(0, open), whole ? std::stoi(digits) : -2};
+  return {path.substr(0, open), whole ? leading_whole_number(digits, -2) : -2};
 }
 
 class EffectReader {

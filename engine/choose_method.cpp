@@ -59,7 +59,7 @@ bool reaches_states(const Program& program, int from) {
 }
 
 /// Largest |eigenvalue| of d(dx/dt)/dx at the start [1/s]; not finite if there is none.
-double fastest(const Program& program, const Run& run, double begin) {
+double fastest_eigenvalue(const Program& program, const Run& run, double begin) {
   Run at_start = run;
   at_start.t = begin;
   at_start.branch = Corners(program, run, begin).branch();
@@ -83,7 +83,19 @@ std::string time_text(double seconds) {
                            : fmt::format("{:.4g} us", 1e6 * seconds);
 }
 
+bool is_bound(const Program& program, const Run& run) {
+  for (std::size_t i = 0; i < program.input_names.size(); ++i)
+    if (!run.series[i]) return false;
+  return true;
+}
+
 }  // namespace
+
+double fastest_rate(const Program& program, const Run& run, double begin) {
+  if (program.n_x == 0 || program.n_x > most_states || !is_bound(program, run))
+    return std::numeric_limits<double>::quiet_NaN();
+  return fastest_eigenvalue(program, run, begin);
+}
 
 MethodChoice choose_method(const Program& program, const Run& run, double begin, double span) {
   if (program.n_x == 0) return {Method::bdf, "there is nothing to integrate"};
@@ -100,9 +112,8 @@ MethodChoice choose_method(const Program& program, const Run& run, double begin,
   if (program.n_x > most_states)
     return {Method::bdf,
             fmt::format("{}, but {} states are too many to see whether they are stiff", jumps, program.n_x)};
-  for (std::size_t i = 0; i < program.input_names.size(); ++i)
-    if (!run.series[i]) return {Method::bdf, "the inputs are not known yet"};
-  const double rate = fastest(program, run, begin);
+  if (!is_bound(program, run)) return {Method::bdf, "the inputs are not known yet"};
+  const double rate = fastest_rate(program, run, begin);
   if (!std::isfinite(rate)) return {Method::bdf, jumps + ", but the diagram has no slopes at the start"};
   const std::string fast = rate > 0 ? fmt::format("the fastest time constant at the start is {}", time_text(1 / rate))
                                     : "no state decays by itself";

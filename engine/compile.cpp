@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/graph.h"
+#include "engine/infinite.h"
 #include "engine/names.h"
 #include "engine/past.h"
 
@@ -290,7 +291,9 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
   program->simulate = diagram.simulate;
   program->title = diagram.title;
   program->pasts = pasts_of(diagram.simulate, *program);
-  check_memories(*program, start(*program));  // and blocks refuse values that do not go together
+  const Run begin = start(*program);  // where blocks refuse values that do not go together
+  check_memories(*program, begin);
+  check_infinite(*program, begin);
   return program;
 }
 

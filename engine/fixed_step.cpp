@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/choose_method.h"
+#include "engine/divergence.h"
 #include "engine/events.h"
 #include "engine/folded.h"
 #include "engine/histories.h"
@@ -13,10 +15,13 @@
 #include "engine/nominal.h"
 #include "engine/simulate_parts.h"
 #include "engine/stop.h"
+#include "engine/time_text.h"
 #include "engine/zero_crossings.h"
 
 namespace hysteron {
 namespace {
+
+constexpr double most_steps = 1e10;  // an hour of a small diagram
 
 class FixedSteps {
  public:
@@ -28,6 +33,7 @@ class FixedSteps {
         work_(program),
         derivative_(program, run_, work_),
         recording_(steps_for(program, signals)),
+        growth_(nominal_states(program, run_), options.begin),
         tolerance_(absolute_tolerances(nominal_sizes(program, run_), options)),
         events_(program, run_, options.begin, instants.back(), options.relative_tolerance, tolerance_),
         crossings_(program, false),
@@ -87,7 +93,15 @@ class FixedSteps {
     ++traces_.statistics.evaluations;
     derivative_(run_, t, x.data());
     if (work_.unsolved >= 0) throw_if_unsolved(program_, work_, t);
-    for (std::size_t i = 0; i < k.size(); ++i) k[i] = work_.dx[i];
+    double sum = 0;  // of zeros: not zero if one of them is not finite
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      k[i] = work_.dx[i];
+      sum += k[i] * 0;
+    }
+    if (!(sum == 0) && bad_x_.empty()) {
+      bad_t_ = t;
+      bad_x_ = x;
+    }
   }
   void move(double h, const std::vector<double>& k) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = before_[i] + h * k[i];
@@ -115,7 +129,8 @@ class FixedSteps {
     if (next_ < traces_.t.size() && traces_.t[next_] < end - same_instant(end)) record_between(from, end);
     t_ = end;
     for (const double x : x_)
-      if (!std::isfinite(x)) not_finite(program_, run_, work_, t_, x_.data());
+      if (!std::isfinite(x)) explain(t_, x_);
+    growth_.see(t_, x_);
     commit();
     if (events_.guards() == 0 || (fell.empty() && !events_.due(run_, work_, t_, x_))) return;
     if (!events_.settle(run_, work_, t_, x_, fell)) return;
@@ -127,6 +142,7 @@ class FixedSteps {
   void move_states(double end) {
     const double h = end - t_;
     step_end_ = end;
+    bad_x_.clear();
     if (!x_.empty()) {
       derivative(t_, x_, k1_);
       if (options_.method == Method::euler) {
@@ -173,10 +189,16 @@ class FixedSteps {
     evaluate_steps(program_, run_, work_, t, x.data(), recording_);
     for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
       const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
-      if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x.data());
+      if (!std::isfinite(value)) explain(t, x);
       traces_.values[s][next_] = value;
     }
     ++next_;
+  }
+  /// Something is not finite at (t, x): the state that grew up to the step's begin explains it, else a block there.
+  [[noreturn]] void explain(double t, const std::vector<double>& x) {
+    throw_if_grown(program_, growth_.quantities(program_, before_), run_.t);
+    if (!bad_x_.empty()) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+    not_finite(program_, run_, work_, t, x.data());
   }
   void commit() {
     if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
@@ -195,6 +217,7 @@ class FixedSteps {
   FoldedDerivative derivative_;
   LookUp look_up_;
   std::vector<Step> recording_;
+  GrowthWatch growth_;
   std::vector<double> tolerance_;  // for the paths of jumps only
   Events events_;
   ZeroCrossings crossings_;
@@ -205,16 +228,54 @@ class FixedSteps {
   std::size_t next_ = 0;
   double t_ = 0, step_end_ = 0;
   bool end_slope_known_ = false;  // k4_ is the slope at the end of the last step
+  double bad_t_ = 0;
+  std::vector<double> bad_x_;  // where a derivative was not finite first in the last step; empty: nowhere
 };
+
+/// How many of its fastest time constants a step may last before what decays grows instead: on the negative real axis.
+/// Source: Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
+double stable_up_to(Method method) { return method == Method::euler ? 2 : 2.785; }
+
+/// What the step and the diagram at the start say of stability; "" where nothing is known against it.
+std::string why_unstable(const Program& program, const Run& run, const SimulateOptions& options) {
+  const double rate = fastest_rate(program, run, options.begin);
+  if (!(rate * options.step > stable_up_to(options.method))) return "";
+  return fmt::format(
+      "the step of {} lasts {:.3g} times the fastest time constant at the start ({}), and {} is stable up to {}: what "
+      "should decay may grow. Take a step below {}, or the method \"auto\"",
+      time_text(options.step), rate * options.step, time_text(1 / rate), method_name(options.method),
+      stable_up_to(options.method), time_text(stable_up_to(options.method) / rate));
+}
 
 }  // namespace
 
+void check_step(const SimulateOptions& options, double end) {
+  const auto bad = [](const std::string& what, const std::string& cure) {
+    fail("bad_value", "/simulate/solver/step", what, cure);
+  };
+  const double step = options.step, span = end - options.begin;
+  if (!(step > 0) || !std::isfinite(step))
+    bad("a method with fixed steps needs the step", "give one, such as \"step\": \"10 us\"");
+  if (!(span > 0)) return;
+  if (step > span)
+    bad(fmt::format("a step of {:.6g} s is longer than the whole run ({:.6g} s)", step, span),
+        "give a step well below the fastest time constant, such as \"step\": \"10 us\"");
+  if (span / step > most_steps)
+    bad(fmt::format("{:.3g} steps of {:.3g} s would be taken, at most {:.0e} can be waited for", span / step, step,
+                    most_steps),
+        "give a longer step, or the method \"auto\", which chooses its own");
+  if (step < 4 * same_instant(std::max(std::abs(options.begin), std::abs(end))))
+    bad(fmt::format("times a step of {:.3g} s apart cannot be told from each other near {:.6g} s", step, end),
+        "give a longer step, or begin nearer to 0 s");
+}
+
 Traces simulate_in_fixed_steps(const Program& program, Run run, const SimulateOptions& options,
                                std::vector<double> instants, const std::vector<int>& signals) {
-  if (!(options.step > 0) || !std::isfinite(options.step))
-    fail("bad_value", "/simulate/solver/step", "a method with fixed steps needs the step",
-         "give one, such as \"step\": \"10 us\"");
-  return FixedSteps(program, std::move(run), options, std::move(instants), signals)();
+  check_step(options, instants.back());
+  const std::string unstable = why_unstable(program, run, options);
+  auto traces = FixedSteps(program, std::move(run), options, std::move(instants), signals)();
+  if (!unstable.empty()) traces.statistics.warnings.push_back(unstable);
+  return traces;
 }
 
 }  // namespace hysteron

@@ -66,9 +66,7 @@ Lanes::Advance::Advance(ProgramPointer program, const Run& run, const SimulateOp
   if (const auto why = why_not_in_lanes(*program_, run, options, parameters_); !why.empty())
     fail("not_in_lanes", "/simulate", "runs cannot go side by side: " + why, "run them one after the other");
   check_inputs(*program_, run);
-  if (has_fixed_steps(options.method) && !(options.step > 0 && std::isfinite(options.step)))
-    fail("bad_value", "/simulate/solver/step", "a method with fixed steps needs the step",
-         "give one, such as \"step\": \"10 us\"");
+  if (has_fixed_steps(options.method)) check_step(options, instants_.back());
   points_ = lane_points(*program_, run_, options_, instants_);
   rows = static_cast<long>(instants_.size());
   std::vector<SharedNumbers::Instant> stages, ends;

@@ -69,6 +69,7 @@ class LinearPart {
   static constexpr std::size_t most_in_registers = 12;
   static constexpr std::size_t most_steps_kept = 1024;  // irregular times: do not grow without bound
   static Step make_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h);
+  static Step make_long_step(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double h);
   void find_seen();
   void find_mixing();
   void take_inputs(const std::vector<double>& y);

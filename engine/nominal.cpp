@@ -121,17 +121,21 @@ void Sizer::source(int b) {
     const double corner =
         kernel->next_corner != nullptr ? corner_behind(program_, run_, b, t) : std::numeric_limits<double>::infinity();
     const bool last = !std::isfinite(corner);
-    const double end = last ? t + (pace > 0 && std::isfinite(pace) ? paces_without_corners * pace : 1.0) : corner;
+    const double periods = paces_without_corners * pace;
+    const double end = last ? t + (periods > 0 && std::isfinite(periods) ? periods : 1.0) : corner;
     const double branch = t + (end - t) / 2;
-    const double step = (end - t) / (last ? paces_without_corners * points_per_piece : points_per_piece);
+    const int points = last ? static_cast<int>(paces_without_corners) * points_per_piece : points_per_piece;
+    const double step = (end - t) / points;
     std::vector<double> before;
-    for (double at = t; at <= end; at += step) {
+    // Counted: beside a late corner a step may be too short to move the time at all.
+    double at = t;
+    for (int k = 0; k <= points && at <= end; ++k, at += step) {
       const auto y = output_at(b, {}, {}, at, branch);
       for (std::size_t i = 0; i < y.size(); ++i) {
         auto& size = signal(info, static_cast<int>(i));
         size = std::max(size, std::abs(y[i]));
         largest = std::max(largest, std::abs(y[i]));
-        if (!before.empty()) fastest = std::max(fastest, std::abs(y[i] - before[i]) / step);
+        if (!before.empty() && step > 0) fastest = std::max(fastest, std::abs(y[i] - before[i]) / step);
       }
       before = y;
     }
@@ -146,8 +150,7 @@ void Sizer::source(int b) {
         fastest = std::max(fastest, std::abs(series.v[i] - series.v[i - 1]) / (series.t[i] - series.t[i - 1]));
     }
   }
-  if (fastest > 0) {
-    const double scale = largest / fastest;
+  if (const double scale = largest / fastest; fastest > 0 && std::isfinite(scale)) {
     sizes_.time_scale = sizes_.time_scale > 0 ? std::min(sizes_.time_scale, scale) : scale;
   }
 }
@@ -183,8 +186,8 @@ bool Sizer::follow(int b) {
 }
 
 /// From the declaration; else in equilibrium for inputs of this size; else what the derivative gathers in the time
-/// scale of the sources, though no more than the general guess (a controller's integrator stays small because its error
-/// does).
+/// scale of the sources (from rest, where a law does not hold so far from it), though no more than the general guess (a
+/// controller's integrator stays small because its error does).
 void Sizer::size_states(int b, const std::vector<double>& u) {
   const auto& info = block(b);
   const auto n = static_cast<std::size_t>(info.sizes.states);
@@ -200,7 +203,9 @@ void Sizer::size_states(int b, const std::vector<double>& u) {
   if (sizes_.time_scale > 0 && size.front() == 0) {
     auto rates = u;
     for (auto& r : rates) r /= sizes_.time_scale;
-    const auto gathered = called(b, info.kernel->derivative, u, rates, info.sizes.states);
+    auto gathered = called(b, info.kernel->derivative, u, rates, info.sizes.states);
+    if (!std::all_of(gathered.begin(), gathered.end(), [](double g) { return std::isfinite(g); }))
+      gathered = called(b, info.kernel->derivative, std::vector<double>(u.size()), rates, info.sizes.states);
     const double most =
         is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension) ? length_guess : guess;
     for (std::size_t i = 0; i < n; ++i)

@@ -264,7 +264,10 @@ class Resolver {
   }
 
   void check_range(const ParameterDeclaration& p, double si, const std::string& where) {
-    if (!lies_in_range(p, si))
+    if (std::isnan(si))
+      problems_.add("bad_value", where, fmt::format("\"{}\" of {} is not a number", p.name, declaration_.type),
+                    "give a finite number");
+    else if (!lies_in_range(p, si))
       problems_.add("bad_value", where,
                     fmt::format("\"{}\" of {} is {} (SI), which is outside its range", p.name, declaration_.type, si),
                     !(si > p.maximum) ? fmt::format("it must be {} {} (SI)",

@@ -20,6 +20,7 @@
 
 #include "engine/choose_method.h"
 #include "engine/corners.h"
+#include "engine/divergence.h"
 #include "engine/events.h"
 #include "engine/fixed_step.h"
 #include "engine/folded.h"
@@ -48,13 +49,13 @@ constexpr double noticed_slope = 0.5;
 // So many steps on end that together advance less than this share of the span: it would never come to an end.
 constexpr long crawl_steps = 200'000;
 constexpr double crawl_share = 1e-4;
-constexpr double runaway = 1e8;  // times its nominal size: a state so large explains a failing solver
 
 // The integrators hold the error of each step, and errors of many steps add up. Measured by benchmarks/accuracy.cpp on
 // four memory models: up to 17 times the tolerance with half of it, up to 7 times with a quarter, the largest of the
 // shares tried that stayed within ten (docs/performance.md; no bound). Doubles carry no more than the last of these.
 constexpr double share_of_tolerance = 0.25;
 constexpr double tightest_tolerance = 1e-13;
+constexpr double least_tolerance = 1e-290;  // [SI] absolute; one over it is a number
 
 /// The options as the integrators get them; the absolute tolerance is a multiple of the relative one.
 SimulateOptions held_tolerance(SimulateOptions options) {
@@ -111,6 +112,7 @@ class Simulation {
   LookUp look_up_;
   std::vector<Step> recording_;
   NominalSizes sizes_;
+  GrowthWatch growth_;
   std::vector<double> tolerance_;  // absolute, per state
   Events events_;
   Reversals reversals_;
@@ -144,6 +146,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       derivative_(program, run_, work_),
       recording_(steps_for(program, signals)),
       sizes_(nominal_sizes(program, run_)),
+      growth_(sizes_.states, options.begin),
       tolerance_(absolute_tolerances(sizes_, options)),
       events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
               tolerance_),
@@ -432,6 +435,7 @@ void Simulation::take_step(double stop) {
     return pass_crossing(*crossing);
   }
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
+  growth_.see(t_, x_);
   if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
   if (outcome == Integrator::Outcome::root) {
     const Stopwatch watch(traces_.statistics.phases.events);
@@ -489,32 +493,21 @@ Traces Simulation::operator()() {
   return std::move(traces_);
 }
 
-/// A solver that failed says what it tried; the reader wants to know which block made it fail.
+/// A solver that failed says what it tried; the reader wants to know which state or block made it fail.
 void Simulation::explain(const Error& error) {
   const auto& code = error.problems.front().code;
-  if (code != "solver_failed" && code != "step_too_small") throw error;
+  if (code != "solver_failed" && code != "step_too_small" && code != "diverged") throw error;
+  throw_if_grown(program_, growth_.quantities(program_, x_), t_, code == "diverged" ? "" : error.problems.front().what);
+  if (code == "diverged") throw error;
   if (not_finite_) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
   if (std::abs(bad_t_ - t_) <= crawl_share * (until_ - options_.begin)) {
     // Steps crept up to where a loop has no solution: the last evaluation was still this side of it.
     evaluate_derivatives(program_, run_, work_, bad_t_, bad_x_.data());
     throw_if_unsolved(program_, work_, bad_t_);
   }
-  std::size_t worst = 0;
-  double largest = 0;
-  for (std::size_t i = 0; i < sizes_.states.size(); ++i) {
-    const double size = std::abs(x_[i]) / sizes_.states[i];
-    if (size > largest) largest = size, worst = i;
-  }
-  if (!(largest > runaway)) throw error;
-  const auto& name = program_.state_names[worst];
-  const auto block = std::find_if(program_.blocks.begin(), program_.blocks.end(), [&](const BlockInstance& b) {
-    return static_cast<int>(worst) >= b.x_begin && static_cast<int>(worst) < b.x_begin + b.sizes.states;
-  });
-  fail_numerics(
-      "diverged", block->path,
-      fmt::format("the simulation runs away at t = {:.9g} s: {} = {:.6g} [SI], {:.1g} times its usual size\n  {}", t_,
-                  name, x_[worst], largest, error.problems.front().what),
-      fmt::format("check gain and sign of the loop through \"{}\"", block->path));
+  evaluate_derivatives(program_, run_, work_, t_, x_.data());
+  throw_if_upright(program_, work_, growth_.quantities(program_, x_), t_, until_ - options_.begin);
+  throw error;
 }
 
 }  // namespace
@@ -522,7 +515,7 @@ void Simulation::explain(const Error& error) {
 std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options) {
   std::vector<double> absolute(std::max<std::size_t>(1, sizes.states.size()), 1.0);
   for (std::size_t i = 0; i < sizes.states.size(); ++i)
-    absolute[i] = options.absolute_tolerance * options.relative_tolerance * sizes.states[i];
+    absolute[i] = std::max(options.absolute_tolerance * options.relative_tolerance * sizes.states[i], least_tolerance);
   return absolute;
 }
 
@@ -537,51 +530,6 @@ void tell_counts(const Program& program, const Events& events, const Work& work,
     s.loops.push_back({to_text(program, program.loops[i].path), c.solved, c.failed, c.evaluations, c.bracketed,
                        c.most_evaluations, c.worst_residual});
   }
-}
-
-void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x) {
-  evaluate_derivatives(program, run, work, t, x);
-  throw_if_unsolved(program, work, t);
-  evaluate_values(program, run, work, t, x);
-  throw_if_unsolved(program, work, t);
-  const auto bad = [](const std::vector<double>& v, int begin, int count) {
-    for (int i = begin; i < begin + count; ++i)
-      if (!std::isfinite(v[static_cast<std::size_t>(i)])) return i;
-    return -1;
-  };
-  const auto tell = [&](const BlockInstance& block, const std::string& of, double value) {
-    std::vector<std::string> near;
-    const auto name_state = [&](int i) {
-      near.push_back(fmt::format("state {} = {:.6g}", program.state_names[static_cast<std::size_t>(i)], x[i]));
-    };
-    for (const int s : block.source)
-      near.push_back(fmt::format("{} = {:.6g}", program.signals[static_cast<std::size_t>(s)].path,
-                                 work.y[static_cast<std::size_t>(s)]));
-    for (int i = block.x_begin; i < block.x_begin + block.sizes.states; ++i) name_state(i);
-    if (block.sizes.states == 0 && program.n_x > 0) {
-      const auto* largest =
-          std::max_element(x, x + program.n_x, [](double a, double b) { return std::abs(a) < std::abs(b); });
-      name_state(static_cast<int>(largest - x));
-    }
-    fail_numerics(
-        "diverged", block.path,
-        fmt::format("{} is {} at t = {:.9g} s (of block type {}); there [SI]: {}", of, value, t,
-                    block.kernel->declaration.type, fmt::join(near, ", ")),
-        fmt::format("the simulation runs away or leaves the range of \"{}\": check its parameters, and gain and sign "
-                    "of the loop around it",
-                    block.path));
-  };
-  for (const int b : program.value_order) {
-    const auto& block = program.blocks[static_cast<std::size_t>(b)];
-    if (const int s = bad(work.y, block.y_begin, block.sizes.outputs); s >= 0)
-      tell(block, program.signals[static_cast<std::size_t>(s)].path, work.y[static_cast<std::size_t>(s)]);
-  }
-  for (const auto& block : program.blocks)
-    if (const int i = bad(work.dx, block.x_begin, block.sizes.states); i >= 0)
-      tell(block, "the derivative of " + program.state_names[static_cast<std::size_t>(i)],
-           work.dx[static_cast<std::size_t>(i)]);
-  fail_numerics("diverged", "simulate", fmt::format("a value is not finite near t = {:.9g} s", t),
-                "check the parameters, and gain and sign of the loops");
 }
 
 Traces simulate(const Program& program, Run run, const SimulateOptions& options) {

@@ -67,6 +67,7 @@ struct Statistics {
   std::vector<std::pair<std::string, long>> mode_changes{};  ///< per block with modes
   std::vector<LoopStatistics> loops{};                       ///< as in Program::loops; none behind the exact advance
   std::string why{};                                         ///< why `method` was taken, where it was chosen
+  std::vector<std::string> warnings{};                       ///< why the result may be wrong, with the cure
   Phases phases{};
   double seconds = 0;  ///< all of it
 };

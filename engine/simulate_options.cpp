@@ -6,6 +6,7 @@
 
 #include "engine/advance.h"
 #include "engine/advance_graph.h"
+#include "engine/divergence.h"
 #include "engine/simulate.h"
 #include "engine/simulate_parts.h"
 #include "engine/twins.h"
@@ -26,6 +27,15 @@ double seconds(const Number& number, const char* key, Problems& problems) {
     problems.add("wrong_unit", path, fmt::format("{} {} is not a time", number.value, *number.unit),
                  "give a time, such as \"0.1 ms\"");
   return unit.to_si(number.value);
+}
+
+/// What a file says of times must lie above zero: nothing is taken as not written. "inf s" is no end and no step.
+double positive_seconds(const Number& number, const char* key, const char* what, Problems& problems) {
+  const double value = seconds(number, key, problems);
+  if (!(value > 0) || !std::isfinite(value))
+    problems.add("bad_value", std::string("/simulate/") + key, fmt::format("{} of {} s is not possible", what, value),
+                 "give a time above 0 s, or leave it out where there is a default");
+  return value;
 }
 
 /// Largest difference over the largest value, over all signals.
@@ -53,10 +63,11 @@ const std::string& method_name(Method method) { return method_names()[static_cas
 SimulateOptions simulate_options(const Program& program, SimulateOptions options) {
   const auto& given = program.simulate;
   Problems problems;
-  if (given.until) options.until = seconds(*given.until, "until", problems);
-  if (given.every) options.every = seconds(*given.every, "every", problems);
-  if (given.step) options.step = seconds(*given.step, "solver/step", problems);
-  if (given.max_step) options.max_step = seconds(*given.max_step, "solver/max_step", problems);
+  if (given.until) options.until = positive_seconds(*given.until, "until", "an end", problems);
+  if (given.every) options.every = positive_seconds(*given.every, "every", "an output step", problems);
+  if (given.step) options.step = positive_seconds(*given.step, "solver/step", "a step", problems);
+  if (given.max_step)
+    options.max_step = positive_seconds(*given.max_step, "solver/max_step", "a longest step", problems);
   if (given.relative_tolerance) options.relative_tolerance = *given.relative_tolerance;
   if (given.absolute_tolerance) options.absolute_tolerance = *given.absolute_tolerance;
   if (given.start) {
@@ -89,7 +100,7 @@ std::vector<double> output_instants(const SimulateOptions& o) {
   if (!(o.absolute_tolerance > 0) || !std::isfinite(o.absolute_tolerance))
     bad("solver/absolute_tolerance", fmt::format("an absolute tolerance of {} is not possible", o.absolute_tolerance),
         "choose a positive number (a multiple of relative_tolerance times each state's nominal size)");
-  if (!(o.max_step >= 0))
+  if (!(o.max_step >= 0) || !std::isfinite(o.max_step))
     bad("solver/max_step", fmt::format("a step of {} s is not possible", o.max_step), "choose a positive time");
   if (!o.instants.empty()) {
     for (std::size_t i = 0; i < o.instants.size(); ++i) {
@@ -106,7 +117,7 @@ std::vector<double> output_instants(const SimulateOptions& o) {
   }
   if (!(o.until > o.begin) || !std::isfinite(o.until))
     bad("until", fmt::format("the end ({} s) is not behind the start ({} s)", o.until, o.begin), "give a later end");
-  if (!(o.every >= 0))
+  if (!(o.every >= 0) || !std::isfinite(o.every))
     bad("every", fmt::format("an output step of {} s is not possible", o.every), "choose a positive time");
   problems.throw_if_any();
   const double span = o.until - o.begin;
@@ -173,6 +184,18 @@ void add_slopes(const Program& program, const Run& run, const std::vector<int>& 
   }
 }
 
+/// Where a run of the advance has failed: the same again, of what has states, tells which grew and since when.
+void explain_rows(const Program& program, const Run& run, const Advance::Instants& rows, const AdvanceOptions& how) {
+  const auto signals = signals_of_states(program);
+  if (signals.empty()) return;
+  std::vector<std::vector<double>> values;
+  try {
+    Advance(ProgramPointer(ProgramPointer(), &program), signals)(run, rows, how, values);
+  } catch (const Error&) {  // known already
+  }
+  if (values.size() == signals.size()) throw_if_rows_grow(program, run, signals, *rows, values);
+}
+
 }  // namespace
 
 std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
@@ -200,6 +223,7 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
     } catch (const Error& error) {
       const bool ran_away = error.problems.front().code == "diverged";
       if (ran_away && (can_be_finer() || (refines && may_give_up))) return false;
+      if (ran_away) explain_rows(program, run, rows, how);
       throw;
     }
   };

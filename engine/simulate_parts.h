@@ -45,7 +45,4 @@ bool advances_exactly(const Program& program, const SimulateOptions& options);
 std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
                                        std::vector<double> instants, const std::vector<int>& signals);
 
-/// Throws Error "diverged" that names the first block in program order whose value at (t, x) is not finite.
-[[noreturn]] void not_finite(const Program& program, const Run& run, Work& work, double t, const double* x);
-
 }  // namespace hysteron

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "engine/unit_table.h"
 
 namespace hysteron {
@@ -157,6 +157,23 @@ class Table {
   std::map<std::string, Unit> cache_;
 };
 
+/// Whether a unit says an origin of its own ("um @ 5", "s since 2000"): udunits2 shifts by it, and a change in such a
+/// unit would have lost it. Temperatures have their names (degC).
+bool has_written_origin(std::string_view text) {
+  if (text.find('@') != text.npos) return true;
+  std::string word;
+  for (const char c : std::string(text) + " ") {
+    if (c != ' ' && c != '\t') {
+      word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+      continue;
+    }
+    for (const char* origin : {"since", "after", "from", "ref"})
+      if (word == origin) return true;
+    word.clear();
+  }
+  return false;
+}
+
 }  // namespace
 
 Dimension operator*(const Dimension& a, const Dimension& b) {
@@ -189,6 +206,9 @@ Unit parse_unit(std::string_view text, const std::string& path) {
   const auto first = text.find_first_not_of(' ');
   const auto last = text.find_last_not_of(' ');
   const std::string trimmed(first == std::string_view::npos ? "" : text.substr(first, last - first + 1));
+  if (has_written_origin(trimmed))
+    fail("bad_unit", path, fmt::format("\"{}\" counts from an origin of its own, which a number here cannot", trimmed),
+         "write the unit alone and take the origin into the number; temperatures may be in degC or degF");
   if (const Unit* unit = common.find(trimmed)) return *unit;
   if (!all) all = std::make_unique<Table>(true);
   if (const Unit* unit = all->find(trimmed)) return *unit;
@@ -236,10 +256,9 @@ double dimension_factor(const Dimension& from, const Dimension& to) {
 
 bool split_quantity(std::string_view text, double& number, std::string& unit) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (status != std::errc{} || end == text.data()) return false;
-  auto rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  const std::size_t length = read_number(text, number);
+  if (length == 0) return false;
+  auto rest = text.substr(length);
   while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
   while (!rest.empty() && rest.back() == ' ') rest.remove_suffix(1);
   unit = std::string(rest);

@@ -2,16 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/number_text.h"
 #include "fit/fit.h"
 
 namespace hysteron {
 namespace {
-
-double rounded(double x, int digits) { return std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr); }
 
 double shown(const Unit& unit, bool difference, double si) {
   return difference ? unit.difference_from_si(si) : unit.from_si(si);
@@ -26,10 +24,10 @@ struct Index {
 std::pair<std::string, Index> without_index(const std::string& path) {
   if (path.empty() || path.back() != ']') return {path, {}};
   const auto open = path.rfind('[');
-  Index index{-1, std::atoi(path.c_str() + open + 1)};
+  Index index{-1, leading_whole_number(path.substr(open + 1), 0)};
   if (open == 0 || path[open - 1] != ']') return {path.substr(0, open), index};
   const auto first = path.rfind('[', open - 1);
-  index.row = std::atoi(path.c_str() + first + 1);
+  index.row = leading_whole_number(path.substr(first + 1), 0);
   return {path.substr(0, first), index};
 }
 
@@ -144,7 +142,8 @@ void keep_bounds(Diagram& diagram, const Program& program) {
     if (info == nullptr) info = program.find_parameter(name + "[0]");  // one number where a block takes a list
     if (!was_set(parameter.value.origin) || number == nullptr || !number->unit || info == nullptr) continue;
     const auto keep = [&](std::optional<Number>& bound, double si) {
-      if (bound && !bound->unit) bound = Number{rounded(shown(info->unit, info->difference, si), 12), number->unit};
+      if (bound && !bound->unit)
+        bound = Number{rounded_to_digits(shown(info->unit, info->difference, si), 12), number->unit};
     };
     keep(parameter.lower, info->lower);
     keep(parameter.upper, info->upper);
@@ -160,7 +159,8 @@ Diagram with_parameters(const Diagram& diagram, const Program& program, const st
     if (v.recording >= 0) continue;  // a diagram knows no recordings
     const auto& info = program.parameters[static_cast<std::size_t>(v.parameter)];
     const Unit unit = parameter_unit(program, info);
-    Writer(info, unit, rounded(shown(unit, info.difference, v.value), digits), nested).write(result, info.path);
+    Writer(info, unit, rounded_to_digits(shown(unit, info.difference, v.value), digits), nested)
+        .write(result, info.path);
   }
   keep_bounds(result, program);
   return result;
@@ -171,7 +171,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double shown(const ParameterEstimate& e, double si, int digits) {
-  return rounded(shown(e.unit, e.difference, si), digits);
+  return rounded_to_digits(shown(e.unit, e.difference, si), digits);
 }
 
 /// What a fit knows of one number, in words.
@@ -203,10 +203,11 @@ Json list_value(const std::string& name, const std::vector<ParameterEstimate>& e
       stds.push_back(Json::array());
     }
     (index.row >= 0 ? values[row] : values)
-        .push_back(rounded(shown(own, info.difference, fitted != nullptr ? fitted->used : info.value), 8));
+        .push_back(rounded_to_digits(shown(own, info.difference, fitted != nullptr ? fitted->used : info.value), 8));
     (index.row >= 0 ? stds[row] : stds)
-        .push_back(fitted != nullptr && fitted->sigma ? Json(rounded(own.difference_from_si(*fitted->sigma), 4))
-                                                      : Json());
+        .push_back(fitted != nullptr && fitted->sigma
+                       ? Json(rounded_to_digits(own.difference_from_si(*fitted->sigma), 4))
+                       : Json());
     if (fitted == nullptr) continue;
     if (const auto known = knowledge(*fitted); !known.empty()) remark += (remark.empty() ? "" : "; ") + known;
   }
@@ -234,11 +235,11 @@ Json origin_json(const FitResult& result, const DataSet& data, const FitOrigin& 
   json["method"] = result.method;
   json["seed"] = origin.seed;
   if (!origin.date.empty()) json["date"] = origin.date;
-  json["error_over_noise"] = rounded(std::sqrt(result.s2), 4);
+  json["error_over_noise"] = rounded_to_digits(std::sqrt(result.s2), 4);
   for (const auto& e : result.estimates) {
     if (e.recording < 0 || !e.value) continue;
     Json one{{"value", shown(e, *e.value, 8)}, {"unit", e.unit.text}};
-    if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
+    if (e.sigma) one["std"] = rounded_to_digits(e.unit.difference_from_si(*e.sigma), 4);
     json["recordings"][data.recordings[static_cast<std::size_t>(e.recording)].name][e.path] = std::move(one);
   }
   return json;
@@ -267,7 +268,7 @@ std::string parameter_file_text(const FitResult& result, const Program& program,
       one = list_value(name, result.estimates, program, remark, unit);
     } else if (e.value) {  // what the data do not determine has no value
       one = {{"value", shown(e, *e.value, 8)}, {"unit", unit}};
-      if (e.sigma) one["std"] = rounded(e.unit.difference_from_si(*e.sigma), 4);
+      if (e.sigma) one["std"] = rounded_to_digits(e.unit.difference_from_si(*e.sigma), 4);
       remark = knowledge(e);
     } else {
       continue;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
+#include <unordered_set>
 
 #include "engine/error.h"
+#include "engine/number_text.h"
 #include "engine/stop.h"
 #include "io/atomic_file.h"
 #include "io/encoding.h"
@@ -112,17 +112,10 @@ std::string unquoted(const Field& field) {
   return text;
 }
 
-/// A finite number, locale or not. Too small ones are what strtod makes of them (subnormal or zero).
+/// A finite number, locale or not. Too small ones are subnormal or zero.
 bool parse_number(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  if (text.starts_with('+') || text.empty()) return false;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return false;
-  if (error == std::errc::result_out_of_range)
-    value = std::strtod(std::string(text).c_str(), nullptr);
-  else if (error != std::errc{})
-    return false;
-  return std::isfinite(value);
+  const std::size_t length = read_number(text, value);
+  return length > 0 && length == text.size() && std::isfinite(value);
 }
 
 class Reader {
@@ -179,7 +172,7 @@ class Reader {
       add("no_header", line_of_header_, table_.file, fmt::format("column {} has no name", table_.columns.size() + 1),
           other_separator ? "separate columns by commas"
                           : "write a name and a unit, such as y [um], or take the empty column out");
-    } else if (table_.find(column.name) != nullptr) {
+    } else if (!names_.insert(column.name).second) {
       add("duplicate_column", line_of_header_, column.name, fmt::format("two columns are called \"{}\"", column.name),
           "give one of them another name");
     } else if (column.name.find_first_of(";\t") != column.name.npos) {
@@ -224,6 +217,7 @@ class Reader {
   std::string text_;
   Records records_;
   CsvTable table_;
+  std::unordered_set<std::string> names_;  // of its columns
   int line_of_header_ = 1;
   std::vector<Problem> problems_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/corners.h"
 #include "engine/error.h"
 #include "io/csv.h"
 #include "io/value_text.h"
@@ -14,6 +15,7 @@ namespace hysteron {
 namespace {
 
 constexpr double largest_measured = 1e100;  // squares and sums of squares stay numbers
+constexpr double shortest_spacing = 1e-18;  // [s] no instrument samples so fast; rates between rows stay numbers
 
 [[noreturn]] void fail_in(const std::string& file, int line, std::string code, std::string path, std::string what,
                           std::string cure) {
@@ -47,6 +49,15 @@ void check_times(const CsvTable& table, const CsvColumn& time) {
            "sort the rows and take out those that stand twice; two recordings in one file belong into two files",
            table.file, table.lines[i]});
   if (!problems.empty()) throw Error(Fault::input, problems);
+  for (std::size_t i = 1; i < time.values.size(); ++i) {
+    const double t = time.unit.to_si(time.values[i]), spacing = t - time.unit.to_si(time.values[i - 1]);
+    if (spacing > std::max(shortest_spacing, same_instant(t))) continue;
+    fail_in(table.file, table.lines[i], "rows_too_near", "t",
+            fmt::format("two rows are {:.3g} s apart at t = {:.6g} s, where times must be {:.2g} s apart to be told "
+                        "from each other",
+                        spacing, t, std::max(shortest_spacing, same_instant(t))),
+            "check the column and its unit; let the times count from the begin of the recording");
+  }
 }
 
 }  // namespace

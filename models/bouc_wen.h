@@ -63,6 +63,15 @@ inline double z_in_closed_form(const Params<double>& p, double z, double way) {
   return side * moved(p.beta + gamma, left);
 }
 
+/// Whether every bounded input gives a bounded z, whatever came before: beta >= 0, else loops give energy and grow, and
+/// beta + gamma sign(alpha) > 0, else nothing limits z. Both zero is a spring, z = alpha u. alpha = 0: beta >= |gamma|.
+/// Source: Ismail, Ikhouane, Rodellar (above), Table 1.
+inline bool is_bounded(const Params<double>& p) {
+  if (p.beta == 0 && p.gamma == 0) return true;
+  if (p.alpha == 0) return p.beta >= std::fabs(p.gamma);
+  return p.beta >= 0 && p.beta + std::copysign(p.gamma, p.gamma * p.alpha) > 0;
+}
+
 /// Largest |z| for a rising input: alpha = (beta + gamma) z |z/scale|^(n-1) solved for z.
 inline double limit(const Params<double>& p) {
   return p.scale * std::pow(p.alpha / ((p.beta + p.gamma) * p.scale), 1 / p.exponent);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "models/bouc_wen.h"
+#include "models/number.h"
 #include "models/path.h"
 
 namespace hysteron::bouc_wen {
@@ -19,7 +21,7 @@ T command(const Params<T>& p, const T& wanted, const T& z) {
 ///
 ///   d_p - alpha + (beta d z + gamma |z|) |z/scale|^(n-1)
 ///
-/// Must be positive for the compensator to exist.
+/// Must be of the sign of d_p for the compensator to exist.
 template <class T>
 T displacement_slope(const Params<T>& p, const T& z, int direction) {
   using std::abs;
@@ -31,11 +33,13 @@ T displacement_slope(const Params<T>& p, const T& z, int direction) {
 
 /// Rate of the hysteretic part of the compensator for the rate of the wanted displacement: u = (r + z)/d_p with z
 /// driven by u is a loop du/dt <-> dz/dt; solved for du/dt = (dr/dt)/displacement_slope, then the law of z.
-/// Rate independent. Source: thesis Fig. 2.8, Eq. 2.38 in its solved form; Rakotondrabe, IEEE Trans. Autom. Sci. Eng. 8
-/// (2011) 428-431.
+/// Rate independent; not a number where the compensator does not exist. Source: thesis Fig. 2.8, Eq. 2.38 in its solved
+/// form; Rakotondrabe, IEEE Trans. Autom. Sci. Eng. 8 (2011) 428-431.
 template <class T>
 T compensator_rate(const Params<T>& p, const T& z, const T& wanted_rate) {
-  return z_rate(p, z, T{wanted_rate / displacement_slope(p, z, wanted_rate < T{0} ? -1 : 1)});
+  const T slope = displacement_slope(p, z, wanted_rate < T{0} ? -1 : 1);
+  const bool exists = plain(slope) * plain(p.d_p) > 0;
+  return z_rate(p, z, exists ? T{wanted_rate / slope} : T{std::numeric_limits<double>::quiet_NaN()});
 }
 
 /// z after a straight move of the wanted displacement by `move`. Not a number where the compensator does not exist.

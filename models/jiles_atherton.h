@@ -4,11 +4,17 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
+#include "models/number.h"
 #include "models/path.h"
 
 namespace hysteron::jiles_atherton {
+
+/// The curve without pinning, over the effective field: tanh of the thesis, or Langevin's function, which published
+/// sets of magnetic materials mean.
+enum class Curve { tanh, langevin };
 
 /// Units for a field in V and a polarisation in m; any other pair works alike.
 template <class T>
@@ -18,40 +24,78 @@ struct Params {
   T alpha{0};  ///< [V/m]  field that the polarisation adds to the applied one
   T k{1};      ///< [V]    pinning: width of the loop
   T c{0};      ///< [-]    reversible share, 0 <= c < 1
+  Curve curve{Curve::tanh};
 };
 
-/// Polarisation without pinning: P_an = P_s tanh((E + alpha P)/a). Source: thesis Eq. 2.23.
+/// A curve at x: its value and its slope.
+template <class T>
+struct Bend {
+  T value, slope;
+};
+
+/// L(x) = coth x - 1/x and L' = 1 - L^2 - 2 L/x, to some 1e-15 of themselves (L' beyond x = 1e3: of 1/3), near zero
+/// too: there as x sum 2k x^(2k-2)/(2k+1)! over sum x^(2k)/(2k+1)! = sinh(x)/x, all of whose terms are positive.
+/// Source: Langevin, Ann. Chim. Phys. 5 (1905) 70-127; Jiles, Atherton (below), Eq. 5.
+template <class T>
+Bend<T> langevin(const T& x) {
+  using std::tanh;
+  if (std::fabs(plain(x)) < 1) {
+    const T y = x * x;
+    T above{1.0 / 6758061133824000}, below{1.0 / 121645100408832000};
+    for (const double c : {22230464256000.0, 93405312000.0, 518918400.0, 3991680.0, 45360.0, 840.0, 30.0, 3.0})
+      above = T{1 / c} + y * above;
+    for (const double c :
+         {355687428096000.0, 1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0, 120.0, 6.0, 1.0})
+      below = T{1 / c} + y * below;
+    const T over_x = above / below, value = x * over_x;
+    return {value, T{1} - value * value - T{2} * over_x};
+  }
+  const T h = tanh(x), part = T{1} / x;
+  return {T{1} / h - part, part * part - (T{1} - h * h) / (h * h)};
+}
+
+template <class T>
+Bend<T> bend(Curve curve, const T& x) {
+  using std::tanh;
+  if (curve == Curve::langevin) return langevin(x);
+  const T h = tanh(x);
+  return {h, T{1} - h * h};
+}
+
+/// Polarisation without pinning: P_an = P_s A((E + alpha P)/a), A the curve. Source: thesis Eq. 2.23.
 template <class T>
 T anhysteretic(const Params<T>& p, const T& field, const T& polarisation) {
-  using std::tanh;
-  return p.p_s * tanh((field + p.alpha * polarisation) / p.a);
+  return p.p_s * bend(p.curve, T{(field + p.alpha * polarisation) / p.a}).value;
 }
 
 /// Slope dP/dE = over/under of the branch with rising (direction d = 1) or falling (-1) field:
 ///
-///   F = [ (P_an - P)/(k d - alpha/(1-c) (P_an - P)) + R ] / [ 1 - alpha R ],   R = (c P_s/a) sech^2((E + alpha P)/a)
+///   F = [ (P_an - P)/(k d - alpha/(1-c) (P_an - P)) + R ] / [ 1 - alpha R ],   R = (c P_s/a) A'((E + alpha P)/a)
 ///
-/// as one fraction: with q = P_an - P, G = (1-c) k d - alpha q and s = c P_s sech^2,
+/// as one fraction: with q = P_an - P, G = (1-c) k d - alpha q and s = c P_s A',
 /// F = [ (1-c) a q + s G ]/[ G (a - alpha s) ].
 /// The irreversible part is not cut off where it is negative: the parameters of the thesis hold for the law as it
-/// stands. Odd: F(-E, -P, -d) = F(E, P, d). There is no law where either bracket below is zero.
-/// Source: thesis Eqs. 2.29 to 2.34, the reversible term by the chain rule (the printed one has a factor alpha too
+/// stands. Odd: F(-E, -P, -d) = F(E, P, d). The law ends where G d falls to zero: the curve is upright there and would
+/// turn back, so that no polarisation belongs to a field further on. a - alpha s is positive where reversible_margin
+/// is. Source: thesis Eqs. 2.29 to 2.34, the reversible term by the chain rule (the printed one has a factor alpha too
 /// many); Jiles, Atherton, J. Magn. Magn. Mater. 61 (1986) 48-60; Smith, Ounaies, J. Intell. Mater. Syst. Struct. 11
 /// (2000) 62-79.
 template <class T>
 struct Slope {
   T over, under;
+  bool holds;  ///< G d is positive; or the set is refused anyway (reversible_margin), and taken as the formula stands
 };
 template <class T>
 Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisation,
                         const std::type_identity_t<T>& direction) {
-  using std::tanh;
-  const T h = tanh((field + p.alpha * polarisation) / p.a);
-  const T q = p.p_s * h - polarisation;
-  const T s = p.c * p.p_s * (T{1} - h * h);
+  const Bend<T> curve = bend(p.curve, T{(field + p.alpha * polarisation) / p.a});
+  const T q = p.p_s * curve.value - polarisation;
+  const T s = p.c * p.p_s * curve.slope;
   const T held = T{1} - p.c;
-  const T g = direction * held * p.k - p.alpha * q;
-  return {held * p.a * q + s * g, g * (p.a - p.alpha * s)};
+  const T g = direction * held * p.k - p.alpha * q, left = p.a - p.alpha * s;
+  const double steepest = p.curve == Curve::langevin ? 1.0 / 3 : 1.0;  // slope of the curve at zero
+  const bool refused = !(plain(p.a) > plain(p.alpha) * plain(p.c) * plain(p.p_s) * steepest);
+  return {held * p.a * q + s * g, g * left, refused || plain(g) * plain(direction) > 0};
 }
 template <class T>
 T slope(const Params<T>& p, const T& field, const T& polarisation, const std::type_identity_t<T>& direction) {
@@ -59,21 +103,24 @@ T slope(const Params<T>& p, const T& field, const T& polarisation, const std::ty
   return f.over / f.under;
 }
 
-/// dP/dt for the rate of the field: F(E, P, sign v) v. Rate independent: scaling v > 0 scales the answer alike.
+/// dP/dt for the rate of the field: F(E, P, sign v) v, not a number where the law has ended. Rate independent: scaling
+/// v > 0 scales the answer alike.
 template <class T>
 T polarisation_rate(const Params<T>& p, const T& polarisation, const T& field, const T& field_rate) {
-  return slope(p, field, polarisation, field_rate < T{0} ? T{-1} : T{1}) * field_rate;
+  const Slope<T> f = slope_fraction(p, field, polarisation, field_rate < T{0} ? T{-1} : T{1});
+  return f.holds ? T{f.over / f.under * field_rate} : T{std::numeric_limits<double>::quiet_NaN()};
 }
 
 /// The inverse law: dE/dt that makes the polarisation change at the wanted rate, E the field to apply.
 ///
 ///   dE/dt = (dP/dt)/F(E, P, sign dP/dt)
 ///
-/// Needs F > 0, where the field rises with the polarisation. Source: thesis Eq. 2.35.
+/// Needs F > 0, where the field rises with the polarisation: not a number where it does not. Source: thesis Eq. 2.35.
 template <class T>
 T field_rate(const Params<T>& p, const T& field, const T& polarisation, const T& polarisation_rate) {
   const Slope<T> f = slope_fraction(p, field, polarisation, polarisation_rate < T{0} ? T{-1} : T{1});
-  return polarisation_rate * (f.under / f.over);
+  const bool rises = f.holds && plain(f.over) * plain(f.under) > 0;
+  return polarisation_rate * (rises ? T{f.under / f.over} : T{std::numeric_limits<double>::quiet_NaN()});
 }
 
 /// Polarisation after a straight move of the field. Exact to `relative` of its way; not a number where the law ends.
@@ -100,13 +147,14 @@ T field_after(const Params<T>& p, const T& field, const T& from, const T& to, do
 /// Source: thesis Eqs. 4.4 and 4.5 as corrected (normalised model), s = wanted stroke over the stroke of p.
 template <class T>
 Params<T> scaled(const Params<T>& p, const T& scale) {
-  return {scale * p.p_s, p.a, p.alpha / scale, p.k, p.c};
+  return {scale * p.p_s, p.a, p.alpha / scale, p.k, p.c, p.curve};
 }
 
-/// 1 - alpha c P_s/a: must be positive, else the reversible part runs away by itself at zero field.
+/// 1 - alpha c P_s A'(0)/a: must be positive, else the reversible part runs away by itself at zero field. A'(0) = 1 of
+/// tanh, 1/3 of Langevin's function.
 template <class T>
 T reversible_margin(const Params<T>& p) {
-  return T{1} - p.alpha * p.c * p.p_s / p.a;
+  return T{1} - p.alpha * p.c * p.p_s * bend(p.curve, T{0}).slope / p.a;
 }
 
 }  // namespace hysteron::jiles_atherton

@@ -49,7 +49,9 @@ Ticks linear_ticks(double low, double high, int count) {
   const double factor = std::pow(10.0, ticks.exponent);
   const int decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step / factor) + 1e-9)), 0, 12);
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  for (double k = first; k <= last; ++k) {
+  // Where numbers lie so close that the last digit of k is gone, adding one to it would not move it.
+  for (int i = 0; i <= static_cast<int>(std::min(last - first, 1e6)); ++i) {
+    const double k = first + i;
     const double at = k == 0 ? 0.0 : k * step;  // never "-0"
     ticks.list.push_back({at, with_minus(fmt::format("{:.{}f}", at / factor, decimals))});
   }

@@ -82,6 +82,67 @@ TEST(LawsInDiagrams, NormalisedJilesAthertonAndItsInverseReproduceTheGoldenTrace
   }
 }
 
+// A steel of the COMSOL material library, under a triangle of 10 kA/m from rest.
+Diagram steel_under_a_triangle(const std::string& curve) {
+  tools::Parameters law{{"p_s", "1.6e6 A/m"}, {"a", "560 A/m"}, {"alpha", 7e-4}, {"k", "1200 A/m"}, {"c", 0.1}};
+  law.emplace_back("anhysteretic", curve);
+  return tools::diagram({{"h", block("triangle", {{"amplitude", "10 kA/m"}, {"frequency", "1 Hz"}})},
+                         {"m", block("jiles_atherton", law, {"h"})}},
+                        {"h", "m"});
+}
+
+TEST(LawsInDiagrams, APublishedSetFollowsTheLawWithLangevinsFunction) {
+  const Traces traces = simulated(steel_under_a_triangle("langevin"), grid(2.25, 450), 1e-8);
+  const jiles_atherton::Params<double> law{
+      .p_s = 1.6e6, .a = 560, .alpha = 7e-4, .k = 1200, .c = 0.1, .curve = jiles_atherton::Curve::langevin};
+  double p = 0, from = 0;
+  for (std::size_t k = 0; k < traces.t.size(); ++k) {  // corners of the triangle are rows
+    p = jiles_atherton::polarisation_after(law, p, from, traces.values[0][k]);
+    from = traces.values[0][k];
+    ASSERT_NEAR(traces.values[1][k], p, 1e-5 * law.p_s) << "row " << k;  // a slope of 2000 times a tolerance of 1e-8
+    ASSERT_LE(std::fabs(traces.values[1][k]), law.p_s);
+  }
+}
+
+TEST(LawsInDiagrams, WhereTheLawEndsTheRunDoesAndSaysWhy) {
+  const auto program = tools::compiled(steel_under_a_triangle("tanh"));
+  for (const auto& [method, step] : {std::pair{Method::automatic, 0.0},
+                                     {Method::bdf, 0.0},
+                                     {Method::runge_kutta, 0.0},
+                                     {Method::rk4, 1e-4},
+                                     {Method::euler, 1e-4}}) {
+    try {
+      simulate(*program, start(*program), {.until = 2.25, .every = 1e-3, .method = method, .step = step});
+      ADD_FAILURE() << method_name(method) << ": taken without a word";
+    } catch (const Error& e) {
+      const auto& p = e.problems.front();
+      EXPECT_EQ(e.fault, Fault::numerics);
+      EXPECT_EQ(p.path, "m") << p.what;
+      // Upright at -813 A/m of the falling branch (Runge's method of 20 000 steps), 0.25 s + 0.5 s * 10813/20000.
+      EXPECT_NE(p.what.find("t = 0.52"), std::string::npos) << p.what;
+      EXPECT_NE(p.what.find("does not hold"), std::string::npos) << p.what;
+      EXPECT_NE(p.cure.find("langevin"), std::string::npos) << p.cure;
+    }
+  }
+}
+
+TEST(LawsInDiagrams, AnInverseThatDoesNotExistEndsTheRunAndSaysSo) {
+  // Behind a turn the actuator's slope is d_p - alpha - (beta - gamma) z, at z near alpha/(beta + gamma): 0.3 - 1 < 0.
+  const auto d = tools::diagram(
+      {{"r", block("triangle", {{"amplitude", "10 um"}, {"frequency", "1 Hz"}})},
+       {"u", block("bouc_wen_inverse",
+                   {{"alpha", "1 um/V"}, {"beta", "1 1/V"}, {"gamma", "0 1/V"}, {"d_p", "1.3 um/V"}}, {"r"})}},
+      {"u"});
+  const auto program = tools::compiled(d);
+  try {
+    simulate(*program, start(*program), {.until = 1, .every = 1e-3});
+    ADD_FAILURE() << "taken without a word";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().path, "u") << e.what();
+    EXPECT_EQ(e.fault, Fault::numerics);
+  }
+}
+
 TEST(LawsInDiagrams, SampledTapiInverseCancelsItsActuatorAtEveryTemperature) {
   // At the sampling instants the held command has just been applied: the actuator is where it was wanted, within
   // rounding of a few um.

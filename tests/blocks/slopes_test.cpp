@@ -125,8 +125,11 @@ TEST_P(SlopesOfEverySample, CarriesTheExactSlopesOfItsFunctions) {
                                                            : 3;
   for (std::uint64_t trial = 0; trial < 20; ++trial)
     for (b.mode = 0; b.mode < modes; ++b.mode) {
-      const Point at{b.p, draw(nu, 10 * trial, 1), draw(nx, 10 * trial + 1, 1), draw(nm, 10 * trial + 2, 1),
-                     draw(nu, 10 * trial + 3, 1)};
+      Point at{b.p, draw(nu, 10 * trial, 1), draw(nx, 10 * trial + 1, 1), draw(nm, 10 * trial + 2, 1),
+               draw(nu, 10 * trial + 3, 1)};
+      // Temperatures are absolute; where a block has one it is its last input.
+      if (const auto& ports = b.kernel.declaration.inputs; !ports.empty() && ports.back().unit == "K")
+        at.u.back() = 0.1 + std::fabs(at.u.back());
       Point direction{Numbers(b.p.size(), 0.0), draw(nu, 10 * trial + 4, 1), draw(nx, 10 * trial + 5, 1),
                       draw(nm, 10 * trial + 6, 1), draw(nu, 10 * trial + 7, 1)};
       if (whole.contains(GetParam().type))

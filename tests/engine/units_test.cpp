@@ -56,6 +56,19 @@ TEST(Units, ANonsenseUnitNamesItselfAndACure) {
   }
 }
 
+TEST(Units, AnOriginOfItsOwnIsRefusedSinceAChangeWouldLoseIt) {
+  for (const char* text : {"um @ 5", "um since 2000", "um from 5", "um after 5", "V ref 3", "s since 2000-01-01",
+                           "K @ 273.15", "um Since 2000"}) {
+    try {
+      parse_unit(text, "/blocks/a/amplitude");
+      ADD_FAILURE() << text << " was taken";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.problems[0].code, "bad_unit") << text;
+      EXPECT_EQ(e.problems[0].path, "/blocks/a/amplitude") << text;
+    }
+  }
+}
+
 // Usual units are known without reading udunits2's table; they must mean what they mean there, to the last bit.
 TEST(Units, KnownWithoutTheTableMeanWhatTheTableSays) {
   std::vector<std::string> texts{

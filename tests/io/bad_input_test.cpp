@@ -363,6 +363,8 @@ TEST_P(BadDataSet, IsToldWithCodePlaceLineAndCure) {
   const TemporaryFolder folder;
   folder.write("outside.csv", "t [s],u [V],y [um]\n0,1,2\n1,2,3\n2,3,4\n");
   folder.write("p/good.csv", "t [s],u [V],y [um]\n0,1,2\n1,2,3\n2,3,4\n3,4,5\n");
+  folder.write("p/dense.csv", "t [s],u [V],y [um]\n0,1,2\n5e-324,2,3\n1e-323,3,4\n");
+  folder.write("p/epoch.csv", "t [s],u [V],y [um]\n1e9,1,2\n1000000001,2,3\n1000000001.0000002,3,4\n");
   folder.write("p/back.csv", "t [s],u [V],y [um]\n0,1,2\n2,2,3\n1,3,4\n");
   folder.write("p/still.csv", "t [s],u [V],y [um]\n0,1,2\n0,2,3\n1,3,4\n");
   folder.write("p/short.csv", "t [s],u [V],y [um]\n0,1,2\n1,2,3\n");
@@ -399,6 +401,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"MatFile", ONE("\"file\": \"x.mat\", \"role\": \"train\""), "unknown_file_type", "x.mat", 0},
         Case{"DecreasingTime", ONE("\"file\": \"back.csv\", \"role\": \"train\""), "decreasing_time", "t", 4},
         Case{"TimeStandsStill", ONE("\"file\": \"still.csv\", \"role\": \"train\""), "decreasing_time", "t", 3},
+        Case{"RowsAnInstantApart", ONE("\"file\": \"dense.csv\", \"role\": \"train\""), "rows_too_near", "t", 3},
+        Case{"RowsThatTheTimeCannotTellApart", ONE("\"file\": \"epoch.csv\", \"role\": \"train\""), "rows_too_near",
+             "t", 4},
         Case{"TextInAColumn", ONE("\"file\": \"text.csv\", \"role\": \"train\""), "bad_number", "u", 3},
         Case{"TwoRows", ONE("\"file\": \"short.csv\", \"role\": \"validate\""), "too_few_rows", "short.csv", 3},
         Case{"NoTime", ONE("\"file\": \"timeless.csv\", \"role\": \"train\""), "missing_column", "t", 1},

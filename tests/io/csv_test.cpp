@@ -32,6 +32,27 @@ TEST(Csv, ReadsNamesUnitsAndNumbersAsWritten) {
   EXPECT_EQ(table.lines, (Lines{2, 3}));
 }
 
+TEST(Csv, SubnormalNumbersAreNumbers) {
+  const auto table = read_text("t [s],y\n0,5e-324\n1,-1e-308\n2,1e-400\n");
+  EXPECT_EQ(table.columns[1].values, (Numbers{std::numeric_limits<double>::denorm_min(), -1e-308, 0}));
+}
+
+TEST(Csv, ManyColumnsAreReadAndTheTwiceNamedOneIsFound) {
+  std::string header = "t [s]", row = "0";
+  for (int k = 0; k < 200'000; ++k) {
+    header += ",c" + std::to_string(k);
+    row += ",1";
+  }
+  EXPECT_EQ(read_text(header + "\n" + row + "\n").columns.size(), 200'001U);
+  try {
+    read_text(header + ",c199999\n" + row + ",1\n");
+    ADD_FAILURE() << "taken";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems[0].code, "duplicate_column");
+    EXPECT_EQ(e.problems[0].path, "c199999");
+  }
+}
+
 TEST(Csv, AnElementOfAVectorIsANameAndNoUnit) {
   const TemporaryFolder folder;
   const std::string file = folder.write("x.csv", "t [s],tilt[0],tilt[1] [urad],a [1]\n0,1,2,3\n");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -111,6 +112,24 @@ INSTANTIATE_TEST_SUITE_P(Traces, BoucWenGolden,
                          testing::Values(Case{"bw_forward_sine", 1}, Case{"bw_forward_triangle", 1},
                                          Case{"bw_forward_n2_sine", 2}),
                          [](const auto& made) { return std::string(made.param.name); });
+
+TEST(BoucWenModel, IsBoundedExactlyWhereCyclesLeaveItFinite) {
+  // Cycles between -10 and 10 V. The largest limit of a bounded set here is alpha/(beta + gamma) = 10; what is not
+  // bounded grows by exp(0.1 * 20) = 7 a cycle at least, or hardens to (exp(0.2 * 19) - 1)/0.2 = 220 in one stroke.
+  int bounded = 0;
+  for (const double alpha : {-1.0, 1.0})
+    for (const double beta : {-0.5, -0.1, 0.0, 0.1, 0.5})
+      for (const double gamma : {-0.7, -0.3, 0.0, 0.3, 0.7}) {
+        const Params<double> p{.alpha = alpha, .beta = beta, .gamma = gamma};
+        double z = 0, most = 0;
+        for (int k = 0; k < 400 && most < 1e6; ++k)
+          for (const double way : {10.0, -20.0, 10.0})
+            most = std::max(most, std::abs(z = bouc_wen::z_in_closed_form(p, z, way)));
+        bounded += bouc_wen::is_bounded(p) ? 1 : 0;
+        EXPECT_EQ(bouc_wen::is_bounded(p), most < 20) << alpha << " " << beta << " " << gamma << ": " << most;
+      }
+  EXPECT_EQ(bounded, 20);
+}
 
 TEST(BoucWenModel, AWayOfAnyLengthInClosedForm) {
   // beta = gamma and beta < gamma bend nothing on one side; a negative slope turns the loop over.

@@ -144,6 +144,113 @@ TEST(JilesAthertonModel, DualCarriesTheExactDerivativeAlongAMove) {
   EXPECT_NEAR(polarisation_after(p, Dual{0.2, 0.3}, Dual{1, -1}, Dual{5, 2}).rate, (at(h) - at(-h)) / (2 * h), 2e-7);
 }
 
+// Langevin's function, its slope: mpmath with 40 digits.
+struct LangevinAt {
+  double x, value, slope;
+};
+const LangevinAt langevin_values[] = {{1e-300, 3.3333333333333334169e-301, 0.33333333333333333333},
+                                      {1e-9, 3.3333333333333335407e-10, 0.33333333333333333327},
+                                      {1e-4, 0.00003333333331111111273, 0.33333333266666666772},
+                                      {0.01, 0.0033333111113227492758, 0.33332666677248529102},
+                                      {0.1, 0.033311132253989611992, 0.3326677233881650101},
+                                      {0.5, 0.16395341373865284877, 0.31730562316883072422},
+                                      {0.9, 0.28495614191890073032, 0.2855641262518048098},
+                                      {0.999999, 0.31303500956094298053, 0.27593843759664916518},
+                                      {1, 0.31303528549933130364, 0.27593833903368953359},
+                                      {1.5, 0.43812472631584523728, 0.22388042243620539145},
+                                      {3, 0.67163648998035583776, 0.10114676533996348051},
+                                      {10, 0.90000000412230725337, 0.0099999917553854762589},
+                                      {50, 0.98, 0.0004},
+                                      {700, 0.99857142857142857143, 2.0408163265306122449e-6},
+                                      {1e5, 0.99999, 1.0e-10}};
+
+TEST(Langevin, IsExactNearZeroAndFarFromIt) {
+  // Some roundings of the value; of the slope near zero those of one third, far off those of 1 - tanh^2, which is zero.
+  for (const auto& a : langevin_values)
+    for (const double side : {1.0, -1.0}) {
+      const auto at = jiles_atherton::langevin(side * a.x);
+      EXPECT_NEAR(at.value, side * a.value, 2e-15 * a.value) << a.x;
+      EXPECT_NEAR(at.slope, a.slope, std::max(2e-15 * a.slope, 5e-16)) << a.x;
+    }
+  EXPECT_EQ(jiles_atherton::langevin(0.0).value, 0);
+  EXPECT_DOUBLE_EQ(jiles_atherton::langevin(0.0).slope, 1.0 / 3);
+}
+
+TEST(Langevin, SlopeIsTheDerivativeThatDualCarries) {
+  for (const double x : {-40.0, -1.0001, -0.9999, -1e-3, 0.0, 1e-9, 0.5, 0.9999, 1.0, 2.0, 300.0}) {
+    const auto at = jiles_atherton::langevin(Dual{x, 1});
+    EXPECT_NEAR(at.value.rate, at.slope.value, 1e-15) << x;
+    // L'' = -2 L L' - 2 (L'/x - L/x^2), in numbers near zero -2x/15.
+    const double l = at.value.value, s = at.slope.value;
+    const double second = std::abs(x) < 1e-2 ? -2 * x / 15 : -2 * l * s - 2 * (s / x - l / (x * x));
+    EXPECT_NEAR(at.slope.rate, second, 1e-9) << x;  // the formula loses 1e-16/x^2, the series' next term is x^3/24
+  }
+}
+
+// A steel of the COMSOL material library, as the program jafit quotes it: fields and magnetisation in A/m.
+const Params<double> steel{
+    .p_s = 1.6e6, .a = 560, .alpha = 7e-4, .k = 1200, .c = 0.1, .curve = jiles_atherton::Curve::langevin};
+
+TEST(JilesAthertonModel, PublishedSetsStayWithinSaturationWithLangevinsFunction) {
+  double p = 0, from = 0, highest = 0;
+  for (int quarter = 0; quarter < 9; ++quarter)
+    for (int i = 1; i <= 1000; ++i) {
+      const double to = 1e4 * (quarter % 4 == 0   ? i / 1000.0
+                               : quarter % 4 == 1 ? 1 - i / 1000.0
+                               : quarter % 4 == 2 ? -i / 1000.0
+                                                  : -1 + i / 1000.0);
+      p = polarisation_after(steel, p, from, to);
+      from = to;
+      ASSERT_LE(std::abs(p), steel.p_s);
+      highest = std::max(highest, p);
+    }
+  EXPECT_GT(highest, 0.9 * steel.p_s);  // L(10 kA/m/560 A/m) = 0.944 without pinning and mean field
+}
+
+TEST(JilesAthertonModel, WithTanhInItsPlaceTheSameSetLeavesTheLawAndIsNoNumber) {
+  // alpha p_s/a = 2: the mean field holds the polarisation up by itself, and the falling branch turns upright.
+  Params<double> p = steel;
+  p.curve = jiles_atherton::Curve::tanh;
+  const double top = polarisation_after(p, 0.0, 0.0, 1e4);
+  EXPECT_LE(std::abs(top), p.p_s);
+  EXPECT_TRUE(std::isnan(polarisation_after(p, top, 1e4, -1e4)));
+}
+
+TEST(JilesAthertonModel, WithoutReversiblePartAndFeedbackTheLangevinBranchIsAnIntegral) {
+  // c = alpha = 0: k dP/dE = P_s L(E/a) - P, so P = (P_s/k) integral of exp(-(E - s)/k) L(s/a) ds; Simpson's rule with
+  // 4000 parts leaves (h/k)^4/180.
+  const Params<double> p{.p_s = 2, .a = 0.7, .k = 0.5, .curve = jiles_atherton::Curve::langevin};
+  const double to = 3;
+  const int n = 4000;
+  double sum = 0;
+  for (int i = 0; i <= n; ++i) {
+    const double s = to * i / n, x = s / p.a;
+    const double l = i == 0 ? 0 : x < 1e-2 ? x / 3 - x * x * x / 45 : 1 / std::tanh(x) - 1 / x;
+    sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * std::exp(-(to - s) / p.k) * l;
+  }
+  EXPECT_NEAR(polarisation_after(p, 0.0, 0.0, to), p.p_s / p.k * sum * to / n / 3, 1e-9);
+}
+
+TEST(JilesAthertonModel, TheInverseUndoesTheLangevinLaw) {
+  Params<double> p = table;
+  p.curve = jiles_atherton::Curve::langevin;
+  double u = 0, m = 0, y = 0, e = 0;
+  for (const double to : {4.0, 1.0, 3.0, 2.5, 6.0, -2.0, 0.0}) {
+    m = polarisation_after(p, m, u, to);
+    e = field_after(p, e, y, m);
+    u = to;
+    y = m;
+    EXPECT_NEAR(e, u, 3e-8);  // as above, with a third of the slope
+  }
+}
+
+TEST(JilesAthertonModel, WhereNoFieldMakesThePolarisationFollowTheInverseIsNoNumber) {
+  // Behind the first turn of a virgin curve that lies below the curve without pinning the polarisation still rises.
+  const double top = polarisation_after(steel, 0.0, 0.0, 800.0);
+  ASSERT_LT(jiles_atherton::slope(steel, 800.0, top, -1), 0);
+  EXPECT_TRUE(std::isnan(jiles_atherton::field_rate(steel, 800.0, top, -1.0)));
+}
+
 // Ten digits in u (5e-10 of up to 6 V, slope up to 1.5 um/V) and in P (up to 8 um); DOP853 itself 3e-10.
 constexpr double golden_tolerance = 1.5e-8;
 

@@ -43,6 +43,12 @@ TEST(LinearTicks, NeighboursDifferAlsoOnALargeOffset) {
   for (std::size_t i = 1; i < list.size(); ++i) EXPECT_NE(list[i - 1], list[i]);
 }
 
+TEST(LinearTicks, EndWhereNumbersLieTooCloseForMore) {
+  for (const double low : {1.0, 1e9, 1e300})
+    EXPECT_LE(linear_ticks(low, std::nextafter(low, 2 * low), 6).list.size(), 100U);
+  EXPECT_LE(linear_ticks(1 - 1e-15, 1 + 1e-15, 50).list.size(), 100U);
+}
+
 TEST(LinearTicks, AreAbsentForARangeThatIsNone) {
   EXPECT_TRUE(linear_ticks(1, 1, 5).list.empty());
   EXPECT_TRUE(linear_ticks(0, std::numeric_limits<double>::infinity(), 5).list.empty());
