@@ -11,7 +11,9 @@ namespace reference {
 
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state(seed * 0x9e3779b97f4a7c15ULL + 0x1234567ULL) {}
+  explicit Random(std::uint64_t seed) : state(seed) {
+    state = bits() ^ 0x1234567ULL;  // else the numbers of the next seed would be these, one later
+  }
 
   std::uint64_t bits() {
     std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
