@@ -42,8 +42,11 @@ std::string slow_diagram(bool with_input) {
   const auto put = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
-  put("SOURCE", with_input ? "" : R"("drive": {"type": "sine", "amplitude": "3 V", "frequency": "5 Hz"},)");
-  put("DRIVE", with_input ? "u" : "drive");
+  // A carrier of 10^6 periods, so that no method gets through quickly where nothing else moves.
+  put("SOURCE", with_input ? R"("carrier": {"type": "sine", "amplitude": "3 V", "frequency": "1 kHz"},
+                                "drive": {"type": "sum", "signs": "++", "in": ["carrier", "u"]},)"
+                           : R"("drive": {"type": "sine", "amplitude": "3 V", "frequency": "5 Hz"},)");
+  put("DRIVE", "drive");
   put("INPUTS", with_input ? R"("inputs": {"u": {"unit": "V"}},)" : "");
   return text;
 }
