@@ -47,8 +47,9 @@ constexpr double noticed_jump = 0.1;
 // identity does.
 constexpr double noticed_slope = 0.5;
 // So many steps on end that together advance less than this share of the span: it would never come to an end.
-constexpr long crawl_steps = 200'000;
-constexpr double crawl_share = 1e-4;
+constexpr long crawl_steps = 50'000;
+constexpr double crawl_share = 2.5e-5;
+constexpr double rounding = 1e-15;  // of the span: no time in which anything moves
 
 // The integrators hold the error of each step, and errors of many steps add up. Measured by benchmarks/accuracy.cpp on
 // four memory models: up to 17 times the tolerance with half of it, up to 7 times with a quarter, the largest of the
@@ -91,8 +92,18 @@ class Simulation {
   void take_step(double stop);
   void pass_instant();
   std::optional<ZeroCrossings::Found> find_crossing();
-  bool notice_kink(double seen);
+  bool notice_missed(double seen, bool remembered);
+  bool notice_passed(double before, double behind, double to);
+  bool bends(double before, double behind, double to);
+  bool bends_newton(double before, double behind, double to);
+  void slope_at(double t, std::vector<double>& dx) {
+    solver_->interpolate(t, interpolated_);
+    derivative(t, interpolated_.data(), dx.data());
+  }
   bool begin_anew(const ZeroCrossings::Found& crossing);
+  void pass_look() {
+    if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
+  }
   void pass_crossing(const ZeroCrossings::Found& crossing);
   void pass_root();
   void switch_modes(const std::vector<int>& turned, const std::vector<int>& fell);
@@ -128,6 +139,7 @@ class Simulation {
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
   std::size_t next_instant_ = 0;
   std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
+  ZeroCrossings::Noticed noticed_;
   double t_ = 0, until_ = 0, milestone_ = 0;
   // Steps have to end here, before a kink, and then there, behind it [s].
   double look_at_ = std::numeric_limits<double>::infinity(), then_at_ = look_at_;
@@ -161,6 +173,8 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   x_ = run_.x;
   if (x_.empty()) x_.push_back(0.0);
   before_ = after_ = interpolated_ = bad_x_ = x_;
+  noticed_.missed = [this](double seen, bool remembered) { return notice_missed(seen, remembered); };
+  noticed_.passed = [this](double before, double behind, double to) { return notice_passed(before, behind, to); };
   states_inside_ = [this](double t, std::vector<double>& x) { solver_->interpolate(t, x); };
   traces_.t = std::move(instants);
   traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
@@ -342,41 +356,64 @@ void Simulation::switch_modes(const std::vector<int>& turned, const std::vector<
 /// Where the step that was just done passes something that switches and that the integrator has not located.
 std::optional<ZeroCrossings::Found> Simulation::find_crossing() {
   if (!crossings_.watches()) return std::nullopt;
-  return crossings_.first(
-      run_, work_, {t_, solver_->t(), states_inside_, true},
-      [this](double seen, bool missed, bool remembered) { return (missed && remembered) || notice_kink(seen); });
+  return crossings_.first(run_, work_, {t_, solver_->t(), states_inside_, true}, noticed_);
 }
 
-/// Is dx/dt behind a kink, or its slope, so different that a step across it is worth cutting.
-bool Simulation::notice_kink(double seen) {
+/// What was seen inside of the step only: would dx/dt there, all through the step, move the states.
+bool Simulation::notice_missed(double seen, bool remembered) {
+  if (remembered) return true;
   if (program_.n_x == 0) return false;
-  const double h = seen - t_;
-  const auto look = [&](double t, std::vector<double>& slopes, std::vector<double>& dx) {
-    solver_->interpolate(t, interpolated_);
-    derivative(t, interpolated_.data(), dx.data());
-    if (jacobian_ == nullptr) return;
-    slopes.resize(jacobian_->pattern().row.size());
-    (*jacobian_)(run_, t, interpolated_.data(), slopes.data());
-  };
-  look(t_, slopes_before_, before_);
-  look(seen, slopes_after_, after_);
-  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * h;
-  if (!(solver_->weighted_norm(after_) <= noticed_jump)) return true;
+  slope_at(t_, before_);
+  slope_at(seen, after_);
+  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * (seen - t_);
+  return !(solver_->weighted_norm(after_) <= noticed_jump);
+}
+
+/// What both ends of a step have seen the control of its error has seen too. It suffices for backward differences; the
+/// others want a jump or a bend of dx/dt that moves the states to be the end of a step (40 dead zones behind sines,
+/// largest error with and without: 4e-9 and 1.9e-4 Runge-Kutta, 1.7e-6 and 2.2e-5 Adams, 8.9e-6 and 5.9e-6 bdf).
+bool Simulation::notice_passed(double before, double behind, double to) {
+  return formula_of(options_.method) == Formula::bdf ? bends_newton(before, behind, to) : bends(before, behind, to);
+}
+
+/// Does dx/dt jump, or its slope in time, by so much that the states at the end of the step are others.
+bool Simulation::bends(double before, double behind, double to) {
+  const double h = to - t_, near = h / 16;
+  const double left = std::min(near, before - t_), right = std::min(near, to - behind);
+  if (program_.n_x == 0 || left < 1e-3 * h || right < 1e-3 * h) return false;
+  std::vector<double> f[4];  // kinks are rare
+  const double times[] = {before - left, before, behind, behind + right};
+  for (int i = 0; i < 4; ++i) slope_at(times[i], f[i] = before_);
+  for (std::size_t i = 0; i < after_.size(); ++i) {
+    after_[i] = (f[2][i] - f[1][i]) * h;
+    before_[i] = ((f[3][i] - f[2][i]) / right - (f[1][i] - f[0][i]) / left) * h * h / 2;
+  }
+  return !(solver_->weighted_norm(after_) <= noticed_jump && solver_->weighted_norm(before_) <= noticed_jump);
+}
+
+/// Newton's iteration with the slopes of one side may not go where the other side leads, and yet seem to converge.
+bool Simulation::bends_newton(double before, double behind, double to) {
   if (jacobian_ == nullptr) return false;
-  // Newton's iteration with the slopes of one side may not go where the other side leads, and yet seem to converge.
   const auto& pattern = jacobian_->pattern();
+  const auto slopes = [&](double t, std::vector<double>& entries) {
+    solver_->interpolate(t, interpolated_);
+    entries.resize(pattern.row.size());
+    (*jacobian_)(run_, t, interpolated_.data(), entries.data());
+  };
+  slopes(before, slopes_before_);
+  slopes(behind, slopes_after_);
   for (std::size_t j = 0; j + 1 < pattern.column_begin.size(); ++j)
     for (auto k = static_cast<std::size_t>(pattern.column_begin[j]);
          k < static_cast<std::size_t>(pattern.column_begin[j + 1]); ++k) {
       const double share = tolerance_[j] / tolerance_[static_cast<std::size_t>(pattern.row[k])];
-      if (!(std::abs(slopes_after_[k] - slopes_before_[k]) * h * share <= noticed_slope)) return true;
+      const double change = std::abs(slopes_after_[k] - slopes_before_[k]) * (to - t_) * share;
+      if (!(change <= noticed_slope)) return true;
     }
   return false;
 }
 
 /// A Runge-Kutta step evaluates dx/dt inside of itself, and the polynomial of Adams' formulas is of a high order: where
-/// dx/dt bends neither is anything. True if the step is taken again, up to the kink. (For backward differences it makes
-/// no difference: 40 dead zones behind sines, largest error 8.9e-6 and 8.7e-6.)
+/// dx/dt bends neither is anything. True if the step is taken again, up to the kink.
 bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
   if (!crossing.bent || formula_of(options_.method) == Formula::bdf) return false;
   if (crossing.before - t_ <= 2 * root_width(t_, crossing.t)) return false;
@@ -427,7 +464,7 @@ void Simulation::take_step(double stop) {
   record_inside(from, to);
   if (histories_.any()) histories_.fill(run_, work_, from, to, states_inside_);
   t_ = to;
-  if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
+  pass_look();
   if (crossing) {
     const Stopwatch watch(traces_.statistics.phases.events);
     solver_->interpolate(t_, x_);
@@ -466,7 +503,14 @@ void Simulation::walk() {
     }
     record_due();
     if (next_instant_ == traces_.t.size()) return;
-    take_step(std::min({events_.next(), until_, look_at_}));
+    const double stop = std::min({events_.next(), until_, look_at_});
+    if (stop - t_ > rounding * (until_ - options_.begin)) {
+      take_step(stop);
+    } else {  // too near for an integrator, and for the states to move
+      t_ = stop;
+      pass_look();
+      commit();
+    }
   }
 }
 

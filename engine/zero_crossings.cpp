@@ -112,6 +112,23 @@ void ZeroCrossings::evaluate(const Run& run, Work& work, double t, std::vector<d
   }
 }
 
+/// The crossing of function i in the bracket from the beginning of the step to `behind`, which is left right behind it;
+/// what is returned stands right before it.
+WatchedValues ZeroCrossings::locate(const Run& run, Work& work, const Step& step, std::size_t i,
+                                    WatchedValues& behind) {
+  WatchedValues all = behind, before = begin_;
+  WatchedValues a{begin_.t, {std::max(side_[i] * begin_.g[i], std::numeric_limits<double>::min())}};
+  WatchedValues b{behind.t, {side_[i] * behind.g[i]}};
+  first_root(a, b, root_width(step.from, step.to), [&](double t, std::vector<double>& g) {
+    step.states(t, x_);
+    evaluate(run, work, all.t = t, all.g);
+    g[0] = side_[i] * all.g[i];
+    (g[0] <= 0 ? behind : before) = all;
+    return 0;
+  });
+  return before;
+}
+
 /// The extremum towards zero between the ends of the step.
 WatchedValues ZeroCrossings::lowest(const Run& run, Work& work, const Step& step, std::size_t i) {
   WatchedValues found{step.to, end_.g}, trial{0, end_.g};
@@ -163,13 +180,29 @@ std::optional<ZeroCrossings::Found> ZeroCrossings::first(const Run& run, Work& w
   return found;
 }
 
+/// At the end of a step that is too short for anything to be located in it.
+std::optional<ZeroCrossings::Found> ZeroCrossings::left_its_side(const Run& run, const Step& step) {
+  std::size_t kink = guards();
+  for (const auto& k : kinked_) {
+    const auto& b = program_.blocks[at(k.block)];
+    for (int i = 0; i < b.sizes.kinks; ++i, ++kink)
+      if (k.keeps_sides && run.sides[at(b.sides_index + i)] * end_.g[kink] < 0)
+        return forget(), Found{step.to, step.from, {}, step.to, false};
+  }
+  return std::nullopt;
+}
+
 std::optional<ZeroCrossings::Found> ZeroCrossings::look(const Run& run, Work& work, const Step& step,
                                                         const Noticed& noticed) {
-  if (step.to - step.from <= 2 * root_width(step.from, step.to)) return forget(), std::nullopt;
   const auto look_at = [&](double t, WatchedValues& into) {
     step.states(t, x_);
     evaluate(run, work, into.t = t, into.g);
   };
+  if (step.to - step.from <= 2 * root_width(step.from, step.to)) {
+    if (program_.n_sides == 0) return forget(), std::nullopt;
+    look_at(step.to, end_);
+    return left_its_side(run, step);
+  }
   if (end_.t == step.from)
     std::swap(begin_, end_);
   else
@@ -190,45 +223,34 @@ std::optional<ZeroCrossings::Found> ZeroCrossings::look(const Run& run, Work& wo
     for (int j = 0; j < b.sizes.kinks; ++j, ++kink)
       if (k.keeps_sides) side_[kink] = run.sides[at(b.sides_index + j)];
   }
-  std::optional<WatchedValues> earliest;
+  WatchedValues before, behind;
   bool bent = false;
   for (std::size_t i = 0; i < functions(); ++i) {
     auto here = bracket(run, work, step, i);
-    if (!here) {
-      side_[i] = 0;  // not asked for any more
-      continue;
-    }
-    if (i >= guards()) {
-      const auto& k = kinked(i);
-      if (!k.keeps_sides && !k.switches && !noticed(here->seen.t, here->missed, k.remembered)) {
-        side_[i] = 0;
-        continue;
+    if (here) {
+      const bool is_kink = i >= guards();
+      const Kinked* k = is_kink ? &kinked(i) : nullptr;
+      const bool ask = is_kink && !k->keeps_sides && !k->switches;
+      const double seen = here->seen.t;
+      if (ask && here->missed && !noticed.missed(seen, k->remembered)) here.reset();
+      if (here) {
+        auto a = locate(run, work, step, i, here->seen);
+        if (ask && !here->missed && !noticed.passed(a.t, here->seen.t, step.to)) {
+          here.reset();
+        } else {
+          seen_[i] = seen;
+          bent = bent || (is_kink && !k->keeps_sides);
+          if (behind.g.empty() || here->seen.t < behind.t) before = std::move(a), behind = std::move(here->seen);
+        }
       }
-      seen_[i] = here->seen.t;
-      bent = bent || !k.keeps_sides;
     }
-    if (!earliest || here->seen.t < earliest->t) earliest = std::move(here->seen);
+    if (!here) side_[i] = 0;  // not asked for any more
   }
-  if (!earliest) return std::nullopt;
-  // Functions that are watched become positive ones; the others stay at zero, where nothing falls.
-  WatchedValues a = begin_, b = *earliest;
-  const auto orient = [&](std::vector<double>& g) {
-    for (std::size_t i = 0; i < g.size(); ++i) g[i] *= side_[i];
-  };
-  orient(a.g);
-  orient(b.g);
-  for (std::size_t i = 0; i < a.g.size(); ++i)
-    if (side_[i] != 0 && a.g[i] <= 0) a.g[i] = std::numeric_limits<double>::min();
-  first_root(a, b, root_width(step.from, step.to), [&](double t, std::vector<double>& g) {
-    step.states(t, x_);
-    evaluate(run, work, t, g);
-    orient(g);
-    return 0;
-  });
+  if (behind.g.empty()) return std::nullopt;
   forget();
-  last_ = {b.t, a.t, {}, b.t, bent};
+  last_ = {behind.t, before.t, {}, behind.t, bent};
   for (std::size_t i = 0; i < functions(); ++i) {
-    const bool crosses = side_[i] != 0 && b.g[i] <= 0;
+    const bool crosses = side_[i] != 0 && side_[i] * behind.g[i] <= 0;
     side_behind_[i] = crosses && i >= guards() ? -side_[i] : 0;
     if (!crosses) continue;
     if (i < guards())

@@ -37,9 +37,14 @@ class ZeroCrossings {
     double seen = 0;          ///< [s] up to here the step saw what is behind the kink
     bool bent = false;        ///< the step passes kinks whose sides are not kept: inside of it dx/dt is not smooth
   };
-  /// Is a kink that the step passes worth a look? `seen`: a time behind it [s]; `missed`: its other side was seen at
-  /// neither end of the step; `remembered`: memory or the past of a dead time depend on it.
-  using Noticed = std::function<bool(double seen, bool missed, bool remembered)>;
+  /// Is a kink that the step passes worth cutting the step there. Asked where nothing but states depends on it.
+  struct Noticed {
+    /// The step saw both sides of it, at its ends; it lies between `before` and `behind` [s], in the step up to `to`.
+    std::function<bool(double before, double behind, double to)> passed;
+    /// The step saw its other side, at `seen` [s], at neither end. `remembered`: memory or the past of a dead time
+    /// depend on it too.
+    std::function<bool(double seen, bool remembered)> missed;
+  };
 
   /// The first crossing inside the step.
   std::optional<Found> first(const Run& run, Work& work, const Step& step, const Noticed& noticed);
@@ -60,11 +65,13 @@ class ZeroCrossings {
     bool missed = false;
   };
   std::optional<Found> look(const Run& run, Work& work, const Step& step, const Noticed& noticed);
+  std::optional<Found> left_its_side(const Run& run, const Step& step);
   std::size_t guards() const { return program_.modal_blocks.size(); }
   std::size_t functions() const { return guards() + kinks_; }
   const Kinked& kinked(std::size_t function) const;
   void evaluate(const Run& run, Work& work, double t, std::vector<double>& g);
   std::optional<Bracket> bracket(const Run& run, Work& work, const Step& step, std::size_t i);
+  WatchedValues locate(const Run& run, Work& work, const Step& step, std::size_t i, WatchedValues& behind);
   WatchedValues lowest(const Run& run, Work& work, const Step& step, std::size_t i);
 
   const Program& program_;
