@@ -184,10 +184,11 @@ void AdvanceState::start(std::span<const int> due, double t, double branch, bool
     }
     for (const int b : level.nonlinear) {
       remember_inputs(b);  // nothing moves at the start
-      instant ? foresee(b) : follow(b, t, 0);
+      start_block(b, t, !instant);
     }
     for (const int i : level.loops) start_loop(i, !instant);
   }
+  if (plan_.has_histories) rest_histories(t, !instant);
   for (const int b : plan_.momentary) evaluate(b);
   if (!instant) return;
   sample(due, t, sampling);
@@ -195,11 +196,38 @@ void AdvanceState::start(std::span<const int> due, double t, double branch, bool
     for (const int i : level.linear) parts[at(i)].refresh(y);
     for (const int b : level.nonlinear) {
       remember_inputs(b);
-      follow(b, t, 0);
+      start_block(b, t, true);
     }
     for (const int i : level.loops) start_loop(i, true);
   }
+  if (plan_.has_histories) rest_histories(t, true);
   for (const int b : plan_.momentary_behind) evaluate(b);
+}
+
+void AdvanceState::start_block(int block, double t, bool accept) {
+  if (plan_.block(block).history_index >= 0) return evaluate(block);
+  accept ? follow(block, t, 0) : foresee(block);
+}
+
+/// What each dead time reads was at rest before the start, dead times behind dead times included.
+void AdvanceState::rest_histories(double t, bool accept) {
+  std::vector<int> late;
+  for (const auto& level : plan_.levels)
+    for (const int b : level.nonlinear)
+      if (plan_.block(b).history_index >= 0) late.push_back(b);
+  for (std::size_t round = 0; round < late.size(); ++round) {
+    for (const int b : late) {
+      run.histories[at(plan_.block(b).history_index)].before = y[at(plan_.block(b).source.front())];
+      evaluate(b);
+    }
+    for (const auto& level : plan_.levels) {
+      for (const int i : level.linear) parts[at(i)].refresh(y);
+      for (const int b : level.nonlinear) start_block(b, t, accept);
+      for (const int i : level.loops) start_loop(i, accept);
+    }
+  }
+  if (accept)
+    for (const int b : late) look_back(b, t);
 }
 
 /// Nothing moves at the start.

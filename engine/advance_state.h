@@ -58,6 +58,8 @@ class AdvanceState {
   void loop_values(const AdvancePlan::LoopedPart& part);
   void remember_inputs(int block);
   void foresee(int block);
+  void start_block(int block, double t, bool accept);
+  void rest_histories(double t, bool accept);
   void start_loop(int loop, bool accept);
   void sample(std::span<const int> due, double t, Sampling& sampling);
   void pass_on(double t, bool with_delays);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/histories.h"
 #include "engine/steps.h"
 
 namespace hysteron {
@@ -72,12 +73,15 @@ bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
   starting_ = true;
   const auto memory = run.m;
+  rest_histories(program_, run, work, t, x.data());
   bool changed = pass(run, work, t, x);
+  rest_histories(program_, run, work, t, x.data());
   // What was sampled has seen modes that were only to be tried first: sample again, with those that the inputs ask for.
   for (int round = 0; changed && !instant_.hits.empty() && round < most_rounds; ++round) {
     run.m = memory;
     cross(run, work, t, x);
     changed = settle(run, work, t, x, {});
+    rest_histories(program_, run, work, t, x.data());
   }
   starting_ = false;
 }

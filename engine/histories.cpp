@@ -54,6 +54,23 @@ void remember_signals(const Program& program, Run& run, const Work& work, double
   }
 }
 
+void rest_histories(const Program& program, Run& run, Work& work, double t, const double* x) {
+  bool changed = program.n_histories > 0;
+  // One behind the other each may be the first to know its value.
+  for (int round = 0; changed && round < program.n_histories; ++round) {
+    changed = false;
+    evaluate_values(program, run, work, t, x);
+    for (const BlockInstance& b : program.blocks) {
+      if (b.history_index < 0) continue;
+      History& h = run.histories[at(b.history_index)];
+      const double u = work.y[at(b.source[0])];
+      if (!h.t.empty() || h.before == u) continue;
+      h.before = u;
+      changed = true;
+    }
+  }
+}
+
 Histories::Histories(const Program& program, std::vector<double> sizes, double tolerance)
     : program_(program), tolerance_(tolerance), x_(at(std::max(1, program.n_x))) {
   for (const auto& b : program.blocks)
