@@ -43,6 +43,10 @@ namespace {
 // A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
 // its error control deals with smaller ones.
 constexpr double noticed_jump = 0.1;
+// Backward differences start again at order one, which costs about as much accuracy as a jump of so many tolerances
+// that the control of the error has found (a rounded chirp behind a lag: 30 tolerances off without cuts, less than 10
+// with).
+constexpr double jump_for_bdf = 30;
 // A slope of dx/dt that changes by so much times the inverse of the step changes the Newton matrix as much as its
 // identity does.
 constexpr double noticed_slope = 0.5;
@@ -369,18 +373,27 @@ bool Simulation::notice_missed(double seen, bool remembered) {
   return !(solver_->weighted_norm(after_) <= noticed_jump);
 }
 
-/// What both ends of a step have seen the control of its error has seen too. It suffices for backward differences; the
-/// others want a jump or a bend of dx/dt that moves the states to be the end of a step (40 dead zones behind sines,
-/// largest error with and without: 4e-9 and 1.9e-4 Runge-Kutta, 1.7e-6 and 2.2e-5 Adams, 8.9e-6 and 5.9e-6 bdf).
+/// What both ends of a step have seen the control of its error has seen too. For bends that suffices backward
+/// differences; the others want a jump or a bend of dx/dt that moves the states to be the end of a step (40 dead zones
+/// behind sines, largest error with and without: 4e-9 and 1.9e-4 Runge-Kutta, 1.7e-6 and 2.2e-5 Adams, 8.9e-6
+/// and 5.9e-6 bdf).
 bool Simulation::notice_passed(double before, double behind, double to) {
-  return formula_of(options_.method) == Formula::bdf ? bends_newton(before, behind, to) : bends(before, behind, to);
+  return bends(before, behind, to) || (formula_of(options_.method) == Formula::bdf && bends_newton(before, behind, to));
 }
 
 /// Does dx/dt jump, or its slope in time, by so much that the states at the end of the step are others.
 bool Simulation::bends(double before, double behind, double to) {
   const double h = to - t_, near = h / 16;
   const double left = std::min(near, before - t_), right = std::min(near, to - behind);
-  if (program_.n_x == 0 || left < 1e-3 * h || right < 1e-3 * h) return false;
+  const bool bdf = formula_of(options_.method) == Formula::bdf;
+  if (program_.n_x == 0) return false;
+  if (bdf) {
+    slope_at(before, before_);
+    slope_at(behind, after_);
+    for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * h;
+    return !(solver_->weighted_norm(after_) <= jump_for_bdf);
+  }
+  if (left < 1e-3 * h || right < 1e-3 * h) return false;
   std::vector<double> f[4];  // kinks are rare
   const double times[] = {before - left, before, behind, behind + right};
   for (int i = 0; i < 4; ++i) slope_at(times[i], f[i] = before_);

@@ -23,12 +23,11 @@ struct Params {
   T a{1};     ///< [V/K]  bend of the curve: a T is the input over which it bends
 };
 
-/// P_s(T) = P_s(0) (1 - T/T_c)^beta, 0 from T_c on; not a number at and below 0 K. Source: thesis Eq. 5.14.
+/// P_s(T) = P_s(0) (1 - T/T_c)^beta, 0 from T_c on. Source: thesis Eq. 5.14.
 template <class T>
 T saturation(const Params<T>& p, const T& temperature) {
   using std::exp;
   using std::log;
-  if (!(plain(temperature) > 0)) return T{std::numeric_limits<double>::quiet_NaN()};
   const T left = T{1} - temperature / p.t_c;
   if (!(plain(left) > 0)) return T{0};
   return p.p_s * exp(p.beta * log(left));
