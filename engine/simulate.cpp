@@ -149,7 +149,7 @@ class Simulation {
   double look_at_ = std::numeric_limits<double>::infinity(), then_at_ = look_at_;
   long steps_since_milestone_ = 0;
   bool not_finite_ = false;  // the last derivative was not; then these are where
-  double bad_t_ = 0;
+  double bad_t_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> bad_x_;
 };
 
@@ -561,6 +561,9 @@ void Simulation::explain(const Error& error) {
     // Steps crept up to where a loop has no solution: the last evaluation was still this side of it.
     evaluate_derivatives(program_, run_, work_, bad_t_, bad_x_.data());
     throw_if_unsolved(program_, work_, bad_t_);
+    // Or to where a law ends: explicit steps come to rest this side of it.
+    if (std::any_of(work_.dx.begin(), work_.dx.end(), [](double v) { return !std::isfinite(v); }))
+      not_finite(program_, run_, work_, bad_t_, bad_x_.data());
   }
   evaluate_derivatives(program_, run_, work_, t_, x_.data());
   throw_if_upright(program_, work_, growth_.quantities(program_, x_), t_, until_ - options_.begin);

@@ -87,6 +87,29 @@ TEST(SimulateErrors, AStateThatChattersIsNamedInsteadOfTakingForEver) {
   EXPECT_FALSE(p.cure.empty());
 }
 
+TEST(SimulateErrors, ALawThatEndsIsNamedByEveryMethod) {
+  // The displacement of these numbers has no slope of its sign beyond |z| = 0.17: explicit steps never see it, they
+  // come to rest before.
+  const auto d = tools::diagram(
+      {{"wish", block("sine", {{"amplitude", 0.5312}, {"frequency", "1.856 Hz"}, {"phase", "142.8 deg"}})},
+       {"drive",
+        block("bouc_wen_inverse", {{"alpha", 0.6545}, {"beta", 4.611}, {"gamma", -0.8659}, {"d_p", 1.116}}, {"wish"})}},
+      {"drive"});
+  const auto program = tools::compiled(d);
+  for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta}) {
+    SimulateOptions options;
+    options.until = 3;
+    options.method = method;
+    try {
+      simulate(*program, start(*program), options);
+      ADD_FAILURE() << method_name(method);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.problems.front().code, "diverged") << method_name(method) << error.problems.front().what;
+      EXPECT_EQ(error.problems.front().path, "drive");
+    }
+  }
+}
+
 TEST(SimulateErrors, AnInputThatNothingDrivesIsNamed) {
   const auto program =
       compiled(diagram({{"y", block("lag", {{"times", list({1}, "s")}}, {"u"})}}, {"y"}, {{"u", "V"}}));
