@@ -51,8 +51,8 @@ constexpr double jump_for_bdf = 30;
 // identity does.
 constexpr double noticed_slope = 0.5;
 // So many steps on end that together advance less than this share of the span: it would never come to an end.
-constexpr long crawl_steps = 50'000;
-constexpr double crawl_share = 2.5e-5;
+constexpr long crawl_steps = 200'000;
+constexpr double crawl_share = 1e-4;
 constexpr double rounding = 1e-15;  // of the span: no time in which anything moves
 
 // The integrators hold the error of each step, and errors of many steps add up. Measured by benchmarks/accuracy.cpp on

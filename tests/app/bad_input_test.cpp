@@ -409,7 +409,7 @@ TEST(BadInputAsText, NamesFileLinePlaceWhatAndCure) {
   const Outcome outcome = process::hysteron(folder.path(), {"check", "diagram.json"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("diagram.json:7: /blocks/actuator"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("Did you mean \"gain\"?"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("Did you mean \"gain\""), std::string::npos) << outcome.err;
   EXPECT_TRUE(outcome.out.empty()) << outcome.out;
 }
 

@@ -368,7 +368,7 @@ TEST_F(Reproduce, AWrongSearchIsToldAtItsPlace) {
   refused(start, "\"method\": \"pso\"", "\"method\": \"psoo\"", "\"pso\"");
   refused(start, "\"sum_squares\", \"of\": \"y\"", "\"sum_squares\", \"of\": \"z\"", "\"z\"");
   refused(start, "\"y\": [\"top\", \"top\"]", "\"y\": [\"top\"]", "give every column as many");
-  refused(start, "[\"top\", \"top\"]", "[\"top\", \"tap\"]", "Did you mean \"top\"?");
+  refused(start, "[\"top\", \"top\"]", "[\"top\", \"tap\"]", "Did you mean \"top\"");
   refused(start, "\"from\": 11, \"to\": 11", "\"from\": 1100", "no row fulfils");
   refused(start, "\"computed\": \"piezo_lower\", \"top\": \"1 V\"}", "\"computed\": \"piezo_lowr\"}", "piezo_lower");
 }
