@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/error.h"
+#include "engine/diagram/error.h"
 #include "example.h"
-#include "io/atomic_file.h"
-#include "io/result.h"
+#include "io/files/atomic_file.h"
+#include "io/results/result.h"
 
 namespace hysteron {
 namespace {

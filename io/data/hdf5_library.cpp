@@ -1,0 +1,53 @@
+#include "io/data/hdf5_library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "engine/diagram/error.h"
+
+namespace hysteron {
+namespace {
+
+[[noreturn]] void cannot_load(const std::string& why) {
+  fail("no_hdf5", HYSTERON_HDF5_LIBRARY, fmt::format("the HDF5 library cannot be loaded: {}", why),
+       "install it (Debian: libhdf5-103-1)");
+}
+
+void* symbol(void* library, const char* name) {
+  void* found = dlsym(library, name);
+  if (found == nullptr) cannot_load(fmt::format("it has no {}", name));
+  return found;
+}
+
+Hdf5Library load() {
+  void* library = dlopen(HYSTERON_HDF5_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) cannot_load(dlerror());
+  Hdf5Library h;
+#define HYSTERON_FIND(name) h.name = reinterpret_cast<decltype(h.name)>(symbol(library, #name));
+  HYSTERON_HDF5_FUNCTIONS(HYSTERON_FIND)
+#undef HYSTERON_FIND
+  if (h.H5open() < 0) cannot_load("it does not start");
+  h.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told by us
+  const auto number = [&](const char* name) { return *static_cast<hid_t*>(symbol(library, name)); };
+  h.real = number("H5T_IEEE_F64LE_g");
+  h.whole = number("H5T_STD_I64LE_g");
+  h.text = number("H5T_C_S1_g");
+  h.file_creation = number("H5P_CLS_FILE_CREATE_ID_g");
+  h.file_access = number("H5P_CLS_FILE_ACCESS_ID_g");
+  h.dataset_creation = number("H5P_CLS_DATASET_CREATE_ID_g");
+  return h;
+}
+
+}  // namespace
+
+const Hdf5Library& hdf5() {
+  static const Hdf5Library library = load();
+  return library;
+}
+
+std::mutex& hdf5_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace hysteron
