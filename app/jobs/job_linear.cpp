@@ -11,6 +11,7 @@
 #include "engine/analysis/linearize.h"
 #include "engine/analysis/margins.h"
 #include "engine/diagram/error.h"
+#include "engine/events/rest.h"
 #include "engine/simulate/simulate.h"
 #include "fit/signals/features.h"
 

@@ -15,6 +15,7 @@
 #include "app/pages/numbers.h"
 #include "engine/analysis/margins.h"
 #include "engine/diagram/error.h"
+#include "engine/events/rest.h"
 #include "engine/simulate/simulate.h"
 
 namespace hysteron {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/events/rest.h"
 #include "engine/lanes/lane_arithmetic.h"
 #include "engine/lanes/lane_evaluation.h"
 #include "engine/lanes/lane_grid.h"

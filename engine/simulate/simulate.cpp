@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "engine/events/events.h"
+#include "engine/events/rest.h"
 #include "engine/events/reversals.h"
 #include "engine/integrators/integrator.h"
 #include "engine/program/corners.h"

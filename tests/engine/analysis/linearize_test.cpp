@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/analysis/margins.h"
+#include "engine/events/rest.h"
 #include "tests/engine/event_blocks.h"
 #include "tests/engine/simulate_tools.h"
 
