@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 #include "engine/diagram/error.h"
 #include "fit/inspect/inspection.h"
