@@ -22,7 +22,4 @@ void publish(const Arguments& arguments, const std::string& folder, const Docume
 void publish_into(const Arguments& arguments, const std::string& folder, const Document& document,
                   const std::vector<std::string>& said_here_only = {});
 
-/// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
-std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);
-
 }  // namespace hysteron

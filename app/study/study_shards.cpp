@@ -13,9 +13,9 @@
 #include <thread>
 
 #include "app/cli/interrupt.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

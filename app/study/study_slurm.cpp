@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/cluster/slurm.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "app/pages/numbers.h"
 #include "discover/placement/add.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

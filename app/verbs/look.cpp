@@ -13,12 +13,12 @@
 #include "app/cli/load.h"
 #include "app/cli/progress.h"
 #include "app/cli/publish.h"
-#include "app/pages/discover_facts.h"
-#include "app/pages/discover_page.h"
 #include "discover/placement/add.h"
 #include "discover/search/check.h"
 #include "engine/diagram/error.h"
 #include "io/data/same_rows.h"
+#include "report/pages/discover_facts.h"
+#include "report/pages/discover_page.h"
 
 namespace hysteron {
 namespace {
@@ -118,11 +118,11 @@ int look(const std::string& verb, const Arguments& arguments) {
   const bool stopped = interrupted();
   // Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data.
   DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(data));
-  const Inspected inspected = inspect_data(found.base_diagram, model, effects, settings.free_paths);
+  const Inspected inspected = inspect_data(found.base_diagram, registry(), model, effects, settings.free_paths);
   const std::string folder = result_folder(arguments, verb);
   Document document =
-      discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
-                         answer ? &*answer : nullptr);
+      discovery_document(verb, found, data, registry(), inspected,
+                         {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
   for (auto& warning : warnings_of_same_rows(given)) document.warnings.push_back(std::move(warning));
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
   if (found.broken_off && !stopped)

@@ -10,11 +10,11 @@
 #include <limits>
 #include <span>
 
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "fit/numerics/linear.h"
 #include "io/data/recording_file.h"
 #include "io/json/value_text.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

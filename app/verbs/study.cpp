@@ -10,7 +10,6 @@
 #include "app/cli/progress.h"
 #include "app/cli/publish.h"
 #include "app/cli/verb.h"
-#include "app/pages/numbers.h"
 #include "app/study/study_merge.h"
 #include "app/study/study_page.h"
 #include "app/study/study_shards.h"
@@ -18,6 +17,7 @@
 #include "engine/diagram/error.h"
 #include "engine/lanes/lanes.h"
 #include "io/diagram/diagram_file.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
