@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
 
-using steps::at;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MapOf = Eigen::Map<const Matrix>;
 using Complex = Eigen::MatrixXcd;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loops.h"
 #include "engine/program/program.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 /// Appends a point to the past of a signal and forgets what no dead time can reach any more.
 void remember(const Program& program, Run& run, Work& work, int block, double t) {

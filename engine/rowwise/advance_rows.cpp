@@ -5,12 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 #include "engine/rowwise/linear_part.h"
 
 namespace hysteron {
-
-using steps::at;
 
 namespace {
 
