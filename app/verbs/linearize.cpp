@@ -23,7 +23,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr char help[] =
+constexpr char linearize_help[] =
     "Answers: how does the diagram respond to small motions around an operating point. Prints DC gain, bandwidth\n"
     "and poles from one signal to another; with --open, the loop's gain and phase margin, where its gain is 1 and -3 "
     "dB,\n"
@@ -69,7 +69,7 @@ int signal_of(const Arguments& arguments, const char* option, const Program& pro
 }
 
 std::string frequency_text(double w) { return number_text(w / (2 * pi), 4) + " Hz"; }
-std::string time_text(double seconds) {
+std::string delay_text(double seconds) {
   return seconds < 1e-3 ? number_text(seconds * 1e6) + " us"
          : seconds < 1  ? number_text(seconds * 1e3) + " ms"
                         : number_text(seconds) + " s";
@@ -157,7 +157,7 @@ void add_margins(Document& document, Facts& facts, const Response& loop, const B
   if (m.phase_margin) {
     document.sentences.push_back(fmt::format("Phase margin {} deg at {}; a further dead time of {} would take it away.",
                                              number_text(degrees(*m.phase_margin)), frequency_text(m.phase_margin_at),
-                                             time_text(m.delay_margin)));
+                                             delay_text(m.delay_margin)));
     given.set("phase_margin_deg", degrees(*m.phase_margin));
     given.set("phase_margin_at_hz", m.phase_margin_at / (2 * pi));
     given.set("delay_margin_s", m.delay_margin);
@@ -275,7 +275,7 @@ Verb linearize_verb() {
   return {
       "linearize",
       "poles, Bode data, bandwidth and margins at an operating point",
-      help,
+      linearize_help,
       {options::diagram(),
        {"--from", "SIGNAL", "where the small motion enters; default: the diagram's only input", false, false},
        {"--to", "SIGNAL", "where it is looked at; default: the diagram's only output", false, false},
