@@ -16,6 +16,7 @@
 #include "engine/choose_method.h"
 #include "engine/corners.h"
 #include "engine/error.h"
+#include "engine/feedthrough.h"
 #include "engine/fixed_step.h"
 #include "engine/jacobian.h"
 #include "engine/lanes.h"
@@ -78,14 +79,16 @@ class Explanation {
     document_.verb = "explain";
     document_.title = program_.title.empty() ? stem_of(file_) : program_.title;
     document_.headline = fmt::format("{}: what the compiler made of it", document_.title);
-    document_.facts = to_json(Facts::object({{"diagram", file_},
-                                             {"blocks", program_.blocks.size()},
-                                             {"signals", program_.signals.size()},
-                                             {"continuous_states", program_.n_x},
-                                             {"parameters", program_.parameters.size()},
-                                             {"loops", program_.loops.size()},
-                                             {"method", method_},
-                                             {"why", why_}}));
+    document_.facts =
+        to_json(Facts::object({{"diagram", file_},
+                               {"blocks", program_.blocks.size()},
+                               {"signals", program_.signals.size()},
+                               {"continuous_states", program_.n_x},
+                               {"parameters", program_.parameters.size()},
+                               {"loops", std::count_if(program_.loops.begin(), program_.loops.end(),
+                                                       [&](const Loop& l) { return is_algebraic(program_, l); })},
+                               {"method", method_},
+                               {"why", why_}}));
     return std::move(document_);
   }
 
@@ -187,16 +190,22 @@ class Explanation {
       names.push_back(names.front());
       return fmt::format("{}", fmt::join(names, " -> "));
     };
+    int algebraic = 0;
     for (std::size_t i = 0; i < program_.loops.size(); ++i) {
       const Loop& loop = program_.loops[i];
       std::vector<int> way;
       for (const auto& step : loop.path)
         if (way.empty() || way.back() != step.block) way.push_back(step.block);
       if (way.size() > 1 && way.front() == way.back()) way.pop_back();
+      if (!is_algebraic(program_, loop)) {
+        say(fmt::format("loop {} of blocks: {}; no output depends on itself", i + 1, around(paths(way))));
+        continue;
+      }
+      ++algebraic;
       say(fmt::format("algebraic loop {} of {}: {}; solved at every evaluation for {}", i + 1,
                       loop.of_values() ? "values" : "rates", around(paths(way)), joined(tears_of(loop))));
     }
-    if (program_.loops.empty()) say("algebraic: none; no output depends on itself at the same instant");
+    if (algebraic == 0) say("algebraic: none; no output depends on itself at the same instant");
     const auto feedback = feedback_loops(program_);
     for (const auto& loop : feedback)
       if (!loop.opened_by.empty())

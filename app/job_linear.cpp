@@ -9,9 +9,8 @@
 #include "app/job_values.h"
 #include "app/load.h"
 #include "engine/error.h"
-#include "engine/linearize.h"
-#include "engine/margins.h"
 #include "engine/simulate.h"
+#include "engine/small_motions.h"
 #include "fit/features.h"
 
 namespace hysteron {
@@ -33,12 +32,29 @@ void add_closed_loop(RunResult& r, const ClosedLoop& c) {
   r.numbers.emplace_back("sensitivity_peak", Quantity{c.sensitivity.magnitude, Unit{}, true});
 }
 
+/// Of an unstable loop no dead time, no bandwidth and nothing of the closed loop.
+void add_margins(RunResult& r, const SmallMotions& m) {
+  const Unit hertz = parse_unit("Hz"), degree = parse_unit("deg");
+  const auto hz = [&](const char* name, double w) {
+    r.numbers.emplace_back(name, Quantity{w / (2 * pi), hertz, true});
+  };
+  if (m.margins->phase_margin) {
+    hz("crossover", m.margins->phase_margin_at);
+    r.numbers.emplace_back("phase_margin", Quantity{*m.margins->phase_margin, degree, true});
+  }
+  if (const auto limit = m.margins->gain_margin()) {
+    r.numbers.emplace_back("gain_margin", Quantity{limit->factor, Unit{}, true});
+    if (std::isfinite(limit->at)) hz("gain_margin_at", limit->at);
+  }
+  if (m.closed_loop) add_closed_loop(r, *m.closed_loop);
+}
+
 /// Gain and phase over frequency, and what is read off them.
-RunResult bode_result(const Program& program, const LinearizeOptions& wanted, const LinearModel& model,
-                      const Response& response, const Bode& b) {
+RunResult bode_result(const Program& program, const LinearizeOptions& wanted, const SmallMotions& m) {
   const Unit from = without_offset(program.signals[static_cast<std::size_t>(wanted.from.front())].unit);
   const Unit to = without_offset(program.signals[static_cast<std::size_t>(wanted.to.front())].unit);
   const Unit ratio = quotient(to, from), hertz = parse_unit("Hz"), degree = parse_unit("deg");
+  const Bode& b = m.bode;
   RunResult r;
   std::vector<double> f;
   for (const double w : b.w) f.push_back(w / (2 * pi));
@@ -47,24 +63,19 @@ RunResult bode_result(const Program& program, const LinearizeOptions& wanted, co
   const auto hz = [&](const char* name, double w) {
     r.numbers.emplace_back(name, Quantity{w / (2 * pi), hertz, true});
   };
-  const auto poles = model.poles();
-  const bool at_rest = std::none_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; });
-  r.numbers.emplace_back("dc_gain", Quantity{at_rest ? std::abs(response(0)) : b.magnitude.front(), ratio, true});
+  const bool at_rest =
+      std::none_of(m.poles.begin(), m.poles.end(), [&](auto p) { return p == (m.sampled ? 1.0 : 0.0); });
+  r.numbers.emplace_back("dc_gain", Quantity{at_rest ? std::abs(m.response(0)) : b.magnitude.front(), ratio, true});
   r.numbers.emplace_back("peak", Quantity{features::largest(b.magnitude), ratio, true});
-  if (const auto width = bandwidth(response, b)) hz("bandwidth", *width);
-  const Margins m = margins(response, b);
-  if (m.phase_margin) {
-    hz("crossover", m.phase_margin_at);
-    r.numbers.emplace_back("phase_margin", Quantity{*m.phase_margin, degree, true});
-  }
-  if (m.gain_margin) {
-    r.numbers.emplace_back("gain_margin", Quantity{*m.gain_margin, Unit{}, true});
-    hz("gain_margin_at", m.gain_margin_at);
-  }
-  if (!wanted.open.empty() && from.dimension == to.dimension) add_closed_loop(r, closed_loop(response, b));
+  const PoleCount& judged = m.closed ? *m.closed : m.count;
+  if (judged.outside == 0 && !judged.endless)
+    if (const auto width = bandwidth(m.response, b)) hz("bandwidth", *width);
+  if (m.margins) add_margins(r, m);
   std::vector<std::complex<double>> modes;
-  for (const auto& p : poles)
-    if (p.imag() >= 0 && p != 0.0) modes.push_back(p);
+  for (const auto& p : m.poles) {
+    const auto s = m.sampled ? std::log(p) / m.sampled->period : p;
+    if (s.imag() >= 0 && s != 0.0) modes.push_back(s);
+  }
   std::sort(modes.begin(), modes.end(), [](auto p, auto q) { return std::abs(p) < std::abs(q); });
   for (std::size_t i = 0; i < modes.size(); ++i) {
     hz(fmt::format("frequency{}", i + 1).c_str(), std::abs(modes[i]));
@@ -99,13 +110,10 @@ RunResult JobRunner::linearized(const RunWish& run) {
   } else {
     settle_at_rest(*program, point, 0);
   }
-  const LinearModel model = linearize(*program, point, wanted_of);
-  const Response response = [&](double w) { return model.response(w).front(); };
-  const auto poles = model.poles();
-  double longest = 0;
-  for (const double delay : model.delays) longest = std::max(longest, delay);
-  const Bode b = bode(response, frequencies(poles, longest));
-  return bode_result(*program, wanted_of, model, response, b);
+  const auto& from = program->signals[static_cast<std::size_t>(wanted_of.from.front())];
+  const auto& to = program->signals[static_cast<std::size_t>(wanted_of.to.front())];
+  const bool loop = !wanted_of.open.empty() && from.unit.dimension == to.unit.dimension;
+  return bode_result(*program, wanted_of, small_motions(*program, point, wanted_of, loop));
 }
 
 }  // namespace hysteron

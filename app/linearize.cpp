@@ -1,6 +1,5 @@
 // The verb linearize: what a diagram is near an operating point, as poles, Bode data and margins.
-// Does not compute (engine/linearize.h, engine/margins.h).
-#include "engine/linearize.h"
+// Does not compute (engine/small_motions.h).
 
 #include <fmt/format.h>
 
@@ -10,13 +9,14 @@
 
 #include "app/facts.h"
 #include "app/load.h"
+#include "app/motion_words.h"
 #include "app/numbers.h"
 #include "app/publish.h"
 #include "app/verb.h"
 #include "engine/error.h"
-#include "engine/margins.h"
 #include "engine/names.h"
 #include "engine/simulate.h"
+#include "engine/small_motions.h"
 
 namespace hysteron {
 namespace {
@@ -24,19 +24,25 @@ namespace {
 using std::numbers::pi;
 
 constexpr char help[] =
-    "Answers: how does the diagram respond to small motions around an operating point. Prints DC gain, bandwidth\n"
-    "and poles from one signal to another; with --open, the loop's gain and phase margin, where its gain is 1 and -3 "
-    "dB,\n"
-    "and what the closed loop makes of it: bandwidth and largest |T|, largest |S|.\n\n"
+    "Answers: how does the diagram respond to small motions around an operating point. Prints DC gain, bandwidth,\n"
+    "poles and zeros from one signal to another; with --open, whether the loop is stable when it is closed, its gain "
+    "and\n"
+    "phase margin, where its gain is -3 dB, and what the closed loop makes of it: bandwidth, largest |T|, largest "
+    "|S|.\n\n"
     "Examples:\n"
     "  hysteron linearize loop.json --from reference --to stage\n"
     "  hysteron linearize loop.json --from error --to stage --open error      the open loop, with its margins\n"
-    "  hysteron linearize loop.json --at \"0.2 s\" --from drive --to stage      where a simulation is after 0.2 s\n\n"
-    "The operating point is the equilibrium for the sources as they are at t = 0 and inputs at zero; --at takes the "
-    "point\n"
-    "that a simulation has reached. Memory and modes are held there: a play operator inside its gap passes nothing.\n"
+    "  hysteron linearize loop.json --at \"0.2 s\" --from drive --to stage      where a simulation is after 0.2 s\n"
+    "  hysteron linearize loop.json --amplitude play=\"1 um\"                  a play, moved by 1 um at its input\n\n"
+    "The operating point is the equilibrium for the sources as they are at t = 0 and inputs at zero; --at takes the\n"
+    "point that a simulation has reached. Memory and modes are held there: a play operator inside its gap passes\n"
+    "nothing, and is named; --amplitude takes its describing function instead.\n"
     "--from adds to the signal; where the loop is opened at the same signal, its readers see only what is added.\n"
-    "Margins are those of the loop closed with the sign -1. Dead times count exactly; poles are those without them.\n\n"
+    "Stability is counted first, dead times included; margins are those of the loop closed with the sign -1. An\n"
+    "unstable one is called so and gets neither bandwidth nor a dead time that it bears; its gain margin is the share\n"
+    "of its gain with which it would be stable. Poles are those without dead times.\n"
+    "Sampled blocks on the way: exact at their instants, poles in z over the period that is common to their clocks,\n"
+    "dead time counted in samples too.\n\n"
     "Writes into the folder: result.json (state space in SI, poles, margins), traces/bode.csv, report.html.\n"
     "Exit codes: 0 done, 2 the diagram or the signals are wrong, 3 there is no equilibrium.";
 
@@ -68,12 +74,6 @@ int signal_of(const Arguments& arguments, const char* option, const Diagram& dia
       fmt::format("name a signal: {} drive", option));
 }
 
-std::string frequency_text(double w) { return number_text(w / (2 * pi), 4) + " Hz"; }
-std::string time_text(double seconds) {
-  return seconds < 1e-3 ? number_text(seconds * 1e6) + " us"
-         : seconds < 1  ? number_text(seconds * 1e3) + " ms"
-                        : number_text(seconds) + " s";
-}
 double degrees(double radians) { return radians * 180 / pi; }
 
 /// "um/V"; a quotient or product below the line stands in brackets: "um/(V/um)".
@@ -82,14 +82,6 @@ std::string ratio_unit(const Unit& to, const Unit& from) {
   if (from.text.empty()) return to.text;
   const bool compound = from.text.find_first_of("/ *.") != std::string::npos;
   return (to.text.empty() ? "1" : to.text) + "/" + (compound ? "(" + from.text + ")" : from.text);
-}
-
-std::string pole_text(std::complex<double> p) {
-  const double size = std::abs(p);
-  if (p == 0.0) return "0 (an integrator)";
-  if (p.imag() == 0) return fmt::format("{} rad/s", number_text(p.real(), 5));
-  return fmt::format("{} +- {}j rad/s ({}, damping {})", number_text(p.real(), 5), number_text(std::abs(p.imag()), 5),
-                     frequency_text(size), number_text(-p.real() / size, 3));
 }
 
 CsvTable bode_table(const Bode& b, const Unit& unit, double scale) {
@@ -137,62 +129,58 @@ Facts matrix_facts(const std::vector<double>& numbers, int rows) {
   return list;
 }
 
-void add_poles(Document& document, Facts& facts, const LinearModel& model) {
-  Facts::List list;
-  Table table;
-  table.title = "Poles";
-  table.columns = {"pole"};
-  for (const auto& p : model.poles()) {
-    list.emplace_back(std::vector<double>{p.real(), p.imag()});
-    if (p.imag() >= 0) table.rows.push_back({pole_text(p)});
-    if (p.real() > 0) document.warnings.push_back(fmt::format("unstable: pole at {}", pole_text(p)));
+/// "BLOCK=1 um": amplitudes at the inputs of blocks. A value alone counts for every block that passes nothing on.
+std::vector<AboutAmplitude> amplitudes(const Arguments& arguments, const Program& program, const Run& run,
+                                       const LinearizeOptions& wanted) {
+  std::vector<AboutAmplitude> list;
+  for (const auto& written : arguments.list("--amplitude")) {
+    const auto equals = written.find('=');
+    const std::string text = equals == std::string::npos ? written : written.substr(equals + 1);
+    double value = 0;
+    std::string unit;
+    if (!split_quantity(text, value, unit) || !(value > 0) || !std::isfinite(value))
+      fail("bad_command_line", "--amplitude", "\"" + written + "\" is no amplitude",
+           "write a block and the amplitude at its input: --amplitude play=\"1 um\"");
+    std::vector<int> blocks;
+    if (equals != std::string::npos) {
+      blocks = {program.block_index(written.substr(0, equals))};
+    } else {
+      for (const int b : blocks_that_cut(program, run, wanted))
+        if (has_describing_function(program, b)) blocks.push_back(b);
+    }
+    if (blocks.empty())
+      fail("bad_command_line", "--amplitude", "no block passes nothing on here, so none is meant",
+           "name the block: --amplitude play=\"1 um\"");
+    for (const int b : blocks) {
+      if (b < 0) {
+        std::vector<std::string> names;
+        for (const auto& block : program.blocks) names.push_back(block.path);
+        fail("bad_command_line", "--amplitude", "there is no block \"" + written.substr(0, equals) + "\"",
+             did_you_mean(written.substr(0, equals), names));
+      }
+      const auto& block = program.blocks[static_cast<std::size_t>(b)];
+      const Unit read = parse_unit(unit, "--amplitude");
+      const auto& source =
+          block.source.empty() ? SignalInfo{} : program.signals[static_cast<std::size_t>(block.source.front())];
+      if (dimension_factor(read.dimension, source.dimension) == 0)
+        fail("wrong_unit", "--amplitude",
+             fmt::format("\"{}\" is no amplitude of \"{}\", the input of {}", text, source.path, block.path),
+             fmt::format("write it in {}", unit_text(source.unit)));
+      list.push_back({b, read.difference_to_si(value)});
+    }
   }
-  facts.set("poles_rad_per_s", list);
-  if (!table.rows.empty()) document.sections.front().tables.push_back(std::move(table));
+  return list;
 }
 
-void add_margins(Document& document, Facts& facts, const Response& loop, const Bode& b) {
-  const Margins m = margins(loop, b);
-  Facts given;
-  if (m.phase_margin) {
-    document.sentences.push_back(fmt::format("Phase margin {} deg at {}; a further dead time of {} would take it away.",
-                                             number_text(degrees(*m.phase_margin)), frequency_text(m.phase_margin_at),
-                                             time_text(m.delay_margin)));
-    given.set("phase_margin_deg", degrees(*m.phase_margin));
-    given.set("phase_margin_at_hz", m.phase_margin_at / (2 * pi));
-    given.set("delay_margin_s", m.delay_margin);
-  } else {
-    document.sentences.push_back("The loop's gain never is 1: no phase margin.");
-  }
-  if (m.gain_margin) {
-    document.sentences.push_back(fmt::format("Gain margin {} ({} dB) at {}.", number_text(*m.gain_margin),
-                                             number_text(20 * std::log10(*m.gain_margin)),
-                                             frequency_text(m.gain_margin_at)));
-    given.set("gain_margin", *m.gain_margin);
-    given.set("gain_margin_at_hz", m.gain_margin_at / (2 * pi));
-  } else {
-    document.sentences.push_back("The phase never passes -180 deg: no limit to the gain.");
-  }
-  facts.set("margins", given);
-}
-
-/// What the closed loop will be. Only of a loop gain, which has no unit.
-void add_closed_loop(Document& document, Facts& facts, const Response& loop, const Bode& b) {
-  const ClosedLoop c = closed_loop(loop, b);
-  Facts given;
-  const auto frequency = [&](const char* name, const std::optional<double>& w) {
-    if (w) given.set(name, *w / (2 * pi));
-    return w ? frequency_text(*w) : std::string("nowhere");
-  };
-  document.sentences.push_back(fmt::format("The loop's gain is -3 dB at {}.", frequency("open_3db_hz", c.open_half)));
-  document.sentences.push_back(fmt::format(
-      "Closed: T = L/(1 + L) is -3 dB at {}, at most {} at {}; S = 1/(1 + L) is -3 dB at {}, at most {} at {}.",
-      frequency("closed_3db_hz", c.closed_half), number_text(c.closed.magnitude),
-      frequency("closed_peak_at_hz", c.closed.at), frequency("sensitivity_3db_hz", c.sensitivity_half),
-      number_text(c.sensitivity.magnitude), frequency("sensitivity_peak_at_hz", c.sensitivity.at)));
-  given.set("closed_peak", c.closed.magnitude);
-  given.set("sensitivity_peak", c.sensitivity.magnitude);
-  facts.set("closed_loop", given);
+/// "gain 0.9 um/V at low frequencies". Absent number: without bound.
+std::optional<double> low_gain(const SmallMotions& m) {
+  const Bode& b = m.bode;
+  const double zero = m.sampled ? 1 : 0;
+  const bool integrator = std::any_of(m.poles.begin(), m.poles.end(), [&](auto p) { return p == zero; });
+  // A pole at zero that the way from input to output sees: |G| falls with the frequency from the start.
+  if (integrator && std::log(b.magnitude[0] / b.magnitude[1]) > 0.5 * std::log(b.w[1] / b.w[0])) return std::nullopt;
+  // Without a pole at zero the response at w = 0 is a number; with one that the output does not see it is not.
+  return integrator ? b.magnitude.front() : std::abs(m.response(0));
 }
 
 int linearize_verb_act(const Arguments& arguments) {
@@ -204,40 +192,34 @@ int linearize_verb_act(const Arguments& arguments) {
   for (const auto& name : arguments.list("--open")) wanted.open.push_back(named_signal(*program, diagram, name));
   const auto& from = program->signals[static_cast<std::size_t>(wanted.from.front())];
   const auto& to = program->signals[static_cast<std::size_t>(wanted.to.front())];
+  const bool opened = !wanted.open.empty();
+  const bool loop = opened && from.unit.dimension == to.unit.dimension;
 
   Document document;
   document.verb = "linearize";
   document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
   with_lines_of(diagram, [&] {
     const Run run = operating_point(arguments, *program);
-    const LinearModel model = linearize(*program, run, wanted);
-    const Response response = [&](double w) { return model.response(w).front(); };
-    const auto poles = model.poles();
-    double longest = 0;
-    for (const double delay : model.delays) longest = std::max(longest, delay);
-    const Bode b = bode(response, frequencies(poles, longest));
+    wanted.amplitudes = amplitudes(arguments, *program, run, wanted);
+    const SmallMotions motions = small_motions(*program, run, wanted, loop);
     const std::string unit = ratio_unit(to.unit, from.unit);
     const double scale = from.unit.difference_to_si(1) / to.unit.difference_to_si(1);
 
     Section first;
     first.title = fmt::format("From {} to {}", from.path, to.path);
     document.sections.push_back(std::move(first));
-    // A pole at zero that the way from input to output sees: |G| falls with the frequency from the start.
-    const bool integrates = std::any_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; }) &&
-                            std::log(b.magnitude[0] / b.magnitude[1]) > 0.5 * std::log(b.w[1] / b.w[0]);
-    // Without a pole at zero the response at w = 0 is a number; with one that the output does not see it is not.
-    const bool at_rest = std::none_of(poles.begin(), poles.end(), [](auto p) { return p == 0.0; });
-    const double lowest = (at_rest ? std::abs(response(0)) : b.magnitude.front()) * scale;
-    const std::string gain = integrates
-                                 ? "without bound at low frequencies"
-                                 : number_text(lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies";
-    document.headline =
-        fmt::format("{} to {}{}: gain {}", from.path, to.path, wanted.open.empty() ? "" : ", loop open", gain);
+    std::optional<double> lowest = low_gain(motions);
+    if (lowest) *lowest *= scale;
+    const std::string gain = lowest ? number_text(*lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies"
+                                    : "without bound at low frequencies";
+    document.headline = fmt::format("{} to {}{}: {}gain {}", from.path, to.path, opened ? ", loop open" : "",
+                                    stability_head(motions), gain);
+    const LinearModel& model = motions.model;
     Facts facts = Facts::object({{"diagram", arguments.text("diagram")},
                                  {"from", from.path},
                                  {"to", to.path},
                                  {"unit", unit},
-                                 {"gain_at_low_frequencies", integrates ? std::optional<double>{} : lowest},
+                                 {"gain_at_low_frequencies", lowest},
                                  {"operating_point_s", run.t},
                                  {"states", model.state_names},
                                  {"a", matrix_facts(model.a, model.states)},
@@ -245,23 +227,35 @@ int linearize_verb_act(const Arguments& arguments) {
                                  {"c", matrix_facts(model.c, model.outputs)},
                                  {"d", matrix_facts(model.d, model.outputs)},
                                  {"dead_times_s", model.delays}});
-    if (const auto width = integrates ? std::nullopt : bandwidth(response, b)) {
+    const PoleCount& judged = motions.closed ? *motions.closed : motions.count;
+    const bool unstable = judged.outside > 0 || judged.endless;
+    if (const auto width = lowest && !unstable ? bandwidth(motions.response, motions.bode) : std::nullopt) {
       document.sentences.push_back(fmt::format("Bandwidth (-3 dB) {}.", frequency_text(*width)));
       facts.set("bandwidth_hz", *width / (2 * pi));
     }
-    if (*std::max_element(b.magnitude.begin(), b.magnitude.end()) == 0)
+    tell_poles(document, facts, motions);
+    const auto& sizes = motions.bode.magnitude;
+    if (*std::max_element(sizes.begin(), sizes.end()) == 0)
+      document.warnings.push_back(
+          fmt::format("nothing passes from {} to {} here{}", from.path, to.path,
+                      motions.cuts.empty() ? ": an opened loop stands between, or no wire leads there" : ""));
+    else if (loop)
+      tell_margins(document, facts, motions);
+    else if (opened)
       document.warnings.push_back(fmt::format(
-          "nothing passes from {} to {} here: a saturation at its limit, a play operator inside its gap or an opened "
-          "loop stands between; --at takes another operating point",
-          from.path, to.path));
-    else if (!wanted.open.empty()) {
-      add_margins(document, facts, response, b);
-      if (from.unit.dimension == to.unit.dimension) add_closed_loop(document, facts, response, b);
-    }
-    add_poles(document, facts, model);
-    if (!model.delays.empty())
-      document.warnings.push_back("dead times are in the response and in the margins, not in poles and matrices");
-    document.traces.push_back(bode_table(b, unit.empty() ? Unit{} : parse_unit(unit), scale));
+          "no margins: from {} in {} to {} in {} is no loop gain; name the signal that comes back to where the loop is "
+          "opened, in its unit",
+          from.path, unit_text(from.unit), to.path, unit_text(to.unit)));
+    tell_cuts(document, facts, *program, motions);
+    if (motions.any_dead_time)
+      document.warnings.push_back(
+          "dead times are in the response, in the count of unstable poles and in the margins, not in poles and "
+          "matrices");
+    for (const auto& about : wanted.amplitudes)
+      document.warnings.push_back(
+          fmt::format("{} stands for its describing function: right for sines of that amplitude at its input",
+                      program->blocks[static_cast<std::size_t>(about.block)].path));
+    document.traces.push_back(bode_table(motions.bode, unit.empty() ? Unit{} : parse_unit(unit), scale));
     draw_bode(document, unit);
     document.facts = to_json(facts);
   });
@@ -280,6 +274,11 @@ Verb linearize_verb() {
        {"--from", "SIGNAL", "where the small motion enters; default: the diagram's only input", false, false},
        {"--to", "SIGNAL", "where it is looked at; default: the diagram's only output", false, false},
        {"--open", "SIGNAL", "open the loop at this signal", false, true},
+       {"--amplitude", "BLOCK=VALUE",
+        "describing function of a block, for a sine of this amplitude at its input; a value alone: of all blocks that "
+        "pass "
+        "nothing on",
+        false, true},
        {"--at", "TIME", "operating point: where a simulation is at this time; default: the equilibrium", false, false},
        options::output_folder(),
        options::set(),

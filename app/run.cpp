@@ -12,6 +12,7 @@
 #include "app/publish.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/feedthrough.h"
 #include "engine/simulate.h"
 #include "io/result.h"
 
@@ -139,10 +140,11 @@ std::string times_text(double loading, const RunFacts& facts) {
 }
 
 /// One sentence for each algebraic loop.
-std::vector<std::string> loop_texts(const Statistics& s) {
+std::vector<std::string> loop_texts(const Program& program, const Statistics& s) {
   std::vector<std::string> texts;
-  for (const auto& loop : s.loops) {
-    if (loop.solved + loop.failed == 0) continue;
+  for (std::size_t i = 0; i < s.loops.size(); ++i) {
+    const auto& loop = s.loops[i];
+    if (loop.solved + loop.failed == 0 || !is_algebraic(program, program.loops[i])) continue;
     texts.push_back(fmt::format(
         "Algebraic loop {}: solved {} times, {:.1f} evaluations each, at most {}; {} by bracketing; relative residual "
         "at "
@@ -193,7 +195,7 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   document.warnings.insert(document.warnings.end(), s.warnings.begin(), s.warnings.end());
   if (!s.why.empty()) section.text.push_back(fmt::format("Method {}: {}.", s.method, s.why));
   if (const std::string events = events_text(s); !events.empty()) section.text.push_back(events);
-  for (auto& text : loop_texts(s)) section.text.push_back(std::move(text));
+  for (auto& text : loop_texts(program, s)) section.text.push_back(std::move(text));
   facts.seconds += s.seconds;
   facts.phases.integrate += s.phases.integrate;
   facts.phases.events += s.phases.events;

@@ -11,7 +11,7 @@ void MatrixGain::describe(Declaration& d) {
   d.remark(
       "Rows may give different units, so may columns take them; an element of zero fits any unit, one without a unit "
       "keeps the unit of its column.");
-  d.remark("An element of zero still counts as a connection.");
+  d.remark("An element of zero is no connection: a feedback that only goes round through it is no algebraic loop.");
   d.input("u", "$a[i]", "the vector").vector();
   d.output("y", "$b[i]", "the product").vector();
   d.matrix("matrix", "$b[row]/$a[column]", "rows of the matrix, output per input").linear();

@@ -55,7 +55,10 @@ void StateSpace::describe(Declaration& spec) {
       "The matrices are plain numbers for t in s, u in \"input_unit\" and y in \"output_unit\": with \"input_unit\": "
       "\"V\" and \"output_unit\": \"um\", C x is in um. Several units, one per element, are separated by commas: "
       "\"V, A\".");
-  spec.remark("Without \"d\" the input acts through the states only, and the block can stand in any loop.");
+  spec.remark(
+      "Without \"d\" the input acts through the states only, and the block can stand in any loop; so can an output "
+      "whose "
+      "row of D is zero.");
   spec.remark("Rows as lists: \"a\": [[0, 1], [-400, -4]], \"b\": [[0], [400]], \"c\": [[1, 0]].");
   spec.input("u", "$u", "the inputs, one per column of B").vector();
   spec.output("y", "$y", "the outputs, one per row of C").vector();

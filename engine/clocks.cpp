@@ -37,15 +37,16 @@ Fraction nearest_fraction(double x) {
   }
 }
 
+Clocking clocking_of(const Program& program, const Run& run, int block) {
+  return {nearest_fraction(parameter(program, run, block, "period")),
+          nearest_fraction(parameter(program, run, block, "offset"))};
+}
+
 Clocks::Clocks(const Program& program, const Run& run, double begin) {
-  struct Given {
-    Fraction period, offset;
-  };
-  std::vector<Given> given;
+  std::vector<Clocking> given;
   Problems problems;
   for (const int block : program.sampled_blocks) {
-    given.push_back({nearest_fraction(parameter(program, run, block, "period")),
-                     nearest_fraction(parameter(program, run, block, "offset"))});
+    given.push_back(clocking_of(program, run, block));
     for (const auto& f : {given.back().period, given.back().offset}) {
       const std::int64_t common = f.d == 0 ? 0 : ticks_per_second_ / std::gcd(ticks_per_second_, f.d);
       if (common == 0 || common > largest / f.d) {

@@ -19,6 +19,12 @@ struct Fraction {
 /// Fractions, 1964, theorem 17); d = 0 if numbers of 62 bits do not suffice.
 Fraction nearest_fraction(double x);
 
+/// When a sampled block runs, as its parameters say.
+struct Clocking {
+  Fraction period, offset;  ///< [s]
+};
+Clocking clocking_of(const Program& program, const Run& run, int block);
+
 class Clocks {
  public:
   /// Periods and offsets from the run's parameters. Throws Error "no_common_clock".

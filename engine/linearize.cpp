@@ -6,8 +6,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "engine/reach.h"
 #include "engine/steps.h"
+#include "engine/wired_slopes.h"
 
 namespace hysteron {
 namespace {
@@ -17,174 +20,243 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 using MapOf = Eigen::Map<const Matrix>;
 using Complex = Eigen::MatrixXcd;
 
-constexpr double zero_pole = 1e-10;  // of the largest entry of A
+std::vector<double> numbers(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
 
-/// One evaluation of the program in slopes, with signals moved along directions.
-class Slopes {
- public:
-  Slopes(const Program& program, const Run& run, const LinearizeOptions& options)
-      : program_(program), run_(run), options_(options), work_(program), x_(at(program.n_x)) {
-    for (std::size_t b = 0; b < program.blocks.size(); ++b)
-      if (program.blocks[b].history_index >= 0) delays_.push_back(static_cast<int>(b));
-    for (const int s : options.open) work_.injections.push_back({s, -1, -1, true});
-    for (const int s : options.from) {
-      const auto open = std::find(options.open.begin(), options.open.end(), s) != options.open.end();
-      auto found =
-          std::find_if(work_.injections.begin(), work_.injections.end(), [&](const auto& i) { return i.signal == s; });
-      if (found == work_.injections.end()) found = work_.injections.insert(work_.injections.end(), {s, -1, -1, open});
-      injected_.push_back(static_cast<int>(found - work_.injections.begin()));
-    }
-    for (const int b : delays_) {
-      injected_.push_back(static_cast<int>(work_.injections.size()));
-      work_.injections.push_back({program.blocks[at(b)].y_begin, -1, -1, true});
-    }
-  }
-
-  const std::vector<int>& delays() const { return delays_; }
-
-  /// Columns: states, then values of the injected signals (from, then delays), then their rates.
-  int columns() const { return program_.n_x + 2 * static_cast<int>(injected_.size()); }
-
-  /// Rows: derivatives of the states, outputs, inputs of the dead times.
-  Matrix operator()() {
-    const int rows = program_.n_x + static_cast<int>(options_.to.size() + delays_.size());
-    Matrix result = Matrix::Zero(rows, columns());
-    work_.refresh(run_);
-    for (int first = 0; first < columns(); first += Jet::directions) {
-      seed(first);
-      // Values once more behind the derivatives: these only evaluate what they need.
-      evaluate_derivatives(program_, run_, work_, run_.t, x_.data());
-      evaluate_values(program_, run_, work_, run_.t, x_.data());
-      for (int k = 0; k < Jet::directions && first + k < columns(); ++k) {
-        int row = 0;
-        for (const Jet& dx : work_.dx) result(row++, first + k) = dx.slope[k];
-        for (const int s : options_.to) result(row++, first + k) = work_.y[at(s)].slope[k];
-        for (const int b : delays_)
-          result(row++, first + k) = work_.y[at(program_.blocks[at(b)].source.front())].slope[k];
-      }
-    }
-    return result;
-  }
-
- private:
-  void seed(int first) {
-    for (std::size_t j = 0; j < x_.size(); ++j) {
-      x_[j] = Jet(run_.x[j]);
-      const int k = static_cast<int>(j) - first;
-      if (k >= 0 && k < Jet::directions) x_[j].slope[k] = 1;
-    }
-    const int n = program_.n_x, m = static_cast<int>(injected_.size());
-    const auto inside = [&](int column) {
-      const int k = column - first;
-      return k >= 0 && k < Jet::directions ? k : -1;
-    };
-    for (int i = 0; i < m; ++i) {
-      auto& injection = work_.injections[at(injected_[at(i)])];
-      injection.value_direction = inside(n + i);
-      injection.rate_direction = inside(n + m + i);
-    }
-  }
-
-  const Program& program_;
-  const Run& run_;
-  const LinearizeOptions& options_;
-  JetWork work_;
-  std::vector<Jet> x_;
-  std::vector<int> delays_, injected_;
-};
-
-void refuse_sampled(const Program& program, const LinearizeOptions& options) {
-  for (const int block : program.sampled_blocks) {
-    const auto& b = program.blocks[at(block)];
-    const bool opened = std::any_of(options.open.begin(), options.open.end(),
-                                    [&](int s) { return program.signals[at(s)].block == block; });
-    bool on_the_way = false;
-    for (const int from : options.from) {
-      const auto reached = program.downstream_of(program.signals[at(from)].block);
-      on_the_way = on_the_way || reached[at(block)];
-    }
-    const auto further = program.downstream_of(block);
-    const bool arrives = std::any_of(options.to.begin(), options.to.end(),
-                                     [&](int s) { return further[at(program.signals[at(s)].block)]; });
-    if (on_the_way && arrives && !opened)
-      fail("not_linear", b.path,
-           fmt::format("{} \"{}\" is sampled: what passes it moves at its instants only, which no linear system in "
-                       "continuous time describes",
-                       b.kernel->declaration.type, b.path),
-           fmt::format("open the loop there (--open {}) to see the continuous part, or choose a continuous controller",
-                       b.path));
-  }
+/// Rows of the signals.
+Matrix rows_of(const Eigen::MatrixXd& m, const std::vector<int>& signals) {
+  Matrix rows(static_cast<Eigen::Index>(signals.size()), m.cols());
+  for (std::size_t i = 0; i < signals.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = m.row(signals[i]);
+  return rows;
 }
 
-std::vector<double> numbers(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
+/// The numbers of a model as matrices.
+struct Parts {
+  explicit Parts(const LinearModel& from)
+      : n(from.states),
+        m(from.inputs),
+        p(from.outputs),
+        k(static_cast<int>(from.delays.size())),
+        a(MapOf(from.a.data(), n, n)),
+        b(n, m + k),
+        c(p + k, n),
+        d(p + k, m + k) {
+    b << MapOf(from.b.data(), n, m), MapOf(from.b_delayed.data(), n, k);
+    c << MapOf(from.c.data(), p, n), MapOf(from.to_delays.data(), k, n);
+    d.topLeftCorner(p, m) = MapOf(from.d.data(), p, m);
+    d.topRightCorner(p, k) = MapOf(from.d_delayed.data(), p, k);
+    d.bottomLeftCorner(k, m) = MapOf(from.to_delays_from_inputs.data(), k, m);
+    d.bottomRightCorner(k, k) = MapOf(from.between_delays.data(), k, k);
+  }
+  /// Everything but names, delays and factors.
+  LinearModel model() const {
+    LinearModel model;
+    model.states = n;
+    model.inputs = m;
+    model.outputs = p;
+    model.a = numbers(a);
+    model.b = numbers(b.leftCols(m));
+    model.b_delayed = numbers(b.rightCols(k));
+    model.c = numbers(c.topRows(p));
+    model.to_delays = numbers(c.bottomRows(k));
+    model.d = numbers(d.topLeftCorner(p, m));
+    model.d_delayed = numbers(d.topRightCorner(p, k));
+    model.to_delays_from_inputs = numbers(d.bottomLeftCorner(k, m));
+    model.between_delays = numbers(d.bottomRightCorner(k, k));
+    return model;
+  }
+  int n, m, p, k;
+  Matrix a, b, c, d;
+};
+
+void sort_poles(std::vector<std::complex<double>>& list) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](auto x, auto y) { return x.real() != y.real() ? x.real() > y.real() : x.imag() > y.imag(); });
+}
+
+/// The first sampled block between inputs and outputs, or -1.
+int sampled_on_the_way(const Program& program, const WiredSlopes& wired, const Flow& flow) {
+  if (program.sampled_blocks.empty()) return -1;
+  const auto between = wired.between(flow);
+  int held = wired.states() + wired.sampled_states(), state = wired.states();
+  for (const int b : program.sampled_blocks) {
+    const auto& sizes = program.blocks[at(b)].sizes;
+    for (int i = 0; i < sizes.sampled_states; ++i)
+      if (between[at(state + i)]) return b;
+    for (int i = 0; i < sizes.outputs; ++i)
+      if (between[at(held + i)]) return b;
+    state += sizes.sampled_states;
+    held += sizes.outputs;
+  }
+  return -1;
+}
 
 }  // namespace
 
+bool is_sampled(const Program& program, const Run& run, const LinearizeOptions& options) {
+  const WiredSlopes wired(program, run, options);
+  return sampled_on_the_way(program, wired, wired.flow()) >= 0;
+}
+
+std::vector<int> blocks_that_cut(const Program& program, const Run& run, const LinearizeOptions& options) {
+  return WiredSlopes(program, run, options).cuts();
+}
+
 LinearModel linearize(const Program& program, const Run& run, const LinearizeOptions& options) {
-  refuse_sampled(program, options);
-  Slopes slopes(program, run, options);
-  const Matrix s = slopes();
-  const int n = program.n_x, m = static_cast<int>(options.from.size()), p = static_cast<int>(options.to.size());
-  const int k = static_cast<int>(slopes.delays().size()), all = m + k;
-  // x' = A x + B u + R u' with R from laws that are driven by rates. z = x - R u has no u' any more:
-  // z' = A z + (B + A R) u, y = C z + (D + C R) u.
-  const Matrix a = s.topLeftCorner(n, n), r = s.block(0, n + all, n, all);
-  const Matrix b = s.block(0, n, n, all) + a * r;
-  const Matrix c = s.bottomLeftCorner(p + k, n);
-  const Matrix d = s.block(n, n, p + k, all) + c * r;
+  const WiredSlopes wired(program, run, options);
+  const Flow flow = wired.flow();
+  if (const int block = sampled_on_the_way(program, wired, flow); block >= 0) {
+    const auto& b = program.blocks[at(block)];
+    fail("not_linear", b.path,
+         fmt::format("{} \"{}\" is sampled: what passes it moves at its instants only, which no linear system in "
+                     "continuous time describes",
+                     b.kernel->declaration.type, b.path),
+         fmt::format("open the loop there (--open {}) to see the continuous part, or choose a continuous controller",
+                     b.path));
+  }
+  const int h = wired.held(), m = wired.inputs(), k = static_cast<int>(wired.channels().size());
+  std::vector<int> sources;
+  for (const auto& channel : wired.channels()) sources.push_back(channel.source);
   LinearModel model;
-  model.states = n;
+  model.states = program.n_x;
   model.inputs = m;
-  model.outputs = p;
+  model.outputs = static_cast<int>(options.to.size());
   model.state_names = program.state_names;
-  model.a = numbers(a);
-  model.b = numbers(b.leftCols(m));
-  model.b_delayed = numbers(b.rightCols(k));
-  model.c = numbers(c.topRows(p));
-  model.d = numbers(d.topLeftCorner(p, m));
-  model.d_delayed = numbers(d.topRightCorner(p, k));
-  model.to_delays = numbers(c.bottomRows(k));
-  model.to_delays_from_inputs = numbers(d.bottomLeftCorner(k, m));
-  model.between_delays = numbers(d.bottomRightCorner(k, k));
-  for (const int block : slopes.delays())
-    model.delays.push_back(program.blocks[at(block)].kernel->reach_back(view_of(program, run, block)));
+  model.a = numbers(flow.a);
+  model.b = numbers(flow.b.middleCols(h, m));
+  model.b_delayed = numbers(flow.b.rightCols(k));
+  model.c = numbers(rows_of(flow.seen_z, options.to));
+  const Matrix d = rows_of(flow.seen_w, options.to), into = rows_of(flow.seen_w, sources);
+  model.d = numbers(d.middleCols(h, m));
+  model.d_delayed = numbers(d.rightCols(k));
+  model.to_delays = numbers(rows_of(flow.seen_z, sources));
+  model.to_delays_from_inputs = numbers(into.middleCols(h, m));
+  model.between_delays = numbers(into.rightCols(k));
+  for (const auto& channel : wired.channels()) {
+    model.delays.push_back(channel.delay);
+    model.factors.push_back(channel.factor);
+  }
   return model;
 }
 
 std::vector<std::complex<double>> LinearModel::poles() const {
-  if (states == 0) return {};
-  const Eigen::MatrixXd matrix = MapOf(a.data(), states, states);
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
-  std::vector<std::complex<double>> list(values.data(), values.data() + values.size());
-  // Poles at zero come out of the rounding as far from it as the root of it (two integrators in a row).
-  for (auto& p : list)
-    if (std::abs(p) < zero_pole * matrix.cwiseAbs().maxCoeff()) p = 0;
-  std::stable_sort(list.begin(), list.end(),
-                   [](auto x, auto y) { return x.real() != y.real() ? x.real() > y.real() : x.imag() > y.imag(); });
+  std::vector<std::complex<double>> list;
+  // A double pole at zero comes out of the rounding as far from it as the root of it (two integrators in a row).
+  for (const auto& e : eigenvalues(a, states)) list.push_back(std::abs(e.value) <= e.error ? 0.0 : e.value);
+  sort_poles(list);
   return list;
 }
 
-std::vector<std::complex<double>> LinearModel::response(double w) const {
-  const int k = static_cast<int>(delays.size()), all = inputs + k, rows = outputs + k;
-  Complex b_all(states, all), c_all(rows, states), g(rows, all);
-  b_all << MapOf(b.data(), states, inputs).cast<std::complex<double>>(),
-      MapOf(b_delayed.data(), states, k).cast<std::complex<double>>();
-  c_all << MapOf(c.data(), outputs, states).cast<std::complex<double>>(),
-      MapOf(to_delays.data(), k, states).cast<std::complex<double>>();
-  g.topLeftCorner(outputs, inputs) = MapOf(d.data(), outputs, inputs).cast<std::complex<double>>();
-  g.topRightCorner(outputs, k) = MapOf(d_delayed.data(), outputs, k).cast<std::complex<double>>();
-  g.bottomLeftCorner(k, inputs) = MapOf(to_delays_from_inputs.data(), k, inputs).cast<std::complex<double>>();
-  g.bottomRightCorner(k, k) = MapOf(between_delays.data(), k, k).cast<std::complex<double>>();
-  if (states > 0) {
-    Complex resolvent = -MapOf(a.data(), states, states).cast<std::complex<double>>();
-    resolvent.diagonal().array() += std::complex<double>(0, w);
-    g += c_all * resolvent.partialPivLu().solve(b_all);
+std::vector<std::complex<double>> LinearModel::zeros() const {
+  if (inputs != 1 || outputs != 1 || !delays.empty()) return {};
+  const LinearModel own = on_the_way();
+  const Parts parts(own);
+  const int n = own.states;
+  if (n == 0) return {};
+  // Where [A - s, B; C, D] is singular. Infinite ones come out as quotients by what rounding left of zero.
+  Eigen::MatrixXd pencil(n + 1, n + 1), mass = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  pencil << parts.a, parts.b, parts.c, parts.d;
+  mass.topLeftCorner(n, n).setIdentity();
+  const double largest_b = std::max(parts.b.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const double largest_c = std::max(parts.c.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const double size = std::max(1.0, parts.a.cwiseAbs().maxCoeff());
+  pencil.rightCols(1) *= size / largest_b;
+  pencil.bottomRows(1) *= size / largest_c;
+  const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(pencil, mass, false);
+  constexpr double infinite = 1e-10;  // of the mass matrix
+  std::vector<std::complex<double>> list;
+  for (Eigen::Index i = 0; i < n + 1; ++i)
+    if (std::abs(solver.betas()(i)) > infinite) list.push_back(solver.alphas()(i) / solver.betas()(i));
+  sort_poles(list);
+  return list;
+}
+
+LinearModel LinearModel::on_the_way() const {
+  const Parts all(*this);
+  Reach reach(all.n + all.k);
+  for (int i = 0; i < all.n + all.k; ++i) {
+    const bool state = i < all.n;
+    for (int j = 0; j < all.n; ++j)
+      if ((state ? all.a(i, j) : all.c(all.p + i - all.n, j)) != 0) reach.add(j, i);
+    for (int j = 0; j < all.m + all.k; ++j) {
+      if ((state ? all.b(i, j) : all.d(all.p + i - all.n, j)) == 0) continue;
+      if (j < all.m)
+        reach.enters(i);
+      else
+        reach.add(all.n + j - all.m, i);
+    }
   }
+  for (int o = 0; o < all.p; ++o) {
+    for (int j = 0; j < all.n; ++j)
+      if (all.c(o, j) != 0) reach.leaves(j);
+    for (int j = 0; j < all.k; ++j)
+      if (all.d(o, all.m + j) != 0) reach.leaves(all.n + j);
+  }
+  const auto between = reach.between();
+  std::vector<int> states_kept, into, out_of;  // rows and columns: states; inputs and channels; outputs and channels
+  for (int j = 0; j < all.m; ++j) into.push_back(j);
+  for (int o = 0; o < all.p; ++o) out_of.push_back(o);
+  LinearModel kept;
+  for (int i = 0; i < all.n + all.k; ++i) {
+    if (!between[at(i)]) continue;
+    if (i < all.n) {
+      states_kept.push_back(i);
+      if (!state_names.empty()) kept.state_names.push_back(state_names[at(i)]);
+      continue;
+    }
+    into.push_back(all.m + i - all.n);
+    out_of.push_back(all.p + i - all.n);
+    kept.delays.push_back(delays[at(i - all.n)]);
+    kept.factors.push_back(factors[at(i - all.n)]);
+  }
+  Parts parts = all;
+  parts.n = static_cast<int>(states_kept.size());
+  parts.k = static_cast<int>(kept.delays.size());
+  parts.a = all.a(states_kept, states_kept);
+  parts.b = all.b(states_kept, into);
+  parts.c = all.c(out_of, states_kept);
+  parts.d = all.d(out_of, into);
+  LinearModel result = parts.model();
+  result.state_names = std::move(kept.state_names);
+  result.delays = std::move(kept.delays);
+  result.factors = std::move(kept.factors);
+  return result;
+}
+
+LinearModel LinearModel::closed(double gain) const {
+  const Parts open(*this);
+  const double left = 1 + gain * open.d(0, 0);
+  if (left == 0)
+    fail("not_linear", "", "the loop's gain is -1 at infinite frequency: closed, it has no answer",
+         "put a block with a state into the loop (a lag: the amplifier's or the sensor's dynamics)");
+  // u = -gain (C x + D_w w) / (1 + gain D)
+  Parts parts = open;
+  parts.m = parts.p = 0;
+  const Matrix into = open.b.leftCols(1) * (-gain / left), across = open.d.block(1, 0, open.k, 1) * (-gain / left);
+  parts.a = open.a + into * open.c.topRows(1);
+  parts.b = open.b.rightCols(open.k) + into * open.d.topRightCorner(1, open.k);
+  parts.c = open.c.bottomRows(open.k) + across * open.c.topRows(1);
+  parts.d = open.d.bottomRightCorner(open.k, open.k) + across * open.d.topRightCorner(1, open.k);
+  LinearModel result = parts.model();
+  result.state_names = state_names;
+  result.delays = delays;
+  result.factors = factors;
+  return result;
+}
+
+std::vector<std::complex<double>> LinearModel::response(double w) const {
+  const Parts parts(*this);
+  Complex g = parts.d.cast<std::complex<double>>();
+  if (states > 0) {
+    Complex resolvent = -parts.a.cast<std::complex<double>>();
+    resolvent.diagonal().array() += std::complex<double>(0, w);
+    g += parts.c.cast<std::complex<double>>() * resolvent.partialPivLu().solve(parts.b.cast<std::complex<double>>());
+  }
+  const int k = parts.k;
   Complex y = g.topLeftCorner(outputs, inputs);
   if (k > 0) {
-    // w = T v with T = diag(exp(-j w delay)): y = G11 u + G12 T (1 - G22 T)^-1 G21 u.
+    // w = T v with T = diag(factor exp(-j w delay)): y = G11 u + G12 T (1 - G22 T)^-1 G21 u.
     Complex t = Complex::Zero(k, k);
-    for (int i = 0; i < k; ++i) t(i, i) = std::polar(1.0, -w * delays[at(i)]);
+    for (int i = 0; i < k; ++i) t(i, i) = factors[at(i)] * std::polar(1.0, -w * delays[at(i)]);
     const Complex loop = Complex::Identity(k, k) - g.bottomRightCorner(k, k) * t;
     y += g.topRightCorner(outputs, k) * t * loop.partialPivLu().solve(g.bottomLeftCorner(k, inputs));
   }

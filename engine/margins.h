@@ -1,9 +1,10 @@
 // Decides what a control engineer reads off a frequency response: bandwidth, crossovers, gain and phase margin. Knows
-// no diagrams: a response is a function of the angular frequency.
+// no diagrams: a response is a function of the angular frequency, and whether a loop is stable is asked (stability.h).
 #pragma once
 
 #include <complex>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,21 +19,52 @@ struct Bode {
   std::vector<double> phase;      ///< [rad], without jumps of 2 pi
 };
 
+/// Is the loop stable when it is closed with the sign -1 and this factor more gain.
+using StableAt = std::function<bool(double gain)>;
+
+struct GainLimit {
+  double factor = 1;  ///< of the gain
+  double at = 0;      ///< [rad/s] where the phase then is -180 deg; infinite: at all high frequencies
+};
+
+/// What the closed loop bears, or what would make it stable.
 struct Margins {
-  std::optional<double> gain_margin;   ///< factor by which the gain may grow; absent: any
-  double gain_margin_at = 0;           ///< [rad/s] where the phase is -180 deg
-  std::optional<double> phase_margin;  ///< [rad]; absent: |L| never is 1
+  bool stable = false;  ///< as closed
+  /// The range of gains around 1 (of an unstable loop: the nearest one) in which it is stable. Absent below: down to
+  /// none; absent above: any.
+  std::optional<GainLimit> gain_from, gain_to;
+  bool some_gain = true;  ///< of an unstable loop: there is such a range
+  /// [rad] of the crossing of |L| = 1 that lies nearest to -180 deg; of an unstable loop only where it is negative (so
+  /// much lead is missing). Absent: |L| never is 1, or the loop is unstable with its phase above -180 deg.
+  std::optional<double> phase_margin;
   double phase_margin_at = 0;          ///< [rad/s] where |L| = 1
-  double delay_margin = 0;             ///< [s] dead time that takes the phase margin away
+  std::optional<double> delay_margin;  ///< [s] of a stable loop: the shortest dead time that makes it unstable
+  double delay_margin_at = 0;          ///< [rad/s]
+
+  /// The limit that lies nearest, as a factor; of an unstable loop the nearest end of the range.
+  std::optional<GainLimit> gain_margin() const;
 };
 
 /// Frequencies on a logarithmic grid from a hundredth of the smallest to a hundred times the largest of |poles| other
 /// than zero, denser around lightly damped ones; `delay`: the longest dead time [s], or 0.
 std::vector<double> frequencies(std::span<const std::complex<double>> poles, double delay, int per_decade = 200);
-Bode bode(const Response& response, std::span<const double> w);
+/// The same grid, longer where the response goes on to one beyond its ends: an integrator with a small gain passes one
+/// far below every pole. `highest`: no frequency above that [rad/s].
+std::vector<double> widened(const Response& response, std::vector<double> w,
+                            double highest = std::numeric_limits<double>::infinity());
+/// At these frequencies, and between them where phase or size change by more than a third or where a dead time of
+/// `delay` [s] turns the phase unseen.
+Bode bode(const Response& response, std::span<const double> w, double delay = 0);
 
-/// Of the loop L, closed with the sign -1: smallest margins over all crossings, refined on the response itself.
-Margins margins(const Response& loop, const Bode& bode);
+/// Of the loop L, closed with the sign -1: margins over all crossings, refined on the response itself. Ranges of the
+/// gain are those between crossings of the negative real axis, judged by `stable`. `ends`: further limits, where L
+/// is real at the ends of the axis (gain_limit_at_end).
+Margins margins(const Response& loop, const Bode& bode, const StableAt& stable, std::span<const GainLimit> ends = {});
+/// The range of gains of `m` by trying gains alone, in steps of a twentieth: where no single response tells the
+/// crossings. The frequencies of its limits are then unknown (NaN).
+void search_gains(Margins& m, const StableAt& stable);
+/// The factor at which an end of the response, a real number, passes -1; absent if no positive one does.
+std::optional<GainLimit> gain_limit_at_end(double response, double at);
 
 /// First frequency [rad/s] at which the magnitude is 1/sqrt(2) of its value at the lowest one; absent if it never falls
 /// so far.

@@ -7,8 +7,9 @@
 //   rate(b)       <- value(b), rate(sources) if b feeds through, derivative(b) if b has states
 // Tarjan's algorithm on this graph gives the schedule and every loop, loops among rates included. A loop becomes one
 // step that solves it (loop_plan.h, loops.h), unless the diagram forbids loops: then it is an error that prints its
-// path block by block. Between its instants a sampled block holds what it put out: there it is a source. At its
-// instants its inputs feed through, so values have a second order for these.
+// path block by block. What goes round by blocks though no number depends on itself (entries of D that are zero) is no
+// algebraic loop, and solved by one step of Newton exactly. Between its instants a sampled block holds what it put out:
+// there it is a source. At its instants its inputs feed through, so values have a second order for these.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <map>
 
 #include "engine/components.h"
+#include "engine/feedthrough.h"
 #include "engine/graph.h"
 #include "engine/loop_plan.h"
 
@@ -214,9 +216,12 @@ class Scheduler {
       for (const int to : edges_[static_cast<std::size_t>(node)])
         if (const auto inside = index.find(to); inside != index.end()) needs.back().push_back(inside->second);
     }
-    if (hits_ ? through_sampled : wishes_.forbidden) return report_loop(members, needs);
-    if (hits_) return;  // the same as between the instants
+    if (hits_) {  // else the same as between the instants
+      if (through_sampled) report_loop(members, needs);
+      return;
+    }
     Loop loop = plan_loop(program_, members, needs, wishes_.guessed_signals());
+    if (wishes_.forbidden && is_algebraic(program_, loop)) return report_loop(members, needs);
     loop.needed = demanded_[static_cast<std::size_t>(component.front())];
     for (const int node : component) loop_of_[static_cast<std::size_t>(node)] = static_cast<int>(program_.loops.size());
     program_.loops.push_back(std::move(loop));

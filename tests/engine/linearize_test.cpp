@@ -7,7 +7,10 @@
 #include <numbers>
 
 #include "engine/margins.h"
+#include "engine/small_motions.h"
+#include "engine/stability.h"
 #include "tests/engine/event_blocks.h"
+#include "tests/engine/linear_models.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {
@@ -26,6 +29,10 @@ LinearModel linear(const Program& p, const std::string& from, const std::string&
   LinearizeOptions options{{p.signal(from)}, {p.signal(to)}};
   for (const auto& name : open) options.open.push_back(p.signal(name));
   return linearize(p, run, options);
+}
+
+StableAt stable_at(const LinearModel& loop) {
+  return [&loop](double gain) { return unstable_when_closed(loop, gain).stable(); };
 }
 
 void expect_near(Complex a, Complex b, double relative) {
@@ -96,12 +103,95 @@ TEST(Linearize, ADeadTimeCountsExactly) {
   }
   // |L| = 1 at 3 rad/s, phase there -90 deg - 0.3 rad; phase -180 deg at pi/2/0.1 s.
   const Response loop = [&](double w) { return open.response(w).front(); };
-  const auto m = margins(loop, bode(loop, frequencies(open.poles(), 0.1)));
+  const auto m = margins(loop, bode(loop, frequencies(open.poles(), 0.1), 0.1), stable_at(open));
   EXPECT_NEAR(m.phase_margin.value(), pi / 2 - 0.3, 1e-9);
   EXPECT_NEAR(m.phase_margin_at, 3, 1e-9);
-  EXPECT_NEAR(m.delay_margin, (pi / 2 - 0.3) / 3, 1e-9);
-  EXPECT_NEAR(m.gain_margin.value(), pi / 2 / 0.1 / 3, 1e-9);
-  EXPECT_NEAR(m.gain_margin_at, pi / 2 / 0.1, 1e-8);
+  EXPECT_NEAR(m.delay_margin.value(), (pi / 2 - 0.3) / 3, 1e-9);
+  EXPECT_NEAR(m.gain_margin()->factor, pi / 2 / 0.1 / 3, 1e-9);
+  EXPECT_NEAR(m.gain_margin()->at, pi / 2 / 0.1, 1e-8);
+}
+
+TEST(Linearize, ASourceOfTimeMovesLikeAnyOtherSignal) {
+  // The rate of the sine is needed by the law behind it, and is made in one step with its value.
+  const auto p = compiled(diagram(
+      {{"reference", block("sine", {{"amplitude", "1 V"}, {"frequency", "5 Hz"}})},
+       {"error", block("sum", {{"signs", "+-"}}, {"reference", "plant"})},
+       {"c", block("pi_controller", {{"kp", "2"}, {"ki", "10 1/s"}}, {"error"})},
+       {"h", block("bouc_wen", {{"alpha", "0.3"}, {"beta", "0.2 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6"}}, {"c"})},
+       {"plant", block("lag", {{"times", list({0.1}, "s")}}, {"h"})}},
+      {"plant"}));
+  const auto reference = linear(*p, "reference", "plant"), error = linear(*p, "error", "plant");
+  EXPECT_NEAR(std::abs(reference.response(0.001).front()), 1, 1e-3) << "the integrator holds it";
+  for (const double w : {0.1, 10.0, 1000.0})
+    expect_near(reference.response(w).front(), error.response(w).front(), 1e-12);
+}
+
+TEST(Linearize, ALoopIsOpenedInsideAnAlgebraicLoopToo) {
+  const auto p = compiled(
+      diagram({{"e", block("sum", {{"signs", "+-"}}, {"r", "y"})}, {"y", block("gain", {{"gain", "2"}}, {"e"})}}, {"y"},
+              {{"r", "V"}}));
+  expect_near(linear(*p, "e", "y", {"e"}).response(1).front(), 2, 1e-14);
+  expect_near(linear(*p, "r", "y").response(1).front(), 2.0 / 3, 1e-14);
+  expect_near(linear(*p, "e", "y").response(1).front(), 2.0 / 3, 1e-14);
+}
+
+TEST(Linearize, WhatLiesBesideTheWayHasNoPolesThere) {
+  // An unstable neighbour, and an integrator that only looks on.
+  const auto p =
+      compiled(diagram({{"y", block("lag", {{"times", list({0.5}, "s")}}, {"r"})},
+                        {"sum", block("integrator", {}, {"y"})},
+                        {"other", block("transfer_function", {{"num", list({1})}, {"den", list({1, -1})}}, {"r"})}},
+                       {"y", "sum", "other"}, {{"r", "V"}}));
+  const auto model = linear(*p, "r", "y").on_the_way();
+  ASSERT_EQ(model.poles().size(), 1U);
+  EXPECT_NEAR(model.poles()[0].real(), -2, 1e-14);
+}
+
+TEST(Linearize, ZerosAreThoseOfTheNumerator) {
+  const auto p = compiled(
+      diagram({{"y", block("transfer_function", {{"num", list({1, 3, 100})}, {"den", list({1, 6, 11, 6})}}, {"r"})}},
+              {"y"}, {{"r", "V"}}));
+  const auto zeros = linear(*p, "r", "y").zeros();
+  ASSERT_EQ(zeros.size(), 2U);
+  expect_near(zeros[0], Complex(-1.5, std::sqrt(100 - 2.25)), 1e-9);
+}
+
+TEST(Linearize, ABlockThatPassesNothingOnIsNamed) {
+  const auto p = compiled(diagram({{"e", block("sum", {{"signs", "+-"}}, {"r", "y"})},
+                                   {"gap", block("play", {{"radius", "1 V"}}, {"e"})},
+                                   {"other", block("play", {{"radius", "1 V"}}, {"r"})},
+                                   {"y", block("lag", {{"times", list({0.1}, "s")}}, {"gap"})}},
+                                  {"y", "other"}, {{"r", "V"}}));
+  auto run = start(*p);
+  bind_input(*p, run, "r", series({0}, {0}));
+  settle_at_rest(*p, run, 0);
+  LinearizeOptions options{{p->signal("r")}, {p->signal("y")}};
+  EXPECT_EQ(blocks_that_cut(*p, run, options), std::vector<int>{p->block_index("gap")}) << "and not one beside the way";
+  options.amplitudes = {{p->block_index("gap"), 100}};
+  EXPECT_TRUE(blocks_that_cut(*p, run, options).empty());
+  EXPECT_GT(std::abs(linearize(*p, run, options).response(1).front()), 0.4);
+}
+
+TEST(Linearize, ADescribingFunctionWithAPhaseCountsInTheStability) {
+  // k/(s (s + 1)) closed over a play of radius 1 moved by 2: N = 0.5 - j/pi. It oscillates where -1/N meets k L: w from
+  // the phase, k from the size; beyond it grows.
+  const std::complex<double> n(0.5, -1 / pi);
+  // -90 deg - atan(w) + arg N = -180 deg
+  const double w = std::tan(pi / 2 + std::arg(n)), most = w * std::sqrt(1 + w * w) / std::abs(n);
+  const auto outside = [&](double k) {
+    const auto p =
+        compiled(diagram({{"e", block("sum", {{"signs", "+-"}}, {"r", "back"})},
+                          {"y", block("transfer_function", {{"num", list({k})}, {"den", list({1, 1, 0})}}, {"e"})},
+                          {"back", block("play", {{"radius", "1 V"}}, {"y"})}},
+                         {"y"}, {{"r", "V"}}));
+    auto run = start(*p);
+    bind_input(*p, run, "r", series({0}, {0}));
+    LinearizeOptions options{{p->signal("r")}, {p->signal("y")}};
+    options.amplitudes = {{p->block_index("back"), 2}};
+    return small_motions(*p, run, options, false).count.outside;
+  };
+  EXPECT_EQ(outside(0.99 * most), 0);
+  EXPECT_EQ(outside(1.01 * most), 2);
 }
 
 TEST(Linearize, ASampledBlockOnTheWayIsRefusedAndNotElsewhere) {
@@ -119,17 +209,21 @@ TEST(Margins, BandwidthOfALagIsItsCorner) {
   EXPECT_NEAR(bandwidth(lag, bode(lag, frequencies(poles, 0))).value(), 40, 40 * 1e-4);  // seen from a hundredth: 1e-4
 }
 
-TEST(Margins, ThoseOfAnUnstableLoopAreNegativeAndBelowOne) {
+TEST(Margins, ThoseOfAnUnstableLoopAreNegativeAndBelowOneAndWithoutADeadTime) {
   // 8/(s (s + 1)^2): the phase passes -180 deg at 1 rad/s, where |L| = 4.
   const Response loop = [](double w) {
     const Complex s(0, w);
     return 8.0 / (s * (s + 1.0) * (s + 1.0));
   };
   const std::vector<Complex> poles{0, -1, -1};
-  const auto m = margins(loop, bode(loop, frequencies(poles, 0)));
-  EXPECT_NEAR(m.gain_margin.value(), 0.25, 1e-9);  // at 1 rad/s |L| = 8/2
-  EXPECT_NEAR(m.gain_margin_at, 1, 1e-9);
+  const LinearModel own = tools::loop_of({8}, {1, 2, 1, 0});
+  const auto m = margins(loop, bode(loop, frequencies(poles, 0)), stable_at(own));
+  EXPECT_FALSE(m.stable);
+  EXPECT_NEAR(m.gain_margin()->factor, 0.25, 1e-9);  // at 1 rad/s |L| = 8/2
+  EXPECT_NEAR(m.gain_margin()->at, 1, 1e-9);
+  EXPECT_FALSE(m.gain_from);
   EXPECT_LT(m.phase_margin.value(), 0);
+  EXPECT_FALSE(m.delay_margin);
 }
 
 TEST(Margins, TheClosedLoopIsThatOfTheClosedForm) {
