@@ -15,6 +15,7 @@
 #include "app/interrupt.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/stop.h"
 
 #ifndef HYSTERON_VERSION
 #define HYSTERON_VERSION "unknown"
@@ -176,6 +177,9 @@ int run_command_line(const std::vector<std::string>& words) {
   } catch (const Interrupted& stop) {
     code = exit_code::interrupted;
     fmt::print(stderr, "{}\n", stop.what());
+  } catch (const Stopped&) {
+    code = exit_code::interrupted;
+    fmt::print(stderr, "interrupted; nothing is written\n");
   } catch (const std::bad_alloc&) {
     code = exit_code::numerics;
     print_problems({{"out_of_memory", "hysteron", "the memory of this machine did not suffice",

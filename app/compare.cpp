@@ -13,7 +13,9 @@
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "fit/beginning.h"
 #include "fit/delay.h"
+#include "fit/starts.h"
 
 namespace hysteron {
 namespace {
@@ -195,6 +197,7 @@ int compare_verb_acts(const Arguments& arguments) {
   DataModel model(program, data, model_options);
   const auto recordings = judged_recordings(model);
   const Judge judge(model, noise_before_fit(model));
+  improve_starts(model, judge, {}, recordings);
   const Prediction prediction = model.predict({}, recordings);
   if (!prediction.ok)
     fail_numerics("simulation_failed", arguments.text("diagram"), prediction.error,
@@ -213,6 +216,8 @@ int compare_verb_acts(const Arguments& arguments) {
                                {"metrics", metrics_facts(model, comparison)},
                                {"splits", split_facts(model, comparison)}});
   if (!tolerances.empty()) facts.set("within_tolerance", within);
+  for (const auto& beginning : begin_elsewhere(model, judge.noise(), prediction, {}, recordings))
+    document.warnings.push_back(to_text(model, beginning));
   Facts::List delays;
   for (const auto& delay : find_delays(model, judge, prediction))
     if (!delay.sentence.empty()) {

@@ -34,7 +34,8 @@ constexpr char help[] =
     "Writes into the folder: result.json (every decision with its numbers), traces/*.csv, report.html, and the\n"
     "diagram of each step (step1_creep.json ... final.json), and pictures of it: base.svg and, where something was\n"
     "found, final.svg. An earlier result of discover in that folder is replaced; what else lies there stays.\n"
-    "Ctrl-C, or the time given by --within, ends with the steps found so far.\n"
+    "Ctrl-C, SIGTERM, or the time given by --within, ends at once with the steps found so far; before the model\n"
+    "itself was simulated Ctrl-C writes nothing.\n"
     "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";
 

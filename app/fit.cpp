@@ -22,6 +22,8 @@
 #include "app/target.h"
 #include "app/verb.h"
 #include "engine/error.h"
+#include "engine/stop.h"
+#include "fit/beginning.h"
 #include "fit/delay.h"
 #include "fit/problem.h"
 #include "fit/thesis_methods.h"
@@ -85,18 +87,19 @@ FitResult result_of(DataModel& model, const NoiseModel& noise, const std::vector
   return fit_as_thesis(model, noise, method.name, options);
 }
 
-/// Each method from the same start against the same noise; the free parameters begin where the best of them ended.
-std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress& progress) {
+/// Each method from the same start against the same noise; the free parameters begin where the best of them ended,
+/// which `best` is.
+std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress& progress, FitWithNoise& best) {
   std::vector<Attempt> attempts;
-  const NoiseModel noise = noise_before_fit(model);
-  std::vector<ParameterValue> best;
+  best.noise = noise_before_fit(model);
   double least = std::numeric_limits<double>::infinity();
   for (auto method : problem.methods) {
     if (interrupted()) break;
     method.options.intervals = false;
     method.options.profile.clear();
     watch(method.options, progress);
-    const FitResult found = result_of(model, noise, problem.free, method);
+    const FitResult found = result_of(model, best.noise, problem.free, method);
+    if (!found.ok && found.stopped) break;
     Attempt a{found.ok ? found.method : method.name, found.ok, found.error};
     a.runs = found.runs;
     a.failed = found.failed_runs;
@@ -107,18 +110,42 @@ std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress
       a.n = found.n;
       if (found.chi2 < least) {
         least = found.chi2;
-        best = found.values;
+        best.result = found;
       }
     }
     attempts.push_back(std::move(a));
   }
   for (auto& f : problem.free)
-    for (const auto& value : best)
+    for (const auto& value : best.result.values)
       if (value.parameter == f.parameter && value.recording == f.recording) {
         f.start = std::clamp(value.value, f.lower, f.upper);
         f.scan.clear();
       }
   return attempts;
+}
+
+/// The fit that was asked for; of several methods the best, and the search from there. Ctrl-C ends it with the best so
+/// far.
+FitWithNoise search(DataModel& model, FitProblem& problem, Progress& progress, std::vector<Attempt>& attempts) {
+  const StopScope until_interrupted(interrupted);
+  FitOptions options = problem.methods.front().options;
+  watch(options, progress);
+  FitWithNoise found;
+  if (problem.methods.size() == 1 && problem.methods.front().of_thesis) {
+    found.noise = noise_before_fit(model);
+    problem.methods.front().options = options;
+    found.result = result_of(model, found.noise, problem.free, problem.methods.front());
+    return found;
+  }
+  if (problem.methods.size() > 1) {
+    attempts = attempt_all(model, problem, progress, found);
+    options.global.clear();
+    options.starts = 0;
+    found.result.stopped = true;  // where nothing follows
+    if (interrupted()) return found;
+  }
+  auto last = fit_and_noise(model, problem.free, options);
+  return last.result.ok || !found.result.ok ? last : found;
 }
 
 Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
@@ -127,26 +154,13 @@ Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
   const auto free = problem.free;  // with the starts that the user gave
   Trial start_values;
   for (const auto& f : free) start_values.push_back({f.parameter, f.start, f.recording});
-  FitOptions options = problem.methods.front().options;
   std::vector<Attempt> attempts;
-  if (problem.methods.size() > 1) {
-    attempts = attempt_all(model, problem, progress);
-    options.global.clear();
-    options.starts = 0;
-  }
-  watch(options, progress);
-  const bool of_thesis = problem.methods.size() == 1 && problem.methods.front().of_thesis;
-  FitWithNoise with_noise;
-  if (of_thesis) {
-    with_noise.noise = noise_before_fit(model);
-    problem.methods.front().options = options;
-    with_noise.result = result_of(model, with_noise.noise, problem.free, problem.methods.front());
-    start_values.clear();
-  } else {
-    with_noise = fit_and_noise(model, problem.free, options);
-  }
+  FitWithNoise with_noise = search(model, problem, progress, attempts);
   progress.clear();
+  const bool of_thesis = problem.methods.size() == 1 && problem.methods.front().of_thesis;
+  if (of_thesis) start_values.clear();
   FitResult& result = with_noise.result;
+  if (!result.ok && result.stopped) throw_nothing_found();
   if (!result.ok)
     fail_numerics("fit_failed", "fit", result.error, "start from other values, or give the parameters narrower bounds");
   for (std::size_t i = 0; i < free.size() && !of_thesis; ++i) result.estimates[i].start = free[i].start;
@@ -167,7 +181,11 @@ Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
   fitted.weighed_before = weighed(start);
   fitted.weighed_after = weighed(end);
   fitted.by_search = !of_thesis;
-  fitted.delays = find_delays(model, judge, end);
+  if (!result.stopped) {
+    fitted.delays = find_delays(model, judge, end);
+    for (const auto& b : begin_elsewhere(model, with_noise.noise, end, result.values, recordings))
+      result.remarks.push_back(to_text(model, b));
+  }
   fitted.result = std::move(result);
   fitted.noise = std::move(with_noise.noise);
   fitted.before = std::move(before);

@@ -49,4 +49,8 @@ DeferInterrupts::~DeferInterrupts() { mode = before_; }
 bool interrupted() { return count.load() > 0; }
 int interrupts() { return count.load(); }
 
+void throw_nothing_found() {
+  throw Interrupted("interrupted before anything was found; nothing is written, and what stood in the folder stays");
+}
+
 }  // namespace hysteron

@@ -13,8 +13,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// From now on Ctrl-C (SIGINT, SIGTERM) prints "interrupted; nothing was written" and ends with 130; a file that grows
-/// beyond the limit of the shell is an error of its write and no signal.
+/// From now on Ctrl-C (SIGINT, SIGTERM) prints "interrupted; what was not finished is not written" and ends with 130; a
+/// file that grows beyond the limit of the shell is an error of its write and no signal.
 void watch_interrupts();
 
 /// While one of these lives, the first Ctrl-C only sets interrupted(); a second one ends at once all the same,
@@ -32,5 +32,8 @@ class DeferInterrupts {
 
 bool interrupted();
 int interrupts();  ///< so many until now
+
+/// Thrown, after Ctrl-C, by work that has found nothing yet.
+[[noreturn]] void throw_nothing_found();
 
 }  // namespace hysteron

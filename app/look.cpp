@@ -18,6 +18,7 @@
 #include "discover/add.h"
 #include "discover/check.h"
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "io/same_rows.h"
 
 namespace hysteron {
@@ -70,6 +71,25 @@ void tell_held_effects(const Diagram& diagram, const std::vector<std::string>& f
   }
 }
 
+using Steady = std::chrono::steady_clock;
+
+/// So long the inspection of the data may take where the time is over: of recordings that are not long it is there.
+constexpr std::chrono::milliseconds to_inspect{300};
+
+/// Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data. None
+/// where the time was `over` before.
+std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet& data, const Effects& effects,
+                                           const std::vector<std::string>& free_paths, bool over) {
+  const auto begun = Steady::now();
+  const StopScope scope([&] { return (over || interrupted()) && Steady::now() - begun > to_inspect; });
+  try {
+    DataModel model(compile_file(diagram), std::make_shared<const DataSet>(data));
+    return inspect_data(diagram, model, effects, free_paths);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 int look(const std::string& verb, const Arguments& arguments) {
@@ -90,7 +110,7 @@ int look(const std::string& verb, const Arguments& arguments) {
   const DeferInterrupts defer;
   Progress progress(arguments.quiet());
   settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Steady::now();
   const std::chrono::duration<double> within{arguments.seconds("--within", std::numeric_limits<double>::infinity())};
   if (!(within.count() > 0))
     fail("bad_command_line", "--within", fmt::format("\"{}\" leaves no time", arguments.text("--within")),
@@ -98,12 +118,13 @@ int look(const std::string& verb, const Arguments& arguments) {
   if (is_check && arguments.has("--within"))
     fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
          "leave out --within, or --check");
-  const auto past = [&](double share) { return std::chrono::steady_clock::now() - begun > share * within; };
+  const auto past = [&](double share) { return Steady::now() - begun > share * within; };
   settings.enough = [&] { return past(DiscoverOptions::to_search); };
   settings.stop = [&] { return interrupted() || past(1); };
   Discovery found;
   std::optional<Check> answer;
-  with_lines_of(diagram, [&] {
+  const auto searched = [&] {
+    const StopScope until_interrupted(interrupted);
     if (is_check) {
       answer = check(diagram, data, registry(), effects, settings);
       found = answer->discovery;
@@ -111,18 +132,26 @@ int look(const std::string& verb, const Arguments& arguments) {
       found = verb == "discover" ? discover(diagram, data, registry(), effects, settings)
                                  : diagnose(diagram, data, registry(), effects, settings);
     }
-  });
+  };
+  try {
+    with_lines_of(diagram, searched);
+  } catch (const Stopped&) {
+    throw_nothing_found();
+  }
   if (!is_check) tell_held_effects(diagram, settings.free_paths, found.warnings);
   progress.clear();
   data = as_found(std::move(data), found);
   const bool stopped = interrupted();
-  // Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data.
-  DataModel model(compile_file(found.base_diagram), std::make_shared<const DataSet>(data));
-  const Inspected inspected = inspect_data(found.base_diagram, model, effects, settings.free_paths);
+  if (stopped) answer.reset();  // nothing is known to be explained before everything was tried
+  const auto inspected =
+      inspected_against(found.base_diagram, data, effects, settings.free_paths, stopped || found.broken_off);
   const std::string folder = result_folder(arguments, verb);
   Document document =
-      discovery_document(verb, found, data, inspected, {arguments.text("diagram"), arguments.text("--data"), folder},
-                         answer ? &*answer : nullptr);
+      discovery_document(verb, found, data, inspected.value_or(Inspected{}),
+                         {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
+  if (!inspected)
+    document.warnings.emplace_back(
+        "There was no time to inspect the data themselves: run \"hysteron inspect\" on them.");
   for (auto& warning : warnings_of_same_rows(given)) document.warnings.push_back(std::move(warning));
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
   if (found.broken_off && !stopped)

@@ -27,9 +27,12 @@ struct Books {
 
   /// Nothing new is begun: the search is over, or, once it is `closing`, all is.
   bool stopped() const { return (options.stop && options.stop()) || (!closing && options.enough && options.enough()); }
+  /// Does what can be left out where the books are stopped, and is broken off then. True if it came to its end.
+  bool unless_stopped(const std::function<void()>& work) const;
   void progress(const std::string& what, double done) const;  ///< by any thread
   /// Fits that do not need each other, several at a time: job(i, shop) for each i in [0, n), begun in this order, until
-  /// one answers true or the user stops. Returns the first that did, n if none; what later ones left does not count.
+  /// one answers true or the books are stopped: a job that is broken off leaves what it had not begun with. Returns the
+  /// first that did, n if none; what later ones left does not count.
   /// What fits write down others find only after the last: then nothing depends on the number of threads.
   std::size_t side_by_side(std::size_t n, const std::function<bool(std::size_t i, const Workshop& shop)>& job) const;
   bool wanted(const Effect& effect) const;
@@ -57,6 +60,10 @@ struct Books {
  private:
   mutable std::mutex telling_;
 };
+
+/// What was found stays found where the search for more fails or is broken off: a model that was fitted may be one that
+/// cannot be simulated where the next effect asks for it. The answer is then false, and a failure is told.
+bool unless_it_fails(Books& books, const std::function<bool()>& search);
 
 /// What was found so far, to go back to.
 class Found {

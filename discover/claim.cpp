@@ -32,6 +32,7 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
 
 void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival) {
   found.ties.push_back(candidate_of(rival, step));
+  if (books.stopped()) return;
   auto [e, menu] =
       found.experiment ? with_another_rival(books, *found.experiment, rival) : experiment_between(books, winner, rival);
   if (e || !found.experiment) found.menu = std::move(menu);
@@ -42,7 +43,7 @@ void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, cons
 
 bool stays_itself(const Books& books, Tried& t) {
   if (t.sharp || t.finished) return t.admitted;
-  Contender final = refit(books.shop, t.contender, Effort::final);
+  Contender final = books.stopped() ? Contender{} : refit(books.shop, t.contender, Effort::final);
   // Of two that explain as well the one with finer rows, which knows its intervals.
   const bool as_good = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + rules::tie;
   t.finished = as_good ? std::move(final) : t.contender;

@@ -9,6 +9,7 @@
 
 #include "discover/books.h"
 #include "discover/laws_tried.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -138,7 +139,7 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
 bool fitted_to_its_end(const Workshop& shop, Tried& t) {
   constexpr int most = 4;
   bool better = false;
-  for (int i = 0; i < most && !(shop.stop && shop.stop()); ++i) {
+  for (int i = 0; i < most && !stop_asked(); ++i) {
     Contender further = refit(shop, t.contender, Effort::full);
     const double gain = further.ok ? t.contender.score() - further.score() : 0;
     if (!(gain > 0)) break;

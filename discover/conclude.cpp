@@ -8,6 +8,7 @@
 #include "discover/members.h"
 #include "discover/own_numbers.h"
 #include "discover/structures_tried.h"
+#include "engine/stop.h"
 #include "fit/unit_words.h"
 
 namespace hysteron {
@@ -81,7 +82,9 @@ Bar beside_effects(const Books& books, const Structure& s, Where where) {
 JudgedSearch in_all_recordings(const Books& books) {
   JudgedSearch judged{{}, Where::all_recordings, {}};
   if (books.evidence->over_usual_floor(books.current.prediction).one <= rules::floor_gate) return judged;
-  judged.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
+  books.unless_stopped([&] {
+    judged.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads, Where::all_recordings);
+  });
   const Structure* s = judged.search.winner();
   if (s == nullptr) return judged;
   if (removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all())
@@ -104,6 +107,7 @@ struct Left {
   bool more_than_noise = false;
   double most = 0;         ///< chi2/N, or that over what the usual noise makes, whichever is more
   StructureSearch search;  ///< made where more than noise is left
+  bool looked_at = true;   ///< false: broken off before that
   const Structure* structure() const { return search.winner(); }
   bool told() const { return structure() != nullptr && structure()->fall.validate > rules::claim_fall; }
   /// Where no effect stands. chi2/N alone speaks of the noise model as much as of the plant: slow noise of unknown size
@@ -111,7 +115,7 @@ struct Left {
   /// sensors have is none.
   bool is_unexplained() const {
     return more_than_noise &&
-           ((structure() != nullptr && to_stand_out(*structure()).passed()) || most > rules::slow_noise);
+           (!looked_at || (structure() != nullptr && to_stand_out(*structure()).passed()) || most > rules::slow_noise);
   }
 };
 
@@ -119,7 +123,9 @@ Left left_by_base(const Books& books) {
   const double over = books.evidence->error(books.base.prediction).over_floor();
   const double over_usual = books.evidence->over_usual_floor(books.base.prediction).all;
   Left left{over > rules::floor_gate || over_usual > rules::slow_noise, std::max(over, over_usual), {}};
-  if (left.more_than_noise) left.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads);
+  if (left.more_than_noise)
+    left.looked_at = books.unless_stopped(
+        [&] { left.search = find_structures(*books.evidence, books.base.prediction, books.shop.threads); });
   return left;
 }
 
@@ -176,7 +182,7 @@ void tell_noise(Books& books) {
 }
 
 /// What was found early moved on beside what came later: what is told of it are the numbers of the last model.
-void tell_final_values(Books& books) {
+void take_final_summaries(Books& books) {
   auto& steps = books.d.steps;
   for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
     const Standing& s = books.current.standing[i];
@@ -188,7 +194,11 @@ void tell_final_values(Books& books) {
     const auto at = circumstances_on(books, books.current, {s.place});
     if (auto told = summary_of(books.current, i, at.front()); !told.empty()) step->winner.summary = std::move(told);
   }
-  for (auto& step : steps) step.sentence = step_sentence(step, books.effects.get(step.winner.effect));
+}
+
+void tell_final_values(Books& books) {
+  books.unless_stopped([&] { take_final_summaries(books); });
+  for (auto& step : books.d.steps) step.sentence = step_sentence(step, books.effects.get(step.winner.effect));
 }
 
 }  // namespace
@@ -238,14 +248,15 @@ bool leaves_something_unexplained(const Books& books) {
 }
 
 void conclude(Books& books) {
+  const StopScope to_its_end(nullptr);  // but for what can be left out
   books.progress("what is left", 0.97);
   books.settle(books.current);
   books.d.base = books.evidence->error(books.base.prediction);
   books.d.broken_off = books.stopped();
   books.closing = true;
   if (books.d.broken_off) {
-    exchange_for_what_they_hold(books, 0.97);
-    leave_out_idle(books);
+    unless_it_fails(books, [&] { return exchange_for_what_they_hold(books, 0.97), true; });
+    unless_it_fails(books, [&] { return leave_out_idle(books), true; });
   }
   const double floor = books.current.error_of.over_floor();
   const Left left = left_by_base(books);
@@ -259,7 +270,7 @@ void conclude(Books& books) {
   } else {
     const bool open = std::all_of(books.d.steps.begin(), books.d.steps.end(), leaves_the_question_open);
     books.d.verdict = open ? Verdict::not_distinguishable : Verdict::missing_effect;
-    if (floor > rules::floor_gate && !books.stopped()) structure_behind_effects(books);
+    if (floor > rules::floor_gate) books.unless_stopped([&] { structure_behind_effects(books); });
   }
   books.d.remainder =
       books.current.error_of.over_floor() > rules::floor_gate ? Remainder::structured : Remainder::noise;
@@ -271,8 +282,8 @@ void conclude(Books& books) {
   books.d.final_error = books.current.error_of;
   books.d.final_prediction = books.current.prediction;
   add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
-  test_recordings(books);
-  tell_other_ways(books);
+  books.unless_stopped([&] { test_recordings(books); });
+  books.unless_stopped([&] { tell_other_ways(books); });
   tell_other_numbers(books);
   tell_noise(books);
   tell_wandering(books);

@@ -7,6 +7,7 @@
 
 #include "discover/fit_contender.h"
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "fit/median.h"
 
 namespace hysteron {
@@ -54,6 +55,8 @@ void look_without_line(const Workshop& shop, Contender& c, Effort effort) {
   });
 }
 
+constexpr char broken_off[] = "the search was broken off before";
+
 Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, int held_parameters) {
   try {
     fit_contender(shop, c, effort, fresh);
@@ -67,6 +70,9 @@ Contender guarded(const Workshop& shop, Contender c, Effort effort, int fresh, i
   } catch (const Error& e) {
     c.ok = false;
     c.error = e.what();
+  } catch (const Stopped&) {
+    c.ok = false;
+    c.error = broken_off;
   }
   shop.notes->count(c.runs);
   return c;
@@ -152,10 +158,15 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
 
 Contender without(const Workshop& shop, const Contender& contender, std::size_t standing) {
   Contender c;
-  c.ok = true;
   const Standing& leaving = contender.standing[standing];
-  c.diagram = remove_effect(contender.diagram, *shop.registry, leaving.name, leaving.effect->id);
-  c.program = compile(c.diagram, *shop.registry);
+  try {
+    c.diagram = remove_effect(contender.diagram, *shop.registry, leaving.name, leaving.effect->id);
+    c.program = compile(c.diagram, *shop.registry);
+  } catch (const Error& e) {
+    c.error = e.what();
+    return c;
+  }
+  c.ok = true;
   c.standing = contender.standing;
   c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(standing));
   c.of_recordings = contender.of_recordings;

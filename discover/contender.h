@@ -76,7 +76,6 @@ struct Workshop {
   /// costs time and decides nothing.
   double row_tolerance = 1e-6;
   double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
-  std::function<bool()> stop;
   Threads threads{};  ///< recordings side by side
   std::shared_ptr<Notebook> notes = std::make_shared<Notebook>();
 };
@@ -98,7 +97,8 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
                       const Place& place, const Circumstances& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
-/// The same model without one of its effects, with the values that were found together with it; not simulated.
+/// The same model without one of its effects, with the values that were found together with it; not simulated. Not ok
+/// where another one stands upon it.
 Contender without(const Workshop& shop, const Contender& contender, std::size_t standing);
 /// What stood before the last effect, with the values that were found together with it.
 Contender before_last(const Workshop& shop, const Contender& contender);

@@ -17,6 +17,7 @@
 #include "discover/parts.h"
 #include "discover/room.h"
 #include "engine/error.h"
+#include "engine/stop.h"
 
 namespace hysteron {
 namespace {
@@ -68,7 +69,6 @@ Books::Books(const Diagram& diagram, const DataSet& given, const Registry& all_b
   shop.registry = &registry;
   shop.data = data;
   shop.free_paths = options.free_paths;
-  shop.stop = options.stop;
   shop.looser = options.looser;
   shop.threads = options.threads;
 }
@@ -79,6 +79,16 @@ void Books::progress(const std::string& what, double done) const {
   options.progress(what, std::min(done, 1.0));
 }
 
+bool Books::unless_stopped(const std::function<void()>& work) const {
+  const StopScope scope([this] { return stopped(); });
+  try {
+    work();
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
+
 std::size_t Books::side_by_side(std::size_t n, const std::function<bool(std::size_t, const Workshop&)>& job) const {
   std::vector<std::shared_ptr<Notebook>> notes(n);
   std::atomic<std::size_t> first{n};
@@ -86,7 +96,9 @@ std::size_t Books::side_by_side(std::size_t n, const std::function<bool(std::siz
     if (i > first || stopped()) return;
     Workshop own = shop;
     own.notes = notes[i] = std::make_shared<Notebook>(shop.notes);
-    if (!job(i, own)) return;
+    bool answer = false;
+    unless_stopped([&] { answer = job(i, own); });
+    if (!answer) return;
     for (std::size_t was = first; i < was && !first.compare_exchange_weak(was, i);) continue;
   });
   for (std::size_t i = 0; i < n && i <= first; ++i)
@@ -144,22 +156,26 @@ void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, in
   }
 }
 
-namespace {
-
-/// What was found stays found where the search for more fails: a model that was fitted may be one that cannot be
-/// simulated where the next effect asks for it. The answer is then false, and the failure is told.
 bool unless_it_fails(Books& books, const std::function<bool()>& search) {
   const Found found(books);
-  try {
-    return search();
-  } catch (const Error& e) {
+  const auto go_back = [&] {
+    const StopScope to_its_end(nullptr);
     found.restore(books);
+  };
+  try {
+    bool answer = false;
+    if (!books.unless_stopped([&] { answer = search(); })) go_back();
+    return answer;
+  } catch (const Error& e) {
+    go_back();
     auto& told = books.d.warnings;
     const std::string early = fmt::format("the search for further effects ended early: {}", e.what());
     if (std::find(told.begin(), told.end(), early) == told.end()) told.push_back(early);
     return false;
   }
 }
+
+namespace {
 
 /// Index of the candidate that a step claims, -1 = none.
 int who_wins(Books& books, std::vector<Tried>& tried) {
@@ -173,6 +189,14 @@ int who_wins(Books& books, std::vector<Tried>& tried) {
   return -1;
 }
 
+/// What is left to do of a step once its candidates are fitted. Where it is stopped meanwhile it is done again with
+/// what there is by then: all that takes time is left out.
+void decide(const Books& books, const std::function<void()>& work) {
+  if (!books.stopped() && books.unless_stopped(work)) return;
+  const StopScope to_its_end(nullptr);
+  work();
+}
+
 /// False if nothing was claimed. `kept`: what was tried; `outputs`: only what moves none but these, all if empty.
 bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std::vector<std::string>& outputs = {},
               const std::vector<const Effect*>& only = {}) {
@@ -184,22 +208,28 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
     return false;
   }
   join_twins(tried);
-  compare_all(books, tried, as);
-  if (step > 1) refit_best(books, tried, as, bar(0.7));
-  enrich(books, tried, step, as, bar(0.8));
-  int winner = who_wins(books, tried);
+  int winner = -1;
   std::vector<int> ties;
-  if (are_the_numbers(books, winner >= 0 ? &tried[static_cast<std::size_t>(winner)] : nullptr)) {
+  bool numbers = false;
+  const Contender before = books.current;
+  decide(books, [&] {
+    compare_all(books, tried, as);
+    if (step > 1) refit_best(books, tried, as, bar(0.7));
+    enrich(books, tried, step, as, bar(0.8));
+    winner = who_wins(books, tried);
+    numbers = are_the_numbers(books, winner >= 0 ? &tried[static_cast<std::size_t>(winner)] : nullptr);
+    if (winner < 0 || numbers) return;
+    try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
+    ties = ties_of(books, tried, static_cast<std::size_t>(winner));
+    as_on_another_axis(books, tried, winner, ties);
+    claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
+  });
+  if (numbers) {
     keep_candidates(books, tried, step, -1, {});
     return false;
   }
   if (winner >= 0) {
-    try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
-    ties = ties_of(books, tried, static_cast<std::size_t>(winner));
-    as_on_another_axis(books, tried, winner, ties);
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
-    const Contender before = books.current;
-    claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
     unless_it_fails(books, [&] {
       in_two(books, before, bar(0.92));
       on_other_outputs(books, id, tried, bar(0.93));
@@ -286,8 +316,7 @@ void one_by_one(Books& books, std::vector<Tried>& first) {
 }
 
 /// All steps, or as many as it takes to see that an input moves smoothly: then Books::smooth says so.
-void search(Books& books) {
-  fit_base(books);
+void steps_and_second_thoughts(Books& books) {
   std::vector<Tried> first;
   one_by_one(books, first);
   const auto zero = [&] { return unless_it_fails(books, [&] { return another_than_the_zero(books); }); };
@@ -305,6 +334,12 @@ void search(Books& books) {
   if (!books.begins_anew() && unless_it_fails(books, [&] { return are_numbers_in_place_of_an_effect(books); })) return;
   if (!books.begins_anew() && !books.stopped())
     unless_it_fails(books, [&] { return ties_beside_what_came_later(books, 0.96), true; });
+}
+
+void search(Books& books) {
+  fit_base(books);
+  const Found base(books);
+  if (!books.unless_stopped([&] { steps_and_second_thoughts(books); }) && books.d.steps.empty()) base.restore(books);
 }
 
 /// Searches of one discovery: what one finds of the inputs or of the model's numbers the next begins with.
@@ -334,12 +369,17 @@ class Searches {
       return keep(books, before_, books->smooth->input + " moves smoothly between its samples");
     }
     if (held_) return after_numbers_were_let_go(books);
-    if (numbers_.empty() && !(numbers_ = numbers_to_try(*books)).empty())
-      return keep(books, held_, "with all numbers of the model let go");
+    if (numbers_.empty()) {
+      books->unless_stopped([&] { numbers_ = numbers_to_try(*books); });
+      if (!numbers_.empty()) return keep(books, held_, "with all numbers of the model let go");
+    }
     // Broken off before it had found again what was found without: that is still true.
     if (before_ && stopped && found_effects(*books) < found_effects(*before_)) books = std::move(before_);
     return false;
   }
+  /// What the last search but one has found, where the last one was broken off before it had begun; null if there was
+  /// none.
+  std::unique_ptr<Books> found_before() { return std::move(held_ ? held_ : before_); }
   long runs() const { return runs_; }
 
  private:
@@ -351,7 +391,7 @@ class Searches {
 
   bool after_numbers_were_let_go(std::unique_ptr<Books>& books) {
     numbers_.clear();
-    if (!books->stopped()) numbers_ = numbers_that_help(*books, *held_);
+    if (!books->stopped()) books->unless_stopped([&] { numbers_ = numbers_that_help(*books, *held_); });
     if (!numbers_.empty()) return keep(held_, before_, "with the fewest of these numbers");
     books = std::move(held_);
     return false;
@@ -370,7 +410,12 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
                    const DiscoverOptions& options) {
   Searches searches;
   auto books = searches.next(diagram, data, registry, effects, options);
-  while (searches.begin_anew(books)) books = searches.next(diagram, data, registry, effects, options);
+  while (searches.begin_anew(books)) try {
+      books = searches.next(diagram, data, registry, effects, options);
+    } catch (const Stopped&) {
+      books = searches.found_before();
+      break;
+    }
   if (books->smooth) tell_unused(*books);
   if (!books->other_numbers.empty()) tell_unused_numbers(*books);
   conclude(*books);

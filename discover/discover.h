@@ -164,7 +164,7 @@ struct DiscoverOptions {
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
-  /// Asked between trials, by any thread, once the user's model is fitted; true = end with what was found so far. A
+  /// Asked often, by any thread, once the user's model is simulated; true = end with what was found so far, at once. A
   /// further effect is claimed only where all that could be it were asked.
   std::function<bool()> stop;
   /// Asked likewise; true = begin nothing new: whether all that was found is still needed is looked at until `stop`.
@@ -174,6 +174,7 @@ struct DiscoverOptions {
 };
 
 /// The whole loop. Throws Error where diagram and data do not fit together; a candidate that fails costs only itself.
+/// Throws Stopped where the caller's own scope (engine/stop.h) ends it before the user's model was simulated once.
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options = {});
 

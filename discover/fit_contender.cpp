@@ -8,6 +8,7 @@
 
 #include "discover/fit_cost.h"
 #include "discover/parts.h"
+#include "fit/starts.h"
 
 namespace hysteron {
 
@@ -114,9 +115,11 @@ void keep_of_recordings(Contender& c, const Trial& held) {
 // the one that is claimed.
 constexpr double full_matters = 0.2, screen_matters = 0.5;
 
-void predict(Contender& c, DataModel& model, const Trial& values) {
+void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
   const long before = model.runs();
+  if (model.starts_are_searched())
+    improve_starts(model, Judge(model, noise_of(shop, model)), values, model.recordings(judged));
   c.prediction = model.predict(values, model.recordings(judged));
   c.runs += model.runs() - before;
   c.ok = c.prediction.ok;
@@ -160,7 +163,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (free.empty()) {
     if (!c.prediction.y.empty()) return 0;  // another part was fitted, and told all outputs
     DataModel whole = model_of(shop, c, c.program, effort);
-    predict(c, whole, fixed);
+    predict(shop, c, whole, fixed);
     return 0;
   }
   NoiseModel noise = noise_of(shop, model);
@@ -175,7 +178,6 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   options.scores = false;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;
-  if (shop.stop) options.progress = [&](const FitProgress&) { return !shop.stop(); };
   FitResult before = std::move(c.fit);
   const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
   if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
@@ -195,10 +197,10 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   if (some) {
     DataModel whole = model_of(shop, c, c.program, effort);
     whole.choose_substeps(all, noise_of(shop, whole).white());
-    predict(c, whole, all);
+    predict(shop, c, whole, all);
     keep_cuts(c, whole, effort);
   } else {
-    predict(c, model, all);
+    predict(shop, c, model, all);
   }
   keep_cuts(c, model, effort);
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);

@@ -32,6 +32,7 @@ void forget(Books& books, std::vector<FoundStep>::iterator step, const Contender
 /// The present model without one of its effects, if that does nothing in it.
 std::optional<Contender> without_an_idle_one(const Books& books, std::size_t i) {
   Contender rest = without(books.shop, books.current, i);
+  if (!rest.ok) return std::nullopt;
   rest.prediction = predicted(books.shop, rest, books.base_model->recordings(std::vector{Role::train, Role::validate}));
   if (!rest.prediction.ok) return std::nullopt;
   rest.error_of = books.evidence->error(rest.prediction);
@@ -44,7 +45,8 @@ std::optional<Contender> without_an_idle_one(const Books& books, std::size_t i) 
 std::optional<Contender> without_a_needless_one(const Books& books, std::size_t i) {
   if (books.stopped()) return std::nullopt;
   books.progress("once more without " + books.current.standing[i].effect->id, 0.98);
-  Contender rest = refit(books.shop, without(books.shop, books.current, i), Effort::full);
+  Contender rest = without(books.shop, books.current, i);
+  if (rest.ok) rest = refit(books.shop, rest, Effort::full);
   if (!rest.ok || !is_needless(books, *books.current.standing[i].effect, rest)) return std::nullopt;
   return rest;
 }

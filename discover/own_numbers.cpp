@@ -207,6 +207,7 @@ bool are_numbers_in_place_of_an_effect(Books& books) {
   for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
     if (calibrates(books.current.standing[i])) continue;
     const Contender rest = without(books.shop, books.current, i);
+    if (!rest.ok) continue;
     const Law& law = books.current.standing[i].law;
     const auto all =
         explaining_better(books, rest, numbers, books.current, &law, [](const Contender&) { return true; });

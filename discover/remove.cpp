@@ -53,6 +53,21 @@ void take_from(Node& later, const Node& before, const Node& with_effect, const R
   if (later.type == with_effect.type) later.type = type_for(before, later, registry);
 }
 
+/// `later` came to stand upon a law that an effect put there, and varies it: without that law it is nothing.
+void refuse_without_its_law(const Node& later, const Node& with_effect, const std::string& effect,
+                            const Registry& registry) {
+  const Kernel* k = registry.find(later.type);
+  if (k == nullptr) return;
+  for (const auto& p : k->declaration.parameters) {
+    const bool taken = with_effect.parameters.find(p.name) != nullptr && later.parameters.find(p.name) == nullptr;
+    if (taken && !p.default_text)
+      fail("stood_upon", effect,
+           fmt::format("{} changes the {} that {} put there, and is nothing without it", later.effect, later.type,
+                       effect),
+           fmt::format("remove {} first", later.effect));
+  }
+}
+
 bool stands_upon(const Node& choice, const Node& candidate, const std::string& other) {
   if (candidate.upon.empty()) return false;
   return candidate.upon == other || stands_upon(choice, *choice.from.find(candidate.upon), other);
@@ -71,8 +86,12 @@ void rename_candidate(Node& choice, const std::string& from, const std::string& 
 /// One effect leaves a choice in which others stand upon it, or it upon others.
 void take_out_layer(Node& choice, const std::string& candidate, const std::string& before, const Registry& registry) {
   const Node with_effect = *choice.from.find(candidate);
-  for (auto& [name, later] : choice.from)
-    if (stands_upon(choice, later, candidate)) take_from(later, *choice.from.find(before), with_effect, registry);
+  const std::string effect = with_effect.effect.empty() ? choice.effect : with_effect.effect;
+  for (auto& [name, later] : choice.from) {
+    if (!stands_upon(choice, later, candidate)) continue;
+    take_from(later, *choice.from.find(before), with_effect, registry);
+    refuse_without_its_law(later, with_effect, effect, registry);
+  }
   for (auto& [name, later] : choice.from)
     if (later.upon == candidate) later.upon = before;
   if (choice.choose == candidate) choice.choose = before;

@@ -36,7 +36,7 @@ bool is_the_winner_and_more(const Books& books, const Tried& t, const Effect& wi
 }  // namespace
 
 void sharpen(Books& books, Tried& t) {
-  if (t.sharp) return;
+  if (t.sharp || books.stopped()) return;
   t.sharp = true;
   Contender finer = refit(books.shop, t.contender, Effort::final);
   if (!finer.ok) return;
@@ -65,7 +65,7 @@ double lost_by_the_fit(const Tried& t) {
 }
 
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner) {
-  const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
+  const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings && !books.stopped();
   const Tried& w = tried[winner];
   const bool spare_gain = few && !w.effect->straight;  // beside that one the spare gain is the winner itself
   std::vector<int> ties;

@@ -7,10 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
+#include "engine/stop.h"
 #include "fit/draws.h"
 #include "fit/fitting.h"
 #include "fit/profile.h"
+#include "fit/starts.h"
 
 namespace hysteron {
 
@@ -36,17 +39,22 @@ FitResult Fitting::run() {
   const auto begin = std::chrono::steady_clock::now();
   runs_before_ = model_.runs();
   failures_before_ = model_.failures();
-  prepare_result();
-  auto starts = scan();
-  search_globally(starts);
-  if (!starts.empty()) {
+  until_stopped([&] {
+    prepare_result();
+    auto starts = scan();
+    search_globally(starts);
+    if (starts.empty()) return;
     search(starts);
     refine_substeps();
+    refine_starts();
     result_.derivatives = projection_->derivatives();
+  });
+  if (best_)
     finish();
-  } else {
+  else if (result_.stopped)
+    result_.error = "it was stopped before anything was found";
+  else
     result_.error = first_error_.empty() ? "no start can be simulated" : first_error_;
-  }
   result_.runs = model_.runs() - runs_before_;
   result_.failed_runs = model_.failures() - failures_before_;
   result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -87,7 +95,18 @@ void Fitting::check() const {
   problems.throw_if_any();
 }
 
+/// The best so far stays the result of what is broken off.
+void Fitting::until_stopped(const std::function<void()>& work) {
+  if (result_.stopped) return;
+  try {
+    work();
+  } catch (const Stopped&) {
+    result_.stopped = true;
+  }
+}
+
 bool Fitting::go_on(const char* stage, double fraction) {
+  result_.stopped = result_.stopped || stop_asked();
   if (result_.stopped) return false;
   if (!options_.progress) return true;
   FitProgress p;
@@ -127,6 +146,7 @@ void Fitting::prepare_result() {
   const auto start = start_values();
   const auto white = judge_.noise().white();
   model_.choose_substeps(start, white);
+  improve_starts(model_, judge_, start, judged_);
   if (options_.scores) result_.before = judge_.score(model_, model_.predict(start, judged_), judged_);
   for (const auto& f : free_) result_.estimates.push_back(estimate_at_start(model_, f));
   for (const int i : projection_->linear()) result_.estimates[static_cast<std::size_t>(i)].linear = true;
@@ -146,7 +166,9 @@ void Fitting::try_points(const std::vector<std::vector<double>>& z, std::vector<
     const std::vector<std::vector<double>> some(z.begin() + static_cast<std::ptrdiff_t>(first),
                                                 z.begin() + static_cast<std::ptrdiff_t>(last));
     candidates_ += static_cast<long>(some.size());
-    for (const auto& point : projection_->at_each(some)) {
+    std::vector<PointPointer> seen;
+    until_stopped([&] { seen = projection_->at_each(some); });
+    for (const auto& point : seen) {
       if (!point->ok && first_error_.empty()) first_error_ = point->error;
       if (point->ok) points.push_back(point);
     }
@@ -231,11 +253,11 @@ std::vector<std::vector<double>> Fitting::spread() const {
 /// Points to search from, best first: the start, what the scan values offer, and points spread over the box.
 std::vector<PointPointer> Fitting::scan() {
   std::vector<PointPointer> points;
-  if (const auto start = projection_->at(projection_->start()); go_on("scan")) {
-    ++candidates_;
-    keep(start);
-    if (start->ok) points.push_back(start);
-  }
+  const auto start = projection_->at(projection_->start());
+  ++candidates_;
+  keep(start);
+  if (start->ok) points.push_back(start);
+  go_on("scan");
   std::vector<std::vector<double>> values;
   double count = 1;
   bool any = false;
@@ -299,12 +321,14 @@ void Fitting::search_globally(std::vector<PointPointer>& starts) {
       if (plain[k]) z[k] = projection_->to_z(static_cast<int>(k), point[k]);
     return z;
   };
+  PointPointer least;  // all that there is of the best one where it is stopped
   problem.cost_of_each = [&](const std::vector<Point>& points) {
     std::vector<std::vector<double>> z;
     for (const auto& point : points) z.push_back(z_of(point));
     std::vector<double> costs;
     for (const auto& point : projection_->at_each(z)) {
       costs.push_back(point->ok ? point->chi2 : std::numeric_limits<double>::infinity());
+      if (point->ok && (!least || point->chi2 < least->chi2)) least = point;
       if (!point->ok && first_error_.empty()) first_error_ = point->error;
     }
     candidates_ += static_cast<long>(points.size());
@@ -318,7 +342,9 @@ void Fitting::search_globally(std::vector<PointPointer>& starts) {
     return go_on("global", static_cast<double>(now.runs) / static_cast<double>(options_.global_runs));
   };
   const auto found = minimize_globally(problem, options_.global, settings);
-  if (found.best.empty()) return;
+  result_.stopped = result_.stopped || found.stopped;
+  if (result_.stopped && least) keep(least);
+  if (found.best.empty() || result_.stopped) return;
   const auto point = projection_->at(z_of(found.best));
   keep(point);
   if (!point->ok) return;
@@ -352,6 +378,7 @@ bool Fitting::search_from(const std::vector<double>& start) {
 }
 
 void Fitting::search(const std::vector<PointPointer>& starts) {
+  if (result_.stopped) return keep(starts.front());
   if (projection_->n_nonlinear() == 0) {
     result_.starts = 1;
     result_.converged = true;
@@ -364,7 +391,6 @@ void Fitting::search(const std::vector<PointPointer>& starts) {
     for (std::size_t i = 0; i < starts.size() && left > 0 && !result_.stopped; ++i)
       left -= search_from(starts[i]->z) ? 1 : 0;
   }
-  if (!best_) keep(projection_->at(starts.front()->z));  // stopped before the first search began
 }
 
 /// Where the result needs finer substeps than the start, the search goes on with them.
@@ -378,15 +404,40 @@ void Fitting::refine_substeps() {
   for (const int r : judged_) changed = changed || model_.steps(r) != before[r];
   if (!changed) return;
   projection_->forget();
-  const auto z = best_->z;
-  best_.reset();
-  const auto again = projection_->at(z);
-  keep(again);
+  const auto coarse = std::exchange(best_, nullptr);
+  PointPointer again;
+  until_stopped([&] {
+    again = projection_->at(coarse->z);
+    keep(again);
+  });
+  if (result_.stopped) {
+    if (!best_) best_ = coarse;
+    return;
+  }
   double steps = 0;
   for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
   constexpr double iterations = 3;  // fewer than that hardly ever end a search
   const bool in_time = iterations * (1 + static_cast<double>(free_.size())) * steps <= options_.search_again_steps;
-  if (again->ok && projection_->n_nonlinear() > 0 && in_time && !result_.stopped) search_from(again->z);
+  if (again->ok && projection_->n_nonlinear() > 0 && in_time) search_from(again->z);
+}
+
+/// Where the way from a start to the outputs is not linear, it is found for given values, and these for a given start:
+/// in turn, until neither moves.
+void Fitting::refine_starts() {
+  constexpr int most = 8;
+  constexpr double settled = 1e-4;  // of chi2, between one turn and the next
+  for (int turn = 0; turn < most; ++turn) {
+    const auto values = projection_->values(best_->z, best_->theta);
+    if (!improve_starts(model_, judge_, values, judged_)) return;
+    projection_->forget();
+    const auto before = std::exchange(best_, nullptr);
+    until_stopped([&] {
+      keep(projection_->at(before->z));
+      if (best_ && projection_->n_nonlinear() > 0) search_from(best_->z);
+    });
+    if (!best_) best_ = before;
+    if (result_.stopped || before->chi2 - best_->chi2 <= settled * before->chi2) return;
+  }
 }
 
 FitResult fit(DataModel& model, const NoiseModel& noise, const std::vector<FreeParameter>& free,

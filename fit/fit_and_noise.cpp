@@ -1,23 +1,18 @@
 // A fit and what its residual says of the noise, one after the other.
 #include <algorithm>
 
+#include "engine/stop.h"
 #include "fit/colour.h"
 #include "fit/fit.h"
 
 namespace hysteron {
+namespace {
 
-FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& free, const FitOptions& options) {
+/// Once more, with the noise that the residual of the first fit shows in place of that before it.
+FitWithNoise fit_again(DataModel& model, const std::vector<FreeParameter>& free, const FitOptions& options,
+                       FitResult first, const NoiseModel& before) {
   FitWithNoise both;
-  both.noise = noise_before_fit(model);
-  FitOptions first_options = options;  // its intervals would be thrown away
-  first_options.intervals = false;
-  first_options.profile.clear();
-  first_options.keep_neighbourhood = true;
-  FitResult first = fit(model, both.noise, free, first_options);
-  if (!first.ok || first.stopped) {
-    both.result = std::move(first);
-    return both;
-  }
+  both.noise = before;
   FitOptions second_options = options;
   NoiseModel likely = both.noise;
   if (first.neighbourhood) likely = noise_from_likelihood(model, Judge(model, both.noise), *first.neighbourhood);
@@ -43,6 +38,7 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
   second_options.max_iterations = options.polish || options.global.empty() ? options.max_iterations : 0;
   both.result = fit(model, both.noise, again, second_options);
   FitResult& result = both.result;
+  if (!result.ok) return both;
   for (std::size_t i = 0; i < free.size(); ++i) result.estimates[i].start = free[i].start;
   std::vector<int> judged;
   for (const auto& r : result.after.recordings) judged.push_back(r.recording);
@@ -64,6 +60,29 @@ FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& f
   result.failed_runs += first.failed_runs;
   result.iterations += first.iterations;
   result.seconds += first.seconds;
+  return both;
+}
+
+}  // namespace
+
+FitWithNoise fit_and_noise(DataModel& model, const std::vector<FreeParameter>& free, const FitOptions& options) {
+  FitWithNoise both;
+  both.noise = noise_before_fit(model);
+  FitOptions first_options = options;  // its intervals would be thrown away
+  first_options.intervals = false;
+  first_options.profile.clear();
+  first_options.keep_neighbourhood = true;
+  both.result = fit(model, both.noise, free, first_options);
+  if (!both.result.ok || both.result.stopped) return both;
+  try {
+    auto again = fit_again(model, free, options, both.result, both.noise);
+    if (again.result.ok || !again.result.stopped) return again;
+  } catch (const Stopped&) {
+  }
+  both.result.neighbourhood.reset();  // the first fit stands
+  both.result.stopped = true;
+  both.result.converged = false;
+  both.result.convergence = "stopped; the best so far";
   return both;
 }
 

@@ -274,8 +274,11 @@ void Fitting::fit_the_waiting() {
     fixed.insert(fixed.end(), options_.fixed.begin(), options_.fixed.end());
     Projection projection(model_, judge_, waiting, affine_of(waiting), {r}, fixed);
     SearchEnd end;
-    const auto point = search_locally(
-        projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); }, end);
+    PointPointer point;
+    until_stopped([&] {
+      point = search_locally(
+          projection, projection.start(), options_.max_iterations, tolerance(), [&] { return go_on("search"); }, end);
+    });
     result_.iterations += end.iterations;
     const auto values = point ? projection.values(point->z, point->theta) : Trial{};
     for (std::size_t i = 0; i < waiting.size(); ++i) {
@@ -309,10 +312,6 @@ void Fitting::put_in_order() {
 }
 
 void Fitting::finish() {
-  if (!best_) {
-    result_.error = first_error_;
-    return;
-  }
   result_.ok = true;
   write_estimates();
   result_.values.resize(free_.size());  // without what was held fixed
@@ -327,16 +326,19 @@ void Fitting::finish() {
   }
   result_.s2 = result_.chi2 / std::max(1.0, result_.n - result_.n_parameters);
   result_.method = method_text(*projection_, options_);
-  if ((options_.intervals || options_.keep_neighbourhood) && go_on("intervals")) find_intervals();
-  bend_intervals();
-  find_profiles();
+  until_stopped([&] {
+    if ((options_.intervals || options_.keep_neighbourhood) && go_on("intervals")) find_intervals();
+  });
+  until_stopped([&] { bend_intervals(); });
+  until_stopped([&] { find_profiles(); });
   fit_the_waiting();
   put_in_order();
-  if (options_.scores) {
-    Trial after = result_.values;
-    after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
-    result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
-  }
+  if (options_.scores)
+    until_stopped([&] {
+      Trial after = result_.values;
+      after.insert(after.end(), options_.fixed.begin(), options_.fixed.end());
+      result_.after = judge_.score(model_, model_.predict(after, judged_), judged_);
+    });
   if (result_.stopped) result_.convergence = "stopped; the best so far";
   if (result_.chi2 > 3 * result_.n)
     result_.remarks.push_back(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -39,6 +40,7 @@ class Fitting {
   void search(const std::vector<PointPointer>& starts);
   bool search_from(const std::vector<double>& start);
   void refine_substeps();
+  void refine_starts();
   void finish();
   void write_estimates();
   struct Column;
@@ -54,6 +56,7 @@ class Fitting {
   void fit_the_waiting();
   void put_in_order();
   bool go_on(const char* stage, double fraction = -1);
+  void until_stopped(const std::function<void()>& work);
   void keep(const PointPointer& point) {
     if (point->ok && (!best_ || point->chi2 < best_->chi2)) best_ = point;
     if (!point->ok && first_error_.empty()) first_error_ = point->error;

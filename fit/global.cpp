@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "fit/global_search.h"
 
 namespace hysteron {
@@ -104,7 +105,14 @@ double CostCounter::count(const Point& point, double cost) {
 }
 
 double CostCounter::operator()(const Point& point) {
-  const double cost = count(point, cost_(point));
+  double cost = infinity;
+  try {
+    cost = cost_(point);
+  } catch (const Stopped&) {  // what was found before is the result
+    result_.stopped = true;
+    return infinity;
+  }
+  cost = count(point, cost);
   if (settings_.go_on && !settings_.go_on({result_.runs, result_.cost})) result_.stopped = true;
   return cost;
 }
@@ -121,7 +129,12 @@ std::vector<double> CostCounter::of_each(const std::vector<Point>& points) {
   const auto left = static_cast<std::size_t>(std::max(0L, settings_.max_runs - result_.runs));
   const std::vector<Point> asked(points.begin(),
                                  points.begin() + static_cast<std::ptrdiff_t>(std::min(left, points.size())));
-  costs = of_each_(asked);
+  try {
+    costs = of_each_(asked);
+  } catch (const Stopped&) {
+    result_.stopped = true;
+    return costs;
+  }
   for (std::size_t i = 0; i < asked.size(); ++i) costs[i] = count(asked[i], costs[i]);
   if (settings_.go_on && !settings_.go_on({result_.runs, result_.cost})) result_.stopped = true;
   return costs;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/stop.h"
 #include "fit/dense.h"
 #include "fit/triangle.h"
 
@@ -178,7 +179,9 @@ void NormalForm::add(std::span<const double> a, std::span<const double> b) {
   std::copy(d.begin(), d.end(), triangle.col(m));
   triangle(m, m) = std::sqrt(rest);
   std::vector<double> panel(at_once * (m + 1));
+  LookUp look_up;
   for (std::size_t first = 0; first < rows; first += at_once) {
+    look_up();
     const std::size_t count = std::min(at_once, rows - first);
     for (std::size_t j = 0; j < m; ++j) std::copy_n(a.data() + j * rows + first, count, panel.data() + j * count);
     std::copy_n(b.data() + first, count, panel.data() + m * count);

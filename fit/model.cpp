@@ -171,6 +171,16 @@ std::vector<double> DataModel::cross_check(std::span<const ParameterValue> value
 }
 
 const std::vector<std::string>& DataModel::free_initial_states() const { return content_->free_states; }
+bool DataModel::starts_are_searched() const {
+  const auto& linear = content_->free_state_is_linear;
+  return std::find(linear.begin(), linear.end(), false) != linear.end();
+}
+const std::vector<double>& DataModel::start_of(int recording) const {
+  return content_->bound[static_cast<std::size_t>(recording)].start;
+}
+void DataModel::begin_at(int recording, std::vector<double> start) {
+  content_->bound[static_cast<std::size_t>(recording)].start = std::move(start);
+}
 const std::vector<std::string>& DataModel::remarks() const { return content_->remarks; }
 long DataModel::runs() const { return content_->runs; }
 long DataModel::failures() const { return content_->failures; }

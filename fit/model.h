@@ -126,6 +126,12 @@ class DataModel {
 
   /// Names of the states that start free in recordings with `"initial": "per_recording"`.
   const std::vector<std::string>& free_initial_states() const;
+  /// The way from some of them to the outputs is not linear: their start is searched (starts.h).
+  bool starts_are_searched() const;
+  /// How far from equilibrium they begin in this recording [SI], one number each; empty: in equilibrium. What predict()
+  /// says of the responses to initial states holds about there.
+  const std::vector<double>& start_of(int recording) const;
+  void begin_at(int recording, std::vector<double> start);
   /// What the user must be told (a state whose start cannot be estimated linearly ...).
   const std::vector<std::string>& remarks() const;
 

@@ -26,6 +26,7 @@ struct BoundRecording {
   int substeps = 1;                ///< of each of the rows
   double points_per_instant = 1;   ///< a run also passes the samples of inputs between the instants
   bool simulated = false;          ///< with these, at the values for which they were chosen
+  std::vector<double> start;       ///< per free state: how far from equilibrium it begins [SI]; empty: in equilibrium
   std::optional<Advance> advance;
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
   std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
@@ -66,12 +67,14 @@ struct DataModel::Content {
   bool needs_substeps = false;
   std::vector<std::string> free_states, remarks;
   std::vector<std::size_t> free_state_index;
+  std::vector<bool> free_state_is_linear;
   std::vector<double> spans;
   std::atomic<long> runs{0}, failures{0};
 
   void find_outputs();
   void bind(int r);
   void find_free_states();
+  Run in_equilibrium(int r, std::span<const ParameterValue> values) const;
   Run prepared(int r, std::span<const ParameterValue> values) const;
   void set_start(const Recording& recording, Run& run, double t) const;
   bool from_rest(const Recording& recording) const;

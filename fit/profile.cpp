@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/stop.h"
 #include "fit/levenberg_marquardt.h"
 
 namespace hysteron {
@@ -140,8 +141,13 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
     };
   problem.go_on = go_on;
   problem.matters = matters;
-  const auto found = minimize(problem, std::move(z), max_iterations, tolerance);
-  end = {found.iterations, found.converged, found.flat, found.message};
+  try {
+    const auto found = minimize(problem, std::move(z), max_iterations, tolerance);
+    end = {found.iterations, found.converged, found.flat, found.message};
+  } catch (const Stopped&) {
+    if (!best) throw;
+    end.message = "stopped on request";
+  }
   return best;
 }
 

@@ -94,15 +94,9 @@ void DataModel::Content::find_free_states() {
     const auto& block = program->blocks[b];
     for (int i = 0; i < block.sizes.states; ++i) {
       const auto index = static_cast<std::size_t>(block.x_begin + i);
-      if (linear[b]) {
-        free_states.push_back(program->state_names[index]);
-        free_state_index.push_back(index);
-      } else {
-        remarks.push_back(
-            fmt::format("the start of {} is not estimated per recording, because the path from there to the "
-                        "outputs is not linear; it begins in equilibrium",
-                        program->state_names[index]));
-      }
+      free_states.push_back(program->state_names[index]);
+      free_state_index.push_back(index);
+      free_state_is_linear.push_back(linear[b]);
     }
     if (block.sizes.memory > 0)
       remarks.push_back(fmt::format("the memory of {} begins virgin in every recording", block.path));
@@ -190,30 +184,49 @@ std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue>
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   ++runs;
+  if (from_rest(recording) && !b.start.empty()) {
+    Run run = in_equilibrium(r, values);
+    for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
+    simulate_into(b, std::move(run), false, substeps, cvode);
+    return rows_of(b, b.values);
+  }
   Run run = prepared(r, values);
   set_start(recording, run, b.instants.front());
   simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
   return rows_of(b, b.values);
 }
 
+Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> values) const {
+  Run rest = prepared(r, values);
+  rest.t = bound[static_cast<std::size_t>(r)].instants.front();
+  settle_at_rest(*program, rest, rest.t);
+  return rest;
+}
+
+/// Of a state behind which all is linear any step will do; of another one so small that the answer is as good as
+/// linear, and so large that it is not lost in rounding or in the integrator's tolerance.
+constexpr double step_of_a_start = 1e-3;  // of the state's nominal size
+
 void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const auto k = static_cast<std::size_t>(r);
-  Run rest = prepared(r, values);
-  rest.t = b.instants.front();
-  settle_at_rest(*program, rest, rest.t);
-  const auto response = [&](std::size_t state, double unit) {
+  Run begun = in_equilibrium(r, values);
+  for (std::size_t i = 0; i < b.start.size(); ++i) begun.x[free_state_index[i]] += b.start[i];
+  const auto sizes = nominal_states(*program, begun);
+  const auto response = [&](std::size_t state, double step) {
     ++runs;
-    Run run = rest;
-    run.x[state] += unit;
+    Run run = begun;
+    run.x[state] += step;
     simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
     return rows_of(b, b.values);
   };
   const auto zero = response(0, 0.0);
-  for (const std::size_t state : free_state_index) {
-    auto rows = response(state, 1.0);
+  for (std::size_t n = 0; n < free_state_index.size(); ++n) {
+    const std::size_t state = free_state_index[n];
+    const double step = free_state_is_linear[n] ? 1.0 : step_of_a_start * sizes[state];
+    auto rows = response(state, step);
     for (std::size_t o = 0; o < rows.size(); ++o)
-      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] -= zero[o][i];
+      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] = (rows[o][i] - zero[o][i]) / step;
     prediction.initial[k].push_back(std::move(rows));
   }
 }
@@ -252,7 +265,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
   const auto k = static_cast<std::size_t>(r);
   BoundRecording& b = bound[k];
   std::vector<std::string> errors(trials.size());
-  if (!b.advance || !not_exact.empty()) {
+  if (!b.advance || !not_exact.empty() || !b.start.empty()) {
     for (std::size_t i = 0; i < trials.size(); ++i) predict_one(r, trials[i], false, predictions[i], errors[i]);
     return errors;
   }

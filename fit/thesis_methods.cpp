@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "engine/error.h"
+#include "engine/stop.h"
 #include "fit/global_search.h"
 #include "fit/median.h"
 #include "fit/slopes_method.h"
@@ -175,9 +177,9 @@ class TapiSteps {
 
   ThesisMethodResult run() {
     classical();
-    if (go_on("remanence")) remanence();
-    if (go_on("saturation")) saturation();
-    if (go_on("temperature")) temperature();
+    step("remanence", &TapiSteps::remanence);
+    step("saturation", &TapiSteps::saturation);
+    step("temperature", &TapiSteps::temperature);
     result_.values = values();
     return result_;
   }
@@ -186,6 +188,18 @@ class TapiSteps {
   bool go_on(const std::string& stage) {
     if (!one_.go_on(stage, error_)) result_.stopped = true;
     return !result_.stopped;
+  }
+
+  /// One that is broken off leaves what the steps before it found.
+  void step(const char* stage, void (TapiSteps::*work)()) {
+    if (!go_on(stage)) return;
+    const std::tuple found(p_, bend_, beta_, before_, error_);
+    try {
+      (this->*work)();
+    } catch (const Stopped&) {
+      result_.stopped = true;
+      std::tie(p_, bend_, beta_, before_, error_) = found;
+    }
   }
 
   std::vector<ParameterValue> values() const {
@@ -335,6 +349,7 @@ ThesisMethodResult identify_as_thesis(DataModel& model, const std::string& metho
   if (one.recordings().empty())
     fail("no_recordings", "", "there is no recording to identify on", "give at least one the role train");
   ThesisMethodResult result = method == "slopes" ? by_slopes(one) : TapiSteps(one, options).run();
+  const StopScope to_its_end(nullptr);  // one simulation, which says what was found
   result.mean_error = one.mean_error(result.values, one.recordings());
   result.runs = model.runs() - before;
   return result;
@@ -351,6 +366,7 @@ FitResult fit_as_thesis(DataModel& model, const NoiseModel& noise, const std::st
   FitResult result;
   result.before = judge.score(model, model.predict({}, judged), judged);
   auto found = identify_as_thesis(model, method, options);
+  const StopScope to_its_end(nullptr);
   result.ok = true;
   result.values = std::move(found.values);
   result.remarks = std::move(found.steps);

@@ -6,6 +6,8 @@
 #include <map>
 #include <mutex>
 
+#include "engine/stop.h"
+
 namespace hysteron {
 namespace {
 
@@ -69,6 +71,7 @@ Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero,
 
 void Whitener::apply(std::span<const double> rows, double* out) const {
   if (weight_.empty()) return;
+  look_up();  // every search in a residual comes by here, column after column
   if (in_time_) return apply_in_time(rows, out);
   std::vector<double> coefficients(rows.begin(), rows.end());
   cosine_transform(coefficients);

@@ -77,6 +77,12 @@ Outcome hysteron(const std::string& folder, const std::vector<std::string>& word
   return run(folder, all, out_device, interrupt_after_ms);
 }
 
+Outcome hysteron_terminated(const std::string& folder, const std::vector<std::string>& words, int after_ms) {
+  std::vector<std::string> all{HYSTERON_PROGRAM};
+  all.insert(all.end(), words.begin(), words.end());
+  return run(folder, all, "", after_ms, SIGTERM);
+}
+
 Outcome hysteron_killed(const std::string& folder, const std::vector<std::string>& words, int after_ms) {
   std::vector<std::string> all{HYSTERON_PROGRAM};
   all.insert(all.end(), words.begin(), words.end());

@@ -17,6 +17,9 @@ struct Outcome {
 Outcome hysteron(const std::string& folder, const std::vector<std::string>& words, const std::string& out_device = "",
                  int interrupt_after_ms = 0);
 
+/// The same with SIGTERM, as a batch system ends a job.
+Outcome hysteron_terminated(const std::string& folder, const std::vector<std::string>& words, int after_ms);
+
 /// The same with SIGKILL: code 137 where it came in time.
 Outcome hysteron_killed(const std::string& folder, const std::vector<std::string>& words, int after_ms);
 
