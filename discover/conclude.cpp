@@ -63,7 +63,7 @@ bool has_a_rival(const Books& books, const Structure& s) {
 
 /// What it has to take away to be told in place of the effects: of the recordings where it was looked for it has to
 /// explain more than they do.
-Bar beside_effects(const Books& books, const Structure& s, Where where) {
+Requirement beside_effects(const Books& books, const Structure& s, Where where) {
   if (!s.explains()) return {{}, "bursts only say when, and explain nothing"};
   if (is_of_a_standing_law(books, s)) return {{}, "a law that stands looks for lines there: this one is its own"};
   if (!(s.share_removed > rules::structure_share)) return {{}, holds_too_little(s)};
@@ -97,7 +97,7 @@ JudgedSearch in_all_recordings(const Books& books) {
 bool wins(const JudgedSearch& judged) { return judged.search.best >= 0 && judged.bar.passed(); }
 
 /// Other recordings show more of it than chance, and it holds a good part of what is left.
-Bar to_stand_out(const Structure& s) {
+Requirement to_stand_out(const Structure& s) {
   if (!(s.fall.validate > rules::claim_fall)) return {rules::claim_fall, "no more than chance"};
   return {rules::claim_fall, s.share_removed > rules::structure_share ? "" : holds_too_little(s)};
 }

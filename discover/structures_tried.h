@@ -10,7 +10,7 @@
 namespace hysteron {
 
 /// What a structure has to take away, and why it does not count all the same; "" = it does.
-struct Bar {
+struct Requirement {
   std::optional<double> needed{};  ///< of chi2, in the recordings where it was looked for; none where it was not asked
   std::string why_not{};
   bool passed() const { return why_not.empty(); }
@@ -20,7 +20,7 @@ struct Bar {
 struct JudgedSearch {
   StructureSearch search;
   Where where = Where::validation;
-  Bar bar{};
+  Requirement bar{};
 };
 
 /// All of them into the record. `why_told`: why the best one is told to people, "" if it is not.

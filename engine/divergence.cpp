@@ -15,7 +15,7 @@ constexpr double runaway = 1e8;  // times its usual size
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double size_of(const Quantity& q) { return std::abs(q.value) / q.usual; }
+double size_of(const WatchedQuantity& q) { return std::abs(q.value) / q.usual; }
 
 /// The shortest way along the wires from a block back to itself, both ends named; empty if there is none.
 std::vector<std::string> way_around(const Program& program, int block) {
@@ -40,10 +40,11 @@ std::vector<std::string> way_around(const Program& program, int block) {
 }
 
 /// Those that no other one stands before, but around a loop: what grows behind them follows.
-std::vector<const Quantity*> first_ones(const Program& program, const std::vector<const Quantity*>& grown) {
+std::vector<const WatchedQuantity*> first_ones(const Program& program,
+                                               const std::vector<const WatchedQuantity*>& grown) {
   std::vector<std::vector<bool>> reached;
   for (const auto* q : grown) reached.push_back(program.downstream_of(q->block));
-  std::vector<const Quantity*> first;
+  std::vector<const WatchedQuantity*> first;
   for (std::size_t i = 0; i < grown.size(); ++i) {
     bool follows = false;
     for (std::size_t k = 0; k < grown.size(); ++k)
@@ -74,14 +75,16 @@ std::string cure_of(const Program& program, int block) {
 
 }  // namespace
 
-void throw_if_grown(const Program& program, const std::vector<Quantity>& quantities, double t, const std::string& met) {
-  std::vector<const Quantity*> grown;
+void throw_if_grown(const Program& program, const std::vector<WatchedQuantity>& quantities, double t,
+                    const std::string& met) {
+  std::vector<const WatchedQuantity*> grown;
   for (const auto& q : quantities)
     if (size_of(q) > runaway) grown.push_back(&q);
   if (grown.empty()) return;
   const auto first = first_ones(program, grown);
-  const Quantity& worst = **std::max_element(
-      first.begin(), first.end(), [](const Quantity* a, const Quantity* b) { return size_of(*a) < size_of(*b); });
+  const WatchedQuantity& worst =
+      **std::max_element(first.begin(), first.end(),
+                         [](const WatchedQuantity* a, const WatchedQuantity* b) { return size_of(*a) < size_of(*b); });
   const auto& path = program.blocks[at(worst.block)].path;
   fail_numerics("diverged", path,
                 fmt::format("{} grows without bound: it left its usual size, about {:.2g} [SI], at t = {:.6g} s, and "
@@ -90,9 +93,9 @@ void throw_if_grown(const Program& program, const std::vector<Quantity>& quantit
                 cure_of(program, worst.block));
 }
 
-void throw_if_upright(const Program& program, const Work& work, const std::vector<Quantity>& quantities, double t,
-                      double span) {
-  const Quantity* fastest = nullptr;
+void throw_if_upright(const Program& program, const Work& work, const std::vector<WatchedQuantity>& quantities,
+                      double t, double span) {
+  const WatchedQuantity* fastest = nullptr;
   double most = runaway, rate = 0;
   for (std::size_t i = 0; i < quantities.size(); ++i)
     if (const double sizes = std::abs(work.dx[i]) * span / quantities[i].usual; sizes > most)
@@ -107,8 +110,8 @@ void throw_if_upright(const Program& program, const Work& work, const std::vecto
       law_cure(block));
 }
 
-std::vector<Quantity> GrowthWatch::quantities(const Program& program, std::span<const double> x) const {
-  std::vector<Quantity> all;
+std::vector<WatchedQuantity> GrowthWatch::quantities(const Program& program, std::span<const double> x) const {
+  std::vector<WatchedQuantity> all;
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     for (int k = 0; k < program.blocks[b].sizes.states; ++k) {
       const std::size_t i = at(program.blocks[b].x_begin + k);
@@ -136,7 +139,7 @@ void throw_if_rows_grow(const Program& program, const Run& run, std::span<const 
   const auto sizes = nominal_sizes(program, run);
   std::vector<double> usual;
   for (const int s : signals) usual.push_back(sizes.signals[at(s)] > 0 ? sizes.signals[at(s)] : 1);
-  std::vector<Quantity> all;
+  std::vector<WatchedQuantity> all;
   for (std::size_t s = 0; s < signals.size(); ++s) {
     const auto& signal = program.signals[at(signals[s])];
     double since = t.front();

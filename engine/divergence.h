@@ -14,7 +14,7 @@
 namespace hysteron {
 
 /// A state, or the output of a block with states, at the last time at which all was finite.
-struct Quantity {
+struct WatchedQuantity {
   int block = 0;
   std::string name;
   double value = 0;  ///< [SI]
@@ -24,14 +24,14 @@ struct Quantity {
 
 /// Throws Error "diverged" where quantities are larger than any that is meant, 1e8 times their usual size: of those the
 /// largest that no other of them stands before (but around a loop). t: of the values [s]; `met`: what the solver said.
-void throw_if_grown(const Program& program, const std::vector<Quantity>& quantities, double t,
+void throw_if_grown(const Program& program, const std::vector<WatchedQuantity>& quantities, double t,
                     const std::string& met = "");
 
 /// For a run whose steps have become too small at t [s], work.dx being its derivatives there: throws Error "diverged"
 /// where a state changes so fast that it would be beyond all sizes within a small part of the span [s]: a law that is
 /// upright there, and ends.
-void throw_if_upright(const Program& program, const Work& work, const std::vector<Quantity>& quantities, double t,
-                      double span);
+void throw_if_upright(const Program& program, const Work& work, const std::vector<WatchedQuantity>& quantities,
+                      double t, double span);
 
 /// Since when each state is beyond its usual size; costs a comparison per state and step.
 class GrowthWatch {
@@ -45,7 +45,7 @@ class GrowthWatch {
     for (std::size_t i = 0; i < usual_.size(); ++i)
       if (std::abs(x[i]) <= beyond * usual_[i]) left_[i] = t;
   }
-  std::vector<Quantity> quantities(const Program& program, std::span<const double> x) const;
+  std::vector<WatchedQuantity> quantities(const Program& program, std::span<const double> x) const;
 
  private:
   std::vector<double> usual_, left_;

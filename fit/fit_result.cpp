@@ -95,7 +95,7 @@ void Fitting::find_intervals() {
   bool had = false;
   if (!priors && !options_.residual_noise && !options_.keep_neighbourhood) {
     // The triangle of the linear ones is known since they were found: no other is made of all rows.
-    LinearModel model;
+    LinearizedResidual model;
     had = projection_->linear_model(*best_, true, model);
     if (had) {
       const auto n = static_cast<std::size_t>(model.form.n);

@@ -76,7 +76,7 @@ class Search {
 
   /// Triangular factor of [J r], and what the undamped step inside the bounds would gain.
   bool linearize() {
-    LinearModel model;
+    LinearizedResidual model;
     known_ = known_ && problem_.known_model(z_, model) && all_finite(model.form.r);
     if (!known_) {
       model.low.clear();
@@ -108,7 +108,7 @@ class Search {
   }
 
   /// No inner unknowns.
-  bool plain_model(LinearModel& model) const {
+  bool plain_model(LinearizedResidual& model) const {
     Dense columns;
     if (!problem_.jacobian(z_, columns) || !all_finite(columns.a)) return false;
     std::vector<double> target(residual_);

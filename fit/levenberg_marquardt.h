@@ -18,7 +18,7 @@
 namespace hysteron {
 
 /// |A x - b|^2 over [inner unknowns, z], A and b as a triangle, and the bounds of the inner ones.
-struct LinearModel {
+struct LinearizedResidual {
   NormalForm form;
   std::vector<double> low, high;
 };
@@ -35,10 +35,10 @@ struct LeastSquares {
   /// In place of `jacobian`, where residuals are linear in further unknowns that are at their best within bounds
   /// wherever a residual is asked for: |r + C s + J p|^2 over [s, p], and how far each s may go. Which of them a bound
   /// holds back changes along a step, and the step knows.
-  std::function<bool(std::span<const double> z, LinearModel& model)> linear_model{};
+  std::function<bool(std::span<const double> z, LinearizedResidual& model)> linear_model{};
   /// The same by derivatives that were found for much the same residual. They cost nothing, and are used as long as
   /// steps by them go as foreseen; where they foresee no gain there is none.
-  std::function<bool(std::span<const double> z, LinearModel& model)> known_model{};
+  std::function<bool(std::span<const double> z, LinearizedResidual& model)> known_model{};
   double matters = 0;             ///< a fall of the squared error that is worth no further step
   std::function<bool()> go_on{};  ///< asked after each trial; false = stop with what was reached
 };

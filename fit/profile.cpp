@@ -132,11 +132,11 @@ PointPointer search_locally(Projection& projection, std::vector<double> z, int m
     if (point->ok) residual = point->residual;
     return point->ok;
   };
-  problem.linear_model = [&](std::span<const double> at, LinearModel& model) {
+  problem.linear_model = [&](std::span<const double> at, LinearizedResidual& model) {
     return projection.linear_model(*projection.at(at), false, model);
   };
   if (projection.knows())
-    problem.known_model = [&](std::span<const double> at, LinearModel& model) {
+    problem.known_model = [&](std::span<const double> at, LinearizedResidual& model) {
       return projection.known_linear_model(*projection.at(at), model);
     };
   problem.go_on = go_on;

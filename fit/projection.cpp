@@ -445,7 +445,7 @@ bool Projection::jacobian(const ProjectedPoint& point, bool central, Dense& colu
 
 /// r + C s + J p with s = -(change of theta): C = Q R, J = C X + J', r = C x + r', J' and r' orthogonal to C. In rows
 /// of Q: R (s + X p + x), behind them J' p + r'.
-void Projection::linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearModel& model) const {
+void Projection::linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearizedResidual& model) const {
   const bool exact = model_.why_not_exact().empty();
   const std::size_t m = linear_.size(), k = nonlinear_.size(), n = m + k;
   auto residual = point.residual;
@@ -487,7 +487,7 @@ void Projection::linear_model_by(const ProjectedPoint& point, Dense jacobian_col
   }
 }
 
-bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearModel& model) {
+bool Projection::linear_model(const ProjectedPoint& point, bool central, LinearizedResidual& model) {
   auto columns = std::make_shared<Dense>();
   if (!jacobian(point, central, *columns)) return false;
   found_ = columns;
@@ -500,7 +500,7 @@ void Projection::know(std::shared_ptr<const Dense> derivatives) {
   known_ = fits ? std::move(derivatives) : nullptr;
 }
 
-bool Projection::known_linear_model(const ProjectedPoint& point, LinearModel& model) const {
+bool Projection::known_linear_model(const ProjectedPoint& point, LinearizedResidual& model) const {
   if (!known_) return false;
   linear_model_by(point, *known_, model);
   return true;

@@ -77,12 +77,12 @@ class Projection {
   /// dr/dz (rows x n_nonlinear) at fixed theta. False: not to be had.
   bool jacobian(const ProjectedPoint& point, bool central, Dense& columns);
   /// The residual near a point, linear in theta and z: which bounds hold theta back may change on the way.
-  bool linear_model(const ProjectedPoint& point, bool central, LinearModel& model);
+  bool linear_model(const ProjectedPoint& point, bool central, LinearizedResidual& model);
   /// The same by the derivatives of another projection of these rows and nonlinear parameters, which it is given first;
   /// what is of another size is none.
   void know(std::shared_ptr<const Dense> derivatives);
   bool knows() const { return known_ != nullptr; }
-  bool known_linear_model(const ProjectedPoint& point, LinearModel& model) const;
+  bool known_linear_model(const ProjectedPoint& point, LinearizedResidual& model) const;
   /// What linear_model() found last; null before.
   std::shared_ptr<const Dense> derivatives() const { return found_; }
 
@@ -101,7 +101,7 @@ class Projection {
   void simulate_on(std::size_t begin, std::size_t end, int recording, std::span<const Wanted> wanted, const Use& use);
   bool touches_any(int recording) const;
 
-  void linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearModel& model) const;
+  void linear_model_by(const ProjectedPoint& point, Dense jacobian_columns, LinearizedResidual& model) const;
   void evaluate(std::span<ProjectedPoint> points);
   void make_room(ProjectedPoint& point, std::vector<double>& residual);
   void remember(std::shared_ptr<ProjectedPoint> point);

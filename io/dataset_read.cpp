@@ -146,7 +146,7 @@ class DataSetReader {
       if (number->value != std::floor(number->value) || number->value > 1e6)
         return place.add("bad_value", "samples are whole numbers", cure);
       note.delay_samples = static_cast<int>(number->value);
-    } else if (const auto seconds = to_si(place, *number, parse_unit("s"), Scale::difference)) {
+    } else if (const auto seconds = to_si(place, *number, parse_unit("s"), QuantityKind::difference)) {
       note.delay_seconds = *seconds;
     }
   }
@@ -157,7 +157,7 @@ class DataSetReader {
     if (!place) return;
     NoiseNote& noise = data_.notes.at(noted.note.to).noise;
     const auto size = [&](const JsonPlace& at, const Unit& declared) {
-      const auto value = read_si(at, declared, Scale::difference);
+      const auto value = read_si(at, declared, QuantityKind::difference);
       if (value && !(*value >= 0))
         at.add("bad_value", "a noise cannot be negative", "write its rms or step size, 0 or above");
       return value;
@@ -225,7 +225,7 @@ class DataSetReader {
 
   static std::optional<double> in_hours(const JsonPlace& place) {
     const Unit hour = parse_unit("h");
-    const auto seconds = read_si(place, hour, Scale::difference);
+    const auto seconds = read_si(place, hour, QuantityKind::difference);
     return seconds ? std::optional(hour.difference_from_si(*seconds)) : std::nullopt;
   }
 
@@ -299,7 +299,7 @@ class DataSetReader {
   void read_span(const JsonPlace& place, Recording& recording) {
     const auto seconds = [&](const char* key) {
       const auto at = place.find(key);
-      const auto value = at ? read_si(*at, parse_unit("s"), Scale::difference) : std::nullopt;
+      const auto value = at ? read_si(*at, parse_unit("s"), QuantityKind::difference) : std::nullopt;
       if (value && !(*value >= 0))
         at->add("bad_value", "a time since the start of the recording cannot be negative", "write 0 s or more");
       return value;

@@ -21,7 +21,7 @@ std::string name_of(const Unit& unit) { return unit.text.empty() ? "a number wit
 
 }  // namespace
 
-std::optional<double> to_si(const JsonPlace& place, const Number& number, const Unit& declared, Scale scale) {
+std::optional<double> to_si(const JsonPlace& place, const Number& number, const Unit& declared, QuantityKind kind) {
   const auto unit = number.unit ? unit_at(place, *number.unit) : std::optional(declared);
   if (!unit) return {};
   if (unit->dimension != declared.dimension) {
@@ -29,12 +29,12 @@ std::optional<double> to_si(const JsonPlace& place, const Number& number, const 
               fmt::format("write it in {}", name_of(declared)));
     return {};
   }
-  return scale == Scale::difference ? unit->difference_to_si(number.value) : unit->to_si(number.value);
+  return kind == QuantityKind::difference ? unit->difference_to_si(number.value) : unit->to_si(number.value);
 }
 
-std::optional<double> read_si(const JsonPlace& place, const Unit& declared, Scale scale) {
+std::optional<double> read_si(const JsonPlace& place, const Unit& declared, QuantityKind kind) {
   const auto number = read_number(place);
-  return number ? to_si(place, *number, declared, scale) : std::nullopt;
+  return number ? to_si(place, *number, declared, kind) : std::nullopt;
 }
 
 std::optional<double> read_si_with_unit(const JsonPlace& place) {

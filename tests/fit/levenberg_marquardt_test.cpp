@@ -53,7 +53,7 @@ TEST(LevenbergMarquardt, FollowsTheValleyOfRosenbrockToItsEnd) {
 
 /// The residual near any point by these derivatives, wherever they were found.
 void knows(LeastSquares& p, const Dense& columns) {
-  p.known_model = [residual = p.residual, columns](std::span<const double> z, LinearModel& model) {
+  p.known_model = [residual = p.residual, columns](std::span<const double> z, LinearizedResidual& model) {
     std::vector<double> r;
     if (!residual(z, r)) return false;
     for (double& x : r) x = -x;
@@ -110,7 +110,7 @@ TEST(LevenbergMarquardt, DerivativesThatLeadNowhereAreLeft) {
 
 TEST(LevenbergMarquardt, KnownDerivativesThatCannotBeUsedAreNone) {
   auto p = problem(rosenbrock, 2);
-  p.known_model = [](std::span<const double>, LinearModel&) { return false; };
+  p.known_model = [](std::span<const double>, LinearizedResidual&) { return false; };
   EXPECT_NEAR(minimize(p, {-1.2, 1}, 100, 1e-12).z[0], 1, 1e-8);
 }
 
