@@ -190,6 +190,13 @@ std::string add_at(Diagram& diagram, const Registry& registry, const Effect& eff
   return name;
 }
 
+/// As far as the diagram says: thresholds of a law that enters there have it. None where the place is a block.
+Unit unit_on(const Diagram& diagram, const Registry& registry, const std::string& wire) {
+  const auto program = compile(diagram, registry);
+  const int signal = program->find_signal(wire);
+  return signal < 0 ? Unit{} : program->signals[static_cast<std::size_t>(signal)].unit;
+}
+
 }  // namespace
 
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const Law& law,
@@ -209,9 +216,7 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
   const Place place = place_for(effect, diagram, registry, at, data);
   Circumstances none;
   none.by = place.by;
-  if (circumstances == nullptr) {
-    if (const auto* input = diagram.inputs.find(place.wire)) none.unit = parse_unit(input->unit);
-  }
+  if (circumstances == nullptr) none.unit = unit_on(diagram, registry, place.wire);
   const auto laws = effect.laws(circumstances != nullptr ? *circumstances : none);
   Added added = add_effect(diagram, registry, effect, laws.front(), place);
   if (circumstances == nullptr)
