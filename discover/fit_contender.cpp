@@ -8,6 +8,7 @@
 
 #include "discover/fit_cost.h"
 #include "discover/parts.h"
+#include "engine/stop.h"
 #include "fit/starts.h"
 
 namespace hysteron {
@@ -190,6 +191,7 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
+  if (!c.ok && c.fit.stopped) throw Stopped{};  // nothing was found that could be kept
   if (!c.ok) return steps;
   keep_of_recordings(c, fixed);
   Trial all = c.fit.values;

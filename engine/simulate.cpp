@@ -459,10 +459,12 @@ void Simulation::check_guards() {
 void Simulation::check_pace() {
   if (++steps_since_milestone_ < crawl_steps) return;
   if (t_ - milestone_ < crawl_share * (until_ - options_.begin))
-    fail_numerics("step_too_small", "simulate/solver",
-                  fmt::format("the last {} steps advanced from t = {:.12g} s by {:.3g} s only; now at {}",
-                              steps_since_milestone_, milestone_, t_ - milestone_, solver_->where()),
-                  "something jumps to and fro: check the loop through the states named, or ask for less accuracy");
+    fail_numerics(
+        "step_too_small", "simulate/solver",
+        fmt::format("the last {} steps advanced from t = {:.12g} s by {:.3g} s only; now at {}", steps_since_milestone_,
+                    milestone_, t_ - milestone_, solver_->where()),
+        "something jumps to and fro: check the loop through the states named, or ask for less accuracy. Or what "
+        "moves there is too fast to be followed for so long: simulate a shorter time");
   milestone_ = t_;
   steps_since_milestone_ = 0;
 }
@@ -566,7 +568,9 @@ void Simulation::explain(const Error& error) {
       not_finite(program_, run_, work_, bad_t_, bad_x_.data());
   }
   evaluate_derivatives(program_, run_, work_, t_, x_.data());
-  throw_if_upright(program_, work_, growth_.quantities(program_, x_), t_, until_ - options_.begin);
+  // Of a span that steps would never reach the end of, the part that they got through counts.
+  const double span = steps_since_milestone_ < crawl_steps ? until_ - options_.begin : t_ - milestone_;
+  throw_if_upright(program_, work_, growth_.quantities(program_, x_), t_, span);
   throw error;
 }
 
