@@ -4,14 +4,15 @@
 // is larger.
 //
 // The reference is the same diagram by explicit Runge-Kutta at 1e-12. How far it can be trusted show the golden traces
-// of tests/engine/simulate_golden_test.cpp and the errors of the workload "closed loop", against a program by hand.
+// of tests/engine/simulate/simulate_golden_test.cpp and the errors of the workload "closed loop", against a program by
+// hand.
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <string>
 
 #include "benchmarks/diagrams.h"
-#include "engine/error.h"
+#include "engine/diagram/error.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
-#include "engine/advance.h"
+#include "engine/rowwise/advance.h"
 
 namespace hysteron::benchmarks {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "engine/program.h"
-#include "engine/simulate.h"
+#include "engine/program/program.h"
+#include "engine/simulate/simulate.h"
 
 namespace hysteron::benchmarks {
 

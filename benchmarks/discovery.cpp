@@ -26,8 +26,8 @@
 
 #include "benchmarks/hidden_answer.h"
 #include "blocks/register_all.h"
-#include "engine/error.h"
-#include "io/atomic_file.h"
+#include "engine/diagram/error.h"
+#include "io/files/atomic_file.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
-#include "engine/folded.h"
+#include "engine/simulate/folded.h"
 
 namespace hysteron::benchmarks {
 namespace {

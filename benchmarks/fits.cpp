@@ -18,7 +18,7 @@
 
 #include "benchmarks/bouc_wen_fit_by_hand.h"
 #include "benchmarks/diagrams.h"
-#include "fit/fit.h"
+#include "fit/estimate/fit.h"
 
 namespace hysteron::benchmarks {
 namespace {

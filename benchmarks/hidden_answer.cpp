@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
-#include "io/diagram_file.h"
+#include "io/diagram/diagram_file.h"
+#include "io/files/atomic_file.h"
 
 namespace hysteron {
 namespace {
@@ -87,8 +87,8 @@ std::vector<std::string> ranked_effects(const Discovery& found) {
   return names;
 }
 
-void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found,
-                         double seconds, const std::string& results) {
+void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found, double seconds,
+                         const std::string& results) {
   const std::filesystem::path folder(results);
   const auto names = hidden.diagram.outputs.names();
   const Unit unit = file_unit(data, names.front());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/hidden_case.h"
-#include "discover/discover.h"
+#include "discover/search/discover.h"
 
 namespace hysteron {
 
@@ -16,7 +16,7 @@ std::vector<std::string> ranked_effects(const Discovery& found);
 
 /// Writes ID.json, ID.diagram.json and ID.predicted/ into the folder `results`, and ID.data.json anew where inputs
 /// were found to move otherwise between their samples. seconds: of the processor that the discovery took.
-void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found,
-                         double seconds, const std::string& results);
+void write_hidden_answer(const HiddenCase& hidden, const DataSet& data, const Discovery& found, double seconds,
+                         const std::string& results);
 
 }  // namespace hysteron

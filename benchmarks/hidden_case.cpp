@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "engine/error.h"
-#include "io/atomic_file.h"
+#include "engine/diagram/error.h"
+#include "io/files/atomic_file.h"
 
 namespace hysteron {
 namespace {

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "engine/simulate.h"
-#include "fit/draws.h"
-#include "fit/fit.h"
-#include "fit/global.h"
-#include "io/diagram_file.h"
+#include "engine/simulate/simulate.h"
+#include "fit/estimate/fit.h"
+#include "fit/estimate/global.h"
+#include "fit/numerics/draws.h"
+#include "io/diagram/diagram_file.h"
 
 namespace {
 

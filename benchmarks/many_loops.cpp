@@ -12,7 +12,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/many_loops_by_hand.h"
-#include "engine/lanes.h"
+#include "engine/lanes/lanes.h"
 #include "models/random.h"
 
 namespace hysteron::benchmarks {

@@ -21,13 +21,13 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "discover/discover.h"
-#include "engine/error.h"
-#include "engine/program.h"
-#include "fit/model.h"
-#include "fit/noise.h"
-#include "fit/score.h"
-#include "io/diagram_file.h"
+#include "discover/search/discover.h"
+#include "engine/diagram/error.h"
+#include "engine/program/program.h"
+#include "fit/model/model.h"
+#include "fit/model/noise.h"
+#include "fit/model/score.h"
+#include "io/diagram/diagram_file.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Decides what a user is told who writes the name that a block has elsewhere: which type it is here, or how it is
-// composed. Does not decide what is told of any other unknown name (engine/error.h: did_you_mean).
+// composed. Does not decide what is told of any other unknown name (engine/diagram/error.h: did_you_mean).
 #pragma once
 
 #include <string>

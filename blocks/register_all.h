@@ -1,7 +1,7 @@
 // Decides which block types there are. Does not decide what they do.
 #pragma once
 
-#include "engine/kernel.h"
+#include "engine/block/kernel.h"
 
 namespace hysteron {
 

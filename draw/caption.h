@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/declaration.h"
-#include "engine/diagram.h"
+#include "engine/block/declaration.h"
+#include "engine/diagram/diagram.h"
 
 namespace hysteron::draw {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/kernel.h"
-#include "engine/program.h"
+#include "engine/block/kernel.h"
+#include "engine/program/program.h"
 
 namespace hysteron {
 

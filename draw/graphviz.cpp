@@ -11,7 +11,7 @@
 #include <memory>
 #include <sstream>
 
-#include "engine/error.h"
+#include "engine/diagram/error.h"
 
 extern char** environ;
 

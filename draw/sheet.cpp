@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "engine/port_names.h"
+#include "engine/block/port_names.h"
 
 namespace hysteron::draw {
 namespace {

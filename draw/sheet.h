@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "draw/symbol.h"
-#include "engine/kernel.h"
-#include "engine/program.h"
+#include "engine/block/kernel.h"
+#include "engine/program/program.h"
 
 namespace hysteron::draw {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/caption.h"
-#include "engine/declaration.h"
+#include "engine/block/declaration.h"
 
 namespace hysteron::draw {
 

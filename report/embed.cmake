@@ -5,7 +5,7 @@ file(READ ${JS} js)
 file(SHA256 ${CSS} css_hash)
 file(SHA256 ${JS} js_hash)
 file(WRITE ${OUTPUT} "// Made by report/embed.cmake from report/assets; do not edit.
-#include \"report/assets.h\"
+#include \"report/page/assets.h\"
 
 namespace hysteron {
 const std::string_view report_css = R\"_asset_(${css})_asset_\";

@@ -1,8 +1,8 @@
 // Decides which effects there are: one file and one line each. Internal to discover.
 #pragma once
 
-#include "discover/effect.h"
-#include "engine/time_text.h"
+#include "discover/hypotheses/effect.h"
+#include "engine/diagram/time_text.h"
 
 namespace hysteron::effects {
 

@@ -1,7 +1,7 @@
 // Decides what a guide does that sticks before it slides, as laws of effects: of a mass, and of a motion without one.
 #pragma once
 
-#include "discover/effect.h"
+#include "discover/hypotheses/effect.h"
 
 namespace hysteron::effects {
 

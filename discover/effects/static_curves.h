@@ -1,7 +1,7 @@
 // Decides the law that effects share which bend a signal without memory. Does not decide where it stands.
 #pragma once
 
-#include "discover/effect.h"
+#include "discover/hypotheses/effect.h"
 
 namespace hysteron::effects {
 

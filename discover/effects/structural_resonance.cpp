@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "discover/effects/library.h"
-#include "fit/excitation.h"
+#include "fit/signals/excitation.h"
 
 namespace hysteron::effects {
 namespace {

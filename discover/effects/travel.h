@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "discover/effect.h"
+#include "discover/hypotheses/effect.h"
 
 namespace hysteron::effects {
 

@@ -1,5 +1,5 @@
 // Decides how the figures of a report answer to the reader: zoom, move, read values, hide curves, x axes that move together.
-// The static pictures of the page show the same without it. The ticks follow report/ticks.cpp.
+// The static pictures of the page show the same without it. The ticks follow report/page/ticks.cpp.
 'use strict';
 (() => {
   const body = document.body;

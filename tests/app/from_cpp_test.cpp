@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "blocks/register_all.h"
-#include "engine/diagram.h"
-#include "engine/program.h"
-#include "engine/simulate.h"
+#include "engine/diagram/diagram.h"
+#include "engine/program/program.h"
+#include "engine/simulate/simulate.h"
 
 namespace hysteron {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "engine/kernel.h"
-#include "engine/units.h"
+#include "engine/block/kernel.h"
+#include "engine/diagram/units.h"
 
 namespace hysteron::bench {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "engine/units.h"
+#include "engine/diagram/units.h"
 #include "tests/blocks/bench.h"
 
 namespace hysteron {

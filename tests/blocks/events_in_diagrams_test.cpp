@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "engine/advance.h"
-#include "engine/simulate_parts.h"
+#include "engine/rowwise/advance.h"
+#include "engine/simulate/simulate_parts.h"
 #include "tests/engine/simulate_tools.h"
 #include "tests/models/golden.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "engine/error.h"
-#include "engine/simulate.h"
+#include "engine/diagram/error.h"
+#include "engine/simulate/simulate.h"
 #include "tests/blocks/bench.h"
 
 namespace hysteron {

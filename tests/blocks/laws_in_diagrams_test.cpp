@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/error.h"
-#include "models/jiles_atherton.h"
+#include "engine/diagram/error.h"
+#include "models/hysteresis/jiles_atherton.h"
 #include "tests/engine/simulate_tools.h"
 #include "tests/models/golden.h"
 

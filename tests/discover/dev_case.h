@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "engine/diagram.h"
-#include "io/dataset.h"
+#include "engine/diagram/diagram.h"
+#include "io/data/dataset.h"
 
 namespace hysteron::testing {
 

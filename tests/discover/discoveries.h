@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "discover/discover.h"
+#include "discover/search/discover.h"
 
 namespace hysteron::testing {
 

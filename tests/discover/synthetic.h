@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/diagram.h"
-#include "io/dataset.h"
+#include "engine/diagram/diagram.h"
+#include "io/data/dataset.h"
 
 namespace hysteron::testing {
 

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "blocks/register_all.h"
-#include "engine/error.h"
+#include "engine/diagram/error.h"
 #include "tests/draw/picture.h"
 
 namespace hysteron {

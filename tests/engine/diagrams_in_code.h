@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagram.h"
+#include "engine/diagram/diagram.h"
 
 namespace hysteron::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "blocks/register_all.h"
-#include "engine/block.h"
+#include "engine/block/block.h"
 
 namespace hysteron::test {
 

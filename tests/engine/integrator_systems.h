@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/integrator.h"
+#include "engine/integrators/integrator.h"
 
 namespace hysteron::test {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/linearize.h"
+#include "engine/analysis/linearize.h"
 
 namespace hysteron::tools {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/loops.h"
+#include "engine/program/loops.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron::tools {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "blocks/register_all.h"
-#include "engine/diagram.h"
-#include "engine/program.h"
-#include "fit/model.h"
-#include "io/dataset.h"
+#include "engine/diagram/diagram.h"
+#include "engine/program/program.h"
+#include "fit/model/model.h"
+#include "io/data/dataset.h"
 
 namespace hysteron::lab {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/simulate.h"
-#include "io/diagram_file.h"
+#include "engine/simulate/simulate.h"
+#include "io/diagram/diagram_file.h"
 #include "tests/fit/lab.h"
 
 namespace hysteron::surrogate {

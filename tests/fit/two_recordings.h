@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fit/fit.h"
+#include "fit/estimate/fit.h"
 #include "tests/fit/lab.h"
 
 namespace hysteron::lab {

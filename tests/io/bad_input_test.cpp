@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "engine/error.h"
-#include "io/csv.h"
-#include "io/dataset.h"
-#include "io/diagram_file.h"
+#include "engine/diagram/error.h"
+#include "io/data/csv.h"
+#include "io/data/dataset.h"
+#include "io/diagram/diagram_file.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {

@@ -4,12 +4,12 @@
 #include <functional>
 #include <random>
 
-#include "engine/error.h"
-#include "io/claims_file.h"
-#include "io/csv.h"
-#include "io/dataset.h"
-#include "io/diagram_file.h"
-#include "io/runs_job.h"
+#include "engine/diagram/error.h"
+#include "io/data/csv.h"
+#include "io/data/dataset.h"
+#include "io/diagram/diagram_file.h"
+#include "io/jobs/claims_file.h"
+#include "io/jobs/runs_job.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {

@@ -10,10 +10,10 @@
 #include <numeric>
 #include <vector>
 
-#include "models/creep.h"
-#include "models/mass_spring_damper.h"
-#include "models/play.h"
-#include "models/tank.h"
+#include "models/continuous/creep.h"
+#include "models/continuous/tank.h"
+#include "models/hysteresis/play.h"
+#include "models/mechanics/mass_spring_damper.h"
 
 namespace hysteron {
 namespace {

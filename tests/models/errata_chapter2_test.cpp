@@ -1,6 +1,6 @@
 // Errata of chapter 2 of the thesis that concern a computation: the printed form fails, the corrected one holds. E-04
-// stands in fit/slopes_method_test.cpp, E-07 in prandtl_ishlinskii_inverse_test.cpp, E-18 with the margins of the loops
-// (app/chapter2_loops_test.cpp).
+// stands in fit/thesis/slopes_method_test.cpp, E-07 in prandtl_ishlinskii_inverse_test.cpp, E-18 with the margins of
+// the loops (app/chapter2_loops_test.cpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include "models/bouc_wen_compensator.h"
-#include "models/jiles_atherton.h"
-#include "models/prandtl_ishlinskii.h"
-#include "models/prandtl_ishlinskii_inverse.h"
+#include "models/compensators/bouc_wen_compensator.h"
+#include "models/compensators/prandtl_ishlinskii_inverse.h"
+#include "models/hysteresis/jiles_atherton.h"
+#include "models/hysteresis/prandtl_ishlinskii.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {

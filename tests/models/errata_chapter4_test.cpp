@@ -1,5 +1,5 @@
 // Errata of chapter 4 of the thesis that concern a computation: the printed form fails, the corrected one holds. Those
-// of the swarms (E-25, E-26) stand in fit/global_test.cpp.
+// of the swarms (E-25, E-26) stand in fit/estimate/global_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "models/jiles_atherton.h"
-#include "models/prandtl_ishlinskii.h"
+#include "models/hysteresis/jiles_atherton.h"
+#include "models/hysteresis/prandtl_ishlinskii.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {

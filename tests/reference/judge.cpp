@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "blocks/register_all.h"
-#include "engine/error.h"
-#include "engine/program.h"
-#include "engine/simulate.h"
-#include "io/diagram_file.h"
+#include "engine/diagram/error.h"
+#include "engine/program/program.h"
+#include "engine/simulate/simulate.h"
+#include "io/diagram/diagram_file.h"
 #include "tests/reference/reference.h"
 
 namespace reference {

@@ -2,7 +2,7 @@
 // included.
 #pragma once
 
-#include "io/result.h"
+#include "io/results/result.h"
 
 namespace hysteron::example {
 

@@ -12,12 +12,12 @@
 #include <map>
 #include <random>
 
-#include "engine/error.h"
-#include "engine/stop.h"
+#include "engine/diagram/error.h"
+#include "engine/diagram/stop.h"
 #include "example.h"
-#include "io/atomic_file.h"
-#include "io/folder_lock.h"
-#include "io/result.h"
+#include "io/files/atomic_file.h"
+#include "io/files/folder_lock.h"
+#include "io/results/result.h"
 #include "tests/io/small_disk.h"
 
 namespace hysteron {

@@ -1,5 +1,5 @@
 // result.json: valid whatever the numbers and texts are, and read back as it was written.
-#include "io/result.h"
+#include "io/results/result.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "engine/error.h"
+#include "engine/diagram/error.h"
 #include "example.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 namespace hysteron {
 namespace {

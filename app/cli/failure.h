@@ -1,0 +1,18 @@
+// Decides how a failure looks: as text for people, or as JSON for programs (--errors json).
+// Does not decide what a failure is (engine/diagram/error.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagram/error.h"
+
+namespace hysteron {
+
+/// {"exit_code": 2, "problems": [{"code", "path", "what", "cure", "file", "line"}]}
+std::string problems_json(const std::vector<Problem>& problems, int code);
+
+/// Prints problems on stderr, in the form that the user asked for.
+void print_problems(const std::vector<Problem>& problems, int code, bool as_json);
+
+}  // namespace hysteron

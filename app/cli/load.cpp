@@ -1,0 +1,136 @@
+// Decides how a verb gets its diagram, its program and its data from the files that the user named.
+// Does not read files itself (io/), nor check them.
+#include "app/cli/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/cli/block_words.h"
+#include "blocks/register_all.h"
+#include "discover/hypotheses/effect_file.h"
+#include "engine/diagram/error.h"
+#include "engine/diagram/settings.h"
+#include "fit/inspect/inspection.h"
+#include "io/diagram/diagram_file.h"
+
+namespace hysteron {
+namespace {
+
+/// "path=value" of --set and --choose.
+std::vector<Override> overrides(const Arguments& arguments, const std::string& option) {
+  std::vector<Override> list;
+  for (const auto& written : arguments.list(option)) {
+    const auto equals = written.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == written.size())
+      fail("bad_command_line", option, "\"" + written + "\" does not say what becomes what",
+           option == "--set" ? "write --set controller.kp=\"0.5 V/um\"" : "write --choose compensator=none");
+    list.push_back({written.substr(0, equals), written.substr(equals + 1)});
+  }
+  return list;
+}
+
+}  // namespace
+
+const Registry& registry() {
+  static const Registry all = all_blocks();
+  return all;
+}
+
+void with_lines_of(const Diagram& diagram, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (Error& error) {
+    if (diagram.file.empty()) throw;
+    locate_problems(error, diagram.file);
+    throw Error(error.fault, error.problems);  // so that what() speaks of the lines too
+  }
+}
+
+Diagram load_diagram(const Arguments& arguments) {
+  Diagram diagram = read_diagram(arguments.text("diagram"), arguments.list("--allow"));
+  apply_overrides(diagram, arguments);
+  return diagram;
+}
+
+void apply_overrides(Diagram& diagram, const Arguments& arguments) {
+  const auto notes = settings_applied(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
+  for (const auto& note : notes)
+    if (!arguments.quiet()) fmt::print(stderr, "note: {}\n", note);
+}
+
+namespace {
+
+/// The engine knows no words from elsewhere: where a block type is missing the cure is told here.
+void tell_other_names(Error& error) {
+  for (auto& p : error.problems) {
+    const auto open = p.what.find('"'), close = p.what.rfind('"');
+    if (p.code == "unknown_block" && p.path.ends_with("/type") && close > open)
+      p.cure = instead_of_type(p.what.substr(open + 1, close - open - 1));
+  }
+}
+
+}  // namespace
+
+ProgramPointer compile_file(const Diagram& diagram) {
+  ProgramPointer program;
+  with_lines_of(diagram, [&] {
+    try {
+      program = compile(diagram, registry());
+    } catch (Error& error) {
+      tell_other_names(error);
+      throw Error(error.fault, error.problems);
+    }
+  });
+  return program;
+}
+
+DataSet load_data(const Arguments& arguments, const Program& program) {
+  DataSet data = read_dataset(arguments.text("--data"), arguments.list("--allow"));
+  check_binding(data, program);
+  return data;
+}
+
+void need_moving_outputs(const DataSet& data, const Program& program) {
+  Problems problems;
+  for (const auto& name : program.output_names) {
+    const auto& recordings = data.recordings;
+    const auto measured = std::find_if(recordings.begin(), recordings.end(), [&](const Recording& r) {
+      return r.role != Role::test && r.columns.contains(name);
+    });
+    if (measured == recordings.end() || moves(data, name)) continue;
+    problems.add("never_moves", data.file.empty() ? measured->name : data.file,
+                 fmt::format("{} never moves in {}", name,
+                             recordings.size() > 1 && !data.single ? "any recording" : measured->name),
+                 "see whether the sensor was connected and this is the column that was meant; take the output out of "
+                 "the diagram to go on without it");
+  }
+  problems.throw_if_any();
+}
+
+Effects load_effects(const Arguments& arguments) {
+  return with_own_effects(all_effects(), arguments.list("--effects"), registry(), arguments.list("--allow"));
+}
+
+Run start_recording(const Program& program, const DataSet& data, const Recording& recording) {
+  Run run = start(program);
+  for (const auto& input : program.input_names) bind_input(program, run, input, input_series(data, recording, input));
+  for (const auto& [path, value] : recording.initial_values) {
+    bool found = false;
+    for (std::size_t i = 0; i < program.state_names.size(); ++i)
+      if (program.state_names[i] == path) run.x[i] = value, found = true;
+    if (!found)
+      fail("unknown_state", recording.name + ": initial/" + path, "the diagram has no state \"" + path + "\"",
+           did_you_mean(path, program.state_names));
+  }
+  return run;
+}
+
+std::string stem_of(const std::string& file) { return std::filesystem::path(file).stem().string(); }
+
+std::string result_folder(const Arguments& arguments, const std::string& verb) {
+  return arguments.text("-o", stem_of(arguments.text("diagram")) + "." + verb);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,32 @@
+// Decides how numbers look to people: always with a unit, never with more digits than are worth reading.
+// Does not convert into other units than those the user's files speak.
+#pragma once
+
+#include <string>
+
+#include "engine/diagram/units.h"
+
+namespace hysteron {
+
+/// Four significant digits, without trailing zeros: "0.2129", "12.5", "1.2e-07".
+std::string number_text(double value, int digits = 4);
+
+/// "0.2129 um" of a value in SI. Offsets of the unit count (degC).
+std::string quantity_text(double si, const Unit& unit, int digits = 4);
+
+/// The same for a difference: an error of 0.5 K is 0.5 degC, not -272.65 degC.
+std::string difference_text(double si, const Unit& unit, int digits = 4);
+
+/// "12.3 %" of a share.
+std::string percent_text(double share);
+
+/// "1 recording", "3 recordings".
+std::string count_text(long n, const std::string& noun);
+
+/// "um" or "1": what stands behind a number or in the brackets of an axis.
+std::string unit_text(const Unit& unit);
+
+/// "y [um]"
+std::string axis_text(const std::string& name, const Unit& unit);
+
+}  // namespace hysteron

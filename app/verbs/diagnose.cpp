@@ -1,0 +1,27 @@
+// The verb diagnose: which physical effect is missing, with evidence; one, the first.
+// Does not search itself (look.h, discover/).
+#include "app/cli/verb.h"
+#include "app/verbs/look.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: WHICH physical effect is missing, with evidence, or an honest \"cannot tell\".\n"
+    "This is the first step of \"hysteron discover\": everything is tried, one effect is named, none is piled on "
+    "it.\n\n"
+    "Examples:\n"
+    "  hysteron diagnose stage.json --data dataset.json\n"
+    "  hysteron diagnose stage.json --data lab.csv --free gain --only creep\n\n"
+    "Writes into the folder: result.json, traces/*.csv, report.html, and the diagram with the effect named.\n"
+    "Exit codes: 0 done, whatever was found; 2 wrong input, 3 numerics failed, 130 interrupted.";
+
+int diagnose(const Arguments& arguments) { return look("diagnose", arguments); }
+
+}  // namespace
+
+Verb diagnose_verb() {
+  return {"diagnose", "which physical effect is missing, with evidence", help, look_options(), diagnose};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,458 @@
+// The verb explain: what the compiler made of a diagram, and how a simulation would go about it.
+// Nothing is simulated.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "app/cli/load.h"
+#include "app/cli/publish.h"
+#include "app/cli/terminal.h"
+#include "app/cli/verb.h"
+#include "app/pages/facts.h"
+#include "app/pages/numbers.h"
+#include "app/verbs/program_facts.h"
+#include "engine/diagram/error.h"
+#include "engine/lanes/lanes.h"
+#include "engine/program/corners.h"
+#include "engine/program/feedthrough.h"
+#include "engine/program/nominal.h"
+#include "engine/simulate/choose_method.h"
+#include "engine/simulate/fixed_step.h"
+#include "engine/simulate/jacobian.h"
+#include "engine/simulate/simulate.h"
+#include "engine/simulate/simulate_parts.h"
+#include "io/results/result.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: what does the program make of this diagram - in which order are blocks evaluated, where are\n"
+    "loops, whose rates are computed and for whom, what makes events, which clocks tick, which solver is\n"
+    "chosen and why, and where does the value of each parameter come from.\n\n"
+    "Examples:\n"
+    "  hysteron explain stage.json\n"
+    "  hysteron explain loop.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n\n"
+    "Prints to the terminal; nothing is simulated. With -o it writes result.json and report.html as well, else\n"
+    "nothing is written.\n"
+    "Exit codes: 0 done, 2 the diagram is wrong.";
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// "0.1 ms": times here come from many files, so none of their units is right for all.
+std::string time_text(double seconds) {
+  const double size = std::abs(seconds);
+  const char* unit = size == 0 || size >= 1 ? "s" : size >= 0.999e-3 ? "ms" : size >= 0.999e-6 ? "us" : "ns";
+  return quantity_text(seconds, parse_unit(unit), 6);
+}
+
+std::string joined(const std::vector<std::string>& list) { return fmt::format("{}", fmt::join(list, ", ")); }
+
+class Explanation {
+ public:
+  Explanation(const Program& program, const Diagram& diagram, std::string file)
+      : program_(program), diagram_(diagram), file_(std::move(file)), run_(start(program)) {}
+
+  /// Prints everything and returns it.
+  Document print() {
+    const auto nonempty = [](const std::string& text) { return text.empty() ? "" : ": " + text; };
+    fmt::print("{}", wrapped(fmt::format("{}{}", file_, nonempty(program_.title))));
+    fmt::print("{}",
+               wrapped(fmt::format("{}, {}, {}, {}", count_text(static_cast<long>(program_.blocks.size()), "block"),
+                                   count_text(static_cast<long>(program_.signals.size()), "signal"),
+                                   count_text(program_.n_x, "continuous state"),
+                                   count_text(static_cast<long>(program_.parameters.size()), "number")),
+                       2));
+    print_choices();
+    print_order();
+    print_loops();
+    print_rates();
+    print_events();
+    print_clocks();
+    print_solver();
+    print_states();
+    print_parameters();
+    document_.verb = "explain";
+    document_.title = program_.title.empty() ? stem_of(file_) : program_.title;
+    document_.headline = fmt::format("{}: what the compiler made of it", document_.title);
+    document_.facts =
+        to_json(Facts::object({{"diagram", file_},
+                               {"blocks", program_.blocks.size()},
+                               {"signals", program_.signals.size()},
+                               {"continuous_states", program_.n_x},
+                               {"parameters", program_.parameters.size()},
+                               {"loops", std::count_if(program_.loops.begin(), program_.loops.end(),
+                                                       [&](const Loop& l) { return is_algebraic(program_, l); })},
+                               {"method", method_},
+                               {"why", why_}}));
+    return std::move(document_);
+  }
+
+ private:
+  const BlockInstance& block(int b) const { return program_.blocks[at(b)]; }
+  const std::string& path(int b) const { return block(b).path; }
+  std::vector<std::string> paths(const std::vector<int>& blocks) const {
+    std::vector<std::string> list;
+    for (const int b : blocks) list.push_back(path(b));
+    return list;
+  }
+  const std::string& type(int b) const { return block(b).kernel->declaration.type; }
+
+  // What is printed is kept for result.json, too.
+  void head(const std::string& title) {
+    fmt::print("\n{}\n", title);
+    document_.sections.emplace_back().title = title;
+  }
+  void say(const std::string& text) {
+    fmt::print("{}", wrapped(text, 2));
+    document_.sections.back().text.push_back(text);
+  }
+  void show(const std::vector<std::string>& heads, const Rows& rows) {
+    fmt::print("{}", table_text(heads, rows));
+    Table table;
+    table.columns = heads.empty() ? std::vector<std::string>(rows.empty() ? 0 : rows.front().size()) : heads;
+    table.rows = rows;
+    for (auto& row : table.rows) row.resize(table.columns.size());
+    document_.sections.back().tables.push_back(std::move(table));
+  }
+
+  void print_choices() {
+    Rows rows;
+    for (const auto& [name, node] : diagram_.blocks)
+      if (!node.from.empty()) rows.push_back({name, node.choose, "of " + joined(node.from.names())});
+    if (rows.empty()) return;
+    head("choices");
+    show({}, rows);
+  }
+
+  // --- order ---------------------------------------------------------------------------------------------------------
+
+  void print_order() {
+    head("order of evaluation");
+    Rows rows;
+    // Values that dx/dt does not need (what is only recorded) come behind.
+    std::vector<bool> seen(program_.blocks.size(), false);
+    const std::function<void(const Step&, const std::string&)> add = [&](const Step& step, const std::string& when) {
+      if (step.order == Order::loop) {
+        const Loop& loop = program_.loops[at(step.block)];
+        const std::string name = fmt::format("loop {}", step.block + 1);
+        rows.push_back({fmt::format("{}", rows.size() + 1), "solve", name, "", when, "for " + joined(tears_of(loop))});
+        for (const auto& inner : loop.steps) add(inner, "in " + name);
+        return;
+      }
+      const auto& b = block(step.block);
+      std::vector<std::string> reads;
+      for (const int s : b.source) reads.push_back(program_.signals[at(s)].path);
+      // A source whose rate is needed makes its value in the same step, the first time that it is called.
+      const bool both = step.order == Order::rate && is_source_of_time(b) && !seen[at(step.block)];
+      rows.push_back({fmt::format("{}", rows.size() + 1), both ? "value+rate" : name_of(step.order), b.path,
+                      type(step.block), when, reads.empty() ? "" : "reads " + joined(reads)});
+    };
+    const auto values_in = [&](const Step& step) {
+      if (step.order == Order::loop) return program_.loops[at(step.block)].blocks;
+      const bool makes_values =
+          step.order == Order::value || (step.order == Order::rate && is_source_of_time(block(step.block)));
+      return makes_values ? std::vector<int>{step.block} : std::vector<int>{};
+    };
+    for (const auto& step : program_.derivative_steps) {
+      add(step, "");
+      for (const int b : values_in(step)) seen[at(b)] = true;
+    }
+    for (const auto& step : program_.all_values) {
+      const auto blocks = values_in(step);
+      if (std::any_of(blocks.begin(), blocks.end(), [&](int b) { return !seen[at(b)]; })) add(step, "outputs only");
+    }
+    for (const auto& step : program_.rate_steps) add(step, "events only");
+    show({"", "what", "of block", "type", "needed for", ""}, rows);
+  }
+
+  static std::string name_of(Order order) {
+    return order == Order::value ? "value" : order == Order::rate ? "rate" : "dx/dt";
+  }
+
+  /// "drive", "d/dt drive", "dx/dt of stage.x": what a loop is solved for.
+  std::vector<std::string> tears_of(const Loop& loop) const {
+    std::vector<std::string> names;
+    for (const auto& tear : loop.tears)
+      names.push_back(tear.order == Order::derivative
+                          ? "dx/dt of " + program_.state_names[at(tear.index)]
+                          : (tear.order == Order::rate ? "d/dt " : "") + program_.signals[at(tear.index)].path);
+    return names;
+  }
+
+  void print_loops() {
+    head("loops");
+    const auto around = [](std::vector<std::string> names) {
+      names.push_back(names.front());
+      return fmt::format("{}", fmt::join(names, " -> "));
+    };
+    int algebraic = 0;
+    for (std::size_t i = 0; i < program_.loops.size(); ++i) {
+      const Loop& loop = program_.loops[i];
+      std::vector<int> way;
+      for (const auto& step : loop.path)
+        if (way.empty() || way.back() != step.block) way.push_back(step.block);
+      if (way.size() > 1 && way.front() == way.back()) way.pop_back();
+      if (!is_algebraic(program_, loop)) {
+        say(fmt::format("loop {} of blocks: {}; no output depends on itself", i + 1, around(paths(way))));
+        continue;
+      }
+      ++algebraic;
+      say(fmt::format("algebraic loop {} of {}: {}; solved at every evaluation for {}", i + 1,
+                      loop.of_values() ? "values" : "rates", around(paths(way)), joined(tears_of(loop))));
+    }
+    if (algebraic == 0) say("algebraic: none; no output depends on itself at the same instant");
+    const auto feedback = feedback_loops(program_);
+    for (const auto& loop : feedback)
+      if (!loop.opened_by.empty())
+        say(fmt::format("feedback: {} ({} with a delay or through a state)", around(paths(loop.blocks)),
+                        joined(paths(loop.opened_by)) +
+                            (loop.opened_by.size() == 1 ? " follows its input" : " follow their inputs")));
+    if (feedback.empty()) say("feedback: none");
+  }
+
+  void print_rates() {
+    head("rates that are computed (exactly, by the chain rule)");
+    Rows rows;
+    for (const auto& rate : needed_rates(program_))
+      rows.push_back({"d/dt " + program_.signals[at(rate.signal)].path, "for " + joined(rate.asked_by)});
+    if (rows.empty())
+      say("none; nobody asks for one");
+    else
+      show({}, rows);
+  }
+
+  // --- events --------------------------------------------------------------------------------------------------------
+
+  void print_events() {
+    head("events");
+    Rows rows;
+    const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
+      if (!who.empty()) rows.push_back({what, joined(who), how});
+    };
+    std::vector<std::string> corners, late, jumping, noisy, following, modal, turning, silent;
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
+      const auto& one = program_.blocks[b];
+      if (one.n_u == 0 && (one.kernel->next_corner != nullptr || one.kernel->declaration.is_series))
+        corners.push_back(one.path);
+      if (one.sizes.history) late.push_back(one.path);
+      if (one.kernel->has_modes()) modal.push_back(one.path);
+      bool jump = false;
+      for (const int s : one.source) jump |= program_.signals[at(s)].smoothness == Smoothness::jumps;
+      if (jump && (one.kernel->declaration.is_rate_independent || one.sizes.memory > 0)) following.push_back(one.path);
+      if (one.sizes.memory > 0)
+        for (const int s : one.source)
+          (program_.has_rate[at(s)] ? turning : silent).push_back(one.path + " (" + program_.signals[at(s)].path + ")");
+    }
+    for (const auto& signal : program_.signals) {
+      if (signal.smoothness == Smoothness::jumps) jumping.push_back(signal.path);
+      if (signal.smoothness == Smoothness::no_rate) noisy.push_back(signal.path);
+    }
+    add("corners of sources", corners, "known times: the solver stops there");
+    add("dead times", late, "corners come again, later");
+    add("signals that jump", jumping, "");
+    add("followed as paths", following, "a jump is walked as the path of a fast ramp");
+    add("signals without a rate", noisy, "");
+    add("reversals located", turning, "where the input's rate changes its sign (a root)");
+    add("reversals not located", silent, "the input has no rate; exact where it is held");
+    add("modes", modal, "change where the guard falls through zero (a root)");
+    if (rows.empty())
+      say("none; every signal is smooth and no block remembers");
+    else
+      show({}, rows);
+  }
+
+  void print_clocks() {
+    head("clocks");
+    const auto clocks = clock_facts(program_);
+    if (clocks.empty()) return say("none; no block is sampled");
+    Rows rows;
+    for (const auto& clock : clocks)
+      rows.push_back(
+          {"every " + time_text(clock.period), "from " + time_text(clock.offset), joined(paths(clock.blocks))});
+    show({}, rows);
+    std::vector<std::string> taken, held;
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b)
+      for (const int s : program_.blocks[b].source) {
+        const auto& from = program_.blocks[at(program_.signals[at(s)].block)];
+        const bool sampled = program_.blocks[b].kernel->is_sampled();
+        auto& list = sampled ? taken : held;
+        const std::string text = program_.signals[at(s)].path + " for " + program_.blocks[b].path;
+        if (sampled != from.kernel->is_sampled() && std::find(list.begin(), list.end(), text) == list.end())
+          list.push_back(text);
+      }
+    if (!taken.empty()) say("continuous signals read at instants: " + joined(taken));
+    if (!held.empty()) say("held between instants: " + joined(held));
+  }
+
+  // --- solver --------------------------------------------------------------------------------------------------------
+
+  bool inputs_unbound() const { return !program_.input_names.empty(); }
+
+  /// "" if the exact advance applies; else what stands in the way.
+  std::string why_not_exactly(SimulateOptions options) const {
+    options.method = Method::exact;
+    try {
+      advances_exactly(program_, options);
+      return "";
+    } catch (const Error& error) {
+      const std::string& what = error.problems.front().what;
+      const auto colon = what.find(": ");
+      return colon == std::string::npos ? what : what.substr(colon + 2);
+    }
+  }
+
+  std::string exact_because() const {
+    return program_.sampled_blocks.empty()
+               ? "every source is a recording, and no block changes its mode"
+               : "between instants nothing but recordings moves what remembers, and no block changes its mode";
+  }
+
+  void print_solver() {
+    head("solver");
+    SimulateOptions options = simulate_options(program_);
+    const std::string reason = why_not_exactly(options);
+    const bool exact = reason.empty() && advances_exactly(program_, options);
+    Rows rows;
+    const bool asked = options.method != Method::automatic;
+    MethodChoice choice{options.method, "as the diagram says"};
+    if (!asked && exact) choice = {Method::exact, exact_because()};
+    if (!asked && !exact) choice = choose_method(program_, run_, options.begin, options.until - options.begin);
+    method_ = method_name(choice.method);
+    why_ = choice.why;
+    rows.push_back({"method", method_, why_});
+    rows.push_back({"exact row by row", reason.empty() ? "applies" : "does not apply", reason});
+    const double until = options.until;
+    rows.push_back({"until", program_.simulate.until ? time_text(until) : "open",
+                    program_.simulate.until ? from_diagram(true) : "--until, or the recordings of --data"});
+    rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
+                    from_diagram(program_.simulate.every.has_value())});
+    const std::string apart = why_not_in_lanes(program_);
+    rows.push_back(
+        {"in lanes", apart.empty() ? "applies" : "does not apply",
+         apart.empty()
+             ? "many parameter sets side by side, with the methods euler and rk4; not where the corners of a source "
+               "are varied"
+             : apart});
+    options.method = choice.method;
+    if (!exact) add_integrator_rows(rows, options);
+    show({}, rows);
+  }
+
+  static std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }
+
+  void add_integrator_rows(Rows& rows, const SimulateOptions& options) const {
+    const auto& given = program_.simulate;
+    if (has_fixed_steps(options.method)) {
+      rows.push_back({"step", time_text(options.step), from_diagram(given.step.has_value())});
+      return;
+    }
+    rows.push_back({"relative tolerance", number_text(options.relative_tolerance),
+                    from_diagram(given.relative_tolerance.has_value())});
+    rows.push_back({"absolute tolerance", number_text(options.absolute_tolerance),
+                    from_diagram(given.absolute_tolerance.has_value()) +
+                        "; times the relative one, times the nominal size of each state"});
+    const auto [longest, why] = longest_step_and_why(options);
+    rows.push_back({"longest step", longest, why});
+    if (options.method == Method::bdf && program_.n_x > 0) {
+      const Jacobian jacobian(program_);
+      rows.push_back({"Jacobian", fmt::format("{} x {}", program_.n_x, program_.n_x),
+                      fmt::format("exact slopes, {}", count_text(jacobian.colours(), "direction"))});
+    }
+  }
+
+  std::pair<std::string, std::string> longest_step_and_why(const SimulateOptions& options) const {
+    if (options.max_step > 0) return {time_text(options.max_step), "as the diagram says"};
+    const double longest = longest_step(program_, run_, options.until - options.begin);
+    if (!std::isfinite(longest)) return {"not limited", "no source reaches a memory, and there is no dead time"};
+    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
+      const auto& one = program_.blocks[b];
+      if (one.kernel->pace == nullptr || one.series_index >= 0) continue;
+      if (one.kernel->pace(view_of(program_, run_, static_cast<int>(b))) / 4 == longest)
+        return {time_text(longest),
+                fmt::format("a quarter of the shortest period of {}, which reaches a memory", one.path)};
+    }
+    return {time_text(longest), "the shortest dead time"};
+  }
+
+  void print_states() {
+    if (program_.n_x == 0) return;
+    head("continuous states");
+    Rows rows;
+    const auto sizes = inputs_unbound() ? NominalSizes{} : nominal_sizes(program_, run_);
+    const auto options = simulate_options(program_);
+    for (std::size_t i = 0; i < program_.state_names.size(); ++i) {
+      std::vector<std::string> row{program_.state_names[i], number_text(run_.x[i])};
+      if (i < sizes.states.size()) {
+        row.push_back(number_text(sizes.states[i]));
+        row.push_back(number_text(sizes.states[i] * options.relative_tolerance * options.absolute_tolerance));
+      } else {
+        row.insert(row.end(), {"by the recording", "by the recording"});
+      }
+      rows.push_back(std::move(row));
+    }
+    show({"state", "start [SI]", "nominal size [SI]", "absolute tolerance [SI]"}, rows);
+  }
+
+  // --- parameters ----------------------------------------------------------------------------------------------------
+
+  void print_parameters() {
+    head("parameters");
+    Rows rows;
+    for (const auto& info : program_.parameters) {
+      const std::string value =
+          info.difference ? difference_text(info.value, info.unit, 6) : quantity_text(info.value, info.unit, 6);
+      rows.push_back({info.path, value, origin_text(info.origin) + used_as(info)});
+    }
+    if (rows.empty()) return say("none");
+    show({"parameter", "value", "from"}, rows);
+  }
+
+  /// Of a diagram parameter: the places that read it.
+  std::string used_as(const ParameterInfo& info) const {
+    std::vector<std::string> places;
+    const int index = static_cast<int>(&info - program_.parameters.data());
+    for (const auto& [name, i] : program_.parameter_names)
+      if (i == index && name != info.path) places.push_back(name);
+    return (places.empty() ? "" : "; read as " + joined(places)) + (info.free ? "; free for a fit" : "");
+  }
+
+  const Program& program_;
+  const Diagram& diagram_;
+  std::string file_;
+  Run run_;
+  Document document_;
+  std::string method_, why_;
+};
+
+int explain(const Arguments& arguments) {
+  const Diagram diagram = load_diagram(arguments);
+  const ProgramPointer program = compile_file(diagram);
+  with_lines_of(diagram, [&] {
+    const Document document = Explanation(*program, diagram, arguments.text("diagram")).print();
+    if (!arguments.has("-o")) return;
+    fmt::print("\n");
+    publish(arguments, arguments.text("-o"), document);
+  });
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb explain_verb() {
+  return {"explain",
+          "what the compiler made of a diagram",
+          help,
+          {options::diagram(),
+           {"-o", "FOLDER", "also write result.json and report.html into this folder", false, false},
+           options::set(),
+           options::choose(),
+           options::allow()},
+          explain};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,157 @@
+// The verb inspect: what a data set is good for, before any model is judged on it.
+// Does not inspect itself (fit/inspect/inspection.h, discover/placement/visible.h).
+#include <fmt/format.h>
+
+#include "app/cli/load.h"
+#include "app/cli/publish.h"
+#include "app/cli/verb.h"
+#include "app/pages/inspection_page.h"
+#include "app/verbs/starter.h"
+#include "engine/diagram/error.h"
+
+namespace hysteron {
+namespace {
+
+constexpr char help[] =
+    "Answers: what can these recordings show, and is anything wrong with them. Looks at units and ranges, the clock,\n"
+    "lost and repeated rows, clipping of outputs and inputs, the finest step of each column, what the inputs excite\n"
+    "(range, band, turns, holds), how well the measurement repeats where something was recorded twice, lines that no\n"
+    "input makes, a shift in time - and says of every effect whether these data can show it, and what would.\n\n"
+    "Examples:\n"
+    "  hysteron inspect lab.csv\n"
+    "  hysteron inspect dataset.json --diagram stage.json\n"
+    "  hysteron inspect lab.csv --input volts --output disp --json\n\n"
+    "With --diagram, a shift in time, interference and the way of an input between its samples are looked for in what\n"
+    "the diagram leaves over, its free parameters fitted first, and effects at every place of it. Without, a gain and\n"
+    "an offset stand for it, inputs and outputs are told by the names of the columns (u*, y*, x*, T*), and it says\n"
+    "so.\n"
+    "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
+    "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing.\n"
+    "Exit codes: 0 done, whatever was found; 2 wrong input.";
+
+/// The columns of one recording as a table, as `new` takes it.
+CsvTable table_of(const DataSet& data, const Recording& recording) {
+  CsvTable table;
+  table.file = data.file.empty() ? recording.name : data.file;
+  table.columns.push_back({"t", parse_unit("s"), recording.t});
+  for (const auto& [name, si] : recording.columns) {
+    if (name == column_of_cycles || name == column_of_start) continue;
+    const auto unit = recording.units.find(name);
+    CsvColumn column{name, unit == recording.units.end() ? Unit{} : unit->second, si};
+    for (double& v : column.values) v = column.unit.from_si(v);
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+/// A column gets the name that the diagram has for it.
+void rename(DataSet& data, const std::string& from, const std::string& to) {
+  if (from == to) return;
+  const auto move = [&](auto& map) {
+    if (auto node = map.extract(from)) {
+      node.key() = to;
+      map.insert(std::move(node));
+    }
+  };
+  move(data.notes);
+  if (data.notes.contains(to)) data.notes[to].to = to;
+  for (auto& r : data.recordings) {
+    move(r.columns);
+    move(r.units);
+  }
+}
+
+struct Subject {
+  Diagram diagram;
+  DataSet data;
+  std::vector<std::string> assumed;
+};
+
+/// Gain and offset stand for the diagram that nobody named.
+Subject without_diagram(const Arguments& arguments) {
+  Subject subject;
+  subject.data = read_dataset(arguments.text("data"), arguments.list("--allow"));
+  const CsvTable table = table_of(subject.data, subject.data.recordings.front());
+  StarterRoles given;
+  given.inputs = arguments.list("--input");
+  given.outputs = arguments.list("--output");
+  std::vector<std::string> guessed;
+  const StarterRoles roles = guess_roles(table, given, guessed);
+  subject.diagram = make_starter(table, roles, subject.data.recordings.front().name).diagram;
+  for (const auto* list : {&roles.inputs, &roles.outputs})
+    for (const auto& name : *list) rename(subject.data, name, diagram_name(name));
+  subject.assumed.push_back(
+      fmt::format("No diagram was named: judged with a gain and an offset from {} to {}{}. What an effect needs of a "
+                  "diagram (a mass, a hysteresis) is not there, and whether an output is a sample late or early, or an "
+                  "input held between its samples, was not looked for; name yours with --diagram.",
+                  fmt::join(roles.inputs, ", "), fmt::join(roles.outputs, ", "),
+                  guessed.empty() ? "" : " (told by the names of the columns)"));
+  return subject;
+}
+
+Subject with_diagram(Arguments arguments) {
+  Subject subject;
+  arguments.set("diagram", {arguments.text("--diagram")});
+  arguments.set("--data", {arguments.text("data")});
+  subject.diagram = load_diagram(arguments);
+  subject.data = load_data(arguments, *compile_file(subject.diagram));
+  return subject;
+}
+
+int inspect_verb_acts(const Arguments& arguments) {
+  const bool named = arguments.has("--diagram");
+  if (named && (arguments.has("--input") || arguments.has("--output")))
+    fail("bad_command_line", arguments.has("--input") ? "--input" : "--output",
+         "the diagram says what its inputs and outputs are", "leave out --diagram or this option");
+  const Subject subject = named ? with_diagram(arguments) : without_diagram(arguments);
+  DataModelOptions options;
+  options.threads = 2;
+  DataModel model(compile_file(subject.diagram), std::make_shared<const DataSet>(subject.data), options);
+  const Inspected seen = inspect_data(subject.diagram, model, load_effects(arguments), {}, named);
+
+  Facts facts = Facts::object({{"data", arguments.text("data")}});
+  if (named) facts.set("diagram", arguments.text("--diagram"));
+  facts.set("assumed", subject.assumed);
+  facts.set("inspection", inspection_facts(seen));
+  if (arguments.has("--json")) {
+    fmt::print("{}\n", json_text(facts));
+    return exit_code::done;
+  }
+
+  Document document;
+  document.verb = "inspect";
+  document.title = subject.data.title.empty() ? stem_of(arguments.text("data")) : subject.data.title;
+  document.headline = inspection_headline(seen);
+  document.sentences = inspection_sentences(seen);
+  document.warnings = seen.data.faults;
+  document.warnings.insert(document.warnings.end(), subject.assumed.begin(), subject.assumed.end());
+  document.warnings.insert(document.warnings.end(), subject.data.remarks.begin(), subject.data.remarks.end());
+  document.sections.push_back(inspection_section(seen));
+  document.facts = to_json(facts);
+  const std::string folder = arguments.text("-o", stem_of(arguments.text("data")) + ".inspect");
+  publish(arguments, folder, document);
+  return exit_code::done;
+}
+
+}  // namespace
+
+Verb inspect_verb() {
+  auto folder = options::output_folder();
+  folder.meaning = "where the results go; default: named after the data, e.g. lab.inspect";
+  return {"inspect",
+          "what recordings can and cannot show, and what is wrong with them",
+          help,
+          {{"data", "DATA", "a data set (.json), or one recording (.csv)", true, false},
+           {"--diagram", "DIAGRAM.json", "the model that shall be judged on them", false, false},
+           {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},
+           {"--output", "COLUMN", "this column was measured (else guessed from the names)", false, true},
+           {"--json", "", "print the facts as JSON", false, false},
+           options::effects(),
+           folder,
+           options::set(),
+           options::choose(),
+           options::allow()},
+          inspect_verb_acts};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,492 @@
+// The verb reproduce: runs the jobs behind the figures of a published work and holds its claims against what comes out.
+// Does not run a single job itself (job_runs.h), draw it (job_figures.h) nor judge a claim (claims.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
+#include "app/cli/publish.h"
+#include "app/cli/terminal.h"
+#include "app/cli/verb.h"
+#include "app/jobs/baseline.h"
+#include "app/jobs/claims.h"
+#include "app/jobs/job_figures.h"
+#include "app/pages/facts.h"
+#include "app/pages/numbers.h"
+#include "engine/diagram/error.h"
+#include "engine/diagram/number_text.h"
+#include "report/page/report.h"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char help[] =
+    "Answers: does a published work come out again, figure by figure and claim by claim. Runs the jobs\n"
+    "(\"do\": \"runs\") of a folder of diagrams and prints, per claim: id, what it says, what came out, what was\n"
+    "expected, and the outcome:\n"
+    "  agrees              within the tolerance\n"
+    "  calibrated          agrees, but a stand-in was tuned to reach it: it shows only that the number is reachable\n"
+    "  differs             outside the tolerance; why, where that is known\n"
+    "  cannot be checked   and the reason\n\n"
+    "Examples:\n"
+    "  hysteron reproduce                     everything\n"
+    "  hysteron reproduce chapter2            the figures of one chapter\n"
+    "  hysteron reproduce fig2_15 -o out      one figure\n"
+    "  hysteron reproduce C2-07               the figures that settle one claim\n"
+    "  hysteron reproduce chapter4 --full     its searches and studies in full size\n"
+    "  hysteron reproduce all --baseline kept     kept at the first time, compared with at the next ones\n\n"
+    "Writes into the folder: result.json, traces/*.csv (what each figure draws), report.html with the claims, and\n"
+    "a page per chapter (chapter2.html) with every figure, each as SVG beside it. docs/reproduce.md tells how a job is "
+    "written.\n"
+    "Exit codes: 0 done, whatever was found, 1 a claim that held in the baseline does not any more, 2 a job is\n"
+    "wrong, 3 a run failed.";
+
+struct Job {
+  std::string file, name, chapter;
+};
+
+/// "diagrams" here or in a folder above; else where the program is installed.
+std::string folder_of(const Arguments& arguments) {
+  if (arguments.has("--from")) return arguments.text("--from");
+  std::error_code code;
+  for (fs::path here = fs::current_path(code); !here.empty(); here = here.parent_path()) {
+    if (fs::exists(here / "diagrams" / "claims.json", code))
+      return (here / "diagrams").lexically_relative(fs::current_path()).string();
+    if (here == here.parent_path()) break;
+  }
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "hysteron" / "diagrams";
+  if (!code && fs::exists(installed / "claims.json", code)) return installed.string();
+  fail("no_folder", "--from", "there is no folder \"diagrams\" with a claims.json here or above",
+       "name the folder of the jobs with --from FOLDER");
+}
+
+/// "fig2_15" before "fig2_100": digits count as numbers.
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, k = 0;
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (i < a.size() && k < b.size()) {
+    if (digit(a[i]) && digit(b[k])) {
+      std::size_t i_end = i, k_end = k;
+      while (i_end < a.size() && digit(a[i_end])) ++i_end;
+      while (k_end < b.size() && digit(b[k_end])) ++k_end;
+      const int x = leading_whole_number(a.substr(i, std::min<std::size_t>(i_end - i, 9)), 0);
+      const int y = leading_whole_number(b.substr(k, std::min<std::size_t>(k_end - k, 9)), 0);
+      if (x != y) return x < y;
+      i = i_end;
+      k = k_end;
+    } else {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i;
+      ++k;
+    }
+  }
+  return a.size() - i < b.size() - k;
+}
+
+/// Every job with "do": "runs" below the folder; its chapter is the folder in which it lies.
+std::vector<Job> jobs_in(const std::string& folder) {
+  if (!fs::is_directory(folder))
+    fail("no_folder", folder, "there is no such folder", "name the folder of the jobs with --from FOLDER");
+  std::vector<Job> jobs;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    if (!entry.is_regular_file() || path.extension() != ".json" || path.filename() == "claims.json") continue;
+    if (what_a_job_does(path.string()) != "runs") continue;
+    jobs.push_back({path.string(), path.stem().string(), path.parent_path().filename().string()});
+  }
+  if (jobs.empty())
+    fail("no_jobs", folder, "no file in this folder is a job with \"do\": \"runs\"",
+         "name the folder of the jobs with --from FOLDER");
+  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
+    return a.chapter != b.chapter ? natural_less(a.chapter, b.chapter) : natural_less(a.name, b.name);
+  });
+  return jobs;
+}
+
+/// What the user asked for: jobs, and the beginnings of the ids of claims that are told even without a job.
+struct Wanted {
+  std::vector<Job> jobs, others;
+  std::vector<std::string> prefixes;
+  bool claims_alone = true;  ///< nothing but claims was named: no others are told
+};
+
+/// "chapter2" -> "C2-".
+std::string prefix_of(const std::string& chapter) {
+  return chapter.starts_with("chapter") ? "C" + chapter.substr(7) + "-" : "";
+}
+
+Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>& all,
+                   const std::vector<PublishedClaim>& claims, JobPool& pool) {
+  Wanted wanted;
+  std::vector<bool> take(all.size(), false);
+  for (const auto& word : words) {
+    bool known = word == "all";
+    if (known) {
+      take.assign(all.size(), true);
+      wanted.prefixes.emplace_back("");
+      wanted.claims_alone = false;
+      continue;
+    }
+    const bool place =
+        std::any_of(all.begin(), all.end(), [&](const Job& j) { return j.name == word || j.chapter == word; });
+    bool claim = std::any_of(claims.begin(), claims.end(), [&](const auto& c) { return c.id == word; });
+    std::vector<std::string> names{"all"};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      bool is = all[i].name == word || all[i].chapter == word;
+      if (all[i].chapter == word && !prefix_of(word).empty()) wanted.prefixes.push_back(prefix_of(word));
+      if (!place)
+        for (const auto& part : pool.job(all[i].file).job().claims)
+          if (part.id == word) is = claim = true;
+      if (is) take[i] = known = true;
+      names.push_back(all[i].name);
+      if (std::find(names.begin(), names.end(), all[i].chapter) == names.end()) names.push_back(all[i].chapter);
+    }
+    if (claim) wanted.prefixes.push_back(word);
+    wanted.claims_alone = wanted.claims_alone && claim;
+    for (const auto& c : claims) names.push_back(c.id);
+    if (!known && !claim)
+      fail("unknown_figure", word, fmt::format("there is no chapter, figure or claim \"{}\"", word),
+           nearest_name(word, names).empty()
+               ? "name \"all\", a chapter (chapter2), a figure (fig2_15) or a claim (C2-07)"
+               : fmt::format("did you mean \"{}\"?", nearest_name(word, names)));
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) (take[i] ? wanted.jobs : wanted.others).push_back(all[i]);
+  return wanted;
+}
+
+/// What one job gave. A run whose numerics failed costs its job alone; wrong input ends everything.
+struct Done {
+  JobPage page;
+  std::vector<PartOutcome> parts;
+  std::string failed{};
+  std::exception_ptr error{};
+  double seconds = 0;
+};
+
+/// What stands in place of a job whose numerics failed: none of its claims holds.
+void tell_failure(const Job& job, const Error& error, JobPool& pool, Done& d) {
+  const Problem& p = error.problems.front();
+  d.failed = fmt::format("{} failed: {}: {}", job.name, p.path, p.what);
+  d.parts.clear();
+  for (const auto& claim : pool.job(job.file).job().claims)
+    d.parts.push_back(
+        {job.name, claim.id, false, "the run failed: " + p.what, claim.expected ? claim.expected->text : "-", p.cure});
+  d.page = {};
+  d.page.section.title = figure_name(job.name);
+  d.page.section.text.push_back(d.failed);
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Claims judged and figures drawn, from runs that are done by now or are done here.
+Done done(const Job& job, JobPool& pool) {
+  Done d;
+  try {
+    JobRunner& runner = pool.job(job.file);
+    for (const auto& claim : runner.job().claims) d.parts.push_back(judge(runner, claim));
+    d.page = page_of(runner, pool.allowed());
+  } catch (const Error& error) {
+    if (error.fault == Fault::input)
+      d.error = std::current_exception();
+    else
+      tell_failure(job, error, pool, d);
+  } catch (...) {
+    d.error = std::current_exception();
+  }
+  return d;
+}
+
+/// One piece of work for a thread: a run of a job, or (no run) its claims and figures.
+struct Task {
+  std::size_t job = 0;
+  const RunWish* run = nullptr;
+  double seconds = 0;
+};
+
+/// The runs of each job, then what is made of them.
+std::vector<Task> tasks_of(const std::vector<Job>& jobs, JobPool& pool) {
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    for (const auto& run : pool.job(jobs[i].file).job().runs)
+      if (run.kind != RunKind::elsewhere) tasks.push_back({i, &run});
+    tasks.push_back({i, nullptr});
+  }
+  return tasks;
+}
+
+void do_task(Task& task, const std::vector<Job>& jobs, JobPool& pool, std::vector<Done>& results) {
+  const auto begin = Clock::now();
+  if (task.run == nullptr) {
+    results[task.job] = done(jobs[task.job], pool);
+  } else {
+    try {
+      pool.job(jobs[task.job].file).shared_result({task.run->name, task.run->pointer});
+    } catch (const std::exception&) {
+      // Told by the task that needs the run, with what it was needed for.
+    }
+  }
+  task.seconds = seconds_since(begin);
+}
+
+/// All jobs, several runs at once; what comes out does not depend on how many.
+std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet) {
+  std::vector<Done> results(jobs.size());
+  std::vector<Task> tasks = tasks_of(jobs, pool);
+  std::atomic<std::size_t> next{0}, ready{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tasks.size(); i = next++) {
+      do_task(tasks[i], jobs, pool, results);
+      ++ready;
+    }
+  };
+  std::vector<std::thread> threads;
+  const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, 8U);
+  for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
+  {
+    Progress progress(quiet);
+    while (ready < tasks.size()) {
+      const std::size_t now = std::clamp<std::size_t>(next, 1, tasks.size()) - 1;
+      progress.show(static_cast<double>(ready) / static_cast<double>(tasks.size()),
+                    fmt::format("{}, figure {} of {}", jobs[tasks[now].job].name, tasks[now].job + 1, jobs.size()));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  for (auto& thread : threads) thread.join();
+  for (const auto& task : tasks) results[task.job].seconds += task.seconds;
+  for (const auto& d : results)
+    if (d.error) std::rethrow_exception(d.error);
+  return results;
+}
+
+/// Claims of which jobs that were not run settle further parts: the outcome is that of the parts that were.
+void tell_missing_parts(std::vector<ClaimOutcome>& claims, const std::vector<Job>& others, JobPool& pool) {
+  std::map<std::string, std::vector<std::string>> elsewhere;
+  for (const auto& job : others) try {
+      for (const auto& part : pool.job(job.file).job().claims) {
+        auto& names = elsewhere[part.id];
+        if (names.empty() || names.back() != job.name) names.push_back(job.name);
+      }
+    } catch (const Error&) {
+      continue;  // a job that was not asked for need not be right
+    }
+  for (auto& c : claims)
+    if (const auto found = elsewhere.find(c.claim.id); found != elsewhere.end() && c.reason.empty())
+      c.reason = fmt::format("further parts of it are settled by {}, not run here", fmt::join(found->second, ", "));
+}
+
+// ---- what is told ---------------------------------------------------------------------------------------------------
+
+std::string counts_text(const std::vector<ClaimOutcome>& claims) {
+  std::vector<std::string> parts;
+  for (const char* outcome : {"agrees", "calibrated", "differs", "cannot be checked"}) {
+    const auto n = std::count_if(claims.begin(), claims.end(), [&](const auto& c) { return c.outcome == outcome; });
+    if (n == 0) continue;
+    const std::string word = outcome;
+    parts.push_back(fmt::format("{} {}", n,
+                                n == 1 || word == "calibrated" || word == "cannot be checked" ? word
+                                : word == "agrees"                                            ? "agree"
+                                                                                              : "differ"));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// One claim for the terminal: its outcome, what it says, and each part below it.
+void print_claim(const ClaimOutcome& c) {
+  fmt::print("{}", wrapped(fmt::format("{} {}: {}", c.claim.id, c.outcome, c.claim.says)));
+  if (!c.reason.empty()) fmt::print("{}", wrapped(c.reason, 8));
+  for (const auto& part : c.parts) {
+    fmt::print("{}", wrapped(fmt::format("{}{}: {}; expected {}", part.holds ? "" : "differs: ", part.job,
+                                         part.came_out, part.expected),
+                             8));
+    if (!part.holds && !part.remark.empty()) fmt::print("{}", wrapped(part.remark, 8));
+  }
+  if (!c.claim.remark.empty()) fmt::print("{}", wrapped(c.claim.remark, 8));
+  if (!c.claim.calibrated.empty() && c.outcome == "calibrated")
+    fmt::print("{}", wrapped("calibrated: " + c.claim.calibrated, 8));
+}
+
+Facts claim_facts(const std::vector<ClaimOutcome>& claims) {
+  Facts list = Facts::object({});
+  for (const auto& c : claims) {
+    Facts::List parts;
+    for (const auto& p : c.parts)
+      parts.push_back(Facts::object({{"job", p.job},
+                                     {"holds", p.holds},
+                                     {"came_out", p.came_out},
+                                     {"expected", p.expected},
+                                     {"remark", p.remark}}));
+    list.set(c.claim.id, Facts::object({{"says", c.claim.says},
+                                        {"outcome", c.outcome},
+                                        {"reason", c.reason},
+                                        {"remark", c.claim.remark},
+                                        {"parts", parts}}));
+  }
+  return list;
+}
+
+/// The part of `claims` that a job settles, for the section of its figure.
+std::vector<ClaimOutcome> claims_of(const std::vector<ClaimOutcome>& claims, const std::string& job) {
+  std::vector<ClaimOutcome> list;
+  for (auto c : claims) {
+    std::erase_if(c.parts, [&](const PartOutcome& p) { return p.job != job; });
+    if (!c.parts.empty()) list.push_back(std::move(c));
+  }
+  return list;
+}
+
+/// The page of one chapter; its traces are those of the whole result.
+Document chapter_page(const std::string& chapter, const std::vector<Job>& jobs, std::vector<Done>& results,
+                      const std::vector<ClaimOutcome>& claims) {
+  Document page;
+  page.verb = "reproduce";
+  page.title = chapter;
+  std::vector<ClaimOutcome> of_chapter;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (jobs[i].chapter != chapter) continue;
+    Section section = std::move(results[i].page.section);
+    const auto settled = claims_of(claims, jobs[i].name);
+    if (!settled.empty()) section.tables.insert(section.tables.begin(), claim_table(settled));
+    for (const auto& c : claims)
+      for (const auto& p : c.parts)
+        if (p.job == jobs[i].name &&
+            std::none_of(of_chapter.begin(), of_chapter.end(), [&](const auto& o) { return o.claim.id == c.claim.id; }))
+          of_chapter.push_back(c);
+    page.sections.push_back(std::move(section));
+    for (auto& table : results[i].page.traces) page.traces.push_back(std::move(table));
+    for (auto& file : results[i].page.files) page.files.push_back(std::move(file));
+  }
+  page.headline =
+      fmt::format("{}: {} redrawn{}{}", chapter, count_text(static_cast<long>(page.sections.size()), "figure"),
+                  of_chapter.empty() ? "" : "; claims: ", counts_text(of_chapter));
+  return page;
+}
+
+/// What the reader of any of these figures must know: what stands in for a measurement, and where numbers are assumed.
+std::vector<std::string> notes_on(const std::vector<Job>& jobs, const std::string& chapter, JobPool& pool) {
+  std::vector<std::string> notes, assumed;
+  for (const auto& job : jobs) {
+    if (!chapter.empty() && job.chapter != chapter) continue;
+    const RunsJob& wish = pool.job(job.file).job();
+    if (!wish.surrogate.empty() && std::find(notes.begin(), notes.end(), wish.surrogate) == notes.end())
+      notes.push_back(wish.surrogate);
+    if (!wish.assumed.empty()) assumed.push_back(job.name);
+  }
+  if (!assumed.empty())
+    notes.push_back(fmt::format("Numbers that the published work does not give are assumed in {}; each says which.",
+                                fmt::join(assumed, ", ")));
+  return notes;
+}
+
+int tell_baseline(const BaselineAnswer& answer, const std::string& folder, Document& document) {
+  if (answer.kept) {
+    document.sentences.push_back(fmt::format("Kept as the baseline in {}.", folder));
+    return exit_code::done;
+  }
+  for (const auto& id : answer.worse)
+    document.warnings.push_back(fmt::format("{} held in the baseline and does not any more.", id));
+  for (const auto& id : answer.better)
+    document.sentences.push_back(fmt::format("{} holds now; in the baseline it did not.", id));
+  for (const auto& text : answer.changed) document.warnings.push_back(text);
+  if (!answer.added.empty())
+    document.sentences.push_back(
+        fmt::format("Added to the baseline, which did not have them: {}.", fmt::join(answer.added, ", ")));
+  if (answer.worse.empty() && answer.changed.empty())
+    document.sentences.push_back(fmt::format("Nothing differs from the baseline in {}.", folder));
+  return answer.worse.empty() ? exit_code::done : exit_code::no;
+}
+
+/// "time: 12 s, most work in fig2_13 with 2.1 s": runs that wait for others count too
+std::string times_text(double seconds, const std::vector<Job>& jobs, const std::vector<Done>& results) {
+  const auto longest = std::max_element(results.begin(), results.end(),
+                                        [](const Done& a, const Done& b) { return a.seconds < b.seconds; });
+  std::string text = fmt::format("time: {} s", number_text(seconds, 3));
+  if (results.size() > 1)
+    text += fmt::format(", most work in {} with {} s", jobs[static_cast<std::size_t>(longest - results.begin())].name,
+                        number_text(longest->seconds, 2));
+  return text;
+}
+
+int reproduce(const Arguments& arguments) {
+  const auto begin = Clock::now();
+  const std::string folder = folder_of(arguments);
+  const std::string claims_file = (fs::path(folder) / "claims.json").string();
+  const auto published = fs::exists(claims_file) ? read_claims(claims_file) : std::vector<PublishedClaim>{};
+  JobPool pool(arguments.list("--allow"), arguments.has("--full"));
+  auto words = arguments.list("what");
+  if (words.empty()) words.emplace_back("all");
+  const Wanted wanted = wanted_jobs(words, jobs_in(folder), published, pool);
+  auto results = do_all(wanted.jobs, pool, arguments.quiet());
+
+  std::vector<PartOutcome> parts;
+  for (const auto& r : results) parts.insert(parts.end(), r.parts.begin(), r.parts.end());
+  auto claims = judge_all(published, parts, wanted.prefixes);
+  if (wanted.claims_alone)
+    std::erase_if(claims,
+                  [&](const auto& c) { return std::find(words.begin(), words.end(), c.claim.id) == words.end(); });
+  tell_missing_parts(claims, wanted.others, pool);
+  Document document;
+  document.verb = "reproduce";
+  document.title = fmt::format("{}", fmt::join(words, " "));
+  document.headline = fmt::format("{} redrawn; claims: {}", count_text(static_cast<long>(wanted.jobs.size()), "figure"),
+                                  claims.empty() ? "none" : counts_text(claims));
+  Section overview;
+  overview.title = "Claims";
+  overview.tables.push_back(claim_table(claims));
+  document.sections.push_back(std::move(overview));
+  std::vector<std::string> chapters;
+  for (const auto& job : wanted.jobs)
+    if (std::find(chapters.begin(), chapters.end(), job.chapter) == chapters.end()) chapters.push_back(job.chapter);
+  for (const auto& chapter : chapters) {
+    Document page = chapter_page(chapter, wanted.jobs, results, claims);
+    page.warnings = notes_on(wanted.jobs, chapter, pool);
+    document.files.emplace_back(chapter + ".html", report_html(page));
+    for (auto& section : page.sections) document.sections.push_back(std::move(section));
+    for (auto& table : page.traces) document.traces.push_back(std::move(table));
+    for (auto& file : page.files) document.files.push_back(std::move(file));
+  }
+  document.warnings = notes_on(wanted.jobs, "", pool);
+  int code = exit_code::done;
+  if (arguments.has("--baseline"))
+    code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces, wanted.others.empty()),
+                         arguments.text("--baseline"), document);
+  for (const auto& r : results)
+    if (!r.failed.empty()) {
+      document.warnings.push_back(r.failed);
+      code = exit_code::numerics;
+    }
+  document.facts = to_json(Facts::object({{"claims", claim_facts(claims)}}));
+  if (!arguments.quiet())
+    for (const auto& c : claims) print_claim(c);
+  publish(arguments, arguments.text("-o", "reproduce"), document,
+          {times_text(seconds_since(begin), wanted.jobs, results)});
+  return code;
+}
+
+}  // namespace
+
+Verb reproduce_verb() {
+  return {
+      "reproduce",
+      "run the figures of a published work, and check its claims",
+      help,
+      {{"what", "WHAT", "all (default), a chapter, a figure (fig2_15) or a claim (C2-07)", false, true},
+       {"--from", "FOLDER", "where the jobs and claims.json lie; default: diagrams/ of the project", false, false},
+       {"--full", "", "searches and studies as large as the jobs name under \"full\"; takes hours", false, false},
+       {"--baseline", "FOLDER", "keep outcomes and curves there, or compare with those that are there", false, false},
+       {"-o", "FOLDER", "where the results go; default: reproduce", false, false},
+       options::allow()},
+      reproduce};
+}
+
+}  // namespace hysteron

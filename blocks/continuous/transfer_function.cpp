@@ -1,0 +1,68 @@
+#include "blocks/continuous/transfer_function.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace hysteron::blocks {
+
+void TransferFunction::describe(Declaration& d) {
+  d.name("transfer_function", "ratio of two polynomials in s").in_group("continuous").elementwise().linear();
+  d.law("Y(s) = gain num(s)/den(s) U(s)")
+      .from("balanced companion form: Parlett, Reinsch, Numer. Math. 13 (1969) 293-304");
+  d.remark(
+      "Coefficients are plain numbers for s in 1/s, highest power first: den [1, 3, 2] is s^2 + 3 s + 2. The unit "
+      "stands at the gain.");
+  d.remark(
+      "num may not be longer than den. With equal lengths the input acts at once, so the block can close an algebraic "
+      "loop.");
+  d.remark("The states are of the size of the input; they have no meaning one by one.");
+  d.input("u", "$a", "the input");
+  d.output("y", "$b", "the response");
+  d.state("x", "$a", "states of the chain, one per power of s");
+  d.parameter("gain", "$b/$a", "factor on num/den, carries the unit").optional("1").linear();
+  d.list("num", "", "numerator, highest power first");
+  d.list("den", "", "denominator, highest power first");
+}
+
+Sizes TransferFunction::sizes(const Shape& shape) {
+  Sizes s;
+  const int n = shape.length("num");
+  const int m = shape.length("den");
+  if (n < 1 || m < 1)
+    s.error = "\"num\" and \"den\" need at least one coefficient each; write e.g. \"num\": [1]";
+  else if (n > m)
+    s.error = fmt::format(
+        "\"num\" has {} coefficients, \"den\" {}: that differentiates; give num at most as many as den", n, m);
+  s.states = std::max(m - 1, 0);
+  s.constants = linear_system::chain_size(s.states);
+  s.feedthrough = n == m;
+  return s;
+}
+
+std::string TransferFunction::check(const View<double>& v) {
+  if (v.list(den)[0] == 0) return "the first coefficient of \"den\" is zero; leave it out";
+  return "";
+}
+
+void TransferFunction::prepare(const View<double>& v) {
+  const auto order = static_cast<int>(v.list(den).size()) - 1;
+  linear_system::realise(v.list(num), v.list(den), linear_system::chain_at(v.out, order));
+}
+
+void TransferFunction::rest(const View<double>& v) {
+  const auto chain = linear_system::chain_at(v.c, v.n_x);
+  std::fill(v.out, v.out + v.n_x, 0.0);
+  if (v.n_x == 0) return;
+  const auto last = static_cast<std::size_t>(v.n_x) - 1;
+  // x_n' = row_1 x_1 + up_n u = 0. Without a constant in den a constant input has no equilibrium: not a number says so.
+  if (chain.row[0] != 0)
+    v.out[0] = -chain.up[last] * v.u[0] / chain.row[0];
+  else if (v.u[0] != 0)
+    v.out[0] = std::numeric_limits<double>::quiet_NaN();
+}
+
+Kernel transfer_function_block() { return kernel<TransferFunction>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,89 @@
+#include "blocks/hysteresis/asymmetric_prandtl_ishlinskii.h"
+
+#include "blocks/hysteresis/prandtl_ishlinskii.h"
+
+namespace hysteron::blocks {
+
+namespace {
+
+constexpr char source[] = "thesis Eq. 5.15 at one temperature; operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
+
+void law_parameters(Declaration& d) {
+  d.list("thresholds", "$a", "threshold of each operator; the first is 0, the linear part")
+      .increasing()
+      .not_negative()
+      .difference();
+  d.list("weights", "$b/$a", "weight of each operator; the first also that of the saturating part")
+      .as_long_as("thresholds");
+  d.parameter("saturation", "$a", "saturation P, in the unit of the input").not_negative().difference();
+  d.parameter("bend", "$a", "input over which the curve bends").positive().difference();
+  d.parameter("before", "$a", "an input that was visited before the start").optional("0");
+}
+
+Sizes one_per_threshold(const Shape& shape, int Sizes::*where) {
+  Sizes s;
+  s.*where = shape.length("thresholds");
+  if (s.*where < 1 || s.*where != shape.length("weights"))
+    s.error = "\"thresholds\" and \"weights\" must be lists of one length; give one weight per threshold";
+  return s;
+}
+
+void start(const View<double>& v, std::span<const double> thresholds, double before) {
+  for (std::size_t i = 0; i < thresholds.size(); ++i) v.out[i] = play::follow_one_sided(thresholds[i], 0.0, before);
+}
+
+}  // namespace
+
+void AsymmetricPrandtlIshlinskii::describe(Declaration& d) {
+  d.name("asymmetric_prandtl_ishlinskii", "Prandtl-Ishlinskii hysteresis with a saturating part: asymmetric loops")
+      .in_group("hysteresis")
+      .at("core");
+  d.law("y = weights[0] saturation tanh(u/bend) + sum weights[i] w_i, w_i = max(u - thresholds[i], min(u, w_i before))")
+      .from(source);
+  d.remark("The block tapi at one temperature: saturation = p_s (1 - T/t_c)^beta, bend = a T.");
+  d.remembers("u", "the output w_i of each operator");
+  d.input("u", "$a", "drive");
+  d.output("y", "$b", "displacement");
+  law_parameters(d);
+  d.parameters[weights].linear();
+}
+
+Sizes AsymmetricPrandtlIshlinskii::sizes(const Shape& shape) { return one_per_threshold(shape, &Sizes::memory); }
+std::string AsymmetricPrandtlIshlinskii::check(const View<double>& v) { return begins_at_zero(v.list(thresholds)[0]); }
+void AsymmetricPrandtlIshlinskii::initial_memory(const View<double>& v) {
+  start(v, v.list(thresholds), v.parameter(before));
+}
+std::string AsymmetricPrandtlIshlinskii::check_memory(const View<double>& v) {
+  return check_nested(play::Sides::one, v.list(thresholds), v.memory());
+}
+
+void SampledAsymmetricInverse::describe(Declaration& d) {
+  d.name("sampled_asymmetric_inverse",
+         "drive that makes an asymmetric_prandtl_ishlinskii actuator follow the wanted displacement, sample by sample")
+      .in_group("sampled")
+      .at("command");
+  d.law("u_k solves weights[0] saturation tanh(u_k/bend) + sum weights[i] w_i(u_k) = y_k").from(source);
+  d.remark("Takes the parameters of the block that it compensates, its memory included.");
+  d.remark("The iteration of the thesis converges for saturation < bend only; solved (iterations 0) it always does.");
+  d.input("y", "$b", "wanted displacement");
+  d.output("u", "$a", "command");
+  d.state("w", "$a", "operators of the actuator");
+  law_parameters(d);
+  d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
+      .optional("0")
+      .not_negative();
+  d.sampled();
+}
+
+Sizes SampledAsymmetricInverse::sizes(const Shape& shape) { return one_per_threshold(shape, &Sizes::sampled_states); }
+std::string SampledAsymmetricInverse::check(const View<double>& v) {
+  return check_invertible(v.list(thresholds), v.list(weights));
+}
+void SampledAsymmetricInverse::initial_states(const View<double>& v) {
+  start(v, v.list(thresholds), v.parameter(before));
+}
+
+Kernel asymmetric_prandtl_ishlinskii_block() { return kernel<AsymmetricPrandtlIshlinskii>(); }
+Kernel sampled_asymmetric_inverse_block() { return kernel<SampledAsymmetricInverse>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,178 @@
+#include "blocks/hysteresis/jiles_atherton.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hysteron::blocks {
+
+namespace {
+
+constexpr char source[] =
+    "thesis Eqs. 2.23 to 2.35, the reversible term by the chain rule; Jiles, Atherton, J. Magn. Magn. Mater. 61 (1986) "
+    "48-60; Smith, Ounaies, J. Intell. Mater. Syst. Struct. 11 (2000) 62-79";
+constexpr char slope_text[] =
+    "F(u, p, d) = [(A - p)/(k d - alpha/(1 - c) (A - p)) + R]/[1 - alpha R], A = p_s f((u + alpha p)/a), R = c p_s/a "
+    "f'((u + alpha p)/a), f = tanh or Langevin's coth x - 1/x";
+
+/// The parameters that the law and its inverse share, in the order of every Params above.
+template <class B>
+void law_parameters(BlockSpec<B>& spec) {
+  using P = typename B::template Params<double>;
+  spec.param(&P::p_s, "p_s", "$b", "saturation").positive().difference();
+  spec.param(&P::a, "a", "$a", "input over which the curve without pinning bends").positive().difference();
+  spec.param(&P::alpha, "alpha", "$a/$b", "input that the output itself adds");
+  spec.param(&P::k, "k", "$a", "pinning: half the width of the loop").positive().difference();
+  spec.param(&P::c, "c", "", "reversible share, below 1").not_negative().maximum = 1;
+  spec.text("anhysteretic", {"tanh", "langevin"}, "curve without pinning; published sets of magnets mean langevin");
+}
+
+template <class P>
+std::string law_check(const P& p) {
+  if (!(p.c < 1)) return "c = 1 leaves nothing to pin; give a share below 1";
+  const auto law = jiles_atherton_law(p);
+  const double margin = jiles_atherton::reversible_margin(law);
+  if (!(margin > 0))
+    return fmt::format(
+        "1 - alpha c p_s/{} = {:.4g} is not positive: the reversible part would run away; give a smaller alpha or c, "
+        "or a larger a",
+        law.curve == jiles_atherton::Curve::tanh ? "a" : "(3 a)", margin);
+  return "";
+}
+
+template <class P>
+std::string inverse_check(const P& p) {
+  if (!(p.scale > 0)) return fmt::format("the scale is {:.4g}, so there is no inverse; give a positive one", p.scale);
+  return law_check(p);
+}
+
+template <class B>
+ParameterDeclaration& scale_parameter(BlockSpec<B>& spec) {
+  return spec.param(&B::template Params<double>::scale, "scale", "", "factor on the output").optional("1");
+}
+
+}  // namespace
+
+void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
+  spec.name("jiles_atherton", "Jiles-Atherton hysteresis, driven by the rate of its input")
+      .in_group("hysteresis")
+      .elementwise()
+      .rate_independent()
+      .at("core");
+  spec.law(std::string("y = scale p, dp/dt = F(u, p, sign u') u', ") + slope_text).from(source);
+  spec.remark("The input must have a rate: noise needs a filter in between. A jump is followed as a fast ramp.");
+  spec.remark("The irreversible part is not cut off where it is negative: published piezo parameters hold so.");
+  spec.remark(
+      "The law holds while alpha (A - p) d is below (1 - c) k, and alpha R below 1. A strong alpha with a small k ends "
+      "there, and the run with it; published sets of magnets then usually mean \"anhysteretic\": \"langevin\".");
+  spec.remark(
+      "The normalised model of the thesis (Eq. 4.4): scale is the measured stroke over that of the law, found by "
+      "linear "
+      "least squares; a fit of p_s, a, alpha, k, c then cares for the shape alone.");
+  spec.variation("scale", "jiles_atherton", {{"scale", "1"}});
+  spec.input(&In<double>::u, "u", "$a", "drive: field or voltage");
+  spec.state(&State<double>::p, "p", "$b", "polarisation");
+  spec.output(&Out<double>::y, "y", "$b", "polarisation or displacement");
+  law_parameters(spec);
+  spec.param(&Params<double>::initial, "initial", "$b", "polarisation at the start").optional("0").difference();
+  scale_parameter(spec).linear();
+}
+std::string JilesAtherton::check(const Params<double>& p) {
+  if (!(std::fabs(p.initial) <= p.p_s))
+    return fmt::format("initial is {:.4g} [SI], beyond the saturation p_s = {:.4g}; give it between -p_s and p_s",
+                       p.initial, p.p_s);
+  return law_check(p);
+}
+
+void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
+  spec.name("jiles_atherton_inverse", "drive that makes a Jiles-Atherton actuator follow the wanted displacement")
+      .in_group("compensators")
+      .elementwise()
+      .rate_independent()
+      .at("command");
+  spec.law(std::string("du/dt = (y'/scale)/F(u, (y + origin)/scale, sign y'), ") + slope_text).from(source);
+  spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
+  spec.remark(
+      "The input must have a rate: noise needs a filter in between. Where it is sampled, "
+      "sampled_jiles_atherton_inverse "
+      "costs less.");
+  spec.remark(
+      "Holds where F stays positive: elsewhere no command makes the output follow, and the run ends. On a loop that "
+      "does not begin at rest, origin is the actuator's y at y = 0.");
+  spec.input(&In<double>::y, "y", "$b", "wanted displacement");
+  spec.state(&State<double>::u, "u", "$a", "command");
+  spec.output(&Out<double>::u, "u", "$a", "command");
+  law_parameters(spec);
+  spec.param(&Params<double>::initial, "initial", "$a", "command at the start").optional("0").difference();
+  spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
+      .optional("0")
+      .difference();
+  scale_parameter(spec);
+}
+std::string JilesAthertonInverse::check(const Params<double>& p) { return inverse_check(p); }
+
+void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse>& spec) {
+  spec.name("sampled_jiles_atherton_inverse", "jiles_atherton_inverse of a digital controller")
+      .in_group("sampled")
+      .elementwise()
+      .at("command");
+  spec.law(std::string("u_k = u_(k-1) + integral from p_(k-1) to p_k of dp/F(u, p, d), p = (y + origin)/scale, ") +
+           slope_text)
+      .from(std::string(source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
+  spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
+  spec.remark(
+      "Each sample is integrated with controlled error (1e-10 of its way), however large the step. Before the first "
+      "instant the wanted displacement is taken to have been zero.");
+  spec.input(&In<double>::y, "y", "$b", "wanted displacement");
+  spec.state(&State<double>::u, "u", "$a", "last command");
+  spec.state(&State<double>::y, "y", "$b", "last wanted displacement");
+  spec.output(&Out<double>::u, "u", "$a", "command");
+  law_parameters(spec);
+  spec.param(&Params<double>::initial, "initial", "$a", "command before the first instant").optional("0").difference();
+  spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
+      .optional("0")
+      .difference();
+  scale_parameter(spec);
+  spec.sampled(&Params<double>::period, &Params<double>::offset);
+}
+std::string SampledJilesAthertonInverse::check(const Params<double>& p) { return inverse_check(p); }
+
+namespace {
+
+/// A block whose curve is fixed: the loop over runs side by side becomes vector instructions only without a choice in
+/// it.
+template <class B, int choice>
+struct OnCurve : B {
+  template <class T>
+  static typename B::template State<T> derivative(typename B::template Params<T> p,
+                                                  const typename B::template State<T>& s,
+                                                  const typename B::template In<T>& in,
+                                                  const typename B::template In<T>& rate) {
+    p.anhysteretic = T{static_cast<double>(choice)};
+    return B::derivative(p, s, in, rate);
+  }
+};
+
+/// A text is the same in all lanes.
+template <class B>
+void derivative_of_lanes(const LanesView& v) {
+  static const auto tanh = block_detail::fixed_lanes<OnCurve<B, 0>>().derivative;
+  static const auto langevin = block_detail::fixed_lanes<OnCurve<B, 1>>().derivative;
+  constexpr int anhysteretic = 5;  // its place in Params
+  (v.p[anhysteretic * v.lanes] == 0 ? tanh : langevin)(v);
+}
+
+template <class B>
+Kernel on_either_curve() {
+  Kernel k = kernel<B>();
+  k.lanes.derivative = &derivative_of_lanes<B>;
+  return k;
+}
+
+}  // namespace
+
+Kernel jiles_atherton_block() { return on_either_curve<JilesAtherton>(); }
+Kernel jiles_atherton_inverse_block() { return on_either_curve<JilesAthertonInverse>(); }
+Kernel sampled_jiles_atherton_inverse_block() { return kernel<SampledJilesAthertonInverse>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,126 @@
+#include "blocks/hysteresis/tapi.h"
+
+#include <fmt/format.h>
+
+#include "blocks/hysteresis/prandtl_ishlinskii.h"
+#include "models/compensators/prandtl_ishlinskii_inverse.h"
+
+namespace hysteron::blocks {
+
+namespace {
+
+constexpr char source[] =
+    "thesis Eqs. 5.14, 5.15; P_s(T) of a second-order transition: Strukov, Levanyuk, Ferroelectric Phenomena in "
+    "Crystals "
+    "(1998); operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
+
+void law_parameters(Declaration& d) {
+  d.list("thresholds", "$a", "threshold of each operator; the first is 0, the linear part")
+      .increasing()
+      .not_negative()
+      .difference();
+  d.list("weights", "$b/$a", "weight of each operator; the first also that of the saturating part")
+      .as_long_as("thresholds");
+  d.parameter("p_s", "$a", "saturation at 0 K, in the unit of the input").not_negative().difference();
+  d.parameter("t_c", "K", "Curie temperature, absolute").positive();
+  d.parameter("beta", "", "exponent of the fall of the saturation towards t_c").not_negative();
+  d.parameter("a", "$a/K", "bend per kelvin: the curve bends over an input of a T").positive();
+  d.parameter("before", "$a", "an input that was visited before the start").optional("0");
+}
+
+Sizes one_operator_per_threshold(const Shape& shape, int Sizes::*where) {
+  Sizes s;
+  s.*where = shape.length("thresholds");
+  if (s.*where < 1 || s.*where != shape.length("weights"))
+    s.error = "\"thresholds\" and \"weights\" must be lists of one length; give one weight per threshold";
+  return s;
+}
+
+void start(const View<double>& v, std::span<const double> thresholds, double before) {
+  for (std::size_t i = 0; i < thresholds.size(); ++i) v.out[i] = play::follow_one_sided(thresholds[i], 0.0, before);
+}
+
+}  // namespace
+
+std::string begins_at_zero(double first) {
+  if (first != 0)
+    return fmt::format("the first threshold is {:.4g} [SI]; begin with 0, the linear part, which bends", first);
+  return "";
+}
+
+void Tapi::describe(Declaration& d) {
+  d.name("tapi", "Prandtl-Ishlinskii hysteresis, asymmetric and dependent on temperature (TAPI)")
+      .in_group("hysteresis")
+      .at("core");
+  d.law(
+       "y = weights[0] P + sum weights[i] w_i, P = p_s (1 - T/t_c)^beta tanh(u/(a T)), w_i = max(u - thresholds[i], "
+       "min(u, w_i before))")
+      .from(source);
+  d.remark("The temperature is absolute: a column in degC is converted, a plain number is in K.");
+  d.remark("The loop keeps its area at every temperature: what the temperature changes has no memory.");
+  d.remark(
+      "Weights of a classical model with the same forward slopes are converted, not copied: the identification "
+      "\"tapi\" "
+      "does it.");
+  d.remembers("u", "the output w_i of each operator");
+  d.input("u", "$a", "drive");
+  d.input("temperature", "K", "temperature of the material");
+  d.output("y", "$b", "displacement");
+  law_parameters(d);
+  d.parameters[weights].linear();
+}
+
+Sizes Tapi::sizes(const Shape& shape) { return one_operator_per_threshold(shape, &Sizes::memory); }
+std::string Tapi::check(const View<double>& v) { return begins_at_zero(v.list(thresholds)[0]); }
+void Tapi::initial_memory(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }
+std::string Tapi::check_memory(const View<double>& v) {
+  return check_nested(play::Sides::one, v.list(thresholds), v.memory());
+}
+
+void SampledTapiInverse::describe(Declaration& d) {
+  d.name("sampled_tapi_inverse", "drive that makes a tapi actuator follow the wanted displacement, sample by sample")
+      .in_group("sampled")
+      .at("command");
+  d.law("u_k solves weights[0] P(u_k, T_k) + sum weights[i] w_i(u_k) = y_k, as block tapi")
+      .from(std::string(source) + "; solved by bracketed Newton steps in place of thesis Fig. 5.8");
+  d.remark("Takes the parameters of the block tapi that it compensates, its memory included.");
+  d.remark(
+      "The iteration of the thesis converges for p_s(T) < a T only; this one always does, as long as the weights add "
+      "up "
+      "to positive slopes.");
+  d.input("y", "$b", "wanted displacement");
+  d.input("temperature", "K", "temperature of the material");
+  d.output("u", "$a", "command");
+  d.state("w", "$a", "operators of the actuator");
+  law_parameters(d);
+  d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
+      .optional("0")
+      .not_negative();
+  d.sampled();
+}
+
+Sizes SampledTapiInverse::sizes(const Shape& shape) {
+  return one_operator_per_threshold(shape, &Sizes::sampled_states);
+}
+
+std::string check_invertible(std::span<const double> thresholds, std::span<const double> weights) {
+  if (auto text = begins_at_zero(thresholds[0]); !text.empty()) return text;
+  const std::size_t rising = prandtl_ishlinskii::rising_slopes(weights);
+  if (rising < thresholds.size())
+    return fmt::format(
+        "the weights up to number {} add up to a slope that is not positive, so the actuator has no inverse; give a "
+        "larger first weight",
+        rising + 1);
+  return "";
+}
+
+std::string SampledTapiInverse::check(const View<double>& v) {
+  return check_invertible(v.list(thresholds), v.list(weights));
+}
+
+void SampledTapiInverse::initial_states(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }
+
+Kernel tapi_block() { return kernel<Tapi>(); }
+Kernel sampled_tapi_inverse_block() { return kernel<SampledTapiInverse>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,28 @@
+#include "blocks/math/saturation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hysteron::blocks {
+
+void Saturation::describe(BlockSpec<Saturation>& spec) {
+  spec.name("saturation", "hard limit").in_group("math").elementwise().at("command");
+  spec.law("y = max(lower, min(upper, u))").from("definition");
+  spec.remark("Where there is no limit on one side, write \"-inf V\" or \"inf V\" in the unit of the signal.");
+  spec.input(&In<double>::u, "u", "$a", "the signal");
+  spec.output(&Out<double>::y, "y", "$a", "the limited signal");
+  spec.param(&Params<double>::lower, "lower", "$a", "smallest output");
+  spec.param(&Params<double>::upper, "upper", "$a", "largest output");
+}
+
+std::string Saturation::check(const Params<double>& p) {
+  if (std::isinf(p.lower) && std::isinf(p.upper)) return "neither limit is finite; give one, or use a pass block";
+  if (!(p.lower < p.upper))
+    return fmt::format("lower ({}) is not below upper ({}) [SI]; exchange them", p.lower, p.upper);
+  return "";
+}
+
+Kernel saturation_block() { return kernel<Saturation>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,135 @@
+#include "blocks/mechanics/mass_spring_damper.h"
+
+#include <cmath>
+
+namespace hysteron::blocks {
+
+namespace {
+
+// What remembers stands beside what bends and beside a fluid.
+void describe_memories(Declaration& d) {
+  d.variation("presliding", "mass_with_presliding", {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}})
+      .variation("hysteretic_spring", "mass_on_hysteretic_spring",
+                 {{"contact_stiffness", "0 N/m"}, {"slip_distance", "1 m"}});
+}
+
+}  // namespace
+
+void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
+  spec.name("mass_spring_damper", "one mass on a spring with a damper, driven by a force").linear();
+  spec.law("mass dv/dt = force - damping v - stiffness x, dx/dt = v").from("Newton's second law");
+  spec.remark("A piezo actuator of free displacement d is the force stiffness d, with its own stiffness counted in.");
+  spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
+      .variation("drag", "mass_with_drag", {{"drag", "0"}})
+      .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
+      .variation("resonance", "mass_with_mode", {{"share", "0"}, {"frequency", "1 Hz"}})
+      .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
+  describe_memories(spec);
+  describe_motion(spec);
+  describe_start(spec);
+}
+
+void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
+  spec.name("mass_on_stiffening_spring", "one mass on a spring with a cubic part, driven by a force");
+  spec.law(
+          "mass dv/dt = force - damping v - drag v |v| - stiffness x - quadratic x^2 - stiffening x^3 - quintic x^5, "
+          "dx/dt = v")
+      .from("Duffing's oscillator; Nayfeh, Mook, Nonlinear Oscillations (1979)");
+  spec.remark(
+      "stiffening 0 gives mass_spring_damper. Negative values soften: then keep x below sqrt(stiffness/(3 "
+      "|stiffening|)).");
+  describe_motion(spec);
+  spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic part of the spring").optional("0");
+  spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "part by which it is harder one way than the other")
+      .optional("0");
+  spec.param(&Params<double>::quintic, "quintic", "N/m^5", "part of large travel").optional("0");
+  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
+      .optional("0")
+      .not_negative();
+  spec.variation("drag", "mass_on_stiffening_spring", {{"drag", "0"}});
+  describe_memories(spec);
+  describe_start(spec);
+}
+
+void MassWithDrag::describe(BlockSpec<MassWithDrag>& spec) {
+  spec.name("mass_with_drag", "one mass on a spring in a fast flow, driven by a force");
+  spec.law("mass dv/dt = force - damping v - drag v |v| - stiffness x, dx/dt = v")
+      .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
+  describe_motion(spec);
+  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
+      .optional("0")
+      .not_negative();
+  spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}});
+  describe_memories(spec);
+  describe_start(spec);
+}
+
+ParameterDeclaration& describe_motion(Declaration& d) {
+  d.in_group("mechanics");
+  d.input("force", "N", "force on the mass");
+  d.output("position", "m", "position");
+  d.output("velocity", "m/s", "velocity");
+  d.state("position", "m", "position");
+  d.state("velocity", "m/s", "velocity");
+  d.parameter("mass", "kg", "moving mass").positive();
+  d.parameter("damping", "N*s/m", "viscous damping").optional("0").not_negative();
+  return d.parameter("stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
+}
+void describe_start(Declaration& d) {
+  d.parameter("initial_position", "m", "position at the start").optional("0");
+  d.parameter("initial_velocity", "m/s", "velocity at the start").optional("0");
+}
+void describe_beyond_linear(Declaration& d) {
+  d.parameter("stiffening", "N/m^3", "cubic part of the spring").optional("0");
+  d.parameter("quadratic", "N/m^2", "part by which it is harder one way than the other").optional("0");
+  d.parameter("quintic", "N/m^5", "part of large travel").optional("0");
+  d.parameter("drag", "N*s^2/m^2", "drag over the square of the speed").optional("0").not_negative();
+  d.remark("The spring may stiffen and a fluid hold the mass as in mass_on_stiffening_spring.");
+  d.variation("stiffening", d.type, {{"stiffening", "0"}}).variation("drag", d.type, {{"drag", "0"}});
+}
+
+bool BeyondLinear::is_none() const {
+  return law_.stiffening == 0 && law_.quadratic == 0 && law_.quintic == 0 && law_.drag == 0;
+}
+
+mass_motion::Force BeyondLinear::behind_row(double from, double place, double h) const {
+  const double speed = (place - from) / h;
+  return {spring(place) + drag(speed),
+          law_.stiffness - mass_spring_damper::slope(law_, place) - 2 * law_.drag * std::fabs(speed) / h};
+}
+
+const mass_motion::ExactStep& RowStep::of(const mass_spring_damper::Params<double>& law, double length) {
+  // Lengths of rows differ by the rounding of their times.
+  if (!step || std::fabs(length - h) > 1e-9 * h) {
+    step.emplace(law.mass, law.damping, law.stiffness, length);
+    h = length;
+  }
+  return *step;
+}
+
+MotionState<double> MassOnStiffeningSpring::OwnStep::operator()(const MotionState<double>& s,
+                                                                const ForceIn<double>& from, const ForceIn<double>& to,
+                                                                double h) {
+  const int steps = mass_motion::steps_of_row(law_.mass, law_.stiffness, h);
+  mass_motion::Motion x{s.position, s.velocity};
+  if (steps == 0) {
+    x = mass_motion::step_to_balance(row_.of(law_, h), x, from.force, to.force, beyond_(x),
+                                     [&](double place) { return beyond_.behind_row(s.position, place, h); });
+    return {x.position, x.velocity};
+  }
+  const auto& whole = row_.of(law_, h / steps);
+  const auto& half = half_row_.of(law_, h / steps / 2);
+  const double rise = (to.force - from.force) / steps;
+  for (int i = 0; i < steps; ++i)
+    x = mass_motion::step_under(
+        whole, half, x, from.force + rise * i, from.force + rise * (i + 1),
+        [&](double place) { return beyond_.spring(place); },
+        [&](const mass_motion::Motion& m) { return beyond_.drag(m.velocity); }, beyond_.rounds());
+  return {x.position, x.velocity};
+}
+
+Kernel mass_spring_damper_block() { return kernel<MassSpringDamper>(); }
+Kernel mass_on_stiffening_spring_block() { return kernel<MassOnStiffeningSpring>(); }
+Kernel mass_with_drag_block() { return kernel<MassWithDrag>(); }
+
+}  // namespace hysteron::blocks

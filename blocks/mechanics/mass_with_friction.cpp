@@ -1,0 +1,38 @@
+#include "blocks/mechanics/mass_with_friction.h"
+
+#include <fmt/format.h>
+
+namespace hysteron::blocks {
+
+void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
+  spec.name("mass_with_friction", "one mass with dry friction that truly sticks, driven by a force");
+  spec.law(
+          "sliding: mass dv/dt = force - damping v - stiffness x - sign(v) (coulomb + (breakaway - coulomb) "
+          "exp(-(v/stribeck_velocity)^2)); sticking: v = 0 until |force - stiffness x| reaches breakaway")
+      .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
+  spec.remark(
+      "Three modes: sticking, sliding up, sliding down. A sticking mass does not creep, however long it sticks.");
+  spec.remark(
+      "coulomb and breakaway 0 give mass_spring_damper. Presliding (a spring-like contact) is not in this law.");
+  describe_motion(spec).optional("0");
+  spec.param(&Params<double>::coulomb, "coulomb", "N", "dry friction of fast sliding").not_negative();
+  spec.param(&Params<double>::breakaway, "breakaway", "N", "force at which sticking ends, at least coulomb")
+      .not_negative();
+  spec.param(&Params<double>::stribeck_velocity, "stribeck_velocity", "m/s",
+             "over which breakaway falls to coulomb; 0 = at once")
+      .optional("0")
+      .not_negative();
+  spec.param(&Params<double>::rest_speed, "rest_speed", "m/s", "a slower turn of the motion counts as standing still")
+      .optional("1 nm/s")
+      .positive();
+  describe_start(spec);
+}
+
+std::string MassWithFriction::check(const Params<double>& p) {
+  if (p.breakaway >= p.coulomb) return "";
+  return fmt::format("breakaway ({:.4g} N) is below coulomb ({:.4g} N); give at least coulomb", p.breakaway, p.coulomb);
+}
+
+Kernel mass_with_friction_block() { return kernel<MassWithFriction>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,296 @@
+// Decides on what and with which signals an effect is shown. See bench.h.
+#include "discover/demonstration/bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "discover/effects/library.h"
+
+namespace hysteron {
+namespace {
+
+constexpr int rows_per_stimulus = 10000;  // four decades of time between a row and the whole
+constexpr int levels_of_reading = 32;
+
+/// True if `is` holds for the block of a law, or for one inside it.
+bool any_block(const Node& node, const Registry& registry, const std::function<bool(const Kernel&)>& is) {
+  if (node.nested)
+    return std::any_of(node.nested->blocks.begin(), node.nested->blocks.end(),
+                       [&](const auto& inner) { return any_block(inner.second, registry, is); });
+  const Kernel* k = registry.find(node.type);
+  return k != nullptr && is(*k);
+}
+
+Node node(const std::string& type, const std::vector<std::pair<std::string, Value>>& parameters) {
+  Node n;
+  n.type = type;
+  for (const auto& [name, value] : parameters) n.parameters[name] = value;
+  return n;
+}
+
+/// A device that lacks what varies it: a mass that rings at a third of a hertz, a tank that fills in five seconds, a
+/// hysteresis as the effect of that block puts it in; of any other type one with a unit of everything.
+Node usual_device(const Declaration& d, const Effects& library) {
+  if (d.type == "mass_spring_damper")
+    return node(d.type, {{"mass", "1 kg"}, {"stiffness", "4 N/m"}, {"damping", "0.4 N*s/m"}});
+  if (d.type == "tank") return node(d.type, {{"area", "0.5 m^2"}, {"outlet", "0.1 m^3/s"}, {"reference", "1 m"}});
+  Circumstances at;
+  at.unit = parse_unit("V");
+  at.highest = 100;
+  for (const auto& effect : library.list())
+    if (effect.way == Way::insert && effect.block_type == d.type) return effect.laws(at).front().block;
+  Node n;
+  n.type = d.type;
+  for (const auto& p : d.parameters) {
+    if (p.default_text || p.kind == ParameterKind::text || p.kind == ParameterKind::matrix) continue;
+    if (p.kind == ParameterKind::list)
+      n.parameters[p.name] = Value(NumberList{Number{1, {}}});
+    else
+      n.parameters[p.name] = Value(1.0);
+  }
+  return n;
+}
+
+void put_device(Bench& bench, const Declaration& d, Node device) {
+  bench.device = d.type;
+  device.in = {{"", "in"}};
+  bench.diagram.blocks["device"] = std::move(device);
+  bench.diagram.outputs["out"] = d.outputs.size() > 1 ? "device." + d.outputs.front().name : "device";
+  bench.place.at = "device";
+  bench.place.wire = "in";
+}
+
+Bench wire_in(const Unit& unit, double top) {
+  Bench bench;
+  bench.unit = unit;
+  bench.top = top;
+  bench.diagram.inputs["in"].unit = effects::unit_text(unit);
+  return bench;
+}
+
+/// Devices of the registry that offer the variation, or have the parameter, by which the effect enters.
+std::vector<Bench> device_benches(const Effect& effect, const Effects& library, const Registry& registry) {
+  std::vector<Bench> list;
+  for (const auto& type : registry.types()) {
+    const Declaration& d = registry.find(type)->declaration;
+    if (d.inputs.empty() || d.group == "internal") continue;
+    std::string by;
+    for (const auto& v : d.variations)
+      if (v.name == effect.variation) by = v.type;
+    const bool has = !effect.parameter.empty() && !d.memory_port.empty() &&
+                     std::any_of(d.parameters.begin(), d.parameters.end(),
+                                 [&](const ParameterDeclaration& p) { return p.name == effect.parameter; });
+    if (by.empty() && !(effect.variation.empty() && has)) continue;
+    // A force of 4 N on a spring of 4 N/m moves it by a metre; 0.1 m^3/s fill the tank to a metre.
+    Bench bench = type == "mass_spring_damper" ? wire_in(parse_unit("N"), 4)
+                  : type == "tank"             ? wire_in(parse_unit("m^3/s"), 0.1)
+                                               : wire_in(parse_unit("V"), 100);
+    put_device(bench, d, usual_device(d, library));
+    bench.place.by = by;
+    list.push_back(std::move(bench));
+  }
+  // Devices that an effect of the library makes are better known than any other.
+  std::stable_partition(list.begin(), list.end(), [&](const Bench& b) {
+    return std::any_of(library.list().begin(), library.list().end(),
+                       [&](const Effect& e) { return e.way == Way::insert && e.block_type == b.device; });
+  });
+  return list;
+}
+
+/// The second signal of an effect, with a name and a size that are usual for it.
+void put_side(Bench& bench, const Effect& effect, const Law& law) {
+  switch (effect.side) {
+    case Side::none:
+      return;
+    case Side::temperature:
+      bench.side = "temperature";
+      bench.side_unit = parse_unit("degC");
+      bench.side_from = bench.side_unit.to_si(20);
+      bench.side_to = bench.side_unit.to_si(40);
+      break;
+    case Side::force:
+      bench.side = "force";
+      bench.side_unit = parse_unit("N");
+      bench.side_to = 100;
+      break;
+    case Side::use:
+      bench.side = column_of_cycles;
+      bench.side_to = 1e6;
+      break;
+    case Side::other_axis:
+      bench.side = "other_axis";
+      bench.side_unit = bench.unit;
+      bench.side_to = bench.top;
+      break;
+  }
+  if (law.block.nested) {
+    const auto& inputs = law.block.nested->inputs;
+    if (const auto& unit = (inputs.end() - 1)->second.unit; !unit.empty() && effect.side != Side::temperature)
+      bench.side_unit = parse_unit(unit);
+  }
+  bench.place.side = bench.side;
+  bench.place.side_unit = bench.side_unit;
+}
+
+Series sampled(double length, int rows, const std::function<double(double)>& f) {
+  Series s;
+  for (int k = 0; k <= rows; ++k) {
+    s.t.push_back(length * k / rows);
+    s.v.push_back(f(static_cast<double>(k) / rows));
+  }
+  return s;
+}
+
+/// Levels one after the other, each for the same time; a change takes a thousandth of a row.
+Series staircase(const std::vector<double>& levels, double length, double row) {
+  Series s{{0.0}, {levels.front()}, Between::linear};
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    const double at = length * static_cast<double>(k) / static_cast<double>(levels.size());
+    s.t.insert(s.t.end(), {at, at + 1e-3 * row});
+    s.v.insert(s.v.end(), {levels[k - 1], levels[k]});
+  }
+  return s;
+}
+
+/// Swings that shrink to a quarter: from `foot` times the top upwards.
+Series shrinking(double top, double foot, double length) {
+  constexpr int swings = 4;
+  Series s{{0.0}, {0.0}, Between::linear};
+  for (int k = 0; k < swings; ++k) {
+    const double size = top * (1 - 0.25 * k), begin = length * k / swings, each = length / swings;
+    s.t.insert(s.t.end(), {begin + each / 2, begin + each});
+    s.v.insert(s.v.end(), {size, foot * size});
+  }
+  return s;
+}
+
+}  // namespace
+
+Nature nature_of(const Effect& effect, const Registry& registry) {
+  if (effect.side != Side::none) return Nature::beside;
+  if (effect.is_memory) return Nature::memory;
+  Circumstances at;
+  at.unit = parse_unit("V");
+  const Node block = effect.laws(at).front().block;
+  const auto is_delay = [](const Kernel& k) { return k.reach_back != nullptr; };
+  if (any_block(block, registry, [&](const Kernel& k) { return k.uses_time && !is_delay(k); })) return Nature::clock;
+  if (!any_block(block, registry, [&](const Kernel& k) { return k.derivative != nullptr || is_delay(k); }))
+    return Nature::curve;
+  return effect.way == Way::insert ? Nature::settling : Nature::dynamic;
+}
+
+std::vector<Bench> benches(const Effect& effect, const Effects& library, const Registry& registry) {
+  if (effect.way != Way::insert) return device_benches(effect, library, registry);
+  Circumstances at;
+  at.unit = parse_unit("V");
+  const Law law = effect.laws(at).front();
+  std::vector<std::string> units{"V", "um", "mm/s", "N"};
+  if (std::find(effect.places.begin(), effect.places.end(), "command") == effect.places.end())
+    std::swap(units[0], units[1]);  // behind the drive it is a motion that is looked at
+  if (law.block.nested)
+    if (const auto* in = law.block.nested->inputs.find("in"); in != nullptr && !in->unit.empty())
+      units.insert(units.begin(), in->unit);
+  std::vector<Bench> list;
+  for (const auto& text : units) {
+    const Unit unit = parse_unit(text);
+    Bench bench = wire_in(unit, unit.to_si(100));
+    bench.diagram.blocks["wire"].type = "pass";  // no diagram is without blocks
+    bench.diagram.blocks["wire"].in = {{"", "in"}};
+    bench.diagram.outputs["out"] = bench.place.at = bench.place.wire = "wire";
+    put_side(bench, effect, law);
+    list.push_back(std::move(bench));
+  }
+  return list;
+}
+
+std::vector<Waveform> waveforms_for(Nature nature) {
+  using enum Waveform;
+  const std::vector<Waveform> all{shrinking, shrinking_about_zero, step, levels, sine, sine_about_zero, waves};
+  std::vector<Waveform> list;
+  switch (nature) {
+    case Nature::beside:
+      return {waves};
+    case Nature::memory:
+      list = {shrinking, shrinking_about_zero};
+      break;
+    case Nature::settling:
+      list = {step, levels};
+      break;
+    case Nature::dynamic:
+      list = {levels, sine_about_zero};
+      break;
+    case Nature::clock:
+      list = {sine, step};
+      break;
+    case Nature::curve:
+      list = {sine, sine_about_zero};
+  }
+  for (const Waveform w : all)  // what an effect of a user's own may need besides
+    if (std::find(list.begin(), list.end(), w) == list.end()) list.push_back(w);
+  return list;
+}
+
+Stimulus stimulus(Waveform waveform, const Bench& bench, double length) {
+  using std::numbers::pi;
+  Stimulus s;
+
+  s.length = length;
+  s.row = length / rows_per_stimulus;
+  const double top = bench.top;
+  switch (waveform) {
+    case Waveform::shrinking:
+    case Waveform::shrinking_about_zero:
+      s.text = waveform == Waveform::shrinking ? "a triangle that shrinks" : "a triangle about zero that shrinks";
+      s.in = shrinking(top, waveform == Waveform::shrinking ? 0 : -1, length);
+      break;
+    case Waveform::step:
+      s.text = "a step and a hold";
+      s.in = staircase({0, top, top, top, top, top, top, top, top, top}, length, s.row);
+      s.step_at = 0.1 * length;
+      break;
+    case Waveform::levels:
+      s.text = "levels, each held";
+      s.in = staircase({0, top / 3, top, top / 3}, length, s.row);
+      s.step_at = 0.25 * length;
+      break;
+    case Waveform::sine:
+      s.text = "a slow sine";
+      s.in = sampled(length, 2000, [&](double part) { return top / 2 * (1 - std::cos(4 * pi * part)); });
+      break;
+    case Waveform::sine_about_zero:
+      s.text = "a slow sine about zero";
+      s.in = sampled(length, 2000, [&](double part) { return top * std::sin(4 * pi * part); });
+      break;
+    case Waveform::waves:
+      s.text = bench.side.empty() ? "waves" : "waves, while " + bench.side + " rises in the middle third";
+      s.in = sampled(length, 2400, [&](double part) { return top / 2 * (1 - std::cos(24 * pi * part)); });
+      break;
+  }
+  if (!bench.side.empty())
+    s.side = {{0, length / 3, 2 * length / 3}, {bench.side_from, bench.side_from, bench.side_to}, Between::linear};
+  return s;
+}
+
+DataSet recorded(const Stimulus& stimulus, const Bench& bench) {
+  Recording r;
+  r.name = r.file = "standard signal";
+  const double step = bench.top / levels_of_reading;
+  for (int k = 0; k <= rows_per_stimulus; ++k) {
+    const double t = stimulus.row * k;
+    r.t.push_back(t);
+    r.columns["in"].push_back(stimulus.in.value(t, t));
+    r.columns["out"].push_back(step * std::round(r.columns["in"].back() / step));
+    if (!bench.side.empty()) r.columns[bench.side].push_back(stimulus.side.value(t, t));
+  }
+  r.last = r.t.size();
+  r.units = {{"in", bench.unit}, {"out", bench.unit}};
+  if (!bench.side.empty()) r.units[bench.side] = bench.side_unit;
+  DataSet data;
+  for (const auto& [name, unit] : r.units) data.notes[name].to = name;
+  data.recordings.push_back(std::move(r));
+  return data;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,131 @@
+// Decides what one model of a discovery is: the user's diagram with the effects put in so far, fitted to the train
+// recordings. Does not choose between models. Internal to discover.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discover/hypotheses/effect.h"
+#include "discover/models/evidence.h"
+#include "discover/models/notebook.h"
+#include "discover/placement/add.h"
+#include "fit/estimate/fit.h"
+
+namespace hysteron {
+
+/// An effect in a contender's diagram.
+struct Standing {
+  const Effect* effect = nullptr;
+  Law law;
+  Place place;
+  std::string name;                    ///< path of its choice
+  std::vector<std::string> zeros;      ///< the user's constants that are found anew with it (Effect::moves_zero)
+  std::vector<std::string> weights{};  ///< weights of operators that are (Law::reweighs)
+};
+
+/// A value of one recording alone: the amplitude of a line whose phase is another one in each.
+struct RecordingValue {
+  std::string path;  ///< "y_mains_interference.cosine[0]"
+  int recording = -1;
+  double value = 0;  ///< [SI]
+};
+
+struct Contender {
+  bool ok = false;
+  std::string error;  ///< why not ok
+  Diagram diagram;    ///< with fitted values
+  std::vector<Standing> standing;
+  Added change;  ///< of the last effect
+  ProgramPointer program;
+  FitResult fit;
+  /// Of the rows of the last fit that saw these outputs: what stands needs them beside whatever is added.
+  std::map<std::vector<std::string>, std::shared_ptr<const Cuts>> cuts;
+  std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
+  Prediction prediction;                      ///< train and validate recordings
+  ModelError error_of;                        ///< filled in by whoever holds the evidence
+  /// Where rows of some recordings are too coarse for the line of the last effect: the same without that line, where
+  /// they are fine enough. What it takes away there proves it (see `proved`).
+  std::optional<Prediction> without_line;
+  /// Laws that move the zero (Effect::moves_zero) leave it where the user has it: it is a calibration's, or nobody's.
+  bool zero_held = false;
+  int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
+  /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
+  int found_on_validation = 0;
+  long runs = 0;
+  double score() const;      ///< evidence + p ln N, N = independent witnesses
+  double tie_score() const;  ///< evidence + 2 p
+};
+
+/// Numbers that the user holds, where they are let go: 95 % are as near to what is written as this, and none is
+/// further away than that - a device's data sheet and its maker's drawing, not another device.
+constexpr double known_to = 0.03, at_most_off = 0.15;
+
+/// What every fit of a discovery shares.
+struct Workshop {
+  const Registry* registry = nullptr;
+  std::shared_ptr<const DataSet> data;
+  std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
+  /// Of these, numbers that the model holds: known roughly as they are written [SI].
+  std::map<std::string, double> roughly{};
+  void let_go(const std::map<std::string, double>& numbers);
+  const Evidence* evidence = nullptr;
+  /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
+  /// costs time and decides nothing.
+  double row_tolerance = 1e-6;
+  double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
+  Threads threads{};  ///< recordings side by side
+  std::shared_ptr<Notebook> notes = std::make_shared<Notebook>();
+};
+
+/// `part` of the noise of the output that is measured best, as a share of its span.
+double row_tolerance(const DataModel& model, const NoiseModel& noise, double part);
+
+/// How much of a contender is fitted.
+enum class Effort {
+  screen,  ///< the last effect's law, the user's linear parameters and a calibration; other effects keep their values
+  full,    ///< everything
+  final    ///< everything, with intervals
+};
+
+/// The user's diagram itself.
+Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort);
+/// `before` with one more effect.
+Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
+                      const Place& place, const Circumstances& at, Effort effort);
+/// The same model fitted again with more effort, from where it stands.
+Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
+/// The same model without one of its effects, with the values that were found together with it; not simulated. Not ok
+/// where another one stands upon it.
+Contender without(const Workshop& shop, const Contender& contender, std::size_t standing);
+/// What stood before the last effect, with the values that were found together with it.
+Contender before_last(const Workshop& shop, const Contender& contender);
+
+/// The effect is a straight line: its gain and zero are free whatever else is fitted.
+bool calibrates(const Standing& standing);
+
+/// What is free besides the laws' own parameters: the user's, and gain and zero of a calibration that stands. A gain or
+/// zero that is free anyway is no law's.
+std::vector<std::string> free_anyway(const Workshop& shop, const Contender& contender);
+
+/// What the contender says of other recordings, those of the test: values of single recordings are found on them.
+Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings);
+/// The same of its train and validate recordings, with the lines of the mains silent and nothing fitted.
+Prediction without_lines(const Workshop& shop, const Contender& contender);
+
+/// The parameters of a contender's effects (`standing` = index, or all of them with -1), with remarks for people.
+struct ParameterOfEffect {
+  const LawParameter* law = nullptr;
+  const ParameterEstimate* estimate = nullptr;
+};
+std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing = -1);
+/// [Hz] of the line that the last effect's law looks for; 0 = it looks for none.
+double line_of(const Contender& contender);
+/// Rows so far apart [s] tell a line from slower ones.
+inline bool resolves(double step, double line) { return 2 * step * line < 1; }
+/// Values [SI] of the parameters of one effect that were estimated, in the order of its law.
+std::vector<double> values_of(const Contender& contender, std::size_t standing);
+
+}  // namespace hysteron

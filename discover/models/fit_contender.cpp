@@ -1,0 +1,404 @@
+#include "discover/models/fit_contender.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "discover/models/fit_cost.h"
+#include "discover/models/parts.h"
+#include "engine/diagram/stop.h"
+#include "fit/estimate/starts.h"
+
+namespace hysteron {
+
+bool has_line(const Law& law) {
+  return std::any_of(law.free.begin(), law.free.end(), [](const LawParameter& p) { return !p.line_bands.empty(); });
+}
+
+namespace {
+
+/// The frequency of a known line, while the others are fitted, or by itself.
+enum class KnownLines { held, tuned };
+
+/// Whether a fit to the end says how sure its values are. Profiles take ten times as long as the fit.
+enum class Intervals { told, not_yet };
+
+/// What the user left free, while an effect is fitted: free too, or as it was found without the effect.
+enum class Own { free, held };
+
+/// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
+/// was found at: another one near by would cost nothing.
+bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, const LawParameter& p) {
+  if (p.line_bands.empty() || shop.evidence == nullptr) return false;
+  const ParameterInfo* info = c.program->find_parameter(parameter_path(s.name, s.law, p));
+  if (info == nullptr) return false;
+  const auto& judged = shop.evidence->model().outputs();
+  const auto outputs = outputs_behind(*c.program, info->block);
+  return std::any_of(outputs.begin(), outputs.end(), [&](int o) {
+    const auto here = std::find(judged.begin(), judged.end(), c.program->output_names[static_cast<std::size_t>(o)]);
+    return here != judged.end() &&
+           shop.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out.any();
+  });
+}
+
+/// A number that the model held is near what is written.
+void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f) {
+  const auto n = shop.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
+  if (n == shop.roughly.end()) return;
+  const double width = known_to * std::abs(n->second), most = at_most_off * std::abs(n->second);
+  f.prior = {n->second - width, n->second + width};
+  f.lower = std::max(f.lower, n->second - most);
+  f.upper = std::min(f.upper, n->second + most);
+  f.start = std::clamp(f.start, f.lower, f.upper);
+}
+
+/// The free parameters: the user's own, and those of the chosen effects.
+std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, int fresh,
+                                   const std::vector<int>& recordings, KnownLines lines = KnownLines::held,
+                                   Own own = Own::free) {
+  auto free = own == Own::free ? free_parameters(*c.program, shop.free_paths) : std::vector<FreeParameter>{};
+  for (auto& f : free) know_roughly(shop, *c.program, f);
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    if (!chosen[i]) continue;
+    const bool is_new = static_cast<int>(i) == fresh;
+    Standing standing = c.standing[i];
+    if (!is_new && lines == KnownLines::held)
+      std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(shop, c, standing, p); });
+    for (auto& f : free_of_law(*c.program, standing, is_new, recordings)) {
+      std::erase_if(free, [&](const FreeParameter& have) {
+        return have.parameter == f.parameter && have.recording == f.recording;
+      });
+      free.push_back(std::move(f));
+    }
+    for (const auto* anew : {&c.standing[i].zeros, &c.standing[i].weights})
+      for (const auto& path : *anew) {
+        FreeParameter f = free_parameter(*c.program, path);
+        const bool have =
+            std::any_of(free.begin(), free.end(), [&](const FreeParameter& h) { return h.parameter == f.parameter; });
+        if (!have) free.push_back(std::move(f));
+      }
+  }
+  return free;
+}
+
+/// Steps of one simulation while candidates are searched: some tenths of a second where states are nonlinear.
+constexpr double simulation_steps = 4e6;
+
+/// Rows are no more exact than this share of what a candidate leaves: a law that leaves a thousand times the noise of
+/// an encoder is not told from others by the last tenth of that noise.
+constexpr double residual_share = 1.0 / 300;
+
+/// Values of single recordings that are not free this time.
+Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
+  Trial trial;
+  for (const auto& v : c.of_recordings) {
+    if (c.program->find_parameter(v.path) == nullptr) continue;  // its effect has left
+    const int parameter = parameter_index(*c.program, v.path);
+    if (std::none_of(free.begin(), free.end(),
+                     [&](const FreeParameter& f) { return f.parameter == parameter && f.recording == v.recording; }))
+      trial.push_back({parameter, v.value, v.recording});
+  }
+  return trial;
+}
+
+void keep_of_recordings(Contender& c, const Trial& held) {
+  c.of_recordings.clear();
+  for (const auto* trial : {&held, static_cast<const Trial*>(&c.fit.values)})
+    for (const auto& v : *trial)
+      if (v.recording >= 0)
+        c.of_recordings.push_back(
+            {c.program->parameters[static_cast<std::size_t>(v.parameter)].path, v.recording, v.value});
+}
+
+// Candidates are told apart by some units of chi2, and a screened one counts from some units on; steps for less are for
+// the one that is claimed.
+constexpr double full_matters = 0.2, screen_matters = 0.5;
+
+void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& values) {
+  const std::vector<Role> judged{Role::train, Role::validate};
+  const long before = model.runs();
+  if (model.starts_are_searched())
+    improve_starts(model, Judge(model, noise_of(shop, model)), values, model.recordings(judged));
+  c.prediction = model.predict(values, model.recordings(judged));
+  c.runs += model.runs() - before;
+  c.ok = c.prediction.ok;
+  c.error = c.prediction.error;
+}
+
+DataModel model_of(const Workshop& shop, const Contender& c, const ProgramPointer& program, Effort effort) {
+  DataModelOptions options = accuracy(shop, effort);
+  if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
+  return {program, shop.data, options};
+}
+
+/// Not those of the last fit, which is finer than a search needs.
+void keep_cuts(Contender& c, const DataModel& model, Effort effort) {
+  if (effort != Effort::final) c.cuts[model.program().output_names] = std::make_shared<const Cuts>(model.cuts());
+}
+
+/// What is fitted, and what is seen of it.
+std::string name_of_fit(const Program& program, const std::vector<FreeParameter>& free,
+                        const std::vector<std::string>& outputs) {
+  std::string name;
+  for (const auto& o : outputs) name += o + ";";
+  for (const auto& f : free)
+    name += fmt::format("{}@{};", program.parameters[static_cast<std::size_t>(f.parameter)].path, f.recording);
+  return name;
+}
+
+/// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
+/// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
+/// The answer: steps_from().
+double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+                  const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held,
+                  Intervals intervals = Intervals::told, Own own = Own::free) {
+  c.program = compile(c.diagram, *shop.registry);
+  const bool some = outputs.size() < c.program->output_names.size();
+  const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
+  DataModel model = model_of(shop, c, seen, effort);
+  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines, own);
+  if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
+  const Trial fixed = held(c, free);
+  if (free.empty()) {
+    if (!c.prediction.y.empty()) return 0;  // another part was fitted, and told all outputs
+    DataModel whole = model_of(shop, c, c.program, effort);
+    predict(shop, c, whole, fixed);
+    return 0;
+  }
+  NoiseModel noise = noise_of(shop, model);
+  FitOptions options;
+  options.max_iterations = effort == Effort::full ? 15 : 30;
+  const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), fixed, free);
+  if (effort == Effort::screen) spend_less(c, steps, free, options);
+  if (effort == Effort::full) keep_within_time(c, steps, free, options);
+  options.intervals = effort == Effort::final && intervals == Intervals::told;
+  options.profile_steps = fit_steps;
+  if (effort != Effort::final) options.search_again_steps = effort == Effort::full ? fit_steps : screening_steps;
+  options.scores = false;
+  options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
+  options.fixed = fixed;
+  FitResult before = std::move(c.fit);
+  const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
+  if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
+    for (auto& o : noise.outputs) o.left_out = {};
+  const bool again = effort == Effort::full && fresh < 0;
+  const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
+  if (again) options.known_derivatives = shop.notes->derivatives_of(name);
+  c.fit = fit(model, noise, free, options);
+  if (again && c.fit.derivatives) shop.notes->keep(name, c.fit.derivatives);
+  c.ok = c.fit.ok;
+  c.error = c.fit.error;
+  c.runs += model.runs();
+  if (!c.ok && c.fit.stopped) throw Stopped{};  // nothing was found that could be kept
+  if (!c.ok) return steps;
+  keep_of_recordings(c, fixed);
+  Trial all = c.fit.values;
+  all.insert(all.end(), fixed.begin(), fixed.end());
+  if (some) {
+    DataModel whole = model_of(shop, c, c.program, effort);
+    whole.choose_substeps(all, noise_of(shop, whole).white());
+    predict(shop, c, whole, all);
+    keep_cuts(c, whole, effort);
+  } else {
+    predict(shop, c, model, all);
+  }
+  keep_cuts(c, model, effort);
+  c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
+  // What was held this time keeps what was said of it last time.
+  for (auto& e : before.estimates)
+    if (std::none_of(c.fit.estimates.begin(), c.fit.estimates.end(),
+                     [&](const ParameterEstimate& now) { return now.path == e.path && now.recording == e.recording; }))
+      c.fit.estimates.push_back(std::move(e));
+  return steps;
+}
+
+/// Laws with many weights one behind the other multiply each other: linear each, not together. Each trial of what is
+/// not linear simulates every weight of the rest; solving the laws in turn costs a fraction of that.
+bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, Effort effort) {
+  if (std::count(chosen.begin(), chosen.end(), true) < 2) return false;
+  std::vector<int> parameters;
+  for (const auto& f : free_of(shop, c, chosen, -1, {})) parameters.push_back(f.parameter);
+  const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
+  const auto linear = std::count(affine.begin(), affine.end(), true);
+  const auto searched = static_cast<std::ptrdiff_t>(affine.size()) - linear;
+  return searched > 4 || (effort != Effort::final && searched * linear > 12);
+}
+
+/// One effect after the other, the newest first: it has no values yet. The answer: whether any of them is slow.
+bool sweep_through(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+                   const std::vector<std::string>& outputs, Intervals intervals) {
+  bool slow = false;
+  for (std::size_t k = 0; k < c.standing.size(); ++k) {
+    const std::size_t i = c.standing.size() - 1 - k;
+    if (!chosen[i]) continue;
+    std::vector<bool> one(c.standing.size(), false);
+    one[i] = true;
+    const double steps = fit_chosen(shop, c, effort, static_cast<int>(i) == fresh ? fresh : -1, one, outputs,
+                                    KnownLines::held, intervals);
+    if (!c.ok) return false;
+    slow = slow || steps > 0;
+  }
+  return slow;
+}
+
+/// How many of these numbers are found by linear least squares when they are fitted together with `beside`.
+std::ptrdiff_t linear_beside(const Program& program, std::vector<int> numbers, const std::vector<int>& beside) {
+  const auto count = static_cast<std::ptrdiff_t>(numbers.size());
+  numbers.insert(numbers.end(), beside.begin(), beside.end());
+  const auto affine = jointly_affine(program, numbers, program.output_signals);
+  return std::count(affine.begin(), affine.begin() + count, true);
+}
+
+/// Do the user's free numbers take it from a new law that some of its own are linear: of a mode behind a stage whose
+/// weights are free, what it adds is then searched from a start that is far from everything, at each frequency.
+bool begins_better_alone(const Workshop& shop, const Contender& c, int fresh) {
+  if (fresh < 0) return false;
+  std::vector<int> own, law;
+  for (const auto& f : free_parameters(*c.program, shop.free_paths)) own.push_back(f.parameter);
+  if (own.empty()) return false;
+  for (const auto& f : free_of_law(*c.program, c.standing[static_cast<std::size_t>(fresh)], true, {}))
+    law.push_back(f.parameter);
+  return linear_beside(*c.program, law, {}) > linear_beside(*c.program, law, own);
+}
+
+/// The chosen effects of one part, together or in turn.
+void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+              const std::vector<std::string>& outputs) {
+  if (begins_better_alone(shop, c, fresh)) {
+    std::vector<bool> one(c.standing.size(), false);
+    one[static_cast<std::size_t>(fresh)] = true;
+    fit_chosen(shop, c, effort, fresh, one, outputs, KnownLines::held, Intervals::not_yet, Own::held);
+    if (!c.ok) return;
+    fresh = -1;
+  }
+  if (!better_in_turn(shop, c, chosen, effort)) {
+    fit_chosen(shop, c, effort, fresh, chosen, outputs);
+    return;
+  }
+  double last = std::numeric_limits<double>::infinity();
+  int sweeps = 6;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const bool slow = sweep_through(shop, c, effort, sweep == 0 ? fresh : -1, chosen, outputs, Intervals::not_yet);
+    if (!c.ok) return;
+    if (slow) sweeps = 2;  // a slow model is searched from coarse to fine anyway
+    const double now = c.fit.chi2;
+    if (last - now < 1) break;
+    last = now;
+  }
+  if (effort == Effort::final) sweep_through(shop, c, effort, -1, chosen, outputs, Intervals::told);
+}
+
+/// Known lines once more by themselves: beside an effect that came later their frequency may be another one by a
+/// little, and in a long recording that is many turns.
+void tune_known_lines(const Workshop& shop, Contender& c, Effort effort, const std::vector<bool>& chosen,
+                      const std::vector<std::string>& outputs) {
+  std::vector<bool> lines(chosen.size(), false);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    lines[i] =
+        chosen[i] && std::any_of(c.standing[i].law.free.begin(), c.standing[i].law.free.end(),
+                                 [&](const LawParameter& p) { return is_known_line(shop, c, c.standing[i], p); });
+  if (std::find(lines.begin(), lines.end(), true) != lines.end())
+    fit_chosen(shop, c, effort, -1, lines, outputs, KnownLines::tuned);
+}
+
+/// Does any recording measure one of these outputs: what nobody measured, nothing can fit.
+bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) {
+  return std::any_of(outputs.begin(), outputs.end(), [&](const std::string& name) {
+    return std::any_of(data.recordings.begin(), data.recordings.end(),
+                       [&](const Recording& r) { return r.columns.contains(name); });
+  });
+}
+
+/// Two poles that a fit left at one time are at a saddle where something else is found beside them: they begin apart.
+void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
+  constexpr double alike = 0.02, apart = 1.5;  // of the one, to each side
+  if (law.free.size() != free.size()) return;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    for (std::size_t k = i + 1; k < free.size(); ++k) {
+      if (!law.free[i].interchangeable || !law.free[k].interchangeable) continue;
+      if (std::abs(free[i].start - free[k].start) > alike * std::abs(free[i].start)) continue;
+      free[i].start = std::min(free[i].start * apart, free[i].upper);
+      free[k].start = std::max(free[k].start / apart, free[k].lower);
+    }
+}
+
+}  // namespace
+
+std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
+                                       const std::vector<int>& recordings) {
+  std::vector<FreeParameter> list;
+  for (const auto& p : standing.law.free) {
+    FreeParameter f = free_parameter(program, parameter_path(standing.name, standing.law, p));
+    f.lower = std::max(f.lower, p.lower);
+    f.upper = std::min(f.upper, p.upper);
+    if (is_new) f.start = std::isnan(p.start) ? p.share * f.start : p.start;
+    f.start = std::clamp(f.start, f.lower, f.upper);
+    f.log_scale = p.log_scale && f.lower > 0;
+    f.scan.clear();
+    if (is_new)
+      for (const double v : p.scan)
+        if (v >= f.lower && v <= f.upper) f.scan.push_back(v);
+    if (p.per_recording)
+      for (const int r : recordings) list.emplace_back(f).recording = r;
+    else
+      list.push_back(std::move(f));
+  }
+  if (!is_new) part_those_alike(standing.law, list);
+  return list;
+}
+
+/// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
+/// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
+DataModelOptions accuracy(const Workshop& shop, Effort effort) {
+  DataModelOptions options;
+  options.threads = shop.threads;
+  options.max_substeps = 1024;
+  double rows = 1;
+  for (const auto& r : shop.data->recordings)
+    if (r.role == Role::train) rows += static_cast<double>(r.last);
+  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > simulation_steps) {
+    options.max_substeps /= 2;
+    options.bdf_otherwise = false;
+  }
+  options.relative_tolerance *= shop.looser;
+  options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
+  options.substep_share = effort == Effort::final ? residual_share / 5 : residual_share;
+  return options;
+}
+
+std::vector<int> train_and_validate(const DataSet& data) {
+  std::vector<int> list;
+  for (std::size_t r = 0; r < data.recordings.size(); ++r)
+    if (data.recordings[r].role != Role::test) list.push_back(static_cast<int>(r));
+  return list;
+}
+
+NoiseModel noise_of(const Workshop& shop, const DataModel& model) {
+  if (shop.evidence == nullptr) return noise_before_fit(model);
+  const auto& all = shop.evidence->model().outputs();
+  NoiseModel some;
+  for (const auto& name : model.outputs())
+    some.outputs.push_back(
+        shop.evidence->noise()
+            .outputs[static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin())]);
+  return some;
+}
+
+void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
+  c.program = compile(c.diagram, *shop.registry);
+  for (const auto& part : parts_of(c, shop.free_paths)) {
+    if (fresh >= 0 && !part.has(static_cast<std::size_t>(fresh))) continue;  // nothing there has changed
+    if (!any_recorded(*shop.data, part.outputs)) continue;
+    auto chosen = part.effects;
+    if (effort == Effort::screen && fresh >= 0)
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        chosen[i] = chosen[i] && (static_cast<int>(i) == fresh || calibrates(c.standing[i]));
+    fit_part(shop, c, effort, fresh, chosen, part.outputs);
+    if (c.ok && effort != Effort::screen) tune_known_lines(shop, c, effort, chosen, part.outputs);
+    if (!c.ok) return;
+  }
+}
+
+}  // namespace hysteron

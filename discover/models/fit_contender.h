@@ -1,0 +1,28 @@
+// Decides how the free numbers of one model of a discovery are fitted: which they are, in which order, to what
+// accuracy. Does not decide what stands in the model (contender.h). Internal to discover.
+#pragma once
+
+#include <vector>
+
+#include "discover/models/contender.h"
+
+namespace hysteron {
+
+/// Compiles the diagram of `c` and fits it: the parts that do not need each other one by one. `fresh` = index of the
+/// effect that starts from its law instead of its values, -1 = none.
+void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh);
+
+/// The free parameters of one law where it stands; `recordings`: those of which each has its own value.
+std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
+                                       const std::vector<int>& recordings);
+
+/// Does it look for a line: is one of its parameters the frequency of one.
+bool has_line(const Law& law);
+
+/// How finely candidates are simulated.
+DataModelOptions accuracy(const Workshop& shop, Effort effort);
+std::vector<int> train_and_validate(const DataSet& data);
+/// Noise of the outputs of `model`, which may be some of those that are judged.
+NoiseModel noise_of(const Workshop& shop, const DataModel& model);
+
+}  // namespace hysteron

@@ -1,0 +1,24 @@
+// Decides what the fit of one candidate may cost: where it begins and how many steps it takes. Internal to discover.
+#pragma once
+
+#include <vector>
+
+#include "discover/models/contender.h"
+
+namespace hysteron {
+
+/// Steps that may be spent on screening one candidate: some seconds. Only what stands behind nonlinear states in slow
+/// recordings comes near.
+inline constexpr double screening_steps = 5e6;
+/// Steps that may be spent on the fit of one candidate with nonlinear states: some seconds.
+inline constexpr double fit_steps = 4e7;
+
+/// Steps of one simulation of the train recordings from the start values: rows times substeps. 0: nothing is slow.
+double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
+                  const std::vector<FreeParameter>& free);
+/// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.
+void spend_less(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
+/// A full fit of a slow model begins in fewer places and takes fewer steps from there.
+void keep_within_time(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
+
+}  // namespace hysteron

@@ -1,0 +1,23 @@
+// Decides what the recordings show at a place: range, reversals, holds, pace of the signal on the wire.
+// Does not judge whether that suffices (each effect does).
+#pragma once
+
+#include "discover/hypotheses/effect.h"
+#include "discover/placement/places.h"
+#include "engine/block/kernel.h"
+#include "io/data/dataset.h"
+
+namespace hysteron {
+
+/// Drives the diagram with the recordings and looks at the wires of `places`, one simulation per recording.
+/// `free_paths`: parameters that are free beside those that the diagram declares free ("stage.gain").
+/// Throws where the diagram does not compile or run.
+std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                                            const std::vector<Place>& places,
+                                            const std::vector<std::string>& free_paths = {});
+
+/// The same at one place.
+Circumstances circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                               const Place& place, const std::vector<std::string>& free_paths = {});
+
+}  // namespace hysteron

@@ -1,0 +1,30 @@
+// Decides whether the recordings say otherwise than the data set how an input moves between its samples.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "discover/search/discover.h"
+
+namespace hysteron {
+
+struct Books;
+
+/// Inputs that this search takes to move smoothly are told, with the cure.
+void tell_smooth_inputs(Books& books);
+
+/// Where an input that is held fits the user's model better moving along straight lines, or the other way round, and
+/// what was found does not explain it otherwise, the user is told: how it moves is the user's word, and half a sample
+/// of delay looks the same.
+void tell_other_ways(Books& books);
+
+/// An input that bends between its samples by all that the present model leaves: straight lines through them are
+/// smaller than the signal, the more the quicker it is, which nothing in a device looks like but would be sold as a
+/// mode of its structure. No parameter is added, and most of what stands above the noise must go in recordings of both
+/// roles.
+std::optional<SmoothInput> find_smooth_input(const Books& books);
+
+/// Tells of such an input (Books::smooth) where the search that takes it into account was broken off.
+void tell_unused(Books& books);
+
+}  // namespace hysteron

@@ -1,0 +1,110 @@
+// Decides whether a law that holds another effect's besides its own (Law::holds) stands for both: whether a plainer law
+// and that effect, each by itself, explain the recordings better.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "discover/placement/circumstances.h"
+#include "discover/search/books.h"
+
+namespace hysteron {
+namespace {
+
+/// Of those that were screened: the law that takes most when it stands alone need not be the one that fits best beside
+/// the plain one.
+constexpr std::size_t held_ones_fitted = 3;
+
+/// Of those that could be fitted.
+std::optional<Contender> best_of(std::vector<Contender> fitted) {
+  std::optional<Contender> best;
+  for (auto& c : fitted)
+    if (c.ok && (!best || c.score() < best->score())) best = std::move(c);
+  return best;
+}
+
+/// The effect of `mixed` on `before`, by its best law that holds no other one's.
+std::optional<Contender> by_a_plain_law(const Books& books, const Contender& before, const Standing& mixed) {
+  const auto at = circumstances_on(books, before, {mixed.place}).front();
+  auto laws = mixed.effect->laws(at);
+  std::erase_if(laws, [](const Law& law) { return !law.holds.empty(); });
+  std::vector<Contender> plain(laws.size());
+  books.side_by_side(laws.size(), [&](std::size_t i, const Workshop& shop) {
+    plain[i] = with_effect(shop, before, *mixed.effect, laws[i], mixed.place, at, Effort::full);
+    return false;
+  });
+  return best_of(std::move(plain));
+}
+
+/// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places:
+/// screened with the plain law held, the best few are fitted together with it.
+std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed, double bar) {
+  const auto list = choices_on(
+      books, plain, [&](const Effect& e) { return could_hold(books, mixed, e); },
+      [](const Effect& e, const Circumstances& at) { return e.laws(at); });
+  std::vector<Contender> fitted(list.size());
+  books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[i];
+    books.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), bar);
+    fitted[i] = with_effect(shop, plain, *effect, law, place, at, Effort::screen);
+    return false;
+  });
+  std::vector<std::size_t> best(list.size());
+  std::iota(best.begin(), best.end(), std::size_t{0});
+  std::erase_if(best, [&](std::size_t i) { return !fitted[i].ok; });
+  std::stable_sort(best.begin(), best.end(),
+                   [&](std::size_t a, std::size_t b) { return fitted[a].score() < fitted[b].score(); });
+  best.resize(std::min(best.size(), held_ones_fitted));
+  std::vector<Contender> together(best.size());
+  books.side_by_side(best.size(), [&](std::size_t k, const Workshop& shop) {
+    const auto& [effect, law, place, at] = list[best[k]];
+    Contender both = refit(shop, fitted[best[k]], Effort::full);
+    if (both.ok && why_implausible(*effect, law, both, at).empty()) together[k] = std::move(both);
+    return false;
+  });
+  return best_of(std::move(together));
+}
+
+/// Is the other effect more than what the plainer law may have left of its own?
+bool is_no_rest(const Contender& before, const Contender& plain, const Contender& both) {
+  const double of_law = before.error_of.evidence() - plain.error_of.evidence();
+  return plain.error_of.evidence() - both.error_of.evidence() > rules::plain_left * rules::plain_left * of_law;
+}
+
+}  // namespace
+
+bool could_hold(const Books& books, const Law& law, const Effect& e) {
+  return std::any_of(law.holds.begin(), law.holds.end(), [&](const std::string& id) {
+    const Effect* held = books.effects.find(id);
+    // A curve has no memory, whatever else looks like it.
+    return held != nullptr && (held == &e || (look_alike(*held, e) && held->is_memory == e.is_memory));
+  });
+}
+
+int held_one_first(const Books& books, const std::vector<Tried>& tried, int winner) {
+  const Tried& w = tried[static_cast<std::size_t>(winner)];
+  const Law& law = w.laws[w.law];
+  for (const std::size_t i : ranking(tried)) {
+    const Tried& t = tried[i];
+    if (t.effect == w.effect || !t.admitted || t.outputs != w.outputs || !could_hold(books, law, *t.effect)) continue;
+    if (t.fall_train > rules::held_share * w.fall_train && t.fall_validate > rules::held_share * w.fall_validate)
+      return static_cast<int>(i);
+  }
+  return winner;
+}
+
+bool in_two(Books& books, Contender before, double bar) {
+  const Standing mixed = books.current.standing.back();
+  const auto stands = [&](const Standing& s) { return could_hold(books, mixed.law, *s.effect); };
+  if (mixed.law.holds.empty() || std::any_of(before.standing.begin(), before.standing.end(), stands)) return false;
+  books.progress(fmt::format("{} by itself", mixed.effect->id), bar);
+  before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
+  const auto plain = by_a_plain_law(books, before, mixed);
+  if (!plain) return false;
+  const auto best = with_a_held_one(books, *plain, mixed.law, bar);
+  return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
+         tell_again(books, *best);
+}
+
+}  // namespace hysteron

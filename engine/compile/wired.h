@@ -1,0 +1,89 @@
+// Decides what stands between the names of a diagram and its scalar signals: leaf blocks whose ports carry vectors.
+// A scalar is a vector of length 1. Internal to the engine; build_graph() calls the stages one after the other.
+//
+//   wire_diagram   choices, nested diagrams, names: which port reads which
+//   infer_lengths  how many elements every port carries
+//   take_apart     one scalar signal per element: elementwise blocks become one block per element, rewirings become
+//                  one pass per element, so that an element depends on what it is made of and on nothing else
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/compile/graph.h"
+
+namespace hysteron {
+
+/// What a wire reads: an output port, or one element of it.
+struct PortEnd {
+  int block = -1, port = 0;
+  int element = -1;             ///< -1 = all of them
+  std::string name{}, place{};  ///< as written, and where (JSON pointer)
+};
+
+/// A leaf block before its vectors are taken apart.
+struct WiredBlock {
+  std::string path, origin;
+  std::string place{};  ///< of its wires ("/blocks/a/in")
+  const Kernel* kernel = nullptr;
+  Shape shape{};
+  Sizes sizes{};
+  std::vector<ResolvedParameter> parameters{};
+  SeriesPointer series{};
+  Unit unit{};  ///< recorded: of the column; input of the diagram: as stated
+  bool unit_known = false;
+  int stated_length = 0;         ///< input of the diagram (0 = open)
+  std::vector<PortEnd> wires{};  ///< in the order of the ports
+  std::vector<int> port{};       ///< per wire: index of the declared port
+  std::vector<int> lengths{};    ///< per output port, once inferred
+
+  bool is_input() const { return kernel->declaration.type == "input"; }
+  bool has_vector_ports() const { return kernel->declaration.has_vector_ports(); }
+  bool is_elementwise() const { return kernel->declaration.is_elementwise; }
+};
+
+/// An input of a nested diagram that states its length: what is wired to it must have it.
+struct StatedLength {
+  PortEnd end;
+  int length = 0;
+  std::string name{};  ///< "stage/u"
+};
+
+struct WiredDiagram {
+  std::vector<WiredBlock> blocks;
+  std::vector<std::pair<std::string, int>> inputs;  ///< name, block
+  std::vector<std::pair<std::string, PortEnd>> outputs;
+  std::vector<PortEnd> record, places_read;
+  std::vector<StatedLength> stated;
+  std::vector<GraphParameter> parameters;
+  Ordered<std::vector<std::string>> places;
+
+  /// Elements that a wire carries, once inferred.
+  int length(const PortEnd& end) const {
+    if (end.element >= 0) return 1;
+    return blocks[static_cast<std::size_t>(end.block)].lengths[static_cast<std::size_t>(end.port)];
+  }
+};
+
+/// wired.cpp. Throws all problems of names, types, values and wires.
+WiredDiagram wire_diagram(const Diagram& diagram, const Registry& registry);
+
+/// unused.cpp: what nobody reads. `used`: (scope, name) of what somebody read in passing.
+struct ScopeOfNames {
+  const Diagram* diagram = nullptr;
+  std::string origin;             ///< JSON pointer of the block that holds it, "" at the top
+  std::vector<std::string> used;  ///< blocks that a wire from elsewhere reads
+};
+void check_unused(const std::vector<ScopeOfNames>& scopes, Problems& problems);
+
+/// lengths.cpp. Throws "wrong_length", "bad_index", "bad_value" naming both ends, both lengths and what fixed them.
+void infer_lengths(WiredDiagram& diagram);
+
+/// take_apart.cpp.
+Graph take_apart(const WiredDiagram& diagram, const Registry& registry);
+
+/// The name of a block or input at the head of a wire: "stage" of "stage.y[1]", "stage/play".
+std::string head_of_wire(const std::string& wire);
+
+}  // namespace hysteron

@@ -1,0 +1,95 @@
+// Decides what happens at an instant at which something is not smooth, and in which order:
+//   1. sources pass their corners; where one jumps, laws and memory follow the path of a fast ramp (path.h);
+//   2. sampled blocks that are due run: continuous signals are read as they are behind the corner, outputs follow each
+//      other in the order of the wires, then all sampled states change together; the jumps of their outputs are paths;
+//   3. modes whose guard is not positive any more change, all of them together from one evaluation, each resetting its
+//   own
+//      states; jumps of their outputs are paths; again, until every mode may stay.
+// Within a stage nothing depends on the order of blocks. Memory is committed before (by the caller, with the old
+// formulas), along paths, and behind (by the caller).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/events/clocks.h"
+#include "engine/events/path.h"
+#include "engine/events/sampling.h"
+#include "engine/program/corners.h"
+#include "engine/program/program.h"
+
+namespace hysteron {
+
+/// One block leaves a mode for another.
+struct ModeChange {
+  int modal, block;  ///< place in program.modal_blocks, in program.blocks
+  int before, after;
+};
+
+class Events {
+ public:
+  /// begin, until [s]: the span of the simulation. Tolerances as of the integration; one absolute tolerance per state.
+  Events(const Program& program, const Run& run, double begin, double until, double relative_tolerance,
+         std::span<const double> absolute_tolerance);
+
+  double next() const;    ///< first known instant behind the present: corners and sampling instants [s]
+  double branch() const;  ///< a time inside the present smooth piece of every source [s]
+  int guards() const { return static_cast<int>(program_.modal_blocks.size()); }
+
+  /// To be called at a known instant (or the start) before begin(), pass() or cross(): what is due there is taken.
+  void take(double t, Run& run);
+  /// At the start: what is due at t; nothing has jumped yet.
+  void begin(Run& run, Work& work, double t, std::vector<double>& x);
+  /// At a known instant t, memory committed: cross(), then settle(). Returns true if states or modes changed.
+  bool pass(Run& run, Work& work, double t, std::vector<double>& x);
+  /// Corners and samples that were taken, for this run or one beside it (twins.h). Returns true if states moved.
+  bool cross(Run& run, Work& work, double t, std::vector<double>& x);
+  /// Modes whose guards are not positive; `fired`: guards in whose step the integrator saw a root (may be empty).
+  /// Returns true if a mode changed.
+  bool settle(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> fired);
+  /// These changes, for this run or one beside it: states are reset, jumps followed. Returns true if a path moved
+  /// states.
+  bool apply(Run& run, Work& work, double t, std::vector<double>& x, std::span<const ModeChange> changes);
+  /// Called before modes change, with everything as it was; may be empty.
+  std::function<void(std::span<const ModeChange>)> on_change{};
+  /// Between these two calls nothing that begins has jumped.
+  void starting(bool yes) { starting_ = yes; }
+  /// Is a guard not positive at (t, x)?
+  bool due(const Run& run, Work& work, double t, const std::vector<double>& x) const;
+
+  /// Changes of mode so far, per block with modes.
+  const std::vector<long>& changes() const { return changes_; }
+  long hits() const { return hits_; }
+  long paths() const { return paths_; }
+
+ private:
+  bool follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping);
+  std::vector<ModeChange> find_changes(const Run& run, Work& work, const std::vector<double>& x,
+                                       std::span<const int> due) const;
+  void watch_chatter(double t);
+  [[noreturn]] void report_chatter(double t, long changes, double within) const;
+
+  const Program& program_;
+  Corners corners_;
+  Clocks clocks_;
+  Sampling sampling_;
+  JumpPath path_;
+  double span_;
+  double milestone_;  // [s]
+  long since_milestone_ = 0;
+  bool starting_ = false;
+  struct Instant {
+    bool corner = false;
+    std::vector<int> hits;  // places in program.sampled_blocks
+  };
+  Instant instant_;
+  std::vector<double> before_, states_;
+  std::vector<int> blocks_;
+  std::vector<long> changes_;
+  std::vector<double> recent_;  // times of the last changes of mode, a ring
+  long hits_ = 0, paths_ = 0;
+};
+
+}  // namespace hysteron

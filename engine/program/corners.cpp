@@ -1,0 +1,142 @@
+#include "engine/program/corners.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A dead time below this share of the span does not shorten the steps further; its block extrapolates over the rest.
+constexpr double shortest_capped_delay = 1e-5;
+
+double reach_back(const Program& program, const Run& run, int block) {
+  const auto* kernel = program.blocks[static_cast<std::size_t>(block)].kernel;
+  return kernel->reach_back != nullptr ? kernel->reach_back(view_of(program, run, block)) : 0.0;
+}
+
+}  // namespace
+
+Corners::Corners(const Program& program, const Run& run, double begin) : program_(program), run_(run), t_(begin) {
+  for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
+    const auto& block = program.blocks[static_cast<std::size_t>(b)];
+    if (block.kernel->next_corner != nullptr) sources_.push_back({b, corner_behind(program, run, b, begin)});
+    if (block.history_index >= 0) delays_.push_back(reach_back(program, run, b));
+  }
+  add_echoes(begin, 0);
+}
+
+double corner_behind(const Program& program, const Run& run, int block, double t) {
+  auto view = view_of(program, run, block);
+  const auto* kernel = program.blocks[static_cast<std::size_t>(block)].kernel;
+  // A source that rounds its corner to just above t would stop us there for ever: ask again from a little further on.
+  for (double from = t, nudge = same_instant(t);; from = t + nudge, nudge *= 2) {
+    view.t = view.branch = from;
+    const double corner = kernel->next_corner(view);
+    if (corner > t + same_instant(t)) return corner;
+    if (nudge != 0 && nudge <= 1e-9 * std::max(1.0, std::abs(t))) continue;
+    const auto& b = program.blocks[static_cast<std::size_t>(block)];
+    fail("bad_value", b.path,
+         fmt::format("{} \"{}\" names {} s as its next corner behind {} s", b.kernel->declaration.type, b.path, corner,
+                     t),
+         "check its times: they do not go on");
+  }
+}
+
+void Corners::add_echoes(double t, int generation) {
+  if (generation >= static_cast<int>(delays_.size())) return;
+  for (const double delay : delays_)
+    if (delay > 0) echoes_.emplace(t + delay, generation + 1);
+}
+
+double Corners::next() const {
+  double first = echoes_.empty() ? infinity : echoes_.top().first;
+  for (const auto& source : sources_) first = std::min(first, source.next);
+  return first;
+}
+
+double Corners::branch() const {
+  const double corner = next();
+  return corner < infinity ? t_ + (corner - t_) / 2 : t_ + 1;
+}
+
+void Corners::pass(double t) {
+  t_ = t;
+  const double reached = t + same_instant(t);
+  bool corner = false;
+  for (auto& source : sources_) {
+    if (source.next > reached) continue;
+    source.next = corner_behind(program_, run_, source.block, t);
+    corner = true;
+  }
+  int generation = corner ? 0 : std::numeric_limits<int>::max();
+  while (!echoes_.empty() && echoes_.top().first <= reached) {
+    generation = std::min(generation, echoes_.top().second);
+    echoes_.pop();
+  }
+  add_echoes(t, generation);
+}
+
+namespace {
+
+/// What happens in it hangs on more than where its inputs are at the ends of a step.
+bool is_switched(const BlockInstance& b) {
+  return b.sizes.memory > 0 || b.mode_index >= 0 || b.sizes.kinks > 0 || b.history_index >= 0;
+}
+
+// A smooth curve of one signal makes harmonics of it; those of a cubic are the usual ones.
+constexpr double harmonics = 3;
+// Products in loops would go on for ever.
+constexpr int most_sweeps = 4;
+
+/// Per block: the highest frequency in what it puts out [Hz], from the shortest periods of the sources. The frequencies
+/// of factors add up in their product.
+std::vector<double> highest_frequencies(const Program& program, const Run& run) {
+  std::vector<double> frequency(program.blocks.size(), 0.0);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep)
+    for (const int block : program.value_order) {
+      const auto b = static_cast<std::size_t>(block);
+      const auto& info = program.blocks[b];
+      if (info.n_u == 0) {
+        // A series is monotone between its samples, and those are stops already.
+        const double pace = info.kernel->pace == nullptr || info.series_index >= 0
+                                ? 0.0
+                                : info.kernel->pace(view_of(program, run, block));
+        frequency[b] = pace > 0 ? 1 / pace : 0.0;
+        continue;
+      }
+      double highest = 0, sum = 0;
+      for (const int s : info.source) {
+        const double input = frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+        highest = std::max(highest, input);
+        sum += input;
+      }
+      const bool curved = !info.kernel->declaration.is_linear && !is_switched(info) && info.sizes.states == 0;
+      frequency[b] = !curved ? highest : info.n_u > 1 ? sum : harmonics * highest;
+    }
+  return frequency;
+}
+
+}  // namespace
+
+double longest_step(const Program& program, const Run& run, double span) {
+  double longest = infinity;
+  if (std::none_of(program.blocks.begin(), program.blocks.end(), is_switched)) return longest;
+  const auto frequency = highest_frequencies(program, run);
+  for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
+    const auto& block = program.blocks[static_cast<std::size_t>(b)];
+    if (!is_switched(block)) continue;
+    if (block.history_index >= 0)
+      longest = std::min(longest, std::max(reach_back(program, run, b), shortest_capped_delay * span));
+    for (const int s : block.source) {
+      const double f = frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+      if (f > 0) longest = std::min(longest, 1 / (4 * f));
+    }
+  }
+  return longest;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,240 @@
+#include "engine/program/nominal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/program/corners.h"
+#include "engine/simulate/simulate.h"
+
+namespace hysteron {
+namespace {
+
+constexpr int pieces_sampled = 16;  // smooth pieces of a source that we look at
+constexpr int points_per_piece = 16;
+constexpr double paces_without_corners = 4;  // a source without corners: over so many of its periods
+constexpr double length_guess = 1e-6;        // [m] actuators move micrometres
+constexpr double guess = 1;                  // [SI] anything else
+
+bool is_length(const Dimension& d) {
+  Dimension metre;
+  metre.power[0] = 1;
+  return d == metre;
+}
+
+/// Calls one block with sizes in place of values.
+class Sizer {
+ public:
+  Sizer(const Program& program, const Run& run) : program_(program), run_(run) {
+    sizes_.signals.assign(program.signals.size(), 0.0);
+    sizes_.states.assign(static_cast<std::size_t>(program.n_x), 0.0);
+  }
+
+  NominalSizes operator()() {
+    for (int b = 0; b < count(); ++b)
+      if (block(b).n_u == 0) source(b);
+    // Along the wires. What has a size keeps it, so that a loop neither grows nor vanishes with its gain.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int b = 0; b < count(); ++b)
+        if (block(b).n_u > 0 && !known(b)) changed |= follow(b);
+    }
+    fill_unknown_states();
+    return std::move(sizes_);
+  }
+
+ private:
+  int count() const { return static_cast<int>(program_.blocks.size()); }
+  const BlockInstance& block(int b) const { return program_.blocks[static_cast<std::size_t>(b)]; }
+  double& signal(const BlockInstance& b, int output) {
+    return sizes_.signals[static_cast<std::size_t>(b.y_begin + output)];
+  }
+  double* states(const BlockInstance& b) { return sizes_.states.data() + b.x_begin; }
+  bool known(int b) {
+    for (int i = 0; i < block(b).sizes.outputs; ++i)
+      if (signal(block(b), i) == 0) return false;
+    return true;
+  }
+  std::vector<double> input_sizes(const BlockInstance& b) const {
+    std::vector<double> u;
+    for (const int s : b.source) u.push_back(sizes_.signals[static_cast<std::size_t>(s)]);
+    return u;
+  }
+
+  std::vector<double> output_at(int b, const std::vector<double>& x, const std::vector<double>& u, double t,
+                                double branch);
+  std::vector<double> called(int b, Kernel::Call function, const std::vector<double>& u,
+                             const std::vector<double>& rates, int results);
+  void source(int b);
+  bool follow(int b);
+  void size_states(int b, const std::vector<double>& u);
+  void fill_unknown_states();
+
+  const Program& program_;
+  const Run& run_;
+  NominalSizes sizes_;
+};
+
+std::vector<double> Sizer::output_at(int b, const std::vector<double>& x, const std::vector<double>& u, double t,
+                                     double branch) {
+  const auto& info = block(b);
+  auto view = view_of(program_, run_, b);
+  view.t = t;
+  view.branch = branch;
+  view.u = u.data();
+  const std::vector<double> sampled(static_cast<std::size_t>(info.sizes.sampled_states));
+  view.x = info.hit_index < 0 ? x.data() : sampled.data();
+  std::vector<double> memory(static_cast<std::size_t>(info.sizes.memory)),
+      y(static_cast<std::size_t>(info.sizes.outputs));
+  if (info.kernel->advance != nullptr) {
+    view.out = memory.data();
+    info.kernel->advance(view);
+    view.m = memory.data();
+  }
+  view.out = y.data();
+  info.kernel->output(view);
+  return y;
+}
+
+std::vector<double> Sizer::called(int b, Kernel::Call function, const std::vector<double>& u,
+                                  const std::vector<double>& rates, int results) {
+  const std::vector<double> zero(static_cast<std::size_t>(block(b).sizes.states));
+  std::vector<double> out(static_cast<std::size_t>(results));
+  auto view = view_of(program_, run_, b);
+  view.u = u.data();
+  view.du = rates.data();
+  view.x = zero.data();
+  view.out = out.data();
+  function(view);
+  return out;
+}
+
+/// Samples a source piece by piece; its rate by differences inside a piece.
+void Sizer::source(int b) {
+  const auto& info = block(b);
+  const auto* kernel = info.kernel;
+  auto view = view_of(program_, run_, b);
+  const double pace = kernel->pace != nullptr ? kernel->pace(view) : 0.0;
+  double fastest = 0, largest = 0;
+  double t = run_.t;
+  for (int piece = 0; piece < pieces_sampled; ++piece) {
+    view.t = view.branch = t;
+    const double corner =
+        kernel->next_corner != nullptr ? corner_behind(program_, run_, b, t) : std::numeric_limits<double>::infinity();
+    const bool last = !std::isfinite(corner);
+    const double periods = paces_without_corners * pace;
+    const double end = last ? t + (periods > 0 && std::isfinite(periods) ? periods : 1.0) : corner;
+    const double branch = t + (end - t) / 2;
+    const int points = last ? static_cast<int>(paces_without_corners) * points_per_piece : points_per_piece;
+    const double step = (end - t) / points;
+    std::vector<double> before;
+    // Counted: beside a late corner a step may be too short to move the time at all.
+    double at = t;
+    for (int k = 0; k <= points && at <= end; ++k, at += step) {
+      const auto y = output_at(b, {}, {}, at, branch);
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        auto& size = signal(info, static_cast<int>(i));
+        size = std::max(size, std::abs(y[i]));
+        largest = std::max(largest, std::abs(y[i]));
+        if (!before.empty() && step > 0) fastest = std::max(fastest, std::abs(y[i] - before[i]) / step);
+      }
+      before = y;
+    }
+    if (last) break;
+    t = end;
+  }
+  if (info.series_index >= 0 && run_.series[static_cast<std::size_t>(info.series_index)]) {
+    const auto& series = *run_.series[static_cast<std::size_t>(info.series_index)];
+    for (std::size_t i = 0; i < series.v.size(); ++i) {
+      signal(info, 0) = largest = std::max(largest, std::abs(series.v[i]));
+      if (i > 0 && series.between == Between::linear)
+        fastest = std::max(fastest, std::abs(series.v[i] - series.v[i - 1]) / (series.t[i] - series.t[i - 1]));
+    }
+  }
+  if (const double scale = largest / fastest; fastest > 0 && std::isfinite(scale)) {
+    sizes_.time_scale = sizes_.time_scale > 0 ? std::min(sizes_.time_scale, scale) : scale;
+  }
+}
+
+/// Sizes of a block's states and outputs from those of its inputs. False if nothing is known yet.
+bool Sizer::follow(int b) {
+  const auto& info = block(b);
+  const auto u = input_sizes(info);
+  if (std::all_of(u.begin(), u.end(), [](double size) { return size == 0; })) return false;
+  bool changed = false;
+  const auto note = [&](int output, double size) {
+    if (signal(info, output) > 0 || !(size > 0) || !std::isfinite(size)) return;
+    signal(info, output) = size;
+    changed = true;
+  };
+  if (info.history_index >= 0) {
+    note(0, u.front());
+    return changed;
+  }
+  if (info.sizes.states > 0 && states(info)[0] == 0) size_states(b, u);
+  const std::vector<double> x(states(info), states(info) + info.sizes.states);
+  const auto all = output_at(b, x, u, run_.t, run_.branch);
+  std::vector<double> sum(all.size());
+  // A difference of equals is as large as they are: add up what each input does alone.
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    auto without = u;
+    without[i] = 0;
+    const auto y = output_at(b, x, without, run_.t, run_.branch);
+    for (std::size_t k = 0; k < y.size(); ++k) sum[k] += std::abs(all[k] - y[k]);
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) note(static_cast<int>(k), std::max(std::abs(all[k]), sum[k]));
+  return changed;
+}
+
+/// From the declaration; else in equilibrium for inputs of this size; else what the derivative gathers in the time
+/// scale of the sources (from rest, where a law does not hold so far from it), though no more than the general guess (a
+/// controller's integrator stays small because its error does).
+void Sizer::size_states(int b, const std::vector<double>& u) {
+  const auto& info = block(b);
+  const auto n = static_cast<std::size_t>(info.sizes.states);
+  std::vector<double> size(n);
+  if (info.kernel->rest != nullptr) {
+    size = called(b, info.kernel->rest, u, u, info.sizes.states);
+    for (auto& s : size) s = std::isfinite(s) ? std::abs(s) : 0.0;
+    const double largest = *std::max_element(size.begin(), size.end());
+    for (auto& s : size)
+      if (s < 1e-6 * largest)
+        s = largest;  // the higher states of a balanced form: as large as the first while it moves
+  }
+  if (sizes_.time_scale > 0 && size.front() == 0) {
+    auto rates = u;
+    for (auto& r : rates) r /= sizes_.time_scale;
+    auto gathered = called(b, info.kernel->derivative, u, rates, info.sizes.states);
+    if (!std::all_of(gathered.begin(), gathered.end(), [](double g) { return std::isfinite(g); }))
+      gathered = called(b, info.kernel->derivative, std::vector<double>(u.size()), rates, info.sizes.states);
+    const double most =
+        is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension) ? length_guess : guess;
+    for (std::size_t i = 0; i < n; ++i)
+      size[i] = std::isfinite(gathered[i]) ? std::min(std::abs(gathered[i]) * sizes_.time_scale, most) : 0.0;
+  }
+  const auto& declared = info.kernel->declaration.states;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto k = std::min(i, declared.size() - 1);  // a sized block may declare one state for all of its kind
+    if (!declared.empty() && declared[k].nominal_size > 0) size[i] = declared[k].nominal_size;
+    states(info)[i] = size[i];
+  }
+}
+
+void Sizer::fill_unknown_states() {
+  for (int b = 0; b < count(); ++b) {
+    const auto& info = block(b);
+    if (info.sizes.states > 0 && states(info)[0] == 0) size_states(b, input_sizes(info));
+    const bool length = is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension);
+    for (int i = 0; i < info.sizes.states; ++i)
+      if (!(states(info)[i] > 0)) states(info)[i] = length ? length_guess : guess;
+  }
+}
+
+}  // namespace
+
+NominalSizes nominal_sizes(const Program& program, const Run& run) { return Sizer(program, run)(); }
+
+std::vector<double> nominal_states(const Program& program, const Run& run) {
+  return nominal_sizes(program, run).states;
+}
+
+}  // namespace hysteron

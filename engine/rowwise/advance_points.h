@@ -1,0 +1,90 @@
+// Decides at which times an exact advance stops: rows, sampling instants, and where a dead time hands the jumps of
+// these on. Internal to the exact advance.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/events/clocks.h"
+#include "engine/program/corners.h"
+
+namespace hysteron {
+
+/// Of the step: rows and samples that differ by less differ by rounding only.
+inline constexpr double same_row = 1e-9;
+
+/// What times lose by rounding where a delay is added to them and taken off again.
+inline double rounding_of(double t) { return 4 * same_instant(t); }
+
+/// The points of an advance, one after the other: rows, sampling instants, and where a dead time hands the jumps of
+/// these on.
+class Points {
+ public:
+  Points(const Program& program, const Run& run, std::vector<double> rows, const std::vector<double>& delays)
+      : rows_(std::move(rows)), clocks_(program, run, rows_.front()), delays_(delays), ticks_(clocks_.next()) {}
+
+  double next() const { return std::min({row(), ticks_, echo()}); }
+  bool at_end() const { return row_ == rows_.size(); }
+
+  /// The point behind `before`. Where a row and an instant meet but for rounding it is the instant, which others count
+  /// their delays from.
+  double advance(double before, Run& run) {
+    const double event = std::min(ticks_, echo());
+    const double close = same_row * (std::min(row(), event) - before);
+    t_ = std::abs(row() - event) <= close ? event : std::min(row(), event);
+    while (row() <= t_ + close) ++row_;
+    echoing_ = false;
+    auto generation = delays_.size();
+    while (echo() <= t_ + rounding_of(t_)) {
+      generation = std::min(generation, echoes_.top().second);
+      echoing_ = true;
+      echoes_.pop();
+    }
+    if (generation < delays_.size()) add_echoes(t_, generation);
+    take(run);
+    return t_;
+  }
+  void start(Run& run) {
+    t_ = rows_[row_++];
+    take(run);
+  }
+
+  bool is_echo() const { return echoing_; }
+  /// Sampled blocks that are due at the present point (places in Program::sampled_blocks).
+  std::span<const int> due() const { return due_; }
+
+ private:
+  using Echo = std::pair<double, std::size_t>;  // time, how many dead times it has passed
+
+  double row() const { return row_ < rows_.size() ? rows_[row_] : std::numeric_limits<double>::infinity(); }
+  double echo() const { return echoes_.empty() ? std::numeric_limits<double>::infinity() : echoes_.top().first; }
+  void take(Run& run) {
+    due_ = {};
+    if (ticks_ > t_ + rounding_of(t_)) return;
+    due_ = clocks_.take(t_ + rounding_of(t_), run);
+    ticks_ = clocks_.next();
+    add_echoes(t_, 0);
+  }
+  void add_echoes(double t, std::size_t generation) {
+    for (const double delay : delays_)
+      if (delay > 0) echoes_.emplace(t + delay, generation + 1);
+  }
+
+  std::vector<double> rows_;
+  std::size_t row_ = 0;
+  Clocks clocks_;
+  std::vector<double> delays_;
+  double ticks_;  // the next sampling instant
+  double t_ = 0;
+  bool echoing_ = false;
+  std::span<const int> due_;
+  std::priority_queue<Echo, std::vector<Echo>, std::greater<>> echoes_;
+};
+
+}  // namespace hysteron

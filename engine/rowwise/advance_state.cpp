@@ -1,0 +1,322 @@
+#include "engine/rowwise/advance_state.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/block/rows.h"
+#include "engine/events/path.h"
+#include "engine/program/steps.h"
+#include "engine/rowwise/advance_points.h"
+#include "engine/rowwise/linear_part.h"
+#include "engine/simulate/simulate.h"
+
+namespace hysteron {
+
+using steps::at;
+
+AdvanceState::AdvanceState(const AdvancePlan& plan)
+    : work(*plan.program),
+      y(work.y),
+      x(at(plan.program->n_x)),
+      parts(plan.parts),
+      plan_(plan),
+      program_(*plan.program),
+      inputs_(2 * at(program_.n_u)),
+      input_places_(at(program_.n_u)),
+      output_places_(at(program_.n_y)) {
+  std::size_t scratch = 0;
+  for (const auto& b : program_.blocks)
+    scratch = std::max(scratch, RowsView::scratch_size(b.n_u, b.sizes.states, b.sizes.memory, b.sizes.outputs));
+  scratch_.resize(scratch);
+  for (const auto& loop : plan.loops) {
+    loop_inputs_.emplace_back(loop.inputs.size());
+    loop_now_.resize(std::max(loop_now_.size(), loop.inputs.size()));
+    loop_states_.resize(std::max(loop_states_.size(), loop.states.size()));
+    loop_work_.resize(std::max(loop_work_.size(), 5 * loop.states.size()));
+  }
+  for (std::size_t i = 0; i < input_places_.size(); ++i) input_places_[i] = inputs_.data() + 2 * i + 1;
+  for (std::size_t i = 0; i < output_places_.size(); ++i) output_places_[i] = y.data() + i;
+}
+
+AdvanceState::~AdvanceState() = default;
+
+void AdvanceState::take(const Run& start, std::vector<SeriesPointer> series, int path_steps) {
+  run = start;
+  sources = std::move(series);
+  x = run.x;
+  path_steps_ = path_steps;
+  hits = 0;
+}
+
+void AdvanceState::at_time(double t, double branch) {
+  run.branch = branch;
+  steps::begin(program_, run, work, t);
+  for (std::size_t s = 0; s < plan_.series.size(); ++s)
+    y[at(plan_.block(plan_.series[s]).y_begin)] = sources[s]->value(t, branch);
+}
+
+void AdvanceState::steps_value(int block) { steps::value(program_, work, block, x.data()); }
+
+void AdvanceState::look_back(int block, double t) {
+  const BlockInstance& b = plan_.block(block);
+  History& h = run.histories[at(b.history_index)];
+  const double u = y[at(b.source.front())];
+  if (h.t.empty()) h.before = u;
+  h.t.push_back(t);
+  h.u.push_back(u);
+  h.rate.push_back(std::numeric_limits<double>::quiet_NaN());
+  if (b.kernel->reach_back) steps::forget(h, t, b.kernel->reach_back(work.views[at(block)]));
+  evaluate(block);
+}
+
+/// Nonlinear blocks follow their inputs, h [s] behind the last point; memory is committed at once: every point of the
+/// advance is an accepted one.
+void AdvanceState::follow(int block, double t, double h) {
+  const BlockInstance& b = plan_.block(block);
+  if (b.history_index >= 0) return look_back(block, t);
+  if (b.sizes.states > 0) return move_states(block, h);
+  evaluate(block);
+  if (b.sizes.memory > 0) std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
+}
+
+void AdvanceState::move_states(int block, double h) {
+  const BlockInstance& b = plan_.block(block);
+  for (int i = 0; i < b.n_u; ++i) inputs_[2 * at(b.u_begin + i) + 1] = y[at(b.source[at(i)])];
+  RowsView rows;
+  rows.count = 1;
+  rows.views = &work.views[at(block)];
+  rows.u = input_places_.data() + b.u_begin;
+  rows.y = output_places_.data() + b.y_begin;
+  rows.x = x.data() + b.x_begin;
+  rows.m = run.m.data() + b.m_begin;
+  rows.h = &h;
+  rows.path_steps = path_steps_of(block);
+  rows.scratch = scratch_.data();
+  b.kernel->rows(rows);
+  remember_inputs(block);
+}
+
+void AdvanceState::remember_inputs(int block) {
+  const BlockInstance& b = plan_.block(block);
+  for (int i = 0; i < b.n_u; ++i) inputs_[2 * at(b.u_begin + i)] = y[at(b.source[at(i)])];
+}
+
+/// One step; begin, end: shares of the way of the inputs; their rates are their way over `duration`.
+void AdvanceState::loop_step(const AdvancePlan::LoopedPart& part, const std::vector<double>& before, double begin,
+                             double end, double length, double duration) {
+  const std::size_t n = part.states.size();
+  for (std::size_t i = 0; i < n; ++i) loop_states_[i] = x[at(part.states[i])];
+  for (std::size_t i = 0; i < part.inputs.size(); ++i)
+    work.rate[at(part.inputs[i])] = (loop_now_[i] - before[i]) / duration;
+  block_detail::runge_kutta(static_cast<int>(n), loop_states_.data(), length, loop_work_.data(),
+                            [&](double c, const double* states, double* rates) {
+                              const double place = begin + c * (end - begin);
+                              for (std::size_t i = 0; i < part.inputs.size(); ++i)
+                                y[at(part.inputs[i])] =
+                                    place == 1 ? loop_now_[i] : before[i] + place * (loop_now_[i] - before[i]);
+                              for (std::size_t i = 0; i < n; ++i) x[at(part.states[i])] = states[i];
+                              steps::run(part.derivatives, program_, work, x.data());
+                              for (std::size_t i = 0; i < n; ++i) rates[i] = work.dx[at(part.states[i])];
+                            });
+  for (std::size_t i = 0; i < n; ++i) x[at(part.states[i])] = loop_states_[i];
+  for (std::size_t i = 0; i < part.inputs.size(); ++i)
+    y[at(part.inputs[i])] = end == 1 ? loop_now_[i] : before[i] + end * (loop_now_[i] - before[i]);
+}
+
+void AdvanceState::loop_values(const AdvancePlan::LoopedPart& part) {
+  steps::run(part.values, program_, work, x.data());
+  for (const int block : part.memory) {
+    const BlockInstance& b = plan_.block(block);
+    std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
+  }
+}
+
+void AdvanceState::move_loop(int loop, double h) {
+  const auto& part = plan_.loops[at(loop)];
+  auto& before = loop_inputs_[at(loop)];
+  bool changed = false;
+  for (std::size_t i = 0; i < part.inputs.size(); ++i) {
+    loop_now_[i] = y[at(part.inputs[i])];
+    changed = changed || loop_now_[i] != before[i];
+  }
+  if (h > 0) {
+    loop_step(part, before, 0, 1, h, h);
+  } else if (changed && part.follows_jumps) {
+    const int pieces = std::max(path_steps_, jump_pieces);
+    PathPoint path;  // time stands still: states that count it do, too
+    path.jumping = plan_.jumping.data();
+    path.rate_independent = plan_.rate_independent.data();
+    work.path = &path;
+    for (int i = 0; i < pieces; ++i) {
+      const double begin = static_cast<double>(i) / pieces, end = i + 1 == pieces ? 1.0 : (i + 1.0) / pieces;
+      loop_step(part, before, begin, end, jump_duration / pieces, jump_duration);
+      if (i + 1 < pieces) loop_values(part);
+    }
+    work.path = nullptr;
+  }
+  loop_values(part);
+  std::copy_n(loop_now_.begin(), before.size(), before.begin());
+}
+
+/// Before the first instant: a dead time has its input always been, and nothing is remembered yet.
+void AdvanceState::foresee(int block) {
+  if (plan_.block(block).history_index >= 0)
+    y[at(plan_.block(block).y_begin)] = y[at(plan_.block(block).source.front())];
+  else
+    evaluate(block);
+}
+
+void AdvanceState::start(std::span<const int> due, double t, double branch, bool at_rest, Sampling& sampling) {
+  if (at_rest && plan_.has_own_rest) {
+    run.branch = branch;
+    settle_at_rest(program_, run, t);
+    x = run.x;
+    at_rest = false;
+  }
+  at_time(t, branch);
+  for (const int b : plan_.constants) evaluate(b);
+  for (const int b : program_.sampled_blocks) evaluate(b);  // what they hold
+  const bool instant = !due.empty();
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) {
+      parts[at(i)].bind(program_, run);
+      parts[at(i)].start(program_, run, y, at_rest);
+    }
+    for (const int b : level.nonlinear) {
+      remember_inputs(b);  // nothing moves at the start
+      start_block(b, t, !instant);
+    }
+    for (const int i : level.loops) start_loop(i, !instant);
+  }
+  if (plan_.has_histories) rest_histories(t, !instant);
+  for (const int b : plan_.momentary) evaluate(b);
+  if (!instant) return;
+  sample(due, t, sampling);
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear) {
+      remember_inputs(b);
+      start_block(b, t, true);
+    }
+    for (const int i : level.loops) start_loop(i, true);
+  }
+  if (plan_.has_histories) rest_histories(t, true);
+  for (const int b : plan_.momentary_behind) evaluate(b);
+}
+
+void AdvanceState::start_block(int block, double t, bool accept) {
+  if (plan_.block(block).history_index >= 0) return evaluate(block);
+  accept ? follow(block, t, 0) : foresee(block);
+}
+
+/// What each dead time reads was at rest before the start, dead times behind dead times included.
+void AdvanceState::rest_histories(double t, bool accept) {
+  std::vector<int> late;
+  for (const auto& level : plan_.levels)
+    for (const int b : level.nonlinear)
+      if (plan_.block(b).history_index >= 0) late.push_back(b);
+  for (std::size_t round = 0; round < late.size(); ++round) {
+    for (const int b : late) {
+      run.histories[at(plan_.block(b).history_index)].before = y[at(plan_.block(b).source.front())];
+      evaluate(b);
+    }
+    for (const auto& level : plan_.levels) {
+      for (const int i : level.linear) parts[at(i)].refresh(y);
+      for (const int b : level.nonlinear) start_block(b, t, accept);
+      for (const int i : level.loops) start_loop(i, accept);
+    }
+  }
+  if (accept)
+    for (const int b : late) look_back(b, t);
+}
+
+/// Nothing moves at the start.
+void AdvanceState::start_loop(int loop, bool accept) {
+  const auto& part = plan_.loops[at(loop)];
+  for (std::size_t i = 0; i < part.inputs.size(); ++i) loop_inputs_[at(loop)][i] = y[at(part.inputs[i])];
+  if (accept)
+    loop_values(part);
+  else
+    steps::run(part.values, program_, work, x.data());
+}
+
+void AdvanceState::sample(std::span<const int> due, double t, Sampling& sampling) {
+  if (plan_.needs_states)
+    for (const auto& part : parts) part.store(program_, x);
+  hits += static_cast<long>(due.size());
+  sampling(run, work, t, x.data(), due, plan_.graph.hit_steps);
+  for (const int b : program_.sampled_blocks) evaluate(b);
+}
+
+void AdvanceState::step(double t, double h, double branch) {
+  at_time(t, branch);
+  const double rounding = rounding_of(t);
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].step(h, rounding, y);
+    const double counted = h > rounding ? h : 0;
+    for (const int b : level.nonlinear) follow(b, t, counted);
+    for (const int i : level.loops) move_loop(i, counted);
+  }
+}
+
+/// Everything behind sources that have jumped; with_delays: dead times, too, whose own outputs may have jumped.
+void AdvanceState::pass_on(double t, bool with_delays) {
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear)
+      if (with_delays || plan_.block(b).history_index < 0) follow(b, t, 0);
+    for (const int i : level.loops) move_loop(i, 0);
+  }
+}
+
+void AdvanceState::pass_on_samples(double t, bool with_delays) {
+  for (const auto& level : plan_.levels) {
+    for (const int i : level.linear_behind) parts[at(i)].refresh(y);
+    for (const int b : level.nonlinear_behind)
+      if (with_delays || plan_.block(b).history_index < 0) follow(b, t, 0);
+    for (const int i : level.loops_behind) move_loop(i, 0);
+  }
+}
+
+/// Memory behind a bend follows the jump of `jumping` from `from_` to their present values in pieces, but for the
+/// last.
+template <class PassOn>
+void AdvanceState::walk(const std::vector<int>& jumping, PassOn pass) {
+  to_.clear();
+  bool any = false;
+  for (std::size_t i = 0; i < jumping.size(); ++i) {
+    to_.push_back(y[at(jumping[i])]);
+    any = any || to_[i] != from_[i];
+  }
+  if (!any) return;
+  for (int k = 1; k < jump_pieces; ++k) {
+    for (std::size_t i = 0; i < jumping.size(); ++i)
+      y[at(jumping[i])] = from_[i] + (to_[i] - from_[i]) * k / jump_pieces;
+    pass();
+  }
+  for (std::size_t i = 0; i < jumping.size(); ++i) y[at(jumping[i])] = to_[i];
+}
+
+void AdvanceState::remember_from(const std::vector<int>& jumping) {
+  from_.clear();
+  for (const int s : jumping) from_.push_back(y[at(s)]);
+}
+
+void AdvanceState::jump(double t, double branch) {
+  if (plan_.series_turn) remember_from(plan_.series_signals);
+  at_time(t, branch);
+  if (plan_.series_turn) {
+    for (const int b : plan_.delays) evaluate(b);
+    walk(plan_.series_signals, [&] { pass_on(t, false); });
+  }
+  pass_on(t, true);
+}
+
+void AdvanceState::hit(std::span<const int> due, double t, Sampling& sampling) {
+  if (plan_.sampled_turn) remember_from(plan_.sampled_signals);
+  sample(due, t, sampling);
+  if (plan_.sampled_turn) walk(plan_.sampled_signals, [&] { pass_on_samples(t, false); });
+  pass_on_samples(t, true);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,304 @@
+#include "engine/simulate/folded.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/program/steps.h"
+
+namespace hysteron {
+namespace {
+
+using steps::at;
+
+/// A number as a weighted sum of others, by their places in the list of all numbers: values, rates, derivatives,
+/// states.
+struct Form {
+  std::vector<std::pair<int, double>> terms;
+  double constant = 0;
+
+  void add(int number, double weight) { terms.emplace_back(number, weight); }
+  void add(const Form& other, double weight) {
+    for (const auto& [number, own] : other.terms) terms.emplace_back(number, weight * own);
+    constant += weight * other.constant;
+  }
+  /// Each number once.
+  void gather() {
+    std::sort(terms.begin(), terms.end());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      if (kept > 0 && terms[kept - 1].first == terms[i].first)
+        terms[kept - 1].second += terms[i].second;
+      else
+        terms[kept++] = terms[i];
+    }
+    terms.resize(kept);
+  }
+};
+
+bool is_row(const BlockInstance& b) {
+  return b.kernel->declaration.is_linear && b.n_u > 0 && b.hit_index < 0 && b.mode_index < 0 && b.history_index < 0 &&
+         b.series_index < 0 && b.sizes.memory == 0 && !b.kernel->uses_time;
+}
+
+/// Slopes of the outputs or derivatives of one block with respect to its states and inputs, eight at a time.
+class BlockReader {
+ public:
+  BlockReader(const Program& program, const Run& run) : program_(program), run_(run) {}
+
+  struct Matrix {
+    int rows = 0, columns = 0;  // columns: states, then inputs
+    std::vector<double> slopes{}, constants{};
+    double operator()(int row, int column) const { return slopes[at(row * columns + column)]; }
+  };
+
+  const Matrix& outputs(int block) { return read(block, false); }
+  const Matrix& derivatives(int block) { return read(block, true); }
+
+ private:
+  const Matrix& read(int block, bool derivative) {
+    const BlockInstance& b = program_.blocks[at(block)];
+    const auto& call = derivative ? b.kernel->jet.derivative : b.kernel->jet.output;
+    const int n_x = b.sizes.states, n_p = b.p_at.back();
+    Matrix& m = matrix_;
+    m.rows = derivative ? n_x : b.sizes.outputs;
+    m.columns = n_x + b.n_u;
+    m.slopes.resize(at(m.rows * m.columns));
+    m.constants.resize(at(m.rows));
+    numbers_.assign(at(n_p + m.columns + m.rows), Jet());
+    Jet* x = numbers_.data() + n_p;
+    Jet* out = x + m.columns;
+    for (int i = 0; i < n_p; ++i) numbers_[at(i)] = Jet(run_.p[at(b.p_begin + i)]);
+    View<Jet> v;
+    v.p = numbers_.data();
+    v.p_at = b.p_at.data();
+    v.c = run_.c.data() + b.c_begin;
+    v.n_c = b.sizes.constants;
+    v.x = x;
+    v.n_x = n_x;
+    v.u = x + n_x;
+    v.n_u = b.n_u;
+    v.n_y = b.sizes.outputs;
+    v.out = out;
+    for (int first = 0; first < std::max(1, m.columns); first += Jet::directions) {
+      const int last = std::min(m.columns, first + Jet::directions);
+      for (int j = first; j < last; ++j) x[j].slope[j - first] = 1;
+      call(v);
+      for (int j = first; j < last; ++j) x[j].slope[j - first] = 0;
+      for (int i = 0; i < m.rows; ++i) {
+        for (int j = first; j < last; ++j) m.slopes[at(i * m.columns + j)] = out[i].slope[j - first];
+        m.constants[at(i)] = out[i].value;
+      }
+    }
+    return m;
+  }
+
+  const Program& program_;
+  const Run& run_;
+  std::vector<Jet> numbers_;
+  Matrix matrix_;
+};
+
+/// A step as it was, or the rows that take its place.
+struct Piece {
+  Step step;
+  bool opaque = true;
+  int first_number = 0, count = 0;  // of its rows
+};
+
+class Folding {
+ public:
+  Folding(const Program& program, const Run& run) : program_(program), reader_(program, run) {
+    forms_.resize(at(2 * program.n_y + 2 * program.n_x));
+    readers_.assign(forms_.size(), 0);
+    read_outside_.assign(forms_.size(), false);
+    inlined_.assign(forms_.size(), false);
+    for (const Step& step : program.derivative_steps) add(step);
+    for (const Piece& piece : pieces_)
+      for (int n = piece.first_number; !piece.opaque && n < piece.first_number + piece.count; ++n) finish(n);
+  }
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const Form& form(int number) const { return forms_[at(number)]; }
+  bool is_inlined(int number) const { return inlined_[at(number)]; }
+
+  int value(int signal) const { return signal; }
+  int rate(int signal) const { return program_.n_y + signal; }
+  int derivative(int state) const { return 2 * program_.n_y + state; }
+  int state(int state) const { return 2 * program_.n_y + program_.n_x + state; }
+
+ private:
+  void add(const Step& step) {
+    if (step.order == Order::loop) {
+      for (const Slot& slot : program_.loops[at(step.block)].outside)
+        read_outside_[at(slot.order == Order::value  ? value(slot.index)
+                         : slot.order == Order::rate ? rate(slot.index)
+                                                     : derivative(slot.index))] = true;
+      pieces_.push_back({step});
+      return;
+    }
+    const BlockInstance& b = program_.blocks[at(step.block)];
+    if (is_row(b)) return add_rows(step, b);
+    pieces_.push_back({step});
+    const bool reads_inputs = step.order == Order::derivative || b.sizes.feedthrough;
+    const bool reads_rates =
+        step.order == Order::rate || (step.order == Order::derivative && b.kernel->derivative_wants_rate);
+    for (const int s : b.source) {
+      if (reads_inputs) read_outside_[at(value(s))] = true;
+      if (reads_inputs && reads_rates) read_outside_[at(rate(s))] = true;
+    }
+  }
+
+  void add_rows(const Step& step, const BlockInstance& b) {
+    const bool of_rate = step.order == Order::rate, of_state = step.order == Order::derivative;
+    const auto& m = of_state ? reader_.derivatives(step.block) : reader_.outputs(step.block);
+    const int first = of_state ? derivative(b.x_begin) : of_rate ? rate(b.y_begin) : value(b.y_begin);
+    // Structural zeros are the many of a block with states; a gain of zero is a connection.
+    const bool keep_zeros = b.sizes.states == 0;
+    for (int i = 0; i < m.rows; ++i) {
+      Form& form = forms_[at(first + i)];
+      if (!of_rate) form.constant = m.constants[at(i)];
+      for (int j = 0; j < b.sizes.states; ++j)
+        if (m(i, j) != 0) form.add(of_rate ? derivative(b.x_begin + j) : state(b.x_begin + j), m(i, j));
+      for (int j = 0; j < b.n_u && (of_state || b.sizes.feedthrough); ++j)
+        if (const double weight = m(i, b.sizes.states + j); keep_zeros || weight != 0)
+          form.add(of_rate ? rate(b.source[at(j)]) : value(b.source[at(j)]), weight);
+      form.gather();
+      for (const auto& [number, weight] : form.terms) ++readers_[at(number)];
+    }
+    pieces_.push_back({step, false, first, m.rows});
+  }
+
+  /// Writes the numbers that have no row into the form, and decides whether this one needs a row.
+  void finish(int number) {
+    Form& form = forms_[at(number)];
+    if (std::any_of(form.terms.begin(), form.terms.end(), [&](const auto& term) { return inlined_[at(term.first)]; })) {
+      Form whole;
+      whole.constant = form.constant;
+      for (const auto& [read, weight] : form.terms) {
+        if (inlined_[at(read)])
+          whole.add(forms_[at(read)], weight);
+        else
+          whole.add(read, weight);
+      }
+      whole.gather();
+      form = std::move(whole);
+    }
+    if (number >= derivative(0) || read_outside_[at(number)]) return;
+    // A row costs its terms and a store, and each reader one term; without it each reader has all terms.
+    const int terms = static_cast<int>(form.terms.size());
+    inlined_[at(number)] = readers_[at(number)] * terms <= terms + 1 + readers_[at(number)];
+  }
+
+  const Program& program_;
+  BlockReader reader_;
+  std::vector<Form> forms_;  // per number; of rows only
+  std::vector<int> readers_;
+  std::vector<bool> read_outside_, inlined_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace
+
+FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work& work)
+    : program_(program),
+      work_(work),
+      x_(at(program.n_x)),
+      kept_t_(std::numeric_limits<double>::quiet_NaN()),
+      kept_branch_(kept_t_) {
+  const Folding folding(program, run);
+  double* y = work.y.data();
+  double* rate = work.rate.data();
+  double* dx = work.dx.data();
+  const auto place = [&](int number) -> double* {
+    if (number < program.n_y) return y + number;
+    if (number < 2 * program.n_y) return rate + (number - program.n_y);
+    if (number < 2 * program.n_y + program.n_x) return dx + (number - 2 * program.n_y);
+    return x_.data() + (number - 2 * program.n_y - program.n_x);
+  };
+  Stretch stretch;
+  const auto close = [&] {
+    stretch.rows_end = rows();
+    stretches_.push_back(stretch);
+    stretch = {};
+  };
+  for (const Piece& piece : folding.pieces()) {
+    if (piece.opaque) {
+      stretch.step = piece.step;
+      stretch.has_step = true;
+      const BlockInstance* source = piece.step.order == Order::loop ? nullptr : &program.blocks[at(piece.step.block)];
+      if (source != nullptr && piece.step.order != Order::derivative && is_source_of_time(*source)) {
+        stretch.source = static_cast<int>(sources_.size());
+        sources_.push_back(
+            {y + source->y_begin, rate + source->y_begin, source->sizes.outputs, static_cast<int>(kept_.size())});
+        kept_.resize(kept_.size() + 2 * at(source->sizes.outputs));
+      }
+      close();
+      continue;
+    }
+    for (int number = piece.first_number; number < piece.first_number + piece.count; ++number) {
+      if (folding.is_inlined(number)) continue;
+      const Form& form = folding.form(number);
+      for (const auto& [read, weight] : form.terms) terms_.push_back({weight, place(read)});
+      rows_.push_back({form.constant, place(number), static_cast<int>(form.terms.size())});
+    }
+  }
+  close();
+}
+
+int FoldedDerivative::calls() const {
+  return static_cast<int>(
+      std::count_if(stretches_.begin(), stretches_.end(), [](const auto& s) { return s.has_step; }));
+}
+
+void FoldedDerivative::operator()(const Run& run, double t, const double* x) {
+  steps::begin(program_, run, work_, t);
+  const bool same_instant = t == kept_t_ && run.branch == kept_branch_;
+  kept_t_ = t;
+  kept_branch_ = run.branch;
+  double* own = x_.data();
+  for (int i = 0; i < program_.n_x; ++i) own[i] = x[i];
+  const Row* row = rows_.data();
+  const Term* term = terms_.data();
+  for (const Stretch& stretch : stretches_) {
+    for (const Row* const end = rows_.data() + stretch.rows_end; row != end; ++row) {
+      double sum = row->constant;
+      for (const Term* const last = term + row->terms; term != last; ++term) sum += term->weight * *term->number;
+      *row->target = sum;
+    }
+    if (!stretch.has_step) continue;
+    if (stretch.source >= 0 && same_instant) {
+      const Source& source = sources_[at(stretch.source)];
+      const double* kept = kept_.data() + source.kept;
+      for (int i = 0; i < source.count; ++i) {
+        source.value[i] = kept[i];
+        source.rate[i] = kept[source.count + i];
+      }
+      continue;
+    }
+    switch (stretch.step.order) {
+      case Order::value:
+        steps::value(program_, work_, stretch.step.block, x);
+        break;
+      case Order::rate:
+        steps::rate(program_, work_, stretch.step.block, x);
+        break;
+      case Order::derivative:
+        steps::derivative(work_, stretch.step.block, x);
+        break;
+      case Order::loop:
+        solve_loop(program_, work_, stretch.step.block, x);
+        break;
+    }
+    if (stretch.source < 0) continue;
+    const Source& source = sources_[at(stretch.source)];
+    double* kept = kept_.data() + source.kept;
+    for (int i = 0; i < source.count; ++i) {
+      kept[i] = source.value[i];
+      kept[source.count + i] = source.rate[i];
+    }
+  }
+  if (work_.unsolved >= 0) std::fill(work_.dx.begin(), work_.dx.end(), std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace hysteron

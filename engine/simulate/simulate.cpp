@@ -1,0 +1,640 @@
+// The loop of ENGINE 5. At every accepted point, in this order:
+//   0. the step is cut where something inside of it switches that neither of its ends shows (zero_crossings.h);
+//   1. outputs are taken on [t_old, t_new) from the step's own interpolation, with the memory as it was during the
+//   step;
+//   2. the memory is accepted, still with the formulas of the piece that ends here;
+//   3. what is due at the instant happens (events.h): corners of the sources, sampled blocks, changes of mode;
+//   directions of memory turn where rates did;
+//   4. the integrator starts again only if states were changed, dx/dt jumped by more than the tolerance sees, or an
+//   event was located.
+// An instant at an event is therefore taken after it: outputs are continuous from the right.
+#include "engine/simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/diagram/stop.h"
+#include "engine/events/events.h"
+#include "engine/events/reversals.h"
+#include "engine/events/zero_crossings.h"
+#include "engine/integrators/integrator.h"
+#include "engine/program/corners.h"
+#include "engine/program/histories.h"
+#include "engine/program/loop_plan.h"
+#include "engine/program/loops.h"
+#include "engine/program/needed.h"
+#include "engine/program/nominal.h"
+#include "engine/simulate/choose_method.h"
+#include "engine/simulate/divergence.h"
+#include "engine/simulate/fixed_step.h"
+#include "engine/simulate/folded.h"
+#include "engine/simulate/jacobian.h"
+#include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/twins.h"
+
+namespace hysteron {
+namespace {
+
+// A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
+// its error control deals with smaller ones.
+constexpr double noticed_jump = 0.1;
+// Backward differences start again at order one, which costs about as much accuracy as a jump of so many tolerances
+// that the control of the error has found (a rounded chirp behind a lag: 30 tolerances off without cuts, less than 10
+// with).
+constexpr double jump_for_bdf = 30;
+// A slope of dx/dt that changes by so much times the inverse of the step changes the Newton matrix as much as its
+// identity does.
+constexpr double noticed_slope = 0.5;
+// So many steps on end that together advance less than this share of the span: it would never come to an end.
+constexpr long crawl_steps = 200'000;
+constexpr double crawl_share = 1e-4;
+constexpr double rounding = 1e-15;  // of the span: no time in which anything moves
+
+// The integrators hold the error of each step, and errors of many steps add up. Measured by benchmarks/accuracy.cpp on
+// four memory models: up to 17 times the tolerance with half of it, up to 7 times with a quarter, the largest of the
+// shares tried that stayed within ten (docs/performance.md; no bound). Doubles carry no more than the last of these.
+constexpr double share_of_tolerance = 0.25;
+constexpr double tightest_tolerance = 1e-13;
+constexpr double least_tolerance = 1e-290;  // [SI] absolute; one over it is a number
+
+/// The options as the integrators get them; the absolute tolerance is a multiple of the relative one.
+SimulateOptions held_tolerance(SimulateOptions options) {
+  const double asked = options.relative_tolerance;
+  options.relative_tolerance = std::max(share_of_tolerance * asked, std::min(asked, tightest_tolerance));
+  return options;
+}
+
+Formula formula_of(Method method) {
+  return method == Method::adams ? Formula::adams : method == Method::runge_kutta ? Formula::runge_kutta : Formula::bdf;
+}
+
+class Simulation {
+ public:
+  Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
+             std::vector<int> signals);
+  Traces operator()();
+
+ private:
+  std::unique_ptr<Integrator> make_solver();
+  int reversals() const { return options_.reversal_events ? reversals_.count() : 0; }
+  bool derivative(double t, const double* x, double* dx);
+  void indicate(double t, const double* x, double* g);
+  void record(double t, const double* x, bool inside = false);
+  void record_inside(double from, double to);
+  void make_twins();
+  void restart() {
+    crossings_.choose_sides(run_, work_, t_, x_);
+    crossings_.forget();
+    solver_->start(t_, x_, s_);
+  }
+  void record_slopes(double t, const double* x, std::span<const double> s);
+  void take_step(double stop);
+  void pass_instant();
+  std::optional<ZeroCrossings::Found> find_crossing();
+  bool notice_missed(double seen, bool remembered);
+  bool notice_passed(double before, double behind, double to);
+  bool bends(double before, double behind, double to);
+  bool bends_newton(double before, double behind, double to);
+  void slope_at(double t, std::vector<double>& dx) {
+    solver_->interpolate(t, interpolated_);
+    derivative(t, interpolated_.data(), dx.data());
+  }
+  bool begin_anew(const ZeroCrossings::Found& crossing);
+  void pass_look() {
+    if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
+  }
+  void pass_crossing(const ZeroCrossings::Found& crossing);
+  void pass_root();
+  void switch_modes(const std::vector<int>& turned, const std::vector<int>& fell);
+  void check_guards();
+  void follow_directions();
+  void record_due();
+  void walk();
+  void commit();
+  void check_pace();
+  [[noreturn]] void explain(const Error& error);
+
+  const Program& program_;
+  Run run_;
+  const SimulateOptions& options_;
+  Work work_;
+  FoldedDerivative derivative_;
+  LookUp look_up_;
+  std::vector<Step> recording_;
+  NominalSizes sizes_;
+  GrowthWatch growth_;
+  std::vector<double> tolerance_;  // absolute, per state
+  Events events_;
+  Reversals reversals_;
+  ZeroCrossings crossings_;
+  Histories histories_;
+  std::unique_ptr<Jacobian> jacobian_;  // before the solver, which calls it
+  std::unique_ptr<Twins> twins_;        // as well; null if no slopes are asked for
+  std::vector<double> s_, s_inside_;    // dx/dp by columns
+  std::vector<std::vector<double>> slopes_now_;
+  std::unique_ptr<Integrator> solver_;
+  Traces traces_;
+  std::vector<double> slopes_before_, slopes_after_;       // of dx/dt, as jacobian_ gives them
+  std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
+  std::size_t next_instant_ = 0;
+  std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
+  ZeroCrossings::Noticed noticed_;
+  double t_ = 0, until_ = 0, milestone_ = 0;
+  // Steps have to end here, before a kink, and then there, behind it [s].
+  double look_at_ = std::numeric_limits<double>::infinity(), then_at_ = look_at_;
+  long steps_since_milestone_ = 0;
+  bool not_finite_ = false;  // the last derivative was not; then these are where
+  double bad_t_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> bad_x_;
+};
+
+Simulation::Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
+                       std::vector<int> signals)
+    : program_(program),
+      run_(std::move(run)),
+      options_(options),
+      work_(program),
+      derivative_(program, run_, work_),
+      recording_(steps_for(program, signals)),
+      sizes_(nominal_sizes(program, run_)),
+      growth_(sizes_.states, options.begin),
+      tolerance_(absolute_tolerances(sizes_, options)),
+      events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
+              tolerance_),
+      reversals_(program, sizes_, options.relative_tolerance),
+      crossings_(program, true),
+      histories_(program, sizes_.signals, options.relative_tolerance),
+      t_(options.begin),
+      until_(std::max(options.begin, instants.back())),
+      milestone_(t_) {
+  run_.t = t_;
+  run_.branch = events_.branch();
+  x_ = run_.x;
+  if (x_.empty()) x_.push_back(0.0);
+  before_ = after_ = interpolated_ = bad_x_ = x_;
+  noticed_.missed = [this](double seen, bool remembered) { return notice_missed(seen, remembered); };
+  noticed_.passed = [this](double before, double behind, double to) { return notice_passed(before, behind, to); };
+  states_inside_ = [this](double t, std::vector<double>& x) { solver_->interpolate(t, x); };
+  traces_.t = std::move(instants);
+  traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
+  traces_.signals = std::move(signals);
+  if (!options.slopes_for.empty()) make_twins();
+  solver_ = make_solver();
+}
+
+void Simulation::make_twins() {
+  twins_ = std::make_unique<Twins>(program_, run_, options_.slopes_for);
+  s_ = twins_->start(run_, [&](Run& run) {
+    if (options_.at_rest) settle_at_rest(program_, run, options_.begin);
+  });
+  if (s_.empty()) s_.assign(static_cast<std::size_t>(twins_->count()), 0.0);  // of the dummy state
+  s_inside_ = s_;
+  traces_.slopes.assign(
+      static_cast<std::size_t>(twins_->count()),
+      std::vector<std::vector<double>>(traces_.signals.size(), std::vector<double>(traces_.t.size())));
+  events_.on_change = [this](std::span<const ModeChange> changes) {
+    const double step = 1e-3 * (solver_->t() - solver_->previous_t());
+    const double least = 1e-10 * (until_ - options_.begin);
+    twins_->change_modes(events_, run_, t_, x_, s_, changes, std::max(step, least));
+  };
+}
+
+std::unique_ptr<Integrator> Simulation::make_solver() {
+  OdeSystem system;
+  system.states = static_cast<int>(x_.size());
+  system.roots = reversals() + events_.guards();
+  system.derivative = [this](double t, const double* x, double* dx) { return derivative(t, x, dx); };
+  system.indicators = [this](double t, const double* x, double* g) { indicate(t, x, g); };
+  system.state_name = [this](int i) {
+    return program_.n_x == 0 ? std::string("(no state)") : program_.state_names[static_cast<std::size_t>(i)];
+  };
+  if (program_.n_x > 0 && formula_of(options_.method) == Formula::bdf && options_.exact_jacobian) {
+    jacobian_ = std::make_unique<Jacobian>(program_);
+    system.pattern = jacobian_->pattern();
+    system.jacobian = [this](double t, const double* x, double* entries) { return (*jacobian_)(run_, t, x, entries); };
+  }
+  if (twins_ != nullptr) {
+    system.parameters = twins_->count();
+    system.parameter_sizes = twins_->parameter_sizes();
+    system.sensitivity_derivative = [this](double t, const double* x, const double* const* s, double* const* ds) {
+      return twins_->derivative(run_, t, x, s, ds);
+    };
+  }
+  IntegratorOptions options;
+  options.formula = formula_of(options_.method);
+  options.relative_tolerance = options_.relative_tolerance;
+  const double span = until_ - t_;
+  const double longest = options_.max_step > 0 ? options_.max_step : longest_step(program_, run_, span);
+  options.max_step = std::isfinite(longest) ? longest : 0.0;
+  return std::make_unique<Integrator>(std::move(system), options, tolerance_);
+}
+
+bool Simulation::derivative(double t, const double* x, double* dx) {
+  if (program_.n_x == 0) {
+    dx[0] = 0;
+    return true;
+  }
+  derivative_(run_, t, x);
+  double sum = 0;  // of zeros: not zero if one of them is not finite
+  for (std::size_t i = 0; i < work_.dx.size(); ++i) {
+    dx[i] = work_.dx[i];
+    sum += dx[i] * 0;
+  }
+  not_finite_ = !(sum == 0);
+  if (not_finite_) {
+    bad_t_ = t;
+    std::copy(x, x + program_.n_x, bad_x_.begin());
+  }
+  return !not_finite_;
+}
+
+void Simulation::indicate(double t, const double* x, double* g) {
+  evaluate_derivatives(program_, run_, work_, t, x);
+  evaluate_memory_rates(program_, run_, work_, t, x);
+  if (reversals() > 0) reversals_.indicate(run_, work_, g);
+  if (events_.guards() == 0) return;
+  evaluate_guards(program_, run_, work_, t, x);
+  std::copy(work_.guard.begin(), work_.guard.end(), g + reversals());
+}
+
+void Simulation::record(double t, const double* x, bool inside) {
+  evaluate_steps(program_, run_, work_, t, x, recording_);
+  for (std::size_t s = 0; s < traces_.signals.size(); ++s) {
+    const double value = work_.y[static_cast<std::size_t>(traces_.signals[s])];
+    if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x);
+    traces_.values[s][next_instant_] = value;
+  }
+  if (twins_ != nullptr) record_slopes(t, x, inside ? s_inside_ : s_);
+  ++next_instant_;
+}
+
+void Simulation::record_slopes(double t, const double* x, std::span<const double> s) {
+  twins_->outputs(run_, t, {x, static_cast<std::size_t>(program_.n_x)}, s, traces_.signals, slopes_now_);
+  for (std::size_t k = 0; k < slopes_now_.size(); ++k)
+    for (std::size_t i = 0; i < slopes_now_[k].size(); ++i) traces_.slopes[k][i][next_instant_] = slopes_now_[k][i];
+}
+
+void Simulation::record_inside(double from, double to) {
+  const auto& instants = traces_.t;
+  if (next_instant_ == instants.size() || instants[next_instant_] >= to - same_instant(to)) return;
+  const Stopwatch watch(traces_.statistics.phases.output);
+  for (; next_instant_ < instants.size() && instants[next_instant_] < to - same_instant(to);) {
+    solver_->interpolate(std::max(instants[next_instant_], from), interpolated_);
+    if (twins_ != nullptr) solver_->interpolate_sensitivities(std::max(instants[next_instant_], from), s_inside_);
+    record(instants[next_instant_], interpolated_.data(), true);
+  }
+}
+
+/// Outputs at the present time.
+void Simulation::record_due() {
+  const auto due = [this] {
+    return next_instant_ < traces_.t.size() && traces_.t[next_instant_] <= t_ + same_instant(t_);
+  };
+  if (!due()) return;
+  const Stopwatch watch(traces_.statistics.phases.output);
+  while (due()) record(t_, x_.data());
+}
+
+void Simulation::commit() {
+  if (program_.remembers() && twins_ != nullptr)
+    twins_->accept(run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+  if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
+  run_.t = t_;
+}
+
+/// Inputs that begin to move get a direction.
+void Simulation::follow_directions() {
+  evaluate_derivatives(program_, run_, work_, t_, x_.data());
+  evaluate_memory_rates(program_, run_, work_, t_, x_.data());
+  traces_.statistics.reversals += reversals_.follow(run_, work_);
+}
+
+/// A known instant: corners, samples. What is due there happens; the integrator starts again if it must.
+void Simulation::pass_instant() {
+  const bool states = program_.n_x > 0;
+  crossings_.forget();
+  if (states) derivative(t_, x_.data(), before_.data());
+  events_.take(t_, run_);
+  if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+  bool moved = events_.pass(run_, work_, t_, x_);
+  commit();
+  moved = crossings_.choose_sides(run_, work_, t_, x_) || moved;
+  if (reversals_.count() > 0) follow_directions();
+  if (!states || solver_->counters().steps == 0) return;
+  if (!moved && twins_ == nullptr) {
+    derivative(t_, x_.data(), after_.data());
+    const double step = solver_->next_step();
+    for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
+    if (solver_->weighted_norm(after_) <= noticed_jump) return;
+  }
+  restart();
+}
+
+/// The integrator has located reversals or falling guards.
+void Simulation::pass_root() {
+  std::vector<int> turned, fell;
+  for (int i = 0; i < reversals(); ++i)
+    if (solver_->fired(i)) turned.push_back(i);
+  for (int i = 0; i < events_.guards(); ++i)
+    if (solver_->fired(reversals() + i)) fell.push_back(i);
+  switch_modes(turned, fell);
+}
+
+/// Inputs of memory that turn here, and guards that fall here.
+void Simulation::switch_modes(const std::vector<int>& turned, const std::vector<int>& fell) {
+  commit();
+  for (const int i : turned) reversals_.turn(run_, i);
+  traces_.statistics.reversals += static_cast<long>(turned.size());
+  if (events_.settle(run_, work_, t_, x_, fell)) {
+    commit();
+    if (reversals_.count() > 0) follow_directions();
+  }
+  restart();
+}
+
+/// Where the step that was just done passes something that switches and that the integrator has not located.
+std::optional<ZeroCrossings::Found> Simulation::find_crossing() {
+  if (!crossings_.watches()) return std::nullopt;
+  return crossings_.first(run_, work_, {t_, solver_->t(), states_inside_, true}, noticed_);
+}
+
+/// What was seen inside of the step only: would dx/dt there, all through the step, move the states.
+bool Simulation::notice_missed(double seen, bool remembered) {
+  if (remembered) return true;
+  if (program_.n_x == 0) return false;
+  slope_at(t_, before_);
+  slope_at(seen, after_);
+  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * (seen - t_);
+  return !(solver_->weighted_norm(after_) <= noticed_jump);
+}
+
+/// What both ends of a step have seen the control of its error has seen too. For bends that suffices backward
+/// differences; the others want a jump or a bend of dx/dt that moves the states to be the end of a step (40 dead zones
+/// behind sines, largest error with and without: 4e-9 and 1.9e-4 Runge-Kutta, 1.7e-6 and 2.2e-5 Adams, 8.9e-6
+/// and 5.9e-6 bdf).
+bool Simulation::notice_passed(double before, double behind, double to) {
+  return bends(before, behind, to) || (formula_of(options_.method) == Formula::bdf && bends_newton(before, behind, to));
+}
+
+/// Does dx/dt jump, or its slope in time, by so much that the states at the end of the step are others.
+bool Simulation::bends(double before, double behind, double to) {
+  const double h = to - t_, near = h / 16;
+  const double left = std::min(near, before - t_), right = std::min(near, to - behind);
+  const bool bdf = formula_of(options_.method) == Formula::bdf;
+  if (program_.n_x == 0) return false;
+  if (bdf) {
+    slope_at(before, before_);
+    slope_at(behind, after_);
+    for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * h;
+    return !(solver_->weighted_norm(after_) <= jump_for_bdf);
+  }
+  if (left < 1e-3 * h || right < 1e-3 * h) return false;
+  std::vector<double> f[4];  // kinks are rare
+  const double times[] = {before - left, before, behind, behind + right};
+  for (int i = 0; i < 4; ++i) slope_at(times[i], f[i] = before_);
+  for (std::size_t i = 0; i < after_.size(); ++i) {
+    after_[i] = (f[2][i] - f[1][i]) * h;
+    before_[i] = ((f[3][i] - f[2][i]) / right - (f[1][i] - f[0][i]) / left) * h * h / 2;
+  }
+  return !(solver_->weighted_norm(after_) <= noticed_jump && solver_->weighted_norm(before_) <= noticed_jump);
+}
+
+/// Newton's iteration with the slopes of one side may not go where the other side leads, and yet seem to converge.
+bool Simulation::bends_newton(double before, double behind, double to) {
+  if (jacobian_ == nullptr) return false;
+  const auto& pattern = jacobian_->pattern();
+  const auto slopes = [&](double t, std::vector<double>& entries) {
+    solver_->interpolate(t, interpolated_);
+    entries.resize(pattern.row.size());
+    (*jacobian_)(run_, t, interpolated_.data(), entries.data());
+  };
+  slopes(before, slopes_before_);
+  slopes(behind, slopes_after_);
+  for (std::size_t j = 0; j + 1 < pattern.column_begin.size(); ++j)
+    for (auto k = static_cast<std::size_t>(pattern.column_begin[j]);
+         k < static_cast<std::size_t>(pattern.column_begin[j + 1]); ++k) {
+      const double share = tolerance_[j] / tolerance_[static_cast<std::size_t>(pattern.row[k])];
+      const double change = std::abs(slopes_after_[k] - slopes_before_[k]) * (to - t_) * share;
+      if (!(change <= noticed_slope)) return true;
+    }
+  return false;
+}
+
+/// A Runge-Kutta step evaluates dx/dt inside of itself, and the polynomial of Adams' formulas is of a high order: where
+/// dx/dt bends neither is anything. True if the step is taken again, up to the kink.
+bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
+  if (!crossing.bent || formula_of(options_.method) == Formula::bdf) return false;
+  if (crossing.before - t_ <= 2 * root_width(t_, crossing.t)) return false;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  look_at_ = crossing.before;
+  then_at_ = crossing.seen > crossing.t + 2 * root_width(t_, crossing.seen) ? crossing.seen : never;
+  crossings_.forget();
+  solver_->start(t_, x_, s_);
+  return true;
+}
+
+/// The step ends at the crossing; t_ and x_ are there already.
+void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
+  if (!crossing.guards.empty()) return switch_modes({}, crossing.guards);
+  commit();
+  // What is behind the kink has to be seen by the integrator too: another step may be as long.
+  if (crossing.seen > t_ + 2 * root_width(t_, crossing.seen)) look_at_ = crossing.seen;
+  restart();
+}
+
+/// A guard may have fallen and risen within rounding of a step's end, unseen by the integrator.
+void Simulation::check_guards() {
+  if (events_.guards() == 0 || !events_.due(run_, work_, t_, x_)) return;
+  if (!events_.settle(run_, work_, t_, x_, {})) return;
+  commit();
+  if (reversals_.count() > 0) follow_directions();
+  restart();
+}
+
+void Simulation::check_pace() {
+  if (++steps_since_milestone_ < crawl_steps) return;
+  if (t_ - milestone_ < crawl_share * (until_ - options_.begin))
+    fail_numerics(
+        "step_too_small", "simulate/solver",
+        fmt::format("the last {} steps advanced from t = {:.12g} s by {:.3g} s only; now at {}", steps_since_milestone_,
+                    milestone_, t_ - milestone_, solver_->where()),
+        "something jumps to and fro: check the loop through the states named, or ask for less accuracy. Or what "
+        "moves there is too fast to be followed for so long: simulate a shorter time");
+  milestone_ = t_;
+  steps_since_milestone_ = 0;
+}
+
+void Simulation::take_step(double stop) {
+  look_up_();
+  check_pace();
+  const auto outcome = solver_->step(stop);
+  const auto crossing = find_crossing();
+  if (crossing && begin_anew(*crossing)) return;
+  const double from = t_, to = crossing ? crossing->t : solver_->t();
+  record_inside(from, to);
+  if (histories_.any()) histories_.fill(run_, work_, from, to, states_inside_);
+  t_ = to;
+  pass_look();
+  if (crossing) {
+    const Stopwatch watch(traces_.statistics.phases.events);
+    solver_->interpolate(t_, x_);
+    if (twins_ != nullptr) solver_->interpolate_sensitivities(t_, s_);
+    return pass_crossing(*crossing);
+  }
+  std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
+  growth_.see(t_, x_);
+  if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
+  if (outcome == Integrator::Outcome::root) {
+    const Stopwatch watch(traces_.statistics.phases.events);
+    return pass_root();
+  }
+  commit();
+  if (reversals_.open(run_)) follow_directions();
+  check_guards();
+}
+
+void Simulation::walk() {
+  {
+    const Stopwatch watch(traces_.statistics.phases.events);
+    events_.take(t_, run_);
+    events_.begin(run_, work_, t_, x_);
+    events_.starting(true);
+    if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+    events_.starting(false);
+    commit();
+    if (reversals_.count() > 0) follow_directions();
+    restart();
+  }
+  for (;;) {
+    while (events_.next() <= t_ + same_instant(t_)) {
+      look_up_();
+      const Stopwatch watch(traces_.statistics.phases.events);
+      pass_instant();
+    }
+    record_due();
+    if (next_instant_ == traces_.t.size()) return;
+    const double stop = std::min({events_.next(), until_, look_at_});
+    if (stop - t_ > rounding * (until_ - options_.begin)) {
+      take_step(stop);
+    } else {  // too near for an integrator, and for the states to move
+      t_ = stop;
+      pass_look();
+      commit();
+    }
+  }
+}
+
+Traces Simulation::operator()() {
+  auto& phases = traces_.statistics.phases;
+  try {
+    const Stopwatch all(phases.integrate);
+    walk();
+  } catch (const Error& error) {
+    explain(error);
+  }
+  phases.integrate -= phases.events + phases.output;
+  const auto counters = solver_->counters();
+  auto& s = traces_.statistics;
+  s.method = method_name(options_.method);
+  s.steps = counters.steps;
+  s.rejected = counters.rejected;
+  s.evaluations = counters.evaluations;
+  s.jacobians = counters.jacobians;
+  s.restarts = counters.restarts;
+  tell_counts(program_, events_, work_, s);
+  if (program_.n_x > 0) run_.x = x_;
+  traces_.end = std::move(run_);
+  return std::move(traces_);
+}
+
+/// A solver that failed says what it tried; the reader wants to know which state or block made it fail.
+void Simulation::explain(const Error& error) {
+  const auto& code = error.problems.front().code;
+  if (code != "solver_failed" && code != "step_too_small" && code != "diverged") throw error;
+  throw_if_grown(program_, growth_.quantities(program_, x_), t_, code == "diverged" ? "" : error.problems.front().what);
+  if (code == "diverged") throw error;
+  if (not_finite_) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+  if (std::abs(bad_t_ - t_) <= crawl_share * (until_ - options_.begin)) {
+    // Steps crept up to where a loop has no solution: the last evaluation was still this side of it.
+    evaluate_derivatives(program_, run_, work_, bad_t_, bad_x_.data());
+    throw_if_unsolved(program_, work_, bad_t_);
+    // Or to where a law ends: explicit steps come to rest this side of it.
+    if (std::any_of(work_.dx.begin(), work_.dx.end(), [](double v) { return !std::isfinite(v); }))
+      not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+  }
+  evaluate_derivatives(program_, run_, work_, t_, x_.data());
+  // Of a span that steps would never reach the end of, the part that they got through counts.
+  const double span = steps_since_milestone_ < crawl_steps ? until_ - options_.begin : t_ - milestone_;
+  throw_if_upright(program_, work_, growth_.quantities(program_, x_), t_, span);
+  throw error;
+}
+
+}  // namespace
+
+std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options) {
+  std::vector<double> absolute(std::max<std::size_t>(1, sizes.states.size()), 1.0);
+  for (std::size_t i = 0; i < sizes.states.size(); ++i)
+    absolute[i] = std::max(options.absolute_tolerance * options.relative_tolerance * sizes.states[i], least_tolerance);
+  return absolute;
+}
+
+void tell_counts(const Program& program, const Events& events, const Work& work, Statistics& s) {
+  s.samples = events.hits();
+  s.paths = events.paths();
+  for (std::size_t i = 0; i < program.modal_blocks.size(); ++i)
+    s.mode_changes.emplace_back(program.blocks[static_cast<std::size_t>(program.modal_blocks[i])].path,
+                                events.changes()[i]);
+  for (std::size_t i = 0; i < program.loops.size(); ++i) {
+    const LoopCounters& c = work.loops->counters[i];
+    s.loops.push_back({to_text(program, program.loops[i].path), c.solved, c.failed, c.evaluations, c.bracketed,
+                       c.most_evaluations, c.worst_residual});
+  }
+}
+
+Traces simulate(const Program& program, Run run, const SimulateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto instants = output_instants(options);
+  check_inputs(program, run);
+  const auto held = held_tolerance(options);
+  set_loop_accuracy(program, run, held.relative_tolerance, held.absolute_tolerance);
+  const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
+  run.t = options.begin;
+  std::optional<Traces> exact;
+  if (!options.slopes_for.empty() && has_fixed_steps(options.method))
+    fail("bad_value", "/simulate/solver/method", "slopes do not come with fixed steps",
+         "choose auto, exact, bdf, adams or runge_kutta");
+  if (advances_exactly(program, options)) {
+    Phases phases;
+    {
+      const Stopwatch watch(phases.integrate);
+      exact = simulate_exactly(program, run, options, instants, signals);
+    }
+    if (exact) exact->statistics.phases = phases;
+  }
+  Traces traces;
+  if (exact) {
+    traces = std::move(*exact);
+  } else {
+    if (options.at_rest) settle_at_rest(program, run, options.begin);
+    if (has_fixed_steps(options.method)) {
+      traces = simulate_in_fixed_steps(program, std::move(run), options, std::move(instants), signals);
+    } else {
+      auto how = held_tolerance(options);
+      MethodChoice choice{options.method, ""};
+      if (options.method == Method::automatic)
+        choice = choose_method(program, run, options.begin, instants.back() - options.begin);
+      how.method = choice.method;
+      traces = Simulation(program, std::move(run), how, std::move(instants), signals)();
+      traces.statistics.why = choice.why;
+    }
+  }
+  traces.statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return traces;
+}
+
+}  // namespace hysteron

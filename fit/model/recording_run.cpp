@@ -1,0 +1,310 @@
+// One recording, simulated: bound to the program once, then run with any parameter values at exactly its instants.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/rowwise/schedule.h"
+#include "engine/simulate/simulate.h"
+#include "fit/model/model_content.h"
+
+namespace hysteron {
+namespace {
+
+/// Blocks whose states may be estimated linearly: linear themselves and up to every output that is measured.
+std::vector<bool> linear_to_outputs(const Program& program, const std::vector<int>& signals) {
+  const auto n = program.blocks.size();
+  std::vector<bool> ok(n, false);
+  for (std::size_t b = 0; b < n; ++b) {
+    auto reached = program.downstream_of(static_cast<int>(b));
+    reached[b] = true;
+    ok[b] = true;
+    for (std::size_t d = 0; d < n; ++d) {
+      if (!reached[d] || program.blocks[d].kernel->declaration.is_linear) continue;
+      const auto below = program.downstream_of(static_cast<int>(d));
+      for (const int s : signals) {
+        const auto block = static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block);
+        if (block == d || below[block]) ok[b] = false;
+      }
+    }
+  }
+  return ok;
+}
+
+}  // namespace
+
+void DataModel::Content::find_outputs() {
+  for (std::size_t i = 0; i < program->output_names.size(); ++i) {
+    const auto& name = program->output_names[i];
+    const auto there = std::find_if(data->recordings.begin(), data->recordings.end(),
+                                    [&](const Recording& r) { return r.columns.count(name) > 0; });
+    if (there == data->recordings.end()) continue;
+    units.push_back(there->units.at(name));
+    outputs.push_back(name);
+    signals.push_back(program->output_signals[i]);
+  }
+}
+
+void DataModel::Content::bind(int r) {
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  b.run = start(*program);
+  for (const auto& input : program->input_names)
+    bind_input(*program, b.run, input, input_series(*data, recording, input));
+
+  const auto first = static_cast<std::ptrdiff_t>(recording.first), last = static_cast<std::ptrdiff_t>(recording.last);
+  b.times.assign(recording.t.begin() + first, recording.t.begin() + last);
+  b.measured.resize(outputs.size());
+  b.at.resize(outputs.size());
+  std::vector<std::vector<double>> wanted(outputs.size());
+  const double begin = recording.t.front();
+  b.instants = {begin};
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const auto column = recording.columns.find(outputs[o]);
+    if (column == recording.columns.end()) continue;
+    b.measured[o].assign(column->second.begin() + first, column->second.begin() + last);
+    const auto instants = output_instants(*data, recording, outputs[o]);
+    for (auto i = first; i < last; ++i) {
+      // Before the start the model is where it starts: at rest there.
+      wanted[o].push_back(std::max(begin, instants[static_cast<std::size_t>(i)]));
+    }
+    b.instants.insert(b.instants.end(), wanted[o].begin(), wanted[o].end());
+  }
+  std::sort(b.instants.begin(), b.instants.end());
+  b.instants.erase(std::unique(b.instants.begin(), b.instants.end()), b.instants.end());
+  b.points_per_instant =
+      static_cast<double>(rows_between(b.instants, b.run.series).size()) / static_cast<double>(b.instants.size());
+  for (std::size_t o = 0; o < outputs.size(); ++o)
+    for (const double t : wanted[o])
+      b.at[o].push_back(
+          static_cast<std::size_t>(std::lower_bound(b.instants.begin(), b.instants.end(), t) - b.instants.begin()));
+  if (not_exact.empty()) {
+    b.cut({});
+    b.advance.emplace(program, signals);
+    needs_substeps = needs_substeps || !b.advance->exact_without_substeps();
+  }
+}
+
+void DataModel::Content::find_free_states() {
+  const bool wanted = std::any_of(data->recordings.begin(), data->recordings.end(),
+                                  [](const Recording& r) { return r.initial_per_recording; });
+  if (!wanted) return;
+  const auto linear = linear_to_outputs(*program, signals);
+  for (std::size_t b = 0; b < program->blocks.size(); ++b) {
+    const auto& block = program->blocks[b];
+    for (int i = 0; i < block.sizes.states; ++i) {
+      const auto index = static_cast<std::size_t>(block.x_begin + i);
+      free_states.push_back(program->state_names[index]);
+      free_state_index.push_back(index);
+      free_state_is_linear.push_back(linear[b]);
+    }
+    if (block.sizes.memory > 0)
+      remarks.push_back(fmt::format("the memory of {} begins virgin in every recording", block.path));
+  }
+}
+
+/// A run with these values; throws where a block refuses them.
+Run DataModel::Content::prepared(int r, std::span<const ParameterValue> values) const {
+  Run run = bound[static_cast<std::size_t>(r)].run;
+  for (const auto& v : values) {
+    if (v.recording >= 0 && v.recording != r) continue;
+    if (!std::isfinite(v.value))
+      fail_numerics("not_finite", program->parameters[static_cast<std::size_t>(v.parameter)].path,
+                    "value is not finite", "give a finite start value");
+    for (const int slot : program->parameters[static_cast<std::size_t>(v.parameter)].slots)
+      run.p[static_cast<std::size_t>(slot)] = v.value;
+  }
+  // All at once: two values that belong together are never seen half changed.
+  prepare(*program, run);
+  reset(*program, run);
+  return run;
+}
+
+bool DataModel::Content::from_rest(const Recording& recording) const {
+  return recording.at_rest || (recording.initial_per_recording && recording.initial_values.empty());
+}
+
+/// States that the data set gives; the others stay as declared.
+void DataModel::Content::set_start(const Recording& recording, Run& run, double t) const {
+  run.t = t;
+  for (const auto& [name, value] : recording.initial_values) {
+    const auto found = std::find(program->state_names.begin(), program->state_names.end(), name);
+    if (found == program->state_names.end())
+      fail("unknown_state", name,
+           fmt::format("recording {} gives a start for \"{}\", which is no state", recording.name, name),
+           did_you_mean(name, program->state_names));
+    run.x[static_cast<std::size_t>(found - program->state_names.begin())] = value;
+  }
+}
+
+/// values[output][instant] of one recording.
+void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest, int substeps, bool cvode) const {
+  if (b.advance && not_exact.empty() && !cvode) {
+    AdvanceOptions o;
+    o.substeps = substeps;
+    o.at_rest = at_rest;
+    (*b.advance)(run, b.rows, o, b.values);
+    b.keep_instants(b.values);
+    return;
+  }
+  SimulateOptions o;
+  o.begin = b.instants.front();
+  o.until = b.instants.back();
+  o.instants = b.instants;
+  o.signals = signals;
+  o.method = Method::bdf;
+  o.relative_tolerance = options.relative_tolerance;
+  o.at_rest = at_rest;
+  b.values = simulate(*program, std::move(run), o).values;
+}
+
+std::vector<Rows> DataModel::Content::rows_of(const BoundRecording& b,
+                                              const std::vector<std::vector<double>>& values) const {
+  std::vector<Rows> rows(outputs.size());
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const auto& at = b.at[o];
+    if (at.empty()) continue;
+    if (at.back() - at.front() + 1 == at.size()) {
+      const auto first = values[o].begin() + static_cast<std::ptrdiff_t>(at.front());
+      rows[o].assign(first, first + static_cast<std::ptrdiff_t>(at.size()));
+    } else {
+      rows[o].reserve(at.size());
+      for (const std::size_t i : at) rows[o].push_back(values[o][i]);
+    }
+    const auto bad = std::find_if(rows[o].begin(), rows[o].end(), [](double y) { return !std::isfinite(y); });
+    if (bad != rows[o].end())
+      fail_numerics("diverged", outputs[o],
+                    fmt::format("not finite at {} s", b.instants[at[static_cast<std::size_t>(bad - rows[o].begin())]]),
+                    "narrow the bounds");
+  }
+  return rows;
+}
+
+std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue> values, int substeps, bool cvode) {
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+  ++runs;
+  if (from_rest(recording) && !b.start.empty()) {
+    Run run = in_equilibrium(r, values);
+    for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
+    simulate_into(b, std::move(run), false, substeps, cvode);
+    return rows_of(b, b.values);
+  }
+  Run run = prepared(r, values);
+  set_start(recording, run, b.instants.front());
+  simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
+  return rows_of(b, b.values);
+}
+
+Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> values) const {
+  Run rest = prepared(r, values);
+  rest.t = bound[static_cast<std::size_t>(r)].instants.front();
+  settle_at_rest(*program, rest, rest.t);
+  return rest;
+}
+
+/// Of a state behind which all is linear any step will do; of another one so small that the answer is as good as
+/// linear, and so large that it is not lost in rounding or in the integrator's tolerance.
+constexpr double step_of_a_start = 1e-3;  // of the state's nominal size
+
+void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> values, Prediction& prediction) {
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const auto k = static_cast<std::size_t>(r);
+  Run begun = in_equilibrium(r, values);
+  for (std::size_t i = 0; i < b.start.size(); ++i) begun.x[free_state_index[i]] += b.start[i];
+  const auto sizes = nominal_states(*program, begun);
+  const auto response = [&](std::size_t state, double step) {
+    ++runs;
+    Run run = begun;
+    run.x[state] += step;
+    simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
+    return rows_of(b, b.values);
+  };
+  const auto zero = response(0, 0.0);
+  for (std::size_t n = 0; n < free_state_index.size(); ++n) {
+    const std::size_t state = free_state_index[n];
+    const double step = free_state_is_linear[n] ? 1.0 : step_of_a_start * sizes[state];
+    auto rows = response(state, step);
+    for (std::size_t o = 0; o < rows.size(); ++o)
+      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] = (rows[o][i] - zero[o][i]) / step;
+    prediction.initial[k].push_back(std::move(rows));
+  }
+}
+
+/// As `one`, with finer and finer substeps where nonlinear states run away: values far from those for which the
+/// substeps were chosen may be stiffer. A trial that only needs more of them is not lost.
+std::vector<Rows> DataModel::Content::finer_until_finite(int r, std::span<const ParameterValue> values) {
+  const BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const bool integrates = b.advance && not_exact.empty() && !options.force_cvode && b.advance->integrates();
+  for (int substeps = b.substeps;; substeps *= 4) {
+    try {
+      return one(r, values, substeps, options.force_cvode);
+    } catch (const Error& e) {
+      if (!integrates || 4 * substeps > options.max_substeps || e.problems.front().code != "diverged") throw;
+    }
+  }
+}
+
+/// No exception leaves: a failing simulation is a text.
+void DataModel::Content::predict_one(int r, std::span<const ParameterValue> values, bool with_initial,
+                                     Prediction& prediction, std::string& error) {
+  const auto k = static_cast<std::size_t>(r);
+  try {
+    prediction.y[k] = finer_until_finite(r, values);
+    if (with_initial && data->recordings[k].initial_per_recording && !free_states.empty())
+      predict_initial(r, values, prediction);
+  } catch (const std::exception& e) {
+    ++failures;
+    error = fmt::format("{}: {}", data->recordings[k].name, e.what());
+  }
+}
+
+/// Trials side by side where the advance is exact; per trial "" or why it failed.
+std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<const Trial> trials,
+                                                            std::vector<Prediction>& predictions) {
+  const auto k = static_cast<std::size_t>(r);
+  BoundRecording& b = bound[k];
+  std::vector<std::string> errors(trials.size());
+  if (!b.advance || !not_exact.empty() || !b.start.empty()) {
+    for (std::size_t i = 0; i < trials.size(); ++i) predict_one(r, trials[i], false, predictions[i], errors[i]);
+    return errors;
+  }
+  const Recording& recording = data->recordings[k];
+  const auto say = [&](std::size_t i, const std::string& why) {
+    ++failures;
+    errors[i] = fmt::format("{}: {}", recording.name, why);
+  };
+  std::vector<Run> started;
+  std::vector<std::size_t> trial_of;
+  started.reserve(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ++runs;
+    try {
+      Run run = prepared(r, trials[i]);
+      set_start(recording, run, b.instants.front());
+      started.push_back(std::move(run));
+      trial_of.push_back(i);
+    } catch (const std::exception& e) {
+      say(i, e.what());
+    }
+  }
+  std::vector<const Run*> list;
+  for (const auto& run : started) list.push_back(&run);
+  const AdvanceOptions how{.substeps = b.substeps, .at_rest = from_rest(recording)};
+  const auto why = b.advance->each(list, b.rows, how, b.many_values);
+  for (std::size_t i = 0; i < why.size(); ++i) {
+    if (!why[i].empty()) {
+      predict_one(r, trials[trial_of[i]], false, predictions[trial_of[i]], errors[trial_of[i]]);
+      continue;
+    }
+    b.keep_instants(b.many_values[i]);
+    try {
+      predictions[trial_of[i]].y[k] = rows_of(b, b.many_values[i]);
+    } catch (const std::exception& e) {
+      say(trial_of[i], e.what());
+    }
+  }
+  return errors;
+}
+
+}  // namespace hysteron

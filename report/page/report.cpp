@@ -1,0 +1,317 @@
+#include "report/page/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "report/page/assets.h"
+#include "report/page/decimate.h"
+#include "report/page/figure_data.h"
+#include "report/page/figure_svg.h"
+#include "report/page/html.h"
+#include "report/page/prepare.h"
+
+namespace hysteron {
+namespace {
+
+/// Points that a browser gets: of one figure (a screen is 2000 pixels wide, the rest is for zooming), and of a page.
+constexpr std::size_t points_per_figure = 20000, points_per_page = 240000;
+constexpr int lines_shown = 60;  ///< longer texts are folded
+
+// ---- small parts ----------------------------------------------------------------------------------------------------
+
+std::string base64(std::string_view bytes) {
+  static const char* const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : bytes) {
+    bits = ((bits << 8) | static_cast<unsigned char>(c)) & 0xffff;
+    for (count += 8; count >= 6; count -= 6) out += letters[(bits >> (count - 6)) & 63];
+  }
+  if (count > 0) out += letters[(bits << (6 - count)) & 63];
+  while (out.size() % 4 != 0) out += '=';
+  return out;
+}
+
+/// A hash given in hexadecimal digits, as a content security policy wants it.
+std::string hash_text(std::string_view hex) {
+  const auto nibble = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes += static_cast<char>(16 * nibble(hex[i]) + nibble(hex[i + 1]));
+  return base64(bytes);
+}
+
+/// 100000 -> "100 000", with thin spaces.
+std::string grouped(std::size_t n) {
+  std::string text = std::to_string(n);
+  for (int i = static_cast<int>(text.size()) - 3; i > 0; i -= 3) text.insert(static_cast<std::size_t>(i), "\u2009");
+  return text;
+}
+
+std::string list_html(const char* element, const char* css, const std::vector<std::string>& items) {
+  if (items.empty()) return "";
+  std::string out = fmt::format("<{}{}>", element, css);
+  for (const auto& item : items) out += "<li>" + escape_prose(item) + "</li>";
+  return out + fmt::format("</{}>\n", element);
+}
+
+// ---- head -----------------------------------------------------------------------------------------------------------
+
+std::string verdict_html(const std::string& verdict) {
+  static const std::map<std::string, std::pair<const char*, const char*>> words{
+      {"adequate",
+       {"adequate",
+        "Only noise is left: no structure remains, and no effect improves other recordings by more than chance."}},
+      {"missing_effect", {"missing effect", "The model lacks a physical effect; it is named here, with its evidence."}},
+      {"not_distinguishable",
+       {"not distinguishable", "Something is missing, and several effects explain these data equally well."}},
+      {"unexplained", {"unexplained", "Structure remains that no known effect takes away."}}};
+  if (verdict.empty()) return "";
+  const auto found = words.find(verdict);
+  const bool known = found != words.end();
+  return fmt::format("<p class=\"verdict\"><span class=\"badge {}\">{}</span> <span>{}</span></p>\n",
+                     known ? verdict : "", known ? found->second.first : escape(verdict),
+                     known ? found->second.second : "");
+}
+
+std::string head_html(const Document& d) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{}'; script-src "
+      "'sha256-{}'; img-src data:; "
+      "base-uri 'none'; form-action 'none'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
+      "content=\"light dark\">\n"
+      "<title>{}</title>\n<style>{}</style>\n</head>\n",
+      hash_text(report_css_sha256), hash_text(report_js_sha256),
+      escape(d.title.empty() ? d.headline : d.title + " – " + d.verb), report_css);
+}
+
+std::string summary_html(const Document& d) {
+  std::string out = fmt::format("<header>\n<p class=\"kicker\"><b>hysteron {}</b>{}{}</p>\n", escape(d.verb),
+                                d.title.empty() ? "" : " · ", escape(d.title));
+  out += "<h1>" + escape_prose(d.headline.empty() ? d.title : d.headline) + "</h1>\n";
+  out += verdict_html(d.verdict);
+  out += list_html("ol", " class=\"sentences\"", d.sentences);
+  if (!d.warnings.empty())
+    out += "<aside class=\"warnings\" role=\"note\">\n<h2>Note well</h2>\n" + list_html("ul", "", d.warnings) +
+           "</aside>\n";
+  return out + "</header>\n";
+}
+
+std::string contents_html(const Document& d) {
+  std::string out;
+  if (d.sections.size() > 2) {
+    out += "<nav class=\"contents\" aria-label=\"Contents\">\n";
+    for (std::size_t i = 0; i < d.sections.size(); ++i)
+      out += fmt::format("<a href=\"#s{}\">{}</a>\n", i + 1, escape(d.sections[i].title));
+    out += "</nav>\n";
+  }
+  const bool curves = std::any_of(d.sections.begin(), d.sections.end(), [](const Section& s) {
+    return std::any_of(s.figures.begin(), s.figures.end(), [](const Figure& f) { return f.kind == "curves"; });
+  });
+  if (curves)
+    out +=
+        "<p class=\"hint\">In the figures: drag to zoom, <kbd>Shift</kbd>-drag to move, <kbd>Ctrl</kbd>-wheel to zoom "
+        "at the pointer (the wheel alone, "
+        "once a figure was clicked), double-click to see all again. A click on a legend entry hides a curve. Figures "
+        "of a section over the same quantity "
+        "move together.</p>\n";
+  return out;
+}
+
+// ---- sections -------------------------------------------------------------------------------------------------------
+
+/// "1.02", "-3.5 um", "12 %", "0.3 ± 0.1": set flush right, so that digits stand under digits.
+bool looks_like_number(const std::string& cell) {
+  static const std::string signs = "+-−±<>≤≥~≈.";
+  std::size_t i = 0;
+  while (i < cell.size() && (cell[i] == ' ' || signs.find(cell[i]) != std::string::npos)) ++i;
+  return i < cell.size() && cell[i] >= '0' && cell[i] <= '9' && cell.find(".csv") == std::string::npos;
+}
+
+std::string table_html(const Table& t) {
+  std::vector<bool> numeric(t.columns.size(), true);
+  for (std::size_t k = 0; k < t.columns.size(); ++k) {
+    bool any = false;
+    for (const auto& row : t.rows) {
+      if (k >= row.size() || row[k].empty() || row[k] == "-" || row[k] == "–") continue;
+      any = true;
+      numeric[k] = numeric[k] && looks_like_number(row[k]);
+    }
+    numeric[k] = numeric[k] && any && k > 0;
+  }
+  const auto css = [&](std::size_t k) { return k < numeric.size() && numeric[k] ? " class=\"number\"" : ""; };
+  // A sentence in a narrow window must not become a tower of words.
+  const auto cell_css = [&](std::size_t k, const std::string& cell) {
+    return k < numeric.size() && !numeric[k] && cell.size() > 24 ? " class=\"prose\"" : css(k);
+  };
+  std::string out = "<div class=\"table\">\n";
+  if (!t.title.empty()) out += "<h3>" + escape_prose(t.title) + "</h3>\n";
+  out += "<table>\n<thead><tr>";
+  for (std::size_t k = 0; k < t.columns.size(); ++k)
+    out += fmt::format("<th scope=\"col\"{}>{}</th>", css(k), escape_prose(t.columns[k]));
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : t.rows) {
+    out += "<tr>";
+    for (std::size_t k = 0; k < row.size(); ++k)
+      out += fmt::format("<td{}>{}</td>", cell_css(k, row[k]), escape_prose(row[k]));
+    out += "</tr>\n";
+  }
+  return out + "</tbody>\n</table>\n</div>\n";
+}
+
+/// A diff has nothing but lines that begin with +, -, space or @.
+bool is_diff(const std::string& text) {
+  bool change = false;
+  for (std::size_t begin = 0; begin < text.size(); begin = std::min(text.find('\n', begin), text.size()) + 1) {
+    if (text[begin] == '+' || text[begin] == '-')
+      change = true;
+    else if (text[begin] != ' ' && text[begin] != '@' && text[begin] != '\n' && text[begin] != '\\')
+      return false;
+  }
+  return change;
+}
+
+std::string preformatted_html(const std::string& title, const std::string& text) {
+  const bool diff = is_diff(text);
+  std::string lines;
+  int count = 0;
+  for (std::size_t begin = 0; begin < text.size(); ++count) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    const char mark = text[begin];
+    const char* css = !diff         ? ""
+                      : mark == '+' ? " class=\"added\""
+                      : mark == '-' ? " class=\"removed\""
+                      : mark == '@' ? " class=\"place\""
+                                    : "";
+    lines += fmt::format("<span{}>{}</span>", css, escape(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  const std::string pre = "<pre>" + lines + "</pre>";
+  const std::string heading = escape_prose(title.empty() ? (diff ? "What changes" : "Text") : title);
+  if (count > lines_shown)
+    return fmt::format("<details class=\"code\"><summary>{} ({} lines)</summary>{}</details>\n", heading, count, pre);
+  return fmt::format("<div class=\"code\">{}{}</div>\n",
+                     title.empty() ? "" : "<div class=\"title\">" + heading + "</div>", pre);
+}
+
+/// What stands below a figure: its caption, how much of the data is drawn, and where all of it is.
+std::string caption_html(const PreparedFigure& f) {
+  std::set<std::string> sources;
+  for (const auto& c : f.curves)
+    if (!c.source.empty()) sources.insert(c.source);
+  std::string out = escape_prose(f.caption);
+  if (f.kept < f.points)
+    out += fmt::format("{}Drawn from {} of {} points, every peak among them.", out.empty() ? "" : " ", grouped(f.kept),
+                       grouped(f.points));
+  if (!sources.empty() && sources.size() <= 4) {
+    out += out.empty() ? "Data: " : " Data: ";
+    for (const auto& s : sources)
+      out += fmt::format("{}<a href=\"{}\">{}</a>", s == *sources.begin() ? "" : ", ", escape_path(s), escape(s));
+  } else if (!sources.empty()) {
+    out += fmt::format("{}Data: {} files in traces/.", out.empty() ? "" : " ", sources.size());
+  }
+  return out.empty() ? "" : "<p class=\"caption\">" + out + "</p>\n";
+}
+
+std::string figure_html(const PreparedFigure& f, const std::string& link) {
+  const std::string kind = f.kind == "bars" || f.kind == "waterfall" ? f.kind : "curves";
+  std::string out =
+      fmt::format("<figure class=\"figure{}\" data-kind=\"{}\">\n<header><h3>{}</h3>{}</header>\n",
+                  f.wide ? " wide" : "", kind, escape_prose(f.title), kind == "curves" ? legend_html(f) : "");
+  out += fmt::format("<div class=\"picture {}\">{}</div>\n", kind, kind == "bars" ? bars_html(f) : figure_svg(f));
+  out += caption_html(f);
+  if (kind == "curves" && !f.x.empty() && !f.y.empty())
+    out += "<script type=\"application/json\">" + figure_data(f, link) + "</script>\n";
+  return out + "</figure>\n";
+}
+
+/// An SVG of the document, inside the page: as an image, so that its style stays its own. A click opens the file.
+std::string picture_html(const Document& d, const Figure& f) {
+  const auto file =
+      std::find_if(d.files.begin(), d.files.end(), [&](const auto& one) { return one.first == f.picture; });
+  if (file == d.files.end()) return "";
+  return fmt::format(
+      "<figure class=\"figure wide\" data-kind=\"picture\">\n<header><h3>{}</h3></header>\n"
+      "<div class=\"drawing\"><a href=\"{}\"><img alt=\"{}\" "
+      "src=\"data:image/svg+xml;base64,{}\"></a></div>\n{}</figure>\n",
+      escape_prose(f.title), escape_path(f.picture), escape(f.title), base64(file->second),
+      f.caption.empty() ? "" : "<p class=\"caption\">" + escape_prose(f.caption) + "</p>\n");
+}
+
+/// Narrow figures stand in pairs; one that stays alone takes the full width if it holds curves.
+void widen_lonely(std::vector<PreparedFigure>& figures) {
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    if (figures[i].wide) continue;
+    if (i + 1 < figures.size() && !figures[i + 1].wide)
+      ++i;
+    else if (figures[i].kind == "curves")
+      figures[i].wide = true;
+  }
+}
+
+std::string figures_html(const std::vector<PreparedFigure>& figures, std::size_t section) {
+  if (figures.empty()) return "";
+  std::string out = "<div class=\"figures\">\n";
+  for (const auto& f : figures)
+    out += figure_html(f, f.x_label.empty() ? "" : fmt::format("s{} {}{}", section, f.x_label, f.log_x ? " log" : ""));
+  return out + "</div>\n";
+}
+
+/// Text, tables, figures, text as it is; only waterfalls and drawings go before the tables: they are the answer, those
+/// the evidence.
+std::string section_html(const Document& d, const Section& s, std::size_t number,
+                         const std::vector<std::size_t>& budgets) {
+  std::vector<PreparedFigure> waterfalls, others;
+  std::string pictures;
+  for (std::size_t i = 0; i < s.figures.size(); ++i)
+    if (s.figures[i].kind == "picture")
+      pictures += picture_html(d, s.figures[i]);
+    else
+      (s.figures[i].kind == "waterfall" ? waterfalls : others).push_back(prepare(d, s.figures[i], budgets[i]));
+  widen_lonely(others);
+  std::string out = fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", number, escape_prose(s.title));
+  for (const auto& paragraph : s.text) out += "<p>" + escape_prose(paragraph) + "</p>\n";
+  out += figures_html(waterfalls, number);
+  if (!pictures.empty()) out += "<div class=\"figures\">\n" + pictures + "</div>\n";
+  for (const auto& table : s.tables) out += table_html(table);
+  out += figures_html(others, number);
+  if (!s.preformatted.empty()) out += preformatted_html(s.preformatted_title, s.preformatted);
+  return out + "</section>\n";
+}
+
+/// The points of each figure of each section, so that the page stays light however many recordings it shows.
+std::vector<std::vector<std::size_t>> page_budget(const Document& d) {
+  std::vector<std::size_t> wanted;
+  for (const auto& s : d.sections)
+    for (const auto& f : s.figures) wanted.push_back(std::min(points_per_figure, point_count(d, f)));
+  const auto shares = share_budget(wanted, points_per_page);
+  std::vector<std::vector<std::size_t>> result;
+  auto next = shares.begin();
+  for (const auto& s : d.sections) {
+    const auto count = static_cast<std::ptrdiff_t>(s.figures.size());
+    result.emplace_back(next, next + count);
+    next += count;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string report_html(const Document& d) {
+  const auto budget = page_budget(d);
+  std::string out = head_html(d) + "<body>\n<div class=\"page\">\n" + summary_html(d) + contents_html(d) + "<main>\n";
+  for (std::size_t i = 0; i < d.sections.size(); ++i) out += section_html(d, d.sections[i], i + 1, budget[i]);
+  out += fmt::format(
+      "</main>\n<footer>Written by hysteron {}. The same for programs: <a "
+      "href=\"result.json\">result.json</a>{}.</footer>\n</div>\n",
+      HYSTERON_VERSION, d.traces.empty() ? "" : ", the curves: traces/");
+  return out + fmt::format("<script>{}</script>\n</body>\n</html>\n", report_js);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,150 @@
+// Recordings that do not begin where the model is started: found in nonlinear models too, and told where nobody said
+// so.
+#include "fit/estimate/starts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fit/estimate/beginning.h"
+#include "fit/estimate/fit.h"
+#include "tests/fit/lab.h"
+
+namespace hysteron {
+namespace {
+
+/// A mass of 1 kg on a spring that hardens, 4 N s/m of damping: 20 rad/s for small motion, so that a start has decayed
+/// to a hundredth after some 2.3 s.
+Diagram hard_spring() {
+  Diagram d = lab::diagram("stage.position");
+  auto& force = lab::add(d, "force", "gain", "u");
+  force.parameters["gain"] = "10 N/V";
+  auto& stage = lab::add(d, "stage", "mass_on_stiffening_spring", "force");
+  stage.parameters["mass"] = "1 kg";
+  stage.parameters["stiffness"] = "400 N/m";
+  stage.parameters["damping"] = "4 N s/m";
+  stage.parameters["stiffening"] = "4e5 N/m^3";
+  return d;
+}
+
+/// The same by hand, from this position [m] and velocity [m/s]: classical Runge-Kutta, forty steps to a row.
+std::vector<double> by_hand(const Recording& r, double position, double velocity, double stiffness) {
+  double x = position, v = velocity;
+  std::vector<double> y{x};
+  for (std::size_t i = 1; i < r.t.size(); ++i) {
+    const double h = (r.t[i] - r.t[i - 1]) / 40;
+    const auto force = [&](double s) {
+      const double u0 = r.columns.at("u")[i - 1], u1 = r.columns.at("u")[i];
+      return 10 * (u0 + (u1 - u0) * s / 40);
+    };
+    const auto rate = [&](double at, double p, double w) {
+      return force(at) - 4 * w - stiffness * p - 4e5 * p * p * p;
+    };
+    for (int k = 0; k < 40; ++k) {
+      const double a1 = rate(k, x, v), v1 = v;
+      const double a2 = rate(k + 0.5, x + h / 2 * v1, v + h / 2 * a1), v2 = v + h / 2 * a1;
+      const double a3 = rate(k + 0.5, x + h / 2 * v2, v + h / 2 * a2), v3 = v + h / 2 * a2;
+      const double a4 = rate(k + 1, x + h * v3, v + h * a3), v4 = v + h * a3;
+      x += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+      v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    }
+    y.push_back(x);
+  }
+  return y;
+}
+
+constexpr double noise = 2e-6;  // [m], of some mm
+
+DataSet recorded(double position, double velocity, double stiffness = 400) {
+  DataSet data;
+  data.notes["y"].noise.white = noise;
+  lab::Noise random(5);
+  for (const Role role : {Role::train, Role::validate}) {
+    const double f = role == Role::train ? 1.1 : 0.7;
+    auto r = lab::recording(to_text(role), role, 0.01, 2000,
+                            [f](double t) { return 0.2 * std::sin(2 * std::numbers::pi * f * t); });
+    r.units["y"] = parse_unit("mm");
+    r.columns["y"] = by_hand(r, role == Role::train ? position : 0, role == Role::train ? velocity : 0, stiffness);
+    for (double& y : r.columns["y"]) y += noise * random();
+    data.recordings.push_back(std::move(r));
+  }
+  return data;
+}
+
+void start_free(Recording& r) {
+  r.at_rest = false;
+  r.initial_per_recording = true;
+}
+
+TEST(Starts, AreFoundBehindANonlinearLawBesideItsParameters) {
+  // 20 mm, where the spring is 1.4 times as hard as at zero: a linear guess is off by a third of the period.
+  DataSet data = recorded(0.02, -0.1);
+  start_free(data.recordings[0]);
+  const auto program = compile(hard_spring(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  ASSERT_EQ(model.free_initial_states().size(), 2U);
+  EXPECT_TRUE(model.starts_are_searched());
+  auto free = free_parameters(*program, {"stage.stiffness", "stage.damping"});
+  ASSERT_EQ(free.size(), 2U);
+  free[0].start = 380;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  // 2000 rows of 2 um on mm of motion know a stiffness to some 1e-4: four standard deviations of what the fit says.
+  for (const auto& e : r.estimates) {
+    const double truth = e.path == "stage.stiffness" ? 400 : 4;
+    EXPECT_NEAR(e.used, truth, 4 * e.sigma.value_or(0) + 1e-4 * truth) << e.path;
+  }
+  EXPECT_NEAR(r.after.find(0)->rms[0], noise, 0.1 * noise) << "2000 rows know an rms to 1.6 %";
+  const auto& start = model.start_of(0);
+  ASSERT_EQ(start.size(), 2U);
+  const auto& names = model.free_initial_states();
+  const std::size_t position = names[0].find("position") != std::string::npos ? 0 : 1;
+  EXPECT_NEAR(start[position], 0.02, 1e-5) << "rest is at zero; some rows of 2 um know it to a micrometre";
+  EXPECT_NEAR(start[1 - position], -0.1, 5e-4);
+}
+
+TEST(Starts, OfARecordingAtRestStayThere) {
+  const DataSet data = recorded(0.02, 0);
+  const auto program = compile(hard_spring(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  const int both[] = {0, 1};
+  EXPECT_FALSE(improve_starts(model, Judge(model, noise_before_fit(model)), {}, both));
+  EXPECT_TRUE(model.start_of(0).empty());
+}
+
+std::vector<Beginning> told(const DataSet& data) {
+  const auto program = compile(hard_spring(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  const int both[] = {0, 1};
+  return begin_elsewhere(model, noise_before_fit(model), model.predict({}, both), {}, both);
+}
+
+TEST(Beginnings, OfARecordingThatStillSwingsAreTold) {
+  const DataSet data = recorded(0.001, 0);
+  const auto found = told(data);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].recording, 0);
+  // exp(-2 t) falls to a hundredth after 2.3 s; the answer of the velocity begins at zero and is told by its own top.
+  EXPECT_NEAR(found[0].lasts, 2.3, 0.4);
+  // 1 mm, decaying: 1/sqrt(2) for the swing, sqrt(1/(2 * 2 * 2.3)) for the decay over 2.3 s.
+  EXPECT_NEAR(found[0].rms, 1e-3 * std::sqrt(0.5 / (4 * 2.3)), 0.3e-4);
+  const auto program = compile(hard_spring(), lab::registry());
+  const std::string text = to_text(DataModel(program, lab::shared(data)), found[0]);
+  EXPECT_NE(text.find("train does not begin at rest"), std::string::npos) << text;
+  EXPECT_NE(text.find("per_recording"), std::string::npos) << text;
+}
+
+TEST(Beginnings, AtRestAreNotToldNorWhereTheModelIsWrongThroughout) {
+  EXPECT_TRUE(told(recorded(0, 0)).empty());
+  EXPECT_TRUE(told(recorded(0, 0, 440)).empty()) << "a spring that is a tenth too soft is wrong in every window";
+}
+
+TEST(Beginnings, ThatTheDataSetLeavesOpenAreNotTold) {
+  DataSet data = recorded(0.001, 0);
+  start_free(data.recordings[0]);
+  EXPECT_TRUE(told(data).empty());
+}
+
+}  // namespace
+}  // namespace hysteron
