@@ -7,6 +7,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
+#include "engine/program/nominal.h"
 
 namespace hysteron::benchmarks {
 

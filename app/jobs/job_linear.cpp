@@ -10,6 +10,7 @@
 #include "app/jobs/job_values.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
+#include "engine/events/rest.h"
 #include "engine/simulate/simulate.h"
 #include "fit/signals/features.h"
 

@@ -15,6 +15,7 @@
 #include "app/pages/numbers.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
+#include "engine/events/rest.h"
 #include "engine/program/names.h"
 #include "engine/simulate/simulate.h"
 

@@ -7,6 +7,7 @@
 
 #include "engine/analysis/linearize.h"
 #include "engine/diagram/error.h"
+#include "engine/events/rest.h"
 #include "engine/simulate/simulate.h"
 
 namespace hysteron {

@@ -1,5 +1,5 @@
 // Decides what a program is near an operating point: a linear system from chosen signals to chosen signals, its poles
-// and its frequency response. Does not decide the operating point (simulate.h: settle_at_rest, or a simulation that was
+// and its frequency response. Does not decide the operating point (rest.h: settle_at_rest, or a simulation that was
 // stopped there) nor how the response is read (margins.h), nor sampled systems (sampled_model.h).
 #pragma once
 

@@ -1,3 +1,5 @@
+#include "engine/events/rest.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -9,7 +11,6 @@
 #include "engine/program/corners.h"
 #include "engine/program/loops.h"
 #include "engine/program/nominal.h"
-#include "engine/simulate/simulate.h"
 
 namespace hysteron {
 namespace {

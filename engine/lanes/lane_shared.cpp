@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/program/parameter_values.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
@@ -12,14 +13,6 @@ using steps::at;
 constexpr std::size_t largest_table = 4'000'000;  // numbers: 32 MB, a tenth of what a study may take
 
 }  // namespace
-
-bool block_varies(const Program& program, const BlockInstance& b, std::span<const int> parameters) {
-  return std::any_of(parameters.begin(), parameters.end(), [&](int parameter) {
-    const auto& slots = program.parameters[at(parameter)].slots;
-    return std::any_of(slots.begin(), slots.end(),
-                       [&](int slot) { return slot >= b.p_begin && slot < b.p_begin + b.p_at.back(); });
-  });
-}
 
 std::vector<bool> shared_blocks(const Program& program, std::span<const int> parameters) {
   std::vector<bool> shared(program.blocks.size(), false);

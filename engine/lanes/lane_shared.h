@@ -9,9 +9,6 @@
 
 namespace hysteron {
 
-/// Has it one of these parameters (places in program.parameters)?
-bool block_varies(const Program& program, const BlockInstance& block, std::span<const int> parameters);
-
 /// Per block: is everything that it computes the same in all lanes?
 std::vector<bool> shared_blocks(const Program& program, std::span<const int> parameters);
 

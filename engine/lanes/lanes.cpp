@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/diagram/stop.h"
+#include "engine/events/rest.h"
 #include "engine/lanes/lane_arithmetic.h"
 #include "engine/lanes/lane_evaluation.h"
 #include "engine/lanes/lane_grid.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/program/corners.h"
-#include "engine/simulate/simulate.h"
 
 namespace hysteron {
 namespace {

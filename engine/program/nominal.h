@@ -16,4 +16,7 @@ struct NominalSizes {
 
 NominalSizes nominal_sizes(const Program& program, const Run& run);
 
+/// Nominal size of each state [SI], from declarations and the sizes of the sources, for absolute tolerances.
+std::vector<double> nominal_states(const Program& program, const Run& run);
+
 }  // namespace hysteron

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/lanes/lane_shared.h"
-
 namespace hysteron {
 namespace {
 
@@ -44,6 +42,14 @@ std::size_t first_that_does_not_increase(std::span<const double> list) {
   for (std::size_t k = 1; k < list.size(); ++k)
     if (!(list[k] > list[k - 1])) return k;
   return 0;
+}
+
+bool block_varies(const Program& program, const BlockInstance& b, std::span<const int> parameters) {
+  return std::any_of(parameters.begin(), parameters.end(), [&](int parameter) {
+    const auto& slots = program.parameters[at(parameter)].slots;
+    return std::any_of(slots.begin(), slots.end(),
+                       [&](int slot) { return slot >= b.p_begin && slot < b.p_begin + b.p_at.back(); });
+  });
 }
 
 void set_parameters(const Program& program, Run& run, std::span<const int> parameters, std::span<const double> values,

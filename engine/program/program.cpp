@@ -7,7 +7,7 @@
 #include "engine/program/loops.h"
 #include "engine/program/names.h"
 #include "engine/program/past.h"
-#include "engine/simulate/simulate.h"
+#include "engine/program/tolerances.h"
 
 namespace hysteron {
 
@@ -146,8 +146,7 @@ Run start(const Program& program) {
   run.loop_absolute.assign(program.guess.size(), 0.0);
   prepare(program, run);
   reset(program, run);
-  const SimulateOptions defaults;
-  set_loop_accuracy(program, run, defaults.relative_tolerance, defaults.absolute_tolerance);
+  set_loop_accuracy(program, run, default_relative_tolerance, default_absolute_tolerance);
   return run;
 }
 

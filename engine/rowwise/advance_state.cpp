@@ -5,10 +5,10 @@
 
 #include "engine/block/rows.h"
 #include "engine/events/path.h"
+#include "engine/events/rest.h"
 #include "engine/program/steps.h"
 #include "engine/rowwise/advance_points.h"
 #include "engine/rowwise/linear_part.h"
-#include "engine/simulate/simulate.h"
 
 namespace hysteron {
 

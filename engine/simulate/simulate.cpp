@@ -20,6 +20,7 @@
 
 #include "engine/diagram/stop.h"
 #include "engine/events/events.h"
+#include "engine/events/rest.h"
 #include "engine/events/reversals.h"
 #include "engine/events/zero_crossings.h"
 #include "engine/integrators/integrator.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/program/program.h"
+#include "engine/program/tolerances.h"
 
 namespace hysteron {
 
@@ -32,14 +33,14 @@ struct SimulateOptions {
   std::vector<double> instants{};  ///< exactly these output times [s], increasing
   std::vector<int> signals{};      ///< what to record; empty = program.record_signals
   Method method = Method::automatic;
-  double relative_tolerance = 1e-6;  ///< of the results; the integrators hold each step to a quarter of it
-  double absolute_tolerance = 1e-2;  ///< as a multiple of relative_tolerance times each state's nominal size
-  double max_step = 0;               ///< [s]; 0 = worked out from the sources
-  double step = 0;                   ///< [s] of the methods with fixed steps
-  bool exact_jacobian = true;        ///< off: bdf takes differences, as a cross-check
-  bool reversal_events = true;       ///< off only to measure what they bring
-  std::vector<int> slopes_for{};     ///< parameters (places in program.parameters) whose slopes are wanted
-  bool at_rest = false;              ///< start in equilibrium for the inputs at `begin`
+  double relative_tolerance = default_relative_tolerance;  ///< of the results; each step is held to a quarter of it
+  double absolute_tolerance = default_absolute_tolerance;  ///< times relative_tolerance and each state's nominal size
+  double max_step = 0;                                     ///< [s]; 0 = worked out from the sources
+  double step = 0;                                         ///< [s] of the methods with fixed steps
+  bool exact_jacobian = true;                              ///< off: bdf takes differences, as a cross-check
+  bool reversal_events = true;                             ///< off only to measure what they bring
+  std::vector<int> slopes_for{};  ///< parameters (places in program.parameters) whose slopes are wanted
+  bool at_rest = false;           ///< start in equilibrium for the inputs at `begin`
 };
 
 /// What it took to solve one algebraic loop, in the evaluations of the simulation itself (not in those for slopes).
@@ -88,13 +89,5 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
 
 /// Options from the diagram's "simulate" section; what it does not say stays as in `defaults`.
 SimulateOptions simulate_options(const Program& program, SimulateOptions defaults = {});
-
-/// Sets the states to the equilibrium for constant inputs as they are at time t: dx/dt = 0 with the memory as
-/// committed. States that have no equilibrium of their own (an integrator with zero input) stay as they are. Throws
-/// Error(Fault::numerics) "no_rest" if there is none.
-void settle_at_rest(const Program& program, Run& run, double t);
-
-/// Nominal size of each state [SI], from declarations and the sizes of the sources, for absolute tolerances.
-std::vector<double> nominal_states(const Program& program, const Run& run);
 
 }  // namespace hysteron

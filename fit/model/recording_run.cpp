@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/events/rest.h"
+#include "engine/program/nominal.h"
 #include "engine/rowwise/schedule.h"
 #include "engine/simulate/simulate.h"
 #include "fit/model/model_content.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/analysis/linearize.h"
+#include "engine/events/rest.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {

@@ -9,6 +9,7 @@
 #include "engine/analysis/margins.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/analysis/stability.h"
+#include "engine/events/rest.h"
 #include "tests/engine/event_blocks.h"
 #include "tests/engine/linear_models.h"
 #include "tests/engine/simulate_tools.h"

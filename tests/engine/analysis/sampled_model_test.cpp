@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/analysis/small_motions.h"
+#include "engine/events/rest.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <string>
 
+#include "engine/events/rest.h"
 #include "engine/lanes/lanes.h"
 #include "engine/rowwise/advance.h"
 #include "engine/simulate/simulate.h"

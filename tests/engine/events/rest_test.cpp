@@ -1,10 +1,13 @@
 // Equilibria and nominal sizes: what simulations start from and what their tolerances are made of.
+#include "engine/events/rest.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "engine/diagram/error.h"
+#include "engine/program/nominal.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {

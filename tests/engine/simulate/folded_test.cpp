@@ -6,6 +6,7 @@
 #include <random>
 
 #include "engine/program/needed.h"
+#include "engine/program/nominal.h"
 #include "tests/engine/allocations.h"
 #include "tests/engine/simulate_tools.h"
 

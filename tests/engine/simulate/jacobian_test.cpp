@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/program/nominal.h"
 #include "tests/engine/event_blocks.h"
 #include "tests/engine/simulate_tools.h"
 
