@@ -26,6 +26,7 @@
 
 #include "benchmarks/hidden_answer.h"
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 

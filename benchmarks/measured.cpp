@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/search/discover.h"
 #include "engine/diagram/error.h"
 #include "engine/program/program.h"

@@ -9,6 +9,7 @@
 
 #include "app/cli/block_words.h"
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/settings.h"

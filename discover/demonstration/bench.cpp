@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron {
 namespace {

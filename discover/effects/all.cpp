@@ -1,4 +1,6 @@
-// Decides which effects hysteron knows. To add one: its file in this folder, its line in library.h, its line here.
+// To add an effect: its file in this folder, its line in library.h, its line here.
+#include "discover/effects/all.h"
+
 #include "discover/effects/library.h"
 
 namespace hysteron {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "discover/effects/library.h"
 #include "discover/experiment/experiment_menu.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron {
 namespace {

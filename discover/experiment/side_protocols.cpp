@@ -9,6 +9,7 @@
 
 #include "discover/effects/library.h"
 #include "discover/experiment/experiment_menu.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "discover/wiring/commutes.h"
 #include "engine/diagram/diagram.h"
 #include "engine/diagram/units.h"
 
@@ -20,15 +21,6 @@ enum class Way {
   data     ///< a value of the recording
 };
 std::string to_text(Way way);
-
-/// With which blocks a law can change places without any difference: places with only such blocks between them are one
-/// finding.
-enum class Commutes {
-  nothing,
-  gains,          ///< a law with memory: blocks without states, memory or bend
-  linear,         ///< a linear, time-invariant law: linear blocks
-  time_invariant  ///< a delay: every block that does not look at the clock
-};
 
 /// A second signal that an effect reads besides the wire that it stands on.
 enum class Side {
@@ -215,9 +207,6 @@ class Effects {
  private:
   std::vector<Effect> list_;
 };
-
-/// The library. One line per effect, one file per effect: discover/effects/.
-Effects all_effects();
 
 /// A list of numbers with one unit, as a block parameter.
 NumberList with_unit(const std::vector<double>& si, const Unit& unit);

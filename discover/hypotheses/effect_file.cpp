@@ -8,8 +8,8 @@
 #include <map>
 #include <optional>
 
-#include "discover/effects/library.h"
 #include "discover/hypotheses/effect_quantity.h"
+#include "discover/hypotheses/effect_terms.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 #include "engine/diagram/error.h"
 
 namespace hysteron {

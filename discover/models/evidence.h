@@ -14,6 +14,10 @@
 
 namespace hysteron {
 
+namespace rules {
+constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
+}  // namespace rules
+
 /// How far one model is from one output of one recording (rows judged).
 struct RecordingError {
   std::string recording;

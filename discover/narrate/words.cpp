@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 #include "discover/search/investigation.h"
 #include "fit/signals/unit_words.h"
 

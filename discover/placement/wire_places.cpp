@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "discover/effects/all.h"
 #include "discover/hypotheses/effect.h"
 
 namespace hysteron {

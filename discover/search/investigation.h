@@ -64,7 +64,6 @@ constexpr double exchange = 6;  ///< fall of the score for which a look-alike is
 /// Standard deviations of chance in one octave of all recordings together, above which a further effect is looked for:
 /// 1/f noise of another shape than the whitener's reached 5 in cases with nothing left.
 constexpr double octave_gate = 6;
-constexpr double floor_gate = 1.12;  ///< chi2/N on validation below which only noise is left: 6 % in rms
 constexpr double data_sheet_wrong =
     1.2;  ///< chi2/N of noise a tenth larger than its data sheet says: as good are these
 constexpr double slow_noise =
@@ -91,11 +90,10 @@ constexpr double share_of_rest = 0.6;  ///< a further effect removes this share 
 /// What the laws that were found may have left of their own is not counted, where a candidate takes this share of all:
 /// as much as a structure must take away to be told.
 constexpr double share_of_all = 0.3;
-constexpr double share_of_own = 0.75;    ///< ... or this share of it in one train and one validate recording ...
-constexpr double share_to_noise = 0.5;   ///< ... where only noise is left behind it, this
-constexpr double hardly_shown = 0.1;     ///< of what a structure takes away in all recordings, in those that judge
-constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
-constexpr double experiment_tells = 1;   ///< rms difference over noise above which an experiment separates two models
+constexpr double share_of_own = 0.75;   ///< ... or this share of it in one train and one validate recording ...
+constexpr double share_to_noise = 0.5;  ///< ... where only noise is left behind it, this
+constexpr double hardly_shown = 0.1;    ///< of what a structure takes away in all recordings, in those that judge
+constexpr double experiment_tells = 1;  ///< rms difference over noise above which an experiment separates two models
 constexpr double of_noise = 0.1;   ///< rows of a candidate may be off by this part of the noise while it is searched
 constexpr int few_recordings = 4;  ///< with so few, look-alikes get a free gain and offset before they are compared
 constexpr double decided =

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "discover/search/investigation.h"
 #include "discover/structure/residual_parts.h"
 #include "discover/structure/structures.h"
 

@@ -13,6 +13,10 @@
 
 namespace hysteron {
 
+namespace rules {
+constexpr double structure_share = 0.3;  ///< a structure must remove more of the excess to be told
+}  // namespace rules
+
 /// Train recordings and validation recordings, each taken together.
 struct ByRole {
   double train = 0, validate = 0;

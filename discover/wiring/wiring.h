@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/hypotheses/effect.h"
+#include "discover/wiring/commutes.h"
 #include "engine/block/kernel.h"
 #include "engine/diagram/diagram.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/search/discover.h"
 
 namespace hysteron::testing {

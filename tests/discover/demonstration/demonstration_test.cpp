@@ -8,6 +8,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/demonstration/bench.h"
+#include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 
 namespace hysteron {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "discover/effects/all.h"
+
 namespace hysteron {
 namespace {
 

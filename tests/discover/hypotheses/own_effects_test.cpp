@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 #include "discover/hypotheses/effect_quantity.h"
 #include "discover/search/discover.h"

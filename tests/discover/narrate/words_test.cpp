@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "discover/effects/all.h"
 #include "discover/search/investigation.h"
 
 namespace hysteron {

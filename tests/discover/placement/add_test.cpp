@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "engine/program/program.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/io/temporary_folder.h"

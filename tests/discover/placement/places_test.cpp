@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/placement/add.h"
 #include "discover/wiring/wiring.h"
 

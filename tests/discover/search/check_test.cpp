@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {

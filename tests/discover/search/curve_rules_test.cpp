@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/placement/places.h"
 #include "discover/search/discover.h"
 #include "io/diagram/diagram_file.h"

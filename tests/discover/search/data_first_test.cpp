@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/placement/visible.h"
 #include "fit/inspect/inspection.h"
 #include "io/diagram/diagram_file.h"

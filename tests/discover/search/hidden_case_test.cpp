@@ -11,6 +11,7 @@
 
 #include "benchmarks/hidden_answer.h"
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/placement/rows.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "discover/effects/all.h"
 #include "discover/search/books.h"
 #include "discover/search/discover.h"
 #include "discover/search/investigation.h"

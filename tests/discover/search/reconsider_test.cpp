@@ -5,6 +5,7 @@
 #include <set>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/search/books.h"
 #include "discover/search/discover.h"
 #include "engine/diagram/error.h"

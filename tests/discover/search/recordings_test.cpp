@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/search/discover.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/discover/dev_case.h"

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "blocks/register_all.h"
+#include "discover/effects/all.h"
 #include "discover/placement/rows.h"
 #include "discover/search/discover.h"
 #include "discover/search/investigation.h"
