@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "app/cli/interrupt.h"
 #include "app/cli/terminal.h"
 #include "engine/diagram/stop.h"
@@ -66,28 +63,6 @@ void publish_staged(const Arguments& arguments, StagedResults& staged, const std
   const std::string page = report_html(document);
   write_in_order(folder, [&] { finish_result(staged, folder, document, page); });
   print_answer(arguments, folder, document, said_here_only);
-}
-
-std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken) {
-  std::string stem = name;
-  if (const auto dot = stem.rfind(".csv"); dot != std::string::npos) stem.erase(dot, 4);
-  std::string clean;
-  for (const char c : stem) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-    if (plain)
-      clean += c;
-    else if (!clean.empty() && clean.back() != '-')
-      clean += '-';
-  }
-  while (!clean.empty() && (clean.back() == '-' || clean.back() == '.')) clean.pop_back();
-  clean.erase(0, clean.find_first_not_of(".-"));
-  if (clean.empty()) clean = "recording";
-  const auto is_taken = [&](const std::string& file) {
-    return std::any_of(taken.begin(), taken.end(), [&](const CsvTable& t) { return t.file == file; });
-  };
-  std::string file = clean + ".csv";
-  for (int i = 2; is_taken(file); ++i) file = fmt::format("{}-{}.csv", clean, i);
-  return file;
 }
 
 }  // namespace hysteron

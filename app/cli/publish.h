@@ -27,7 +27,4 @@ void publish_staged(const Arguments& arguments, StagedResults& staged, const std
 /// Says once, on the error stream, for whom this program waits.
 FolderLock::Waiting say_who_writes(const std::string& folder);
 
-/// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
-std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);
-
 }  // namespace hysteron

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/jobs/job_values.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

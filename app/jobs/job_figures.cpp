@@ -8,11 +8,11 @@
 #include "app/cli/load.h"
 #include "app/jobs/job_measured.h"
 #include "app/jobs/job_values.h"
-#include "app/pages/numbers.h"
 #include "draw/drawing.h"
 #include "fit/signals/features.h"
 #include "io/diagram/diagram_file.h"
 #include "report/page/report.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "app/jobs/job_runs.h"
 #include "app/jobs/job_values.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "fit/estimate/global.h"
 #include "fit/estimate/swarm.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "app/jobs/computed.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "fit/signals/features.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -11,9 +11,9 @@
 #include <memory>
 
 #include "app/cli/interrupt.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

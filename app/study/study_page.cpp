@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
 #include "engine/lanes/lanes.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

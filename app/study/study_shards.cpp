@@ -14,12 +14,12 @@
 #include <thread>
 
 #include "app/cli/interrupt.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "io/files/atomic_file.h"
 #include "io/files/folder_lock.h"
 #include "io/files/sealed_file.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "app/cli/shell_word.h"
 #include "app/cluster/slurm.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -9,9 +9,9 @@
 #include "app/cli/load.h"
 #include "app/cli/terminal.h"
 #include "app/cli/verb.h"
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/cli/load.h"
 #include "app/cli/verb.h"
-#include "app/pages/numbers.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

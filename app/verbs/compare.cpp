@@ -9,13 +9,13 @@
 #include "app/cli/publish.h"
 #include "app/cli/terminal.h"
 #include "app/cli/verb.h"
-#include "app/pages/curves.h"
-#include "app/pages/numbers.h"
 #include "app/verbs/compare_traces.h"
 #include "engine/diagram/error.h"
 #include "fit/estimate/beginning.h"
 #include "fit/estimate/starts.h"
 #include "fit/inspect/delay.h"
+#include "report/pages/curves.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "app/cli/load.h"
 #include "app/cli/publish.h"
-#include "app/pages/curves.h"
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
-#include "app/pages/text_plot.h"
 #include "engine/diagram/error.h"
 #include "fit/compare/trace_files.h"
+#include "report/pages/curves.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
+#include "report/pages/text_plot.h"
 
 namespace hysteron {
 namespace {

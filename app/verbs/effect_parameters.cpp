@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 
-#include "app/pages/numbers.h"
 #include "discover/placement/add.h"
 #include "engine/diagram/number_text.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

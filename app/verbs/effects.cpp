@@ -8,12 +8,12 @@
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
 #include "app/cli/verb.h"
-#include "app/pages/effect_picture.h"
 #include "discover/hypotheses/bounds.h"
 #include "discover/hypotheses/effect.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 #include "report/page/report.h"
+#include "report/pages/effect_picture.h"
 
 namespace hysteron {
 namespace {

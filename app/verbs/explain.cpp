@@ -10,8 +10,6 @@
 #include "app/cli/publish.h"
 #include "app/cli/terminal.h"
 #include "app/cli/verb.h"
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
 #include "app/verbs/program_facts.h"
 #include "engine/diagram/error.h"
 #include "engine/lanes/lanes.h"
@@ -24,6 +22,8 @@
 #include "engine/simulate/simulate.h"
 #include "engine/simulate/simulate_parts.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

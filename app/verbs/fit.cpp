@@ -17,9 +17,6 @@
 #include "app/cli/rewrite.h"
 #include "app/cli/target.h"
 #include "app/cli/verb.h"
-#include "app/pages/curves.h"
-#include "app/pages/fit_page.h"
-#include "app/pages/numbers.h"
 #include "app/verbs/effect_parameters.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
@@ -30,6 +27,9 @@
 #include "fit/thesis/thesis_methods.h"
 #include "io/diagram/diagram_file.h"
 #include "io/jobs/job_file.h"
+#include "report/pages/curves.h"
+#include "report/pages/fit_page.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

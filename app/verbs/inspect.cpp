@@ -5,9 +5,9 @@
 #include "app/cli/load.h"
 #include "app/cli/publish.h"
 #include "app/cli/verb.h"
-#include "app/pages/inspection_page.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
+#include "report/pages/inspection_page.h"
 
 namespace hysteron {
 namespace {
@@ -107,7 +107,7 @@ int inspect_verb_acts(const Arguments& arguments) {
   DataModelOptions options;
   options.threads = 2;
   DataModel model(compile_file(subject.diagram), std::make_shared<const DataSet>(subject.data), options);
-  const Inspected seen = inspect_data(subject.diagram, model, load_effects(arguments), {}, named);
+  const Inspected seen = inspect_data(subject.diagram, registry(), model, load_effects(arguments), {}, named);
 
   Facts facts = Facts::object({{"data", arguments.text("data")}});
   if (named) facts.set("diagram", arguments.text("--diagram"));

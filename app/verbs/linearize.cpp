@@ -10,14 +10,14 @@
 #include "app/cli/load.h"
 #include "app/cli/publish.h"
 #include "app/cli/verb.h"
-#include "app/pages/facts.h"
-#include "app/pages/motion_words.h"
-#include "app/pages/numbers.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
 #include "engine/events/rest.h"
 #include "engine/program/names.h"
 #include "engine/simulate/simulate.h"
+#include "report/pages/facts.h"
+#include "report/pages/motion_words.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -13,13 +13,13 @@
 #include "app/cli/load.h"
 #include "app/cli/progress.h"
 #include "app/cli/publish.h"
-#include "app/pages/discover_facts.h"
-#include "app/pages/discover_page.h"
 #include "discover/placement/add.h"
 #include "discover/search/check.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "io/data/same_rows.h"
+#include "report/pages/discover_facts.h"
+#include "report/pages/discover_page.h"
 
 namespace hysteron {
 namespace {
@@ -84,7 +84,7 @@ std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet
   const StopScope scope([&] { return (over || interrupted()) && Steady::now() - begun > to_inspect; });
   try {
     DataModel model(compile_file(diagram), std::make_shared<const DataSet>(data));
-    return inspect_data(diagram, model, effects, free_paths);
+    return inspect_data(diagram, registry(), model, effects, free_paths);
   } catch (const Stopped&) {
     return std::nullopt;
   }
@@ -147,7 +147,7 @@ int look(const std::string& verb, const Arguments& arguments) {
       inspected_against(found.base_diagram, data, effects, settings.free_paths, stopped || found.broken_off);
   const std::string folder = result_folder(arguments, verb);
   Document document =
-      discovery_document(verb, found, data, inspected.value_or(Inspected{}),
+      discovery_document(verb, found, data, registry(), inspected.value_or(Inspected{}),
                          {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
   if (!inspected)
     document.warnings.emplace_back(

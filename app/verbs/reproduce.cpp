@@ -18,11 +18,11 @@
 #include "app/jobs/baseline.h"
 #include "app/jobs/claims.h"
 #include "app/jobs/job_figures.h"
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
 #include "report/page/report.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -9,12 +9,12 @@
 #include "app/cli/load.h"
 #include "app/cli/publish.h"
 #include "app/cli/verb.h"
-#include "app/pages/facts.h"
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "engine/program/feedthrough.h"
 #include "engine/simulate/simulate.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -10,12 +10,12 @@
 #include <limits>
 #include <span>
 
-#include "app/pages/numbers.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
 #include "fit/numerics/linear.h"
 #include "io/data/recording_file.h"
 #include "io/json/value_text.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

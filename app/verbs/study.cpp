@@ -12,7 +12,6 @@
 #include "app/cli/publish.h"
 #include "app/cli/shell_word.h"
 #include "app/cli/verb.h"
-#include "app/pages/numbers.h"
 #include "app/study/study_merge.h"
 #include "app/study/study_page.h"
 #include "app/study/study_shards.h"
@@ -23,6 +22,7 @@
 #include "io/diagram/diagram_file.h"
 #include "io/files/folder_lock.h"
 #include "io/results/staged_results.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

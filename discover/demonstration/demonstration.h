@@ -1,5 +1,5 @@
 // Decides how an effect is shown to a person without any data: a standard signal that brings it out, its simplest law,
-// and what comes out with it and without it. Does not draw (app/pages/effect_picture.h).
+// and what comes out with it and without it. Does not draw (report/pages/effect_picture.h).
 #pragma once
 
 #include <string>

@@ -84,6 +84,9 @@ Document read_result(const std::string& folder);  ///< from result.json and trac
 /// A name for traces/ made from a recording's name: "lab 2/02.csv (2)" -> "lab_2_02.csv__2_.csv".
 std::string trace_file_name(const std::string& name);
 
+/// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
+std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);
+
 /// Writes the folder: result.json with its schema, traces/*.csv, further files, and report.html (made by the caller
 /// from the document); all of them or none. A folder that is there stays: what an earlier run of the same verb wrote is
 /// replaced, and what others put there is not touched. Two at once take turns; `waiting` is told of the other. Throws

@@ -19,7 +19,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"io", {"engine"}},
     {"fit", {"engine", "io"}},
     {"discover", {"engine", "io", "fit"}},
-    {"report", {"io", "engine"}},  // engine: units and errors, through io's own headers
+    {"report", {"io", "engine", "fit", "discover", "draw"}},
     {"draw", {"engine"}},
     {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw"}},
 };

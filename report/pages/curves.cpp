@@ -1,14 +1,14 @@
 // Decides how measured and simulated rows become traces, tables and figures of a report.
 // Does not simulate and does not judge (fit/compare/compare.h).
-#include "app/pages/curves.h"
+#include "report/pages/curves.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/pages/numbers.h"
 #include "fit/signals/branches.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

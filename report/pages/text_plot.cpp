@@ -1,5 +1,5 @@
 // Decides how curves look in a terminal. See text_plot.h.
-#include "app/pages/text_plot.h"
+#include "report/pages/text_plot.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/pages/numbers.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

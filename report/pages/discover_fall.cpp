@@ -1,20 +1,19 @@
 // Decides how the fall of the error is shown: the waterfall against what repeats, the residual before and after each
 // step on the same axes, the diagram before and after with what is new set off. Everything from recordings that were
 // not used for the fit. Does not discover, and does not write files.
-#include "app/pages/discover_fall.h"
+#include "report/pages/discover_fall.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/load.h"
-#include "app/pages/numbers.h"
 #include "discover/narrate/words.h"
 #include "draw/drawing.h"
 #include "engine/diagram/error.h"
 #include "fit/model/noise.h"
 #include "fit/model/score.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
@@ -197,7 +196,8 @@ Facts floor_facts(const std::vector<Floor>& floors, const DataModel& model) {
 
 // --- stages ----------------------------------------------------------------------------------------------------------
 
-Stages::Stages(const Discovery& found, const std::shared_ptr<const DataSet>& data) {
+Stages::Stages(const Discovery& found, const std::shared_ptr<const DataSet>& data, const Registry& registry)
+    : registry_(registry) {
   all_.push_back(compared(found.base_diagram, data));
   before_unseen_ = std::move(after_unseen_);
   for (const auto& step : found.steps) all_.push_back(compared(step.change.diagram, data));
@@ -205,7 +205,7 @@ Stages::Stages(const Discovery& found, const std::shared_ptr<const DataSet>& dat
 }
 
 Comparison Stages::compared(const Diagram& diagram, const std::shared_ptr<const DataSet>& data) {
-  models_.push_back(std::make_unique<DataModel>(compile_file(diagram), data));
+  models_.push_back(std::make_unique<DataModel>(compile(diagram, registry_), data));
   DataModel& model = *models_.back();
   const auto recordings = judged_recordings(model);
   unseen_ = model.recordings(Role::validate);
@@ -249,14 +249,14 @@ void add_fall_figures(Section& section, const Document& document, const Discover
   for (std::size_t step = 0; step < found.steps.size(); ++step) add_step_figure(section, document, found, stages, step);
 }
 
-void add_diagram_pictures(Section& section, Document& document, const Discovery& found) {
+void add_diagram_pictures(Section& section, Document& document, const Discovery& found, const Registry& registry) {
   DrawOptions options;
   for (const auto& step : found.steps) {
     options.added.push_back(step.change.name);
     options.depth = std::max(options.depth, depth_of(step.change.name));
   }
   const auto add = [&](const std::string& title, const std::string& file, const Diagram& diagram) {
-    document.files.emplace_back(file, diagram_svg(diagram, *compile_file(diagram), registry(), options));
+    document.files.emplace_back(file, diagram_svg(diagram, *compile(diagram, registry), registry, options));
     Figure figure;
     figure.kind = "picture";
     figure.title = title;

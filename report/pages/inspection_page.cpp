@@ -1,14 +1,13 @@
-#include "app/pages/inspection_page.h"
+#include "report/pages/inspection_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/load.h"
-#include "app/pages/numbers.h"
 #include "discover/search/check.h"
 #include "engine/diagram/time_text.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
@@ -152,10 +151,10 @@ Facts facts_of(const InspectedColumn& c) {
 
 }  // namespace
 
-Inspected inspect_data(const Diagram& diagram, DataModel& model, const Effects& effects,
+Inspected inspect_data(const Diagram& diagram, const Registry& registry, DataModel& model, const Effects& effects,
                        const std::vector<std::string>& free_paths, bool diagram_is_meant) {
   return {inspect(model, {free_paths, diagram_is_meant}),
-          visible_effects(diagram, with_both_roles(model.data()), registry(), effects, free_paths)};
+          visible_effects(diagram, with_both_roles(model.data()), registry, effects, free_paths)};
 }
 
 std::string inspection_headline(const Inspected& seen) {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "app/pages/facts.h"
 #include "fit/compare/compare.h"
 #include "fit/estimate/fit.h"
 #include "fit/inspect/delay.h"
 #include "io/jobs/job_file.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
 
 namespace hysteron {
 

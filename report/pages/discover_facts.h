@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "app/pages/facts.h"
 #include "discover/search/check.h"
+#include "report/pages/facts.h"
 
 namespace hysteron {
 

@@ -1,11 +1,11 @@
-#include "app/pages/discover_structure.h"
+#include "report/pages/discover_structure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/pages/numbers.h"
 #include "discover/narrate/words.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pages/curves.h"
-#include "app/pages/inspection_page.h"
 #include "discover/search/discover.h"
 #include "io/results/result.h"
+#include "report/pages/curves.h"
+#include "report/pages/inspection_page.h"
 
 namespace hysteron {
 
@@ -30,7 +30,7 @@ Facts floor_facts(const std::vector<Floor>& floors, const DataModel& model);
 /// The user's diagram and what it became, one after the other, on the same recordings: the base, then a stage per step.
 class Stages {
  public:
-  Stages(const Discovery& found, const std::shared_ptr<const DataSet>& data);
+  Stages(const Discovery& found, const std::shared_ptr<const DataSet>& data, const Registry& registry);
   const DataModel& model() const { return *models_.back(); }  ///< bound to the final diagram
   const std::vector<Comparison>& all() const { return all_; }
   const Comparison& before() const { return all_.front(); }
@@ -43,6 +43,7 @@ class Stages {
 
  private:
   Comparison compared(const Diagram& diagram, const std::shared_ptr<const DataSet>& data);
+  const Registry& registry_;
   std::vector<std::unique_ptr<DataModel>> models_;
   std::vector<Comparison> all_;
   std::vector<int> unseen_;
@@ -58,6 +59,6 @@ void add_fall_figures(Section& section, const Document& document, const Discover
 
 /// Pictures of the diagram before and after, with what was added set off; their files go into the document. Where
 /// Graphviz is missing the section says so instead.
-void add_diagram_pictures(Section& section, Document& document, const Discovery& found);
+void add_diagram_pictures(Section& section, Document& document, const Discovery& found, const Registry& registry);
 
 }  // namespace hysteron

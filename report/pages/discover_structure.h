@@ -2,9 +2,9 @@
 // the residual. Does not find it (discover/structure/structure.h).
 #pragma once
 
-#include "app/pages/curves.h"
 #include "discover/search/discover.h"
 #include "io/results/result.h"
+#include "report/pages/curves.h"
 
 namespace hysteron {
 

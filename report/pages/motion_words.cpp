@@ -1,4 +1,4 @@
-#include "app/pages/motion_words.h"
+#include "report/pages/motion_words.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/pages/numbers.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

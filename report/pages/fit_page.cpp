@@ -1,4 +1,4 @@
-#include "app/pages/fit_page.h"
+#include "report/pages/fit_page.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "app/cli/publish.h"
-#include "app/pages/curves.h"
-#include "app/pages/numbers.h"
+#include "report/pages/curves.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "app/pages/facts.h"
 #include "engine/analysis/small_motions.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
 
 namespace hysteron {
 

@@ -1,6 +1,6 @@
 // Decides how numbers look to people: always with a unit, never with more digits than are worth reading.
 // Does not convert into other units than those the user's files speak.
-#include "app/pages/numbers.h"
+#include "report/pages/numbers.h"
 
 #include <fmt/format.h>
 

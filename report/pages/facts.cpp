@@ -1,5 +1,5 @@
 // Decides how a verb says its facts for result.json: numbers, texts, lists and named members, as a plain value.
-#include "app/pages/facts.h"
+#include "report/pages/facts.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pages/facts.h"
 #include "discover/placement/visible.h"
 #include "fit/inspect/inspection.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
 
 namespace hysteron {
 
@@ -19,7 +19,7 @@ struct Inspected {
 };
 
 /// Inspects the recordings behind `model`, and asks which effects they can show in `diagram`.
-Inspected inspect_data(const Diagram& diagram, DataModel& model, const Effects& effects,
+Inspected inspect_data(const Diagram& diagram, const Registry& registry, DataModel& model, const Effects& effects,
                        const std::vector<std::string>& free_paths = {}, bool diagram_is_meant = true);
 
 /// "no fault found", or how many and the first.

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "app/pages/inspection_page.h"
 #include "discover/search/check.h"
 #include "io/results/result.h"
+#include "report/pages/inspection_page.h"
 
 namespace hysteron {
 
@@ -21,6 +21,7 @@ struct DiscoveryFiles {
 /// own.
 /// `inspected` is its first page. The answer to --check, where that was asked, stands before everything else.
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const Inspected& inspected, const DiscoveryFiles& files, const Check* answer = nullptr);
+                            const Registry& registry, const Inspected& inspected, const DiscoveryFiles& files,
+                            const Check* answer = nullptr);
 
 }  // namespace hysteron

@@ -1,13 +1,13 @@
 // Decides how an effect is drawn. See effect_picture.h.
-#include "app/pages/effect_picture.h"
+#include "report/pages/effect_picture.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "app/pages/numbers.h"
-#include "app/pages/text_plot.h"
+#include "report/pages/numbers.h"
+#include "report/pages/text_plot.h"
 
 namespace hysteron {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pages/facts.h"
 #include "fit/compare/compare.h"
 #include "fit/model/model.h"
 #include "io/results/result.h"
+#include "report/pages/facts.h"
 
 namespace hysteron {
 

@@ -1,8 +1,8 @@
 // Decides how a discovery stands in result.json: every decision with its numbers, for programs.
 // Does not decide how people see it (discover_page.h).
-#include "app/pages/discover_facts.h"
+#include "report/pages/discover_facts.h"
 
-#include "app/pages/numbers.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {

@@ -1,20 +1,19 @@
 // Decides how a discovery is told: sections, figures, facts, and the files of its folder.
 // Does not discover anything.
-#include "app/pages/discover_page.h"
+#include "report/pages/discover_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/publish.h"
-#include "app/cli/rewrite.h"
-#include "app/pages/discover_facts.h"
-#include "app/pages/discover_fall.h"
-#include "app/pages/discover_structure.h"
-#include "app/pages/numbers.h"
 #include "discover/narrate/words.h"
 #include "io/diagram/diagram_file.h"
+#include "io/results/result_diagram.h"
+#include "report/pages/discover_facts.h"
+#include "report/pages/discover_fall.h"
+#include "report/pages/discover_structure.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
@@ -22,6 +21,7 @@ namespace {
 /// What the sections need of the data: the models before and after on the same recordings.
 struct Seen {
   const Discovery& found;
+  const Registry& registry;
   const Stages& stages;
   const std::vector<Floor>& floors;
 };
@@ -176,10 +176,11 @@ Section data_section(const Discovery& found, const Inspected& inspected) {
   return section;
 }
 
-Section change_section(Document& document, const Discovery& found) {
+Section change_section(Document& document, const Seen& seen) {
+  const Discovery& found = seen.found;
   Section section;
   section.title = "The diagram, before and after";
-  add_diagram_pictures(section, document, found);
+  add_diagram_pictures(section, document, found, seen.registry);
   section.preformatted = text_diff(diagram_text(found.base_diagram), diagram_text(found.final_diagram));
   section.preformatted_title = "What changes from base.json to final.json";
   if (section.preformatted.empty()) section.text.emplace_back("Nothing was added.");
@@ -282,7 +283,8 @@ std::string wrong_in_the_data(const Inspected& inspected) {
 }  // namespace
 
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
-                            const Inspected& inspected, const DiscoveryFiles& files, const Check* answer) {
+                            const Registry& registry, const Inspected& inspected, const DiscoveryFiles& files,
+                            const Check* answer) {
   Document document;
   document.verb = verb;
   document.title = found.base_diagram.title;
@@ -291,9 +293,9 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sentences = found.sentences;
   document.warnings = found.warnings;
 
-  const Stages stages(found, std::make_shared<const DataSet>(data));
+  const Stages stages(found, std::make_shared<const DataSet>(data), registry);
   const auto floors = floors_of(found, stages.model(), inspected);
-  const Seen seen{found, stages, floors};
+  const Seen seen{found, registry, stages, floors};
   // Behind what each step found, before what is left.
   const auto failed = where_it_failed(seen);
   document.sentences.insert(document.sentences.begin() + static_cast<std::ptrdiff_t>(found.steps.size()),
@@ -303,7 +305,7 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
   document.sections.push_back(data_section(found, inspected));
   document.sections.push_back(steps_section(document, seen));
   if (found.structure) document.sections.push_back(structure_section(document, found, stages.model(), stages.unseen()));
-  document.sections.push_back(change_section(document, found));
+  document.sections.push_back(change_section(document, seen));
   document.sections.push_back(parameters_section(seen));
   document.sections.push_back(next_section(found));
   document.sections.push_back(errors_section(seen));
