@@ -12,6 +12,7 @@
 #include "app/cli/verb.h"
 #include "app/verbs/program_facts.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/index.h"
 #include "engine/lanes/lanes.h"
 #include "engine/program/corners.h"
 #include "engine/program/feedthrough.h"
@@ -40,8 +41,6 @@ constexpr char help[] =
     "Exit codes: 0 done, 2 the diagram is wrong.";
 
 using Rows = std::vector<std::vector<std::string>>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// "0.1 ms": times here come from many files, so none of their units is right for all.
 std::string time_text(double seconds) {

@@ -5,10 +5,10 @@
 #include <functional>
 #include <set>
 
+#include "engine/diagram/index.h"
+
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool depends_at_once(const BlockInstance& b) { return b.sizes.feedthrough && !b.kernel->is_sampled(); }
 

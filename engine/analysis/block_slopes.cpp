@@ -1,10 +1,9 @@
 #include "engine/analysis/block_slopes.h"
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
-
-using steps::at;
 
 bool BlockSlopes::cuts() const {
   const bool through_states = !c.isZero(0) && (!b.isZero(0) || !r.isZero(0));

@@ -7,14 +7,13 @@
 #include <string>
 
 #include "engine/analysis/linearize.h"
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
 
 using std::numbers::pi;
-using steps::at;
-
 constexpr int points = 1 << 15;       // of one period: a jump of the output is placed to half of one
 constexpr int periods = 4;            // the last one counts
 constexpr double no_phase = 1e-9;     // of the whole: rounding

@@ -9,13 +9,13 @@
 #include <limits>
 
 #include "engine/analysis/wired_slopes.h"
+#include "engine/diagram/index.h"
 #include "engine/program/reach.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
 
-using steps::at;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MapOf = Eigen::Map<const Matrix>;
 using Complex = Eigen::MatrixXcd;

@@ -11,13 +11,12 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "engine/analysis/wired_slopes.h"
+#include "engine/diagram/index.h"
 #include "engine/events/clocks.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 constexpr std::int64_t most_instants = 20'000;  // in one common period
 constexpr double storage = 1e-12;               // poles of a held number

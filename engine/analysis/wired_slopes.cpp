@@ -8,12 +8,11 @@
 
 #include "engine/analysis/block_slopes.h"
 #include "engine/analysis/describing_function.h"
+#include "engine/diagram/index.h"
 #include "engine/program/reach.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
-
-using steps::at;
 
 WiredSlopes::WiredSlopes(const Program& program, const Run& run, const LinearizeOptions& options)
     : program_(program),

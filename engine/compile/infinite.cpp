@@ -7,11 +7,10 @@
 #include <span>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/index.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });

@@ -14,13 +14,12 @@
 #include <set>
 
 #include "engine/compile/wired.h"
+#include "engine/diagram/index.h"
 
 namespace hysteron {
 namespace {
 
 constexpr int longest = 10'000;  // elements; a length that grows around a loop ends here
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Lengths {
  public:

@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include "engine/compile/wired.h"
+#include "engine/diagram/index.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::string indexed(const std::string& path, int length, int element) {
   return length == 1 ? path : fmt::format("{}[{}]", path, element);

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/program/histories.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 constexpr int most_rounds = 100;       // of changes of mode at one instant, ENGINE 5
 constexpr std::size_t chatter = 1000;  // so many changes of mode ...

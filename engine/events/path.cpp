@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loops.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Outputs that differ by less than this share of their size have not jumped: two formulas met at a corner.
 constexpr double rounding = 1e-12;

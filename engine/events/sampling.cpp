@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
-
-using steps::at;
 
 Sampling::Sampling(const Program& program)
     : program_(program), due_(program.sampled_blocks.size(), 0), after_(at(program.n_m)) {}

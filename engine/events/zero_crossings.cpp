@@ -5,13 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/diagram/index.h"
 #include "engine/program/needed.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 // The parabola through three points of a smooth function is this good, as a share of their range, and its vertex as a
 // share of the step: a quarter of a sine differs from its parabola by 2 % of its range at most.

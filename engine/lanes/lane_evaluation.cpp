@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
 #include "engine/lanes/lane_arithmetic.h"
 
 namespace hysteron {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 LaneEvaluation::LaneEvaluation(ProgramPointer program, const Run& run, std::vector<bool> shared)
     : program_(std::move(program)),
       series_(run.series),

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
 #include "engine/program/parameter_values.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 constexpr std::size_t largest_table = 4'000'000;  // numbers: 32 MB, a tenth of what a study may take
 

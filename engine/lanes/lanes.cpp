@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/diagram/stop.h"
 #include "engine/events/rest.h"
 #include "engine/lanes/lane_arithmetic.h"
@@ -15,12 +16,6 @@
 #include "engine/simulate/simulate_parts.h"
 
 namespace hysteron {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 class Lanes::Advance {
  public:
   Advance(ProgramPointer program, const Run& run, const SimulateOptions& options, std::vector<int> parameters,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/lanes/lane_shared.h"
 #include "engine/lanes/lanes.h"
 #include "engine/simulate/fixed_step.h"
@@ -11,8 +12,6 @@
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Laws that follow the path of a jump, which lanes do not.
 bool follows_jumps(const BlockInstance& b) {

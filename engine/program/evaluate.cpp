@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/histories.h"
 #include "engine/program/loops.h"
 #include "engine/program/program.h"
@@ -11,8 +12,6 @@
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 /// Where a loop was not solved nothing may look like a result: a saturation behind it would make numbers of its NaN.
 template <class T>

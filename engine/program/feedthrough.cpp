@@ -4,12 +4,11 @@
 #include <map>
 #include <set>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 /// A number of an evaluation: as a Slot, comparable.
 using Place = std::pair<Order, int>;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/corners.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 // The cubic through two points and their slopes is wrong by a multiple of s^2 (1 - s)^2 where the fourth derivative
 // does not change, and by one of s^2 (1 - s)^2 (s - 1/2) where that passes zero: these two looks see both, nearly at

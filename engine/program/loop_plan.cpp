@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/diagram/index.h"
 #include "engine/program/tear.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Planner {
  public:

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loop_plan.h"
 #include "engine/program/nominal.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 constexpr double share_of_tolerance = 1e-3;  // ENGINE 7: well below what the integrator notices
 constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();

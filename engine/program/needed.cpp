@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
-
-using steps::at;
 
 std::vector<Step> steps_for(const Program& program, const std::vector<int>& signals) {
   std::vector<int> loop_of(program.blocks.size(), -1);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
+
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void check_value(const Program& program, const Run& run, int parameter, double si) {
   const ParameterInfo& info = program.parameters[at(parameter)];

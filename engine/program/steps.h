@@ -6,12 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loops.h"
 #include "engine/program/program.h"
 
 namespace hysteron::steps {
-
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A linear block without a constant part: its rates are its outputs where states and inputs are replaced by their
 /// rates. Leaves traces in the scratch only.

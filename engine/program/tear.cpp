@@ -5,10 +5,10 @@
 #include <queue>
 #include <utility>
 
+#include "engine/diagram/index.h"
+
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Tearing {
  public:

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/diagram/index.h"
 #include "engine/diagram/stop.h"
 #include "engine/events/sampling.h"
 #include "engine/program/corners.h"
@@ -38,8 +39,6 @@
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Runge-Kutta steps along a jump, per substep of a row: a jump may be as long as many rows.
 constexpr int path_steps = 4;

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
 #include "engine/program/components.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool is_function_of_time(const BlockInstance& b) {
   const bool of_time = b.kernel->uses_time && !b.kernel->declaration.is_series && !b.sizes.history;

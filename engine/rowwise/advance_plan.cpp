@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/diagram/index.h"
 #include "engine/events/path.h"
 #include "engine/program/steps.h"
 #include "engine/rowwise/linear_part.h"
 
 namespace hysteron {
-
-using steps::at;
 
 AdvancePlan::AdvancePlan(ProgramPointer p, std::vector<int> wanted)
     : program(std::move(p)), signals(std::move(wanted)), graph(advance_graph(*program)) {

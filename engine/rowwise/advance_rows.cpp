@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/diagram/stop.h"
 #include "engine/program/steps.h"
 #include "engine/rowwise/linear_part.h"
 
 namespace hysteron {
-
-using steps::at;
 
 namespace {
 

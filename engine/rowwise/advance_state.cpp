@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/block/rows.h"
+#include "engine/diagram/index.h"
 #include "engine/events/path.h"
 #include "engine/events/rest.h"
 #include "engine/program/steps.h"
@@ -11,8 +12,6 @@
 #include "engine/rowwise/linear_part.h"
 
 namespace hysteron {
-
-using steps::at;
 
 AdvanceState::AdvanceState(const AdvancePlan& plan)
     : work(*plan.program),

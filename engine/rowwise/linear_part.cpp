@@ -6,12 +6,11 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loop_plan.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using BlockMatrices = LinearPart::BlockMatrices;
 

@@ -6,12 +6,11 @@
 #include <cstring>
 #include <span>
 
+#include "engine/diagram/index.h"
 #include "engine/rowwise/linear_part.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Pair [[gnu::vector_size(16)]] = double;
 

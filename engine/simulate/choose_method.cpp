@@ -7,13 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/index.h"
 #include "engine/program/corners.h"
 #include "engine/simulate/jacobian.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Fewer jumps than these in the whole span cost little, whatever follows them.
 constexpr double few_jumps = 20;

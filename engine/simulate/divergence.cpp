@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loops.h"
 #include "engine/program/nominal.h"
 
@@ -12,8 +13,6 @@ namespace hysteron {
 namespace {
 
 constexpr double runaway = 1e8;  // times its usual size
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double size_of(const WatchedQuantity& q) { return std::abs(q.value) / q.usual; }
 

@@ -4,12 +4,11 @@
 #include <limits>
 #include <utility>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
-
-using steps::at;
 
 /// A number as a weighted sum of others, by their places in the list of all numbers: values, rates, derivatives,
 /// states.

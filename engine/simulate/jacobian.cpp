@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
 namespace {
 
-using steps::at;
 using Set = std::vector<int>;  // of states, increasing
 
 bool add(Set& to, const Set& from) {

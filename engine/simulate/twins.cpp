@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
+
 namespace hysteron {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Of the parameter: the error of the difference is the square of it, rounding the inverse.
 constexpr double share = 1e-5;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/index.h"
 #include "fit/signals/branches.h"
 #include "report/pages/numbers.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 /// Points of one residual figure over all recordings; more cannot be told apart on a screen.
 constexpr std::size_t points_shown = 6000;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::vector<double> converted(const Rows& si, const Unit& unit, bool difference) {
   std::vector<double> values(si.size());

@@ -11,14 +11,13 @@
 #include "discover/narrate/words.h"
 #include "draw/drawing.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/index.h"
 #include "fit/model/noise.h"
 #include "fit/model/score.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Over all recordings that were not used for the fit; null where none measured the output.
 const OutputError* find(const std::vector<OutputError>& judged, const std::string& output) {

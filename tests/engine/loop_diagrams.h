@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
+#include "engine/diagram/index.h"
 #include "engine/program/loops.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron::tools {
-
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A run with one input "u" that stands at `value`.
 inline Run with_input(const Program& program, double value) {

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "engine/diagram/index.h"
 #include "engine/program/needed.h"
 #include "engine/program/nominal.h"
 #include "tests/engine/allocations.h"
@@ -14,8 +15,6 @@ namespace hysteron {
 namespace {
 
 using namespace tools;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 NumberMatrix matrix(std::initializer_list<std::initializer_list<double>> rows) {
   NumberMatrix m;
