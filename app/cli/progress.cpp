@@ -17,6 +17,10 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 Progress::Progress(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1), start_(Clock::now()) {}
 Progress::~Progress() { clear(); }
 

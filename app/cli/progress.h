@@ -7,6 +7,9 @@
 
 namespace hysteron {
 
+/// [s] from then till now.
+double seconds_since(std::chrono::steady_clock::time_point begin);
+
 class Progress {
  public:
   /// Silent when `quiet` or when stderr is no terminal.

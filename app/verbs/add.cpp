@@ -19,7 +19,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char add_help[] =
     "Answers: what does my diagram look like with this effect in it. The effect becomes a block on one wire,\n"
     "written as a choice between \"off\" and \"on\"; the readers of that wire read it instead.\n\n"
     "Examples:\n"
@@ -63,7 +63,7 @@ int add(const Arguments& arguments) {
 Verb add_verb() {
   return {"add",
           "put an effect into a diagram",
-          help,
+          add_help,
           {{"effect", "EFFECT", "the effect, as in \"hysteron effects\"", true, false},
            options::diagram(),
            {"--at", "SIGNAL", "where it enters: a signal or an input port", false, false},

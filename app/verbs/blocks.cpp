@@ -16,7 +16,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char blocks_help[] =
     "Answers: which blocks are there, and what does one of them do - law, ports, parameters, units.\n\n"
     "Examples:\n"
     "  hysteron blocks                      all types, by group\n"
@@ -267,7 +267,7 @@ int blocks(const Arguments& arguments) {
 Verb blocks_verb() {
   return {"blocks",
           "which blocks are there, and what does one do",
-          help,
+          blocks_help,
           {{"type", "TYPE", "the block type to show in full", false, false},
            {"--json", "", "as JSON, for programs", false, false}},
           blocks};

@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char check_help[] =
     "Answers: is this file right - syntax, names, wires, units, order - and, with --data,\n"
     "do the recordings fit it. Nothing is simulated and nothing is written.\n\n"
     "Examples:\n"
@@ -49,7 +49,7 @@ int check(const Arguments& arguments) {
 Verb check_verb() {
   return {"check",
           "is a diagram (and its data) right",
-          help,
+          check_help,
           {options::diagram(), options::data(false), options::set(), options::choose(), options::allow()},
           check};
 }

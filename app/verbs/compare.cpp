@@ -20,7 +20,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char compare_help[] =
     "Answers: how far is the model from the measurement, and WHERE does it fail - when, at which level,\n"
     "on which branch, at which rate. Evaluated at exactly the measured instants; nothing is fitted.\n"
     "Of two CSV files: where do their traces differ by more than a tolerance (docs/compare.md).\n\n"
@@ -239,7 +239,7 @@ Verb compare_verb() {
   return {
       "compare",
       "how far is the model from the measurement, and where does it fail",
-      help,
+      compare_help,
       {{"diagram", "FILE", "diagram file (JSON), or traces (CSV)", true, false},
        {"other", "FILE", "traces (CSV) to hold against those of the first file", false, false},
        options::data(false),

@@ -6,7 +6,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char diagnose_help[] =
     "Answers: WHICH physical effect is missing, with evidence, or an honest \"cannot tell\".\n"
     "This is the first step of \"hysteron discover\": everything is tried, one effect is named, none is piled on "
     "it.\n\n"
@@ -21,7 +21,7 @@ int diagnose(const Arguments& arguments) { return look("diagnose", arguments); }
 }  // namespace
 
 Verb diagnose_verb() {
-  return {"diagnose", "which physical effect is missing, with evidence", help, look_options(), diagnose};
+  return {"diagnose", "which physical effect is missing, with evidence", diagnose_help, look_options(), diagnose};
 }
 
 }  // namespace hysteron

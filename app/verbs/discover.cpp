@@ -6,7 +6,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char discover_help[] =
     "Answers: what does my model lack, and how much better is it with that. Tries every effect that the data can\n"
     "show at every place where it may enter, fits it on the train recordings, judges it on the others, adds what is\n"
     "certain, and goes on until only noise is left or nothing known helps.\n\n"
@@ -49,7 +49,7 @@ Verb discover_verb() {
   list.push_back({"--check", "",
                   "do the recordings still follow the model as it stands? Exit code 1 if not, and the name", false,
                   false});
-  return {"discover", "the whole loop, step by step, until only noise is left", help, list, discover};
+  return {"discover", "the whole loop, step by step, until only noise is left", discover_help, list, discover};
 }
 
 }  // namespace hysteron

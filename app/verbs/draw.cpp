@@ -14,7 +14,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char draw_help[] =
     "Answers: what does this diagram look like. Signals flow from left to right, feedback returns below;\n"
     "values stand below the blocks, units at the wires. A choice shows its candidate in use.\n\n"
     "Examples:\n"
@@ -44,7 +44,7 @@ int draw(const Arguments& arguments) {
 Verb draw_verb() {
   return {"draw",
           "a picture of a diagram",
-          help,
+          draw_help,
           {options::diagram(),
            {"-o", "FILE.svg", "the picture; default: named after the diagram, in this folder", false, false},
            {"--depth", "N", "open nested diagrams, N levels deep (default 0: each is one box)", false, false},

@@ -18,7 +18,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char effects_help[] =
     "Answers: which effects can be named as missing, what is their law, which data show them, what looks alike.\n\n"
     "Examples:\n"
     "  hysteron effects           all of them\n"
@@ -216,7 +216,7 @@ int effects(const Arguments& arguments) {
 Verb effects_verb() {
   return {"effects",
           "which effects can be missing, and how they are told apart",
-          help,
+          effects_help,
           {{"effect", "ID", "the effect to show in full", false, false},
            {"-o", "FILE.html|svg", "also write its page, or its picture alone", false, false},
            options::effects(),

@@ -29,7 +29,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char explain_help[] =
     "Answers: what does the program make of this diagram - in which order are blocks evaluated, where are\n"
     "loops, whose rates are computed and for whom, what makes events, which clocks tick, which solver is\n"
     "chosen and why, and where does the value of each parameter come from.\n\n"
@@ -40,7 +40,7 @@ constexpr char help[] =
     "nothing is written.\n"
     "Exit codes: 0 done, 2 the diagram is wrong.";
 
-using Rows = std::vector<std::vector<std::string>>;
+using TableRows = std::vector<std::vector<std::string>>;
 
 /// "0.1 ms": times here come from many files, so none of their units is right for all.
 std::string time_text(double seconds) {
@@ -110,7 +110,7 @@ class Explanation {
     fmt::print("{}", wrapped(text, 2));
     document_.sections.back().text.push_back(text);
   }
-  void show(const std::vector<std::string>& heads, const Rows& rows) {
+  void show(const std::vector<std::string>& heads, const TableRows& rows) {
     fmt::print("{}", table_text(heads, rows));
     Table table;
     table.columns = heads.empty() ? std::vector<std::string>(rows.empty() ? 0 : rows.front().size()) : heads;
@@ -120,7 +120,7 @@ class Explanation {
   }
 
   void print_choices() {
-    Rows rows;
+    TableRows rows;
     for (const auto& [name, node] : diagram_.blocks)
       if (!node.from.empty()) rows.push_back({name, node.choose, "of " + joined(node.from.names())});
     if (rows.empty()) return;
@@ -132,7 +132,7 @@ class Explanation {
 
   void print_order() {
     head("order of evaluation");
-    Rows rows;
+    TableRows rows;
     // Values that dx/dt does not need (what is only recorded) come behind.
     std::vector<bool> seen(program_.blocks.size(), false);
     const std::function<void(const Step&, const std::string&)> add = [&](const Step& step, const std::string& when) {
@@ -216,7 +216,7 @@ class Explanation {
 
   void print_rates() {
     head("rates that are computed (exactly, by the chain rule)");
-    Rows rows;
+    TableRows rows;
     for (const auto& rate : needed_rates(program_))
       rows.push_back({"d/dt " + program_.signals[at(rate.signal)].path, "for " + joined(rate.asked_by)});
     if (rows.empty())
@@ -229,7 +229,7 @@ class Explanation {
 
   void print_events() {
     head("events");
-    Rows rows;
+    TableRows rows;
     const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
       if (!who.empty()) rows.push_back({what, joined(who), how});
     };
@@ -269,7 +269,7 @@ class Explanation {
     head("clocks");
     const auto clocks = clock_facts(program_);
     if (clocks.empty()) return say("none; no block is sampled");
-    Rows rows;
+    TableRows rows;
     for (const auto& clock : clocks)
       rows.push_back(
           {"every " + time_text(clock.period), "from " + time_text(clock.offset), joined(paths(clock.blocks))});
@@ -316,7 +316,7 @@ class Explanation {
     SimulateOptions options = simulate_options(program_);
     const std::string reason = why_not_exactly(options);
     const bool exact = reason.empty() && advances_exactly(program_, options);
-    Rows rows;
+    TableRows rows;
     const bool asked = options.method != Method::automatic;
     MethodChoice choice{options.method, "as the diagram says"};
     if (!asked && exact) choice = {Method::exact, exact_because()};
@@ -344,7 +344,7 @@ class Explanation {
 
   static std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }
 
-  void add_integrator_rows(Rows& rows, const SimulateOptions& options) const {
+  void add_integrator_rows(TableRows& rows, const SimulateOptions& options) const {
     const auto& given = program_.simulate;
     if (has_fixed_steps(options.method)) {
       rows.push_back({"step", time_text(options.step), from_diagram(given.step.has_value())});
@@ -381,7 +381,7 @@ class Explanation {
   void print_states() {
     if (program_.n_x == 0) return;
     head("continuous states");
-    Rows rows;
+    TableRows rows;
     const auto sizes = inputs_unbound() ? NominalSizes{} : nominal_sizes(program_, run_);
     const auto options = simulate_options(program_);
     for (std::size_t i = 0; i < program_.state_names.size(); ++i) {
@@ -401,7 +401,7 @@ class Explanation {
 
   void print_parameters() {
     head("parameters");
-    Rows rows;
+    TableRows rows;
     for (const auto& info : program_.parameters) {
       const std::string value =
           info.difference ? difference_text(info.value, info.unit, 6) : quantity_text(info.value, info.unit, 6);
@@ -445,7 +445,7 @@ int explain(const Arguments& arguments) {
 Verb explain_verb() {
   return {"explain",
           "what the compiler made of a diagram",
-          help,
+          explain_help,
           {options::diagram(),
            {"-o", "FOLDER", "also write result.json and report.html into this folder", false, false},
            options::set(),

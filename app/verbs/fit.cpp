@@ -34,7 +34,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char fit_help[] =
     "Answers: which values of the free parameters fit the recordings, and how sure are they.\n"
     "Free is what the diagram marks (\"free\": true), the parameters of effects that were added, and what --free\n"
     "names; a job file says it all in one place (bounds, scale, prior ranges, one value per recording, method).\n"
@@ -360,7 +360,7 @@ Verb fit_verb() {
   return {
       "fit",
       "find parameters, with their uncertainty",
-      help,
+      fit_help,
       {{"diagram", "FILE.json", "the diagram, or a job (\"do\": \"fit\") that names it", true, false},
        options::data(false),
        options::effects(),

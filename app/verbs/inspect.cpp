@@ -12,7 +12,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char inspect_help[] =
     "Answers: what can these recordings show, and is anything wrong with them. Looks at units and ranges, the clock,\n"
     "lost and repeated rows, clipping of outputs and inputs, the finest step of each column, what the inputs excite\n"
     "(range, band, turns, holds), how well the measurement repeats where something was recorded twice, lines that no\n"
@@ -140,7 +140,7 @@ Verb inspect_verb() {
   folder.meaning = "where the results go; default: named after the data, e.g. lab.inspect";
   return {"inspect",
           "what recordings can and cannot show, and what is wrong with them",
-          help,
+          inspect_help,
           {{"data", "DATA", "a data set (.json), or one recording (.csv)", true, false},
            {"--diagram", "DIAGRAM.json", "the model that shall be judged on them", false, false},
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},

@@ -24,7 +24,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr char help[] =
+constexpr char linearize_help[] =
     "Answers: how does the diagram respond to small motions around an operating point. Prints DC gain, bandwidth,\n"
     "poles and zeros from one signal to another; with --open, whether the loop is stable when it is closed, its gain "
     "and\n"
@@ -270,7 +270,7 @@ Verb linearize_verb() {
   return {
       "linearize",
       "poles, Bode data, bandwidth and margins at an operating point",
-      help,
+      linearize_help,
       {options::diagram(),
        {"--from", "SIGNAL", "where the small motion enters; default: the diagram's only input", false, false},
        {"--to", "SIGNAL", "where it is looked at; default: the diagram's only output", false, false},

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char help[] =
+constexpr char new_help[] =
     "Answers: how do I begin. Reads one recording (CSV with a header line such as t [s],u [V],y [um])\n"
     "and writes the simplest model of it: gain and offset, both free for a fit.\n\n"
     "Examples:\n"
@@ -99,7 +99,7 @@ int make_new(const Arguments& arguments) {
 Verb new_verb() {
   return {"new",
           "a starter diagram and a data file from a recording",
-          help,
+          new_help,
           {{"--from", "FILE.csv", "the recording", true, false},
            {"-o", "FOLDER", "the folder to write into; made if it is not there", true, false},
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},

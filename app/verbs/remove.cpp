@@ -12,7 +12,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char remove_help[] =
     "Answers: what does my diagram look like without this effect. Undoes \"hysteron add\" exactly.\n\n"
     "Examples:\n"
     "  hysteron remove creep next.json                       print the change only\n"
@@ -34,7 +34,7 @@ int remove(const Arguments& arguments) {
 Verb remove_verb() {
   return {"remove",
           "take an effect out of a diagram",
-          help,
+          remove_help,
           {{"effect", "EFFECT", "the effect (\"creep\"), or the name of its block (\"drive_creep\")", true, false},
            options::diagram(),
            options::output_file(),

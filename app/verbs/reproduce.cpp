@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char help[] =
+constexpr char reproduce_help[] =
     "Answers: does a published work come out again, figure by figure and claim by claim. Runs the jobs\n"
     "(\"do\": \"runs\") of a folder of diagrams and prints, per claim: id, what it says, what came out, what was\n"
     "expected, and the outcome:\n"
@@ -187,8 +187,6 @@ void tell_failure(const Job& job, const Error& error, JobPool& pool, Done& d) {
 }
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
 /// Claims judged and figures drawn, from runs that are done by now or are done here.
 Done done(const Job& job, JobPool& pool) {
   Done d;
@@ -479,7 +477,7 @@ Verb reproduce_verb() {
   return {
       "reproduce",
       "run the figures of a published work, and check its claims",
-      help,
+      reproduce_help,
       {{"what", "WHAT", "all (default), a chapter, a figure (fig2_15) or a claim (C2-07)", false, true},
        {"--from", "FOLDER", "where the jobs and claims.json lie; default: diagrams/ of the project", false, false},
        {"--full", "", "searches and studies as large as the jobs name under \"full\"; takes hours", false, false},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/cli/load.h"
+#include "app/cli/progress.h"
 #include "app/cli/publish.h"
 #include "app/cli/verb.h"
 #include "engine/diagram/error.h"
@@ -19,7 +20,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char run_help[] =
     "Answers: what does this diagram do. Simulates it and records the signals that \"record\" names\n"
     "(without \"record\": its outputs; without these: every signal).\n\n"
     "Examples:\n"
@@ -119,10 +120,6 @@ struct RunFacts {
   Phases phases{};
   double seconds = 0;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// "time: load and compile 3.1 ms, set up 0.2 ms, steps 10 ms, events 0.5 ms, output 1.2 ms"
 std::string times_text(double loading, const RunFacts& facts) {
@@ -305,7 +302,7 @@ int run(const Arguments& arguments) {
 Verb run_verb() {
   return {"run",
           "simulate a diagram, record its signals",
-          help,
+          run_help,
           {options::diagram(),
            options::data(false),
            {"--until", "TIME", "until when, e.g. \"1 s\"; default: as the diagram says", false, false},

@@ -16,7 +16,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char schema_help[] =
     "Writes the JSON Schemas by which an editor completes and checks diagrams, data sets, jobs and results.\n"
     "They are made from the same declarations that \"hysteron check\" uses.\n\n"
     "Examples:\n"
@@ -50,7 +50,7 @@ int schema(const Arguments& arguments) {
 Verb schema_verb() {
   return {"schema",
           "write the JSON Schemas of diagrams, data sets, jobs, effects and results",
-          help,
+          schema_help,
           {{"-o", "FOLDER", "where they go; default: schema", false, false}},
           schema};
 }

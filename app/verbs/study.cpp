@@ -27,7 +27,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char help[] =
+constexpr char study_help[] =
     "Answers: what comes out where parameters are spread. Draws parameter sets of one diagram (grid, uniform,\n"
     "Latin hypercube, Sobol, list), simulates each, takes features, filters, and keeps the samples in one file.\n\n"
     "Examples:\n"
@@ -244,7 +244,7 @@ Verb study_verb() {
   Verb verb{
       "study",
       "simulate many parameter sets of a diagram: tolerances, sweeps, Monte Carlo",
-      help,
+      study_help,
       {{"job", "JOB.json", "the study (\"do\": \"study\", docs/study.md)", true, false},
        {"-o", "FOLDER", "where everything goes; default: named after the job, e.g. tolerance.study", false, false},
        {"--shard", "K/N", "compute shard K of N alone, and merge nothing", false, false},

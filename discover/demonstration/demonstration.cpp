@@ -43,7 +43,7 @@ Window window_of(const std::vector<double>& t, const std::vector<double>& differ
   return {std::max(0.0, t[begin] - 0.3 * length), std::min(t.back(), t[begin] + 1.5 * length), false};
 }
 
-std::string numbers_text(const Effect& effect, const Trial& trial) {
+std::string numbers_text(const Effect& effect, const DemoRun& trial) {
   std::vector<double> values = trial.values();
   if (std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); })) return trial.law().name;
   if (effect.summary)
@@ -54,7 +54,7 @@ std::string numbers_text(const Effect& effect, const Trial& trial) {
   return text;
 }
 
-void set_times(Demonstration& d, const Trial& trial, const Stimulus& stimulus, Nature nature) {
+void set_times(Demonstration& d, const DemoRun& trial, const Stimulus& stimulus, Nature nature) {
   if (nature == Nature::memory || nature == Nature::curve) {
     d.against_input = true;
     d.t = between(0, stimulus.length, points_of_loop);
@@ -75,7 +75,7 @@ void set_times(Demonstration& d, const Trial& trial, const Stimulus& stimulus, N
   }
 }
 
-Demonstration show(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Trial& trial,
+Demonstration show(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const DemoRun& trial,
                    Nature nature) {
   Demonstration d;
   d.signal = stimulus.text;
@@ -114,7 +114,7 @@ Demonstration demonstrate(const Effect& effect, const Effects& library, const Re
       for (const Waveform waveform : waveforms_for(nature)) {
         const Stimulus signal = stimulus(waveform, bench, length);
         try {
-          Trial trial(effect, bench, signal, registry);
+          DemoRun trial(effect, bench, signal, registry);
           if (auto unseen = effect.unseen(trial.circumstances()); !unseen.empty())
             why = unseen;
           else if (trial.find_values())

@@ -48,7 +48,8 @@ std::string text_of(Kind kind) {
 
 class Search {
  public:
-  explicit Search(const Trial& trial) : trial_(trial), groups_(groups_of(trial.law())), top_(largest(trial.plain())) {}
+  explicit Search(const DemoRun& trial)
+      : trial_(trial), groups_(groups_of(trial.law())), top_(largest(trial.plain())) {}
 
   std::vector<NeutralValue> found() const {
     for (std::size_t size = 1; size <= groups_.size(); ++size)
@@ -151,13 +152,13 @@ class Search {
     return {};
   }
 
-  const Trial& trial_;
+  const DemoRun& trial_;
   std::vector<Group> groups_;
   double top_ = 0;
 };
 
 }  // namespace
 
-std::vector<NeutralValue> neutral_values(const Trial& trial) { return Search(trial).found(); }
+std::vector<NeutralValue> neutral_values(const DemoRun& trial) { return Search(trial).found(); }
 
 }  // namespace hysteron

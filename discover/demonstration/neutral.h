@@ -7,7 +7,7 @@
 
 namespace hysteron {
 
-class Trial;
+class DemoRun;
 
 /// One parameter of a law, and the value at which it changes nothing: "0", "1", "towards 0" where the block refuses 0
 /// itself, "towards inf" or "towards -inf" where it is a limit.
@@ -18,6 +18,6 @@ struct NeutralValue {
 
 /// The fewest parameters of the trial's law with which nothing is changed, whatever the others are. Empty where it is
 /// none of the usual values.
-std::vector<NeutralValue> neutral_values(const Trial& trial);
+std::vector<NeutralValue> neutral_values(const DemoRun& trial);
 
 }  // namespace hysteron

@@ -36,7 +36,7 @@ double largest(const std::vector<double>& v) {
   return most;
 }
 
-Trial::Trial(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry)
+DemoRun::DemoRun(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry)
     : bench_(bench), stimulus_(stimulus) {
   at_ = circumstances_at(bench.diagram, registry, recorded(stimulus, bench), bench.place);
   law_ = effect.laws(at_).front();
@@ -51,7 +51,7 @@ Trial::Trial(const Effect& effect, const Bench& bench, const Stimulus& stimulus,
   for (const auto& p : law_.free) values_.push_back(p.start);
 }
 
-bool Trial::find_values() {
+bool DemoRun::find_values() {
   if (shows(values_)) return true;
   for (const double part : {0.75, 0.5, 0.25, 1.0, 0.0}) {
     std::vector<double> values = values_;
@@ -63,7 +63,7 @@ bool Trial::find_values() {
   return find_amplitudes();
 }
 
-double Trial::share_with(const std::vector<double>& values) const {
+double DemoRun::share_with(const std::vector<double>& values) const {
   try {
     refuse_impossible(values);
     double most = 0;
@@ -75,7 +75,7 @@ double Trial::share_with(const std::vector<double>& values) const {
 }
 
 /// Throws Error where the block would refuse a value in a file.
-void Trial::refuse_impossible(const std::vector<double>& values) const {
+void DemoRun::refuse_impossible(const std::vector<double>& values) const {
   Run run = start(*on_);
   std::vector<int> parameters;
   for (const auto& path : paths_)
@@ -83,8 +83,8 @@ void Trial::refuse_impossible(const std::vector<double>& values) const {
   set_parameters(*on_, run, parameters, values, RefusedValues::end_the_run);
 }
 
-std::vector<double> Trial::response(const Program& program, const std::vector<double>& t,
-                                    const std::vector<double>& values) const {
+std::vector<double> DemoRun::response(const Program& program, const std::vector<double>& t,
+                                      const std::vector<double>& values) const {
   Run run = start(program);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i])) set_parameter(program, run, paths_[i], values[i]);
@@ -100,14 +100,14 @@ std::vector<double> Trial::response(const Program& program, const std::vector<do
   return simulate(program, run, options).values.front();
 }
 
-bool Trial::shows(const std::vector<double>& values) const {
+bool DemoRun::shows(const std::vector<double>& values) const {
   const double most = largest(minus(response(*on_, rows_, values), plain_));
   return std::isfinite(most) && most >= visible * span_of(plain_);
 }
 
 /// What starts at zero is an amplitude: such that it makes a tenth of the signal. What starts at one is a factor: the
 /// largest that is usual.
-bool Trial::find_amplitudes() {
+bool DemoRun::find_amplitudes() {
   std::vector<double> values = values_;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (values[i] == 0) values[i] = std::min(1.0, law_.free[i].upper);

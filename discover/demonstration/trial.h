@@ -12,9 +12,9 @@
 namespace hysteron {
 
 /// One effect on one bench under one signal; both outlive it. Numbers in SI.
-class Trial {
+class DemoRun {
  public:
-  Trial(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry);
+  DemoRun(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry);
 
   const Circumstances& circumstances() const { return at_; }
   const Law& law() const { return law_; }

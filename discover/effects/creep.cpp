@@ -58,11 +58,11 @@ std::string creep_summary(const Law& law, const std::vector<double>& values, con
       100 * sum / decades, time_text(first), time_text(last), time_text(at.longest_hold));
 }
 
-double fastest(const Circumstances& at) { return std::max(at.shortest_step, 1e-3); }
+double shortest_time(const Circumstances& at) { return std::max(at.shortest_step, 1e-3); }
 
 /// Two relaxations per decade, up to so many times the longest recording.
 std::vector<double> times_up_to(double recordings, const Circumstances& at) {
-  return per_decade(fastest(at), std::max(recordings * at.longest_recording, 10 * fastest(at)), 2);
+  return per_decade(shortest_time(at), std::max(recordings * at.longest_recording, 10 * shortest_time(at)), 2);
 }
 
 /// Two numbers, as catalogues tell it.

@@ -23,7 +23,6 @@ namespace hysteron {
 namespace {
 
 // As for CVODES: behind a corner of an input the first step may be far too long.
-constexpr int error_failures_allowed = 30;
 // ARKODE's own, for what it would do if it were not restarted.
 constexpr double safety = 0.96, largest_growth = 20;
 // Stands for a dx/dt that is not finite: no error estimate with it passes, and its squares stay finite.

@@ -14,6 +14,8 @@
 
 namespace hysteron {
 
+inline constexpr int error_failures_allowed = 30;  ///< of the error test, in one step
+
 static_assert(std::is_same_v<realtype, double>);
 
 template <auto Destroy>

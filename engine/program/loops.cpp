@@ -22,7 +22,6 @@ constexpr double enough_descent = 1e-4;  // of what a linear loop would give (Ar
 constexpr int doublings_allowed = 60;
 constexpr double singular = 1e-13;  // of the other pivots: no slope to speak of
 constexpr double fold = 1e-3;       // weaker slopes than this where the search ended are called by their name
-constexpr double length_guess = 1e-6, guess = 1;
 
 template <class T>
 T& number(WorkOf<T>& work, const Slot& slot) {
@@ -245,7 +244,7 @@ class Scalar {
     if (regular && first == 0) return true;
     if (regular && look(start + first) && bracketed()) return inside_bracket();
     double distance = std::max(regular ? std::abs(first) : 0.0, 1e3 * tolerance(s_, loop_, 0));
-    if (!(distance > 0) || !std::isfinite(distance)) distance = guess;
+    if (!(distance > 0) || !std::isfinite(distance)) distance = usual_size;
     struct Point {
       double v;
       bool known, above;
@@ -455,7 +454,7 @@ void set_loop_accuracy(const Program& program, Run& run, double relative_toleran
         size = sizes.states[at(slot.index)];
       } else {
         size = sizes.signals[at(slot.index)];
-        if (!(size > 0)) size = program.signals[at(slot.index)].dimension == length ? length_guess : guess;
+        if (!(size > 0)) size = program.signals[at(slot.index)].dimension == length ? usual_length : usual_size;
       }
       if (!loop.of_values()) size *= per_second;
       run.loop_absolute[at(loop.warm_begin) + i] = run.loop_relative * absolute_tolerance * size;

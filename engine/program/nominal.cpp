@@ -11,8 +11,6 @@ namespace {
 constexpr int pieces_sampled = 16;  // smooth pieces of a source that we look at
 constexpr int points_per_piece = 16;
 constexpr double paces_without_corners = 4;  // a source without corners: over so many of its periods
-constexpr double length_guess = 1e-6;        // [m] actuators move micrometres
-constexpr double guess = 1;                  // [SI] anything else
 
 bool is_length(const Dimension& d) {
   Dimension metre;
@@ -206,7 +204,7 @@ void Sizer::size_states(int b, const std::vector<double>& u) {
     if (!std::all_of(gathered.begin(), gathered.end(), [](double g) { return std::isfinite(g); }))
       gathered = called(b, info.kernel->derivative, std::vector<double>(u.size()), rates, info.sizes.states);
     const double most =
-        is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension) ? length_guess : guess;
+        is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension) ? usual_length : usual_size;
     for (std::size_t i = 0; i < n; ++i)
       size[i] = std::isfinite(gathered[i]) ? std::min(std::abs(gathered[i]) * sizes_.time_scale, most) : 0.0;
   }
@@ -224,7 +222,7 @@ void Sizer::fill_unknown_states() {
     if (info.sizes.states > 0 && states(info)[0] == 0) size_states(b, input_sizes(info));
     const bool length = is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension);
     for (int i = 0; i < info.sizes.states; ++i)
-      if (!(states(info)[i] > 0)) states(info)[i] = length ? length_guess : guess;
+      if (!(states(info)[i] > 0)) states(info)[i] = length ? usual_length : usual_size;
   }
 }
 

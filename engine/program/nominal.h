@@ -8,6 +8,9 @@
 
 namespace hysteron {
 
+inline constexpr double usual_length = 1e-6;  ///< [m] where nothing is known: actuators move micrometres
+inline constexpr double usual_size = 1;       ///< [SI] anything else
+
 struct NominalSizes {
   std::vector<double> signals;  ///< [SI]; 0 = unknown
   std::vector<double> states;   ///< [SI], always > 0

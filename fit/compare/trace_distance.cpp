@@ -55,9 +55,9 @@ bool consider_points(const TraceLine& line, double x, double width, Nearest& nea
 }
 
 /// A curve with its segments sorted into bins along x, so that a loop of many rows is not gone through for each point.
-class Loop {
+class BinnedCurve {
  public:
-  Loop(const TraceLine& line, const Range& range) : line_(&line), low_(range.low) {
+  BinnedCurve(const TraceLine& line, const Range& range) : line_(&line), low_(range.low) {
     constexpr std::size_t rows_per_bin = 16, most_bins = 256;
     const std::size_t n = std::clamp<std::size_t>(line.x.size() / rows_per_bin, 1, most_bins);
     width_ = range.high > range.low ? (range.high - range.low) / static_cast<double>(n) : 1;
@@ -139,7 +139,7 @@ TraceDistance distance_of(const TraceLine& first, const TraceLine& second, Trace
   const auto& rows = d.points_of_first ? of_first : of_second;
   d.left_out = points.x.size() - rows.size();
   const TraceLine nothing;
-  const Loop loop(course == TraceCourse::to_and_fro ? curve : nothing, d.points_of_first ? b : a);
+  const BinnedCurve loop(course == TraceCourse::to_and_fro ? curve : nothing, d.points_of_first ? b : a);
   const auto value_near = [&](double x, double wanted, double along) {
     Nearest nearest{wanted};
     if (course == TraceCourse::to_and_fro)

@@ -13,8 +13,6 @@
 namespace hysteron {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void check_bounds(const GlobalProblem& problem) {
   if (problem.lower.empty() || problem.lower.size() != problem.upper.size())
     fail("bad_bounds", "bounds",

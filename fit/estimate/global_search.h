@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "fit/estimate/global.h"
 
 namespace hysteron {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class CostCounter {
  public:

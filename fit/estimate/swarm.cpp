@@ -13,8 +13,6 @@
 namespace hysteron {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// What a random number is for: one stream each, so that a swarm with an attractor draws the same numbers as one
 /// without for everything else.
 enum class Purpose : std::uint64_t { inertia, own, swarm, attraction, attractor, place };

@@ -15,7 +15,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t shortest = 256;  // rows: fewer hold no surroundings to stand out of
 constexpr double fewest_cycles = 12;   // two in each of the six parts
 constexpr std::size_t parts = 6;

@@ -9,7 +9,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t surroundings = 101;  // frequencies over which the median is taken
 
 /// Power around each frequency k / (2 n step), k = 0 .. n - 1: three neighbouring cosines of the windowed rows.

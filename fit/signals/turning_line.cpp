@@ -16,8 +16,7 @@ using Vector = Eigen::VectorXd;
 
 /// Steps by which the angle is followed: what is left of it is squared in each.
 constexpr int rounds = 4;
-constexpr double farthest = 1;       ///< [rad] in one of them: the tangent turns no further
-constexpr double in_common = 1e-10;  ///< of the squared length of a column: see wander.cpp
+constexpr double farthest = 1;  ///< [rad] in one of them: the tangent turns no further
 
 /// Squares that a sine of this frequency takes away.
 double power_at(std::span<const double> t, std::span<const double> rows, double frequency) {

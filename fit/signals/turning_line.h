@@ -10,6 +10,10 @@
 
 namespace hysteron {
 
+/// Of the squared length of a wave about one knot: what waves have in common to five digits (a line at a whole number
+/// of half samples has no sine) is nobody's, and costs no more than a rounding error of the rest.
+inline constexpr double in_common = 1e-10;
+
 /// A sine in the rows of one recording.
 struct ShownSine {
   double frequency = 0;  ///< [Hz]

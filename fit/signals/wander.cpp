@@ -16,13 +16,10 @@ constexpr double given_to_turn =
 constexpr double slowest = 10;    // periods over a recording that an expansion has not
 constexpr double stands_out = 2;  // times the noise: the hundredths that a smaller line turns by are nobody's
 constexpr double shows = 40;      // chi2 of a line that is there: of a thousand frequencies chance makes one of 14
-/// Of the squared length of a wave about one knot: what waves have in common to five digits (a line at a whole number
-/// of half samples has no sine) is nobody's, and costs no more than a rounding error of the rest.
-constexpr double in_common = 1e-10;
 
 constexpr double hardly = 1e-6;  // of the squared length of a wave: what is left of one that is another's
 
-using Matrix = Eigen::SparseMatrix<double>;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
 /// Knots that these rows call for.
@@ -56,7 +53,7 @@ struct LineSpan::Factor {
   /// `entries` of a square matrix of `size` columns.
   Factor(const std::vector<Eigen::Triplet<double, std::size_t>>& entries, std::size_t size) {
     const auto n = static_cast<Eigen::Index>(size);
-    Matrix products(n, n);
+    SparseMatrix products(n, n);
     products.setFromTriplets(entries.begin(), entries.end());
     const double more = in_common * products.diagonal().maxCoeff();
     for (Eigen::Index j = 0; j < n; ++j) products.coeffRef(j, j) += more;
@@ -68,7 +65,7 @@ struct LineSpan::Factor {
     Eigen::Map<Vector>(x.data(), n) = cholesky.solve(Eigen::Map<const Vector>(b.data(), n));
     return x;
   }
-  Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky;
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> cholesky;
 };
 
 LineSpan::LineSpan(std::span<const double> t, const WanderingLine& line, const ShownLine& shown)

@@ -5,8 +5,6 @@
 namespace hysteron::schema {
 namespace {
 
-Json flag(const char* meaning) { return {{"type", "boolean"}, {"description", meaning}}; }
-
 Json names(const char* meaning) {
   return {{"description", meaning}, {"anyOf", Json::array({text("one"), list_of("several", {{"type", "string"}})})}};
 }

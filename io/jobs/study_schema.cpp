@@ -5,8 +5,6 @@
 namespace hysteron::schema {
 namespace {
 
-Json flag(const char* meaning) { return {{"type", "boolean"}, {"description", meaning}}; }
-
 Json whole(const char* meaning, int least) {
   return {{"type", "integer"}, {"minimum", least}, {"description", meaning}};
 }
@@ -77,7 +75,7 @@ Json conditions(const char* meaning) {
                                  {"feature"}));
 }
 
-Json axis() {
+Json study_axis() {
   return {{"anyOf", Json::array({text("a feature or a varied parameter"),
                                  object("the same with its axis",
                                         {{"feature", text("")},
@@ -88,12 +86,12 @@ Json axis() {
                                         {"feature"})})}};
 }
 
-Json plot() {
+Json study_plot() {
   return object("a figure of the report",
                 {{"title", text("")},
                  {"kind", choice_of("default: scatter where there is a y", {"histogram", "scatter"})},
-                 {"x", axis()},
-                 {"y", axis()},
+                 {"x", study_axis()},
+                 {"y", study_axis()},
                  {"bins", whole("of a histogram; default 30", 2)},
                  {"samples", choice_of("default accepted", {"accepted", "all"})},
                  {"where", conditions("only samples that meet these")},
@@ -128,7 +126,7 @@ Json study_job() {
       "same",
       {"rejected", "simulated"});
   properties["keep"] = choice_of("all: rejected samples, too; default accepted", {"accepted", "all"});
-  properties["plots"] = list_of("the figures", plot());
+  properties["plots"] = list_of("the figures", study_plot());
   return object("a study", std::move(properties), {"format", "do", "diagram", "sample", "features"});
 }
 

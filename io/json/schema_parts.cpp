@@ -44,6 +44,8 @@ void print(const Json& json, std::size_t indent, std::size_t used, std::string& 
 Json text(const std::string& description) { return {{"type", "string"}, {"description", description}}; }
 Json number(const std::string& description) { return {{"type", "number"}, {"description", description}}; }
 
+Json flag(const char* meaning) { return {{"type", "boolean"}, {"description", meaning}}; }
+
 Json choice_of(const std::string& description, const std::vector<std::string>& values) {
   return {{"enum", values}, {"description", description}};
 }

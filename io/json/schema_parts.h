@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json text(const std::string& description);
 Json number(const std::string& description);
+Json flag(const char* meaning);
 Json choice_of(const std::string& description, const std::vector<std::string>& values);
 /// 5, "5 Hz", {"value": 5, "unit": "Hz"}; with `reference` also "$name".
 Json quantity(const std::string& description, bool reference);
