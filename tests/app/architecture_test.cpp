@@ -1,12 +1,14 @@
-// Who may include whom (DESIGN 2), read from the #include lines of every source file.
+// Who may include whom, read from the #include lines of every source file: docs/architecture.md draws the same picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -22,6 +24,27 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"report", {"io", "engine", "fit", "discover", "draw"}},
     {"draw", {"engine"}},
     {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw"}},
+};
+
+/// The rooms of each folder, from the ground up: a room includes only what stands before it. "" are the files that lie
+/// in no room.
+const std::map<std::string, std::vector<std::string>> storeys = {
+    {"engine",
+     {"diagram", "block", "program", "compile", "integrators", "analysis", "events", "rowwise", "simulate", "lanes"}},
+    {"models",
+     {"", "sources", "math", "continuous", "hysteresis", "compensators", "mechanics", "sampled", "disturbances",
+      "measurement"}},
+    {"blocks",
+     {"sources", "math", "vectors", "continuous", "hysteresis", "compensators", "mechanics", "sampled", "temperature",
+      "disturbances", "measurement", ""}},
+    {"io", {"files", "json", "data", "diagram", "jobs", "results"}},
+    {"fit", {"numerics", "signals", "model", "estimate", "inspect", "compare", "study", "thesis"}},
+    {"discover",
+     {"wiring", "hypotheses", "effects", "placement", "demonstration", "experiment", "models", "structure", "search",
+      "narrate"}},
+    {"report", {"page", "pages"}},
+    {"draw", {""}},
+    {"app", {"cli", "jobs", "cluster", "study", "verbs", ""}},
 };
 
 bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
@@ -65,6 +88,41 @@ void for_each_source(const Action& action) {
   for (const auto& [room, allowed] : may_include)
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(HYSTERON_SOURCE_DIR) / room))
       if (is_source(entry.path())) action(room, entry.path(), text_of(entry.path()));
+}
+
+/// "simulate" of "engine/simulate/events.h", "" of "engine/block.h".
+std::string room_of(const std::string& folder, const std::string& path) {
+  const std::string inside = path.substr(folder.size() + 1);
+  const auto slash = inside.find('/');
+  return slash == std::string::npos ? "" : inside.substr(0, slash);
+}
+
+/// What a text includes from its own folder.
+std::vector<std::string> own_includes(const std::string& folder, const std::string& text) {
+  const std::regex include("(^|\n)[ \t]*#[ \t]*include[ \t]*\"(" + folder + "/[^\"]+)\"");
+  std::vector<std::string> list;
+  for (std::sregex_iterator i(text.begin(), text.end(), include), end; i != end; ++i) list.push_back((*i)[2].str());
+  return list;
+}
+
+TEST(Architecture, RoomsOfAFolderStandOnEachOther) {
+  for_each_source([](const std::string& folder, const fs::path& file, const std::string& text) {
+    const auto& rooms = storeys.at(folder);
+    const auto storey = [&](const std::string& path) {
+      return std::find(rooms.begin(), rooms.end(), room_of(folder, path)) - rooms.begin();
+    };
+    const std::string own = fs::relative(file, HYSTERON_SOURCE_DIR).generic_string();
+    ASSERT_LT(storey(own), std::ssize(rooms)) << own << " lies in a room that storeys does not name";
+    for (const auto& other : own_includes(folder, text))
+      EXPECT_LE(storey(other), storey(own)) << own << " includes " << other << ", which stands above it";
+  });
+}
+
+TEST(Architecture, RoomsAreNoWarehouses) {
+  std::map<fs::path, int> files;
+  for_each_source([&](const std::string&, const fs::path& file, const std::string&) { ++files[file.parent_path()]; });
+  for (const auto& [room, count] : files)
+    EXPECT_LE(count, 40) << room << " holds " << count << " files: which of them have an idea of their own?";
 }
 
 TEST(Architecture, HeadersAreReadOnceAndOpenWithWhatTheyDecide) {
