@@ -30,7 +30,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
 /// in no room.
 const std::map<std::string, std::vector<std::string>> storeys = {
     {"engine",
-     {"diagram", "block", "program", "compile", "integrators", "analysis", "events", "rowwise", "simulate", "lanes"}},
+     {"diagram", "block", "program", "compile", "integrators", "events", "rowwise", "simulate", "analysis", "lanes"}},
     {"models",
      {"", "sources", "math", "continuous", "hysteresis", "compensators", "mechanics", "sampled", "disturbances",
       "measurement"}},
