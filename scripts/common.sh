@@ -48,7 +48,7 @@ configure_and_build() {
     stop "$folder was configured for another source folder; remove it: rm -r $folder"
   fi
   say "configuring $folder"
-  cmake -S "$root_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$folder.configure.log" 2>&1 || {
+  cmake -S "$root_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHYSTERON_UNITY=ON "$@" >"$folder.configure.log" 2>&1 || {
     cat "$folder.configure.log" >&2
     stop "cmake could not configure (its reason stands above)"
   }
