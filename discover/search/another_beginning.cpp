@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr int beginnings = 3;  // names that are tried in its place
+constexpr int most_beginnings = 3;  // names that are tried in its place
 constexpr int patches = 2;     // on which another one is tried: what takes least seldom holds one of the pair
 
 /// The best admitted effect on top of the present model, fitted together with it. `begun` is none: beside that one the
@@ -65,7 +65,7 @@ bool another_beginning(Books& books, const std::vector<Tried>& first) {
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(first)) {
-    if (tried == beginnings || books.stopped()) break;
+    if (tried == most_beginnings || books.stopped()) break;
     const Tried& t = first[i];
     if (!(begun.empty() ? t.patch : t.admitted) || t.effect->id == begun) continue;
     ++tried;

@@ -16,15 +16,15 @@
 namespace hysteron {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using MapOf = Eigen::Map<const Matrix>;
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MapOf = Eigen::Map<const RowMatrix>;
 using Complex = Eigen::MatrixXcd;
 
-std::vector<double> numbers(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
+std::vector<double> numbers(const RowMatrix& m) { return {m.data(), m.data() + m.size()}; }
 
 /// Rows of the signals.
-Matrix rows_of(const Eigen::MatrixXd& m, const std::vector<int>& signals) {
-  Matrix rows(static_cast<Eigen::Index>(signals.size()), m.cols());
+RowMatrix rows_of(const Eigen::MatrixXd& m, const std::vector<int>& signals) {
+  RowMatrix rows(static_cast<Eigen::Index>(signals.size()), m.cols());
   for (std::size_t i = 0; i < signals.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = m.row(signals[i]);
   return rows;
 }
@@ -65,7 +65,7 @@ struct Parts {
     return model;
   }
   int n, m, p, k;
-  Matrix a, b, c, d;
+  RowMatrix a, b, c, d;
 };
 
 void sort_poles(std::vector<std::complex<double>>& list) {
@@ -125,7 +125,7 @@ LinearModel linearize(const Program& program, const Run& run, const LinearizeOpt
   model.b = numbers(flow.b.middleCols(h, m));
   model.b_delayed = numbers(flow.b.rightCols(k));
   model.c = numbers(rows_of(flow.seen_z, options.to));
-  const Matrix d = rows_of(flow.seen_w, options.to), into = rows_of(flow.seen_w, sources);
+  const RowMatrix d = rows_of(flow.seen_w, options.to), into = rows_of(flow.seen_w, sources);
   model.d = numbers(d.middleCols(h, m));
   model.d_delayed = numbers(d.rightCols(k));
   model.to_delays = numbers(rows_of(flow.seen_z, sources));
@@ -231,7 +231,7 @@ LinearModel LinearModel::closed(double gain) const {
   // u = -gain (C x + D_w w) / (1 + gain D)
   Parts parts = open;
   parts.m = parts.p = 0;
-  const Matrix into = open.b.leftCols(1) * (-gain / left), across = open.d.block(1, 0, open.k, 1) * (-gain / left);
+  const RowMatrix into = open.b.leftCols(1) * (-gain / left), across = open.d.block(1, 0, open.k, 1) * (-gain / left);
   parts.a = open.a + into * open.c.topRows(1);
   parts.b = open.b.rightCols(open.k) + into * open.d.topRightCorner(1, open.k);
   parts.c = open.c.bottomRows(open.k) + across * open.c.topRows(1);

@@ -11,22 +11,20 @@
 namespace hysteron {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-
 constexpr double safety = 16;  // times the rounding of one operation: what n of them make of it, and more
 constexpr int sweeps_allowed = 100;
 
 /// Of a part whose states all need each other.
-void add_part(Matrix a, std::vector<Eigenvalue>& list) {
+void add_part(Eigen::MatrixXd a, std::vector<Eigenvalue>& list) {
   if (a.rows() == 1) {
     list.push_back({a(0, 0), 0});
     return;
   }
-  const Matrix rows = a.transpose();
+  const Eigen::MatrixXd rows = a.transpose();
   const auto f = balancing({rows.data(), static_cast<std::size_t>(rows.size())}, static_cast<int>(a.rows()));
   const Eigen::Map<const Eigen::VectorXd> factors(f.data(), a.rows());
   a = (factors.cwiseInverse().asDiagonal() * a * factors.asDiagonal()).eval();
-  const Eigen::EigenSolver<Matrix> solver(a);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a);
   const Eigen::MatrixXcd right = solver.eigenvectors();  // of length one
   const Eigen::MatrixXcd left = right.partialPivLu().inverse();
   const double rounding = safety * std::numeric_limits<double>::epsilon() * a.norm();
@@ -39,10 +37,10 @@ void add_part(Matrix a, std::vector<Eigenvalue>& list) {
   }
 }
 
-PoleCount count(std::span<const Eigenvalue> list, double (*beyond)(std::complex<double>)) {
+PoleCount count(std::span<const Eigenvalue> list, double (*distance_beyond)(std::complex<double>)) {
   PoleCount result;
   for (const auto& e : list) {
-    const double distance = beyond(e.value);
+    const double distance = distance_beyond(e.value);
     if (distance > e.error)
       ++result.outside;
     else if (distance >= -e.error)
@@ -88,7 +86,7 @@ std::vector<Eigenvalue> eigenvalues(std::span<const double> a, int n) {
   for (auto part : strong_components(needs)) {
     std::sort(part.begin(), part.end());
     const auto size = static_cast<Eigen::Index>(part.size());
-    Matrix own(size, size);
+    Eigen::MatrixXd own(size, size);
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index j = 0; j < size; ++j)
         own(i, j) = entry(part[static_cast<std::size_t>(i)], part[static_cast<std::size_t>(j)]);

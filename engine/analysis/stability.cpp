@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 using Number = std::complex<double>;
-using Matrix = Eigen::MatrixXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
 
 constexpr double hair = 1e-9;         // of the slowest rate: what counts as on the axis
 constexpr double largest_turn = 0.5;  // of log g in one step, as its slope at both ends says
@@ -28,36 +28,36 @@ constexpr int homotopy_halvings = 40;
 constexpr int phase_trials = 4000;      // of dead times that do not divide each other
 constexpr double integer_enough = 0.1;  // of a turn: more is no count
 
-Matrix matrix(const std::vector<double>& numbers, Eigen::Index rows, Eigen::Index columns) {
+ComplexMatrix matrix(const std::vector<double>& numbers, Eigen::Index rows, Eigen::Index columns) {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const Rows>(numbers.data(), rows, columns).cast<Number>();
 }
 
 /// x' = A x + B w, v = C x + G w with dead times alone: describing functions are taken in.
 struct Delayed {
-  Matrix a, b, c, g;
+  ComplexMatrix a, b, c, g;
   std::vector<double> delays;
 };
 
 /// `turned`: share of the phase of the describing functions.
 Delayed delayed(const LinearModel& m, double turned) {
   const auto n = static_cast<Eigen::Index>(m.states), k = static_cast<Eigen::Index>(m.delays.size());
-  const Matrix a = matrix(m.a, n, n), b = matrix(m.b_delayed, n, k), c = matrix(m.to_delays, k, n),
-               g = matrix(m.between_delays, k, k);
+  const ComplexMatrix a = matrix(m.a, n, n), b = matrix(m.b_delayed, n, k), c = matrix(m.to_delays, k, n),
+                      g = matrix(m.between_delays, k, k);
   std::vector<int> late, now;
   for (std::size_t i = 0; i < m.delays.size(); ++i) (m.factors[i] == 1.0 ? late : now).push_back(static_cast<int>(i));
   Delayed result;
   for (const int i : late) result.delays.push_back(m.delays[static_cast<std::size_t>(i)]);
   if (now.empty()) return {a, b, c, g, std::move(result.delays)};
   const auto count = static_cast<Eigen::Index>(now.size());
-  Matrix f = Matrix::Zero(count, count);
+  ComplexMatrix f = ComplexMatrix::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Number factor = m.factors[static_cast<std::size_t>(now[static_cast<std::size_t>(i)])];
     f(i, i) = std::polar(std::abs(factor), turned * std::arg(factor));
   }
   // w = F (C_n x + G_nn w + G_nl w_l)
-  const Matrix own = (Matrix::Identity(count, count) - f * g(now, now)).partialPivLu().solve(f);
-  const Matrix from_x = own * c(now, Eigen::all), from_late = own * g(now, late);
+  const ComplexMatrix own = (ComplexMatrix::Identity(count, count) - f * g(now, now)).partialPivLu().solve(f);
+  const ComplexMatrix from_x = own * c(now, Eigen::all), from_late = own * g(now, late);
   result.a = a + b(Eigen::all, now) * from_x;
   result.b = b(Eigen::all, late) + b(Eigen::all, now) * from_late;
   result.c = c(late, Eigen::all) + g(late, now) * from_x;
@@ -65,17 +65,17 @@ Delayed delayed(const LinearModel& m, double turned) {
   return result;
 }
 
-std::vector<Number> values_of(const Matrix& a) {
+std::vector<Number> values_of(const ComplexMatrix& a) {
   if (a.rows() == 0) return {};
-  const Eigen::ComplexEigenSolver<Matrix> solver(a, false);
+  const Eigen::ComplexEigenSolver<ComplexMatrix> solver(a, false);
   return {solver.eigenvalues().data(), solver.eigenvalues().data() + a.rows()};
 }
 
 /// Largest spectral radius of G diag(exp(j phases)): whether the parts that never fall with the frequency die out,
 /// whatever the dead times are to each other (Hale, Verduyn Lunel, Introduction to Functional Differential Equations,
 /// 1993, chapter 9).
-double worst_radius(const Matrix& g) {
-  const auto radius = [](const Matrix& m) {
+double worst_radius(const ComplexMatrix& g) {
+  const auto radius = [](const ComplexMatrix& m) {
     double most = 0;
     for (const auto& value : values_of(m)) most = std::max(most, std::abs(value));
     return most;
@@ -86,7 +86,7 @@ double worst_radius(const Matrix& g) {
   std::mt19937_64 random(1);  // the same trials every time
   std::uniform_real_distribution<double> phase(0, 2 * pi);
   double most = radius(g);
-  Matrix turned = g;
+  ComplexMatrix turned = g;
   for (int trial = 0; trial < phase_trials && most < 1; ++trial) {
     for (Eigen::Index i = 0; i < g.cols(); ++i) turned.col(i) = g.col(i) * std::polar(1.0, phase(random));
     most = std::max(most, radius(turned));
@@ -130,7 +130,7 @@ class Count {
     Number value, slope;  ///< log g but for whole turns; d log g / dw
   };
 
-  static Number log_of(const Eigen::PartialPivLU<Matrix>& lu) {
+  static Number log_of(const Eigen::PartialPivLU<ComplexMatrix>& lu) {
     Number sum = lu.permutationP().determinant() < 0 ? Number(0, pi) : Number(0, 0);
     for (Eigen::Index i = 0; i < lu.rows(); ++i) sum += std::log(lu.matrixLU()(i, i));
     return sum;
@@ -139,7 +139,7 @@ class Count {
   Point at(const Delayed& d, double sigma, double w) const {
     const Number s(sigma, w);
     const Eigen::Index n = d.a.rows(), k = d.g.rows();
-    Matrix m(n + k, n + k), slope = Matrix::Zero(n + k, n + k);
+    ComplexMatrix m(n + k, n + k), slope = ComplexMatrix::Zero(n + k, n + k);
     m.topLeftCorner(n, n) = -d.a;
     m.bottomLeftCorner(k, n) = -d.c;
     m.topLeftCorner(n, n).diagonal().array() += s;
@@ -153,14 +153,14 @@ class Count {
     }
     Point point{w, 0, 0};
     const Number j(0, 1);
-    const auto add = [&](const Matrix& of, const Matrix& derivative, double sign) {
-      const Eigen::PartialPivLU<Matrix> lu(of);
+    const auto add = [&](const ComplexMatrix& of, const ComplexMatrix& derivative, double sign) {
+      const Eigen::PartialPivLU<ComplexMatrix> lu(of);
       point.value += sign * log_of(lu);
       point.slope += sign * j * (lu.inverse().transpose().cwiseProduct(derivative)).sum();
     };
     if (n + k > 0) add(m, slope, 1);
     if (k > 0 && !d.g.isZero(0)) {
-      Matrix far = m.bottomRightCorner(k, k), far_slope = slope.bottomRightCorner(k, k);
+      ComplexMatrix far = m.bottomRightCorner(k, k), far_slope = slope.bottomRightCorner(k, k);
       add(far, far_slope, -1);
     }
     for (const double q : shifts_) {
@@ -239,8 +239,8 @@ class Count {
     return total - std::arg(quotient(Number(sigma, until_)));
   }
 
-  Matrix through(Number s) const {  // C (s - A)^-1 B
-    Matrix resolvent = -d_.a;
+  ComplexMatrix through(Number s) const {  // C (s - A)^-1 B
+    ComplexMatrix resolvent = -d_.a;
     resolvent.diagonal().array() += s;
     return d_.c * resolvent.partialPivLu().solve(d_.b);
   }
@@ -248,10 +248,10 @@ class Count {
   /// det(1 - Gamma E) / det(1 - G E)
   Number quotient(Number s) const {
     const Eigen::Index k = d_.g.rows();
-    Matrix e = Matrix::Zero(k, k);
+    ComplexMatrix e = ComplexMatrix::Zero(k, k);
     for (Eigen::Index i = 0; i < k; ++i) e(i, i) = std::exp(-s * d_.delays[static_cast<std::size_t>(i)]);
-    const Matrix far = Matrix::Identity(k, k) - d_.g * e;
-    const Matrix all = far - (d_.a.rows() > 0 ? through(s) : Matrix::Zero(k, k)) * e;
+    const ComplexMatrix far = ComplexMatrix::Identity(k, k) - d_.g * e;
+    const ComplexMatrix all = far - (d_.a.rows() > 0 ? through(s) : ComplexMatrix::Zero(k, k)) * e;
     return all.determinant() / far.determinant();
   }
 

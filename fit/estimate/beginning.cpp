@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_rows = 20'000;
 constexpr double decayed = 0.01;
 constexpr double deviations = 6, times_elsewhere = 4;
-constexpr double dependent = 1e-6;
+constexpr double undetermined = 1e-6;
 constexpr double most_motion = 2;         // of the drive at the start, over that in the liveliest window later on
 constexpr std::size_t least_windows = 3;  // behind the first: with fewer, nothing is known of elsewhere
 
@@ -134,7 +134,7 @@ Window laid_over(const Answers& answers, const std::vector<Rows>& left, std::siz
     for (std::size_t i = 0; i < answers.size() && l > 0; ++i) triangle(i, k) /= l;
   }
   Window window;
-  const auto best = minimum_norm(triangle, normal.d, dependent);
+  const auto best = minimum_norm(triangle, normal.d, undetermined);
   window.rank = best.rank;
   window.amounts = best.x;
   double still = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_steps = 20, most_halvings = 6;
 constexpr double improved = 1e-6;   // of what is left
-constexpr double dependent = 1e-8;  // states of which the outputs show only a combination move together
+constexpr double combined = 1e-8;  // states of which the outputs show only a combination move together
 
 /// What a recording leaves at its present start, and how each state moves that.
 struct Left {
@@ -43,7 +43,7 @@ Left left_at(DataModel& model, const Judge& judge, std::span<const ParameterValu
   normal.add(columns.a, residual);
   Dense triangle(columns.cols, columns.cols);
   triangle.a = normal.r;
-  left.step = minimum_norm(triangle, normal.d, dependent).x;
+  left.step = minimum_norm(triangle, normal.d, combined).x;
   for (std::size_t k = 0; k < scale.size(); ++k) left.step[k] *= scale[k];
   return left;
 }
