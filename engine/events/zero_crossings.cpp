@@ -42,7 +42,7 @@ ZeroCrossings::ZeroCrossings(const Program& program, bool kinks) : program_(prog
   }
   for (const int block : kinks ? program.kinked_blocks : std::vector<int>{}) {
     const auto& own = program.blocks[at(block)];
-    const auto reached = program.downstream_of(block);
+    const auto reached = program.downstream_of(block, true);
     bool matters = own.sizes.states > 0, remembered = false, switches = false;
     for (std::size_t b = 0; b < program.blocks.size(); ++b) {
       if (!reached[b]) continue;

@@ -89,34 +89,54 @@ bool is_switched(const BlockInstance& b) {
 
 // A smooth curve of one signal makes harmonics of it; those of a cubic are the usual ones.
 constexpr double harmonics = 3;
-// Products in loops would go on for ever.
-constexpr int most_sweeps = 4;
 
-/// Per block: the highest frequency in what it puts out [Hz], from the shortest periods of the sources. The frequencies
-/// of factors add up in their product.
-std::vector<double> highest_frequencies(const Program& program, const Run& run) {
+double highest_input(const Program& program, const BlockInstance& block, const std::vector<double>& frequency) {
+  double highest = 0;
+  for (const int s : block.source)
+    highest = std::max(highest, frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)]);
+  return highest;
+}
+
+/// Per block: the highest of the frequencies of the sources that drive it [Hz]. What is sampled is constant between its
+/// instants, where steps end.
+std::vector<double> driving_frequencies(const Program& program, const Run& run) {
   std::vector<double> frequency(program.blocks.size(), 0.0);
-  for (int sweep = 0; sweep < most_sweeps; ++sweep)
-    for (const int block : program.value_order) {
-      const auto b = static_cast<std::size_t>(block);
-      const auto& info = program.blocks[b];
-      if (info.n_u == 0) {
-        // A series is monotone between its samples, and those are stops already.
-        const double pace = info.kernel->pace == nullptr || info.series_index >= 0
-                                ? 0.0
-                                : info.kernel->pace(view_of(program, run, block));
-        frequency[b] = pace > 0 ? 1 / pace : 0.0;
-        continue;
-      }
-      double highest = 0, sum = 0;
-      for (const int s : info.source) {
-        const double input = frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
-        highest = std::max(highest, input);
-        sum += input;
-      }
-      const bool curved = !info.kernel->declaration.is_linear && !is_switched(info) && info.sizes.states == 0;
-      frequency[b] = !curved ? highest : info.n_u > 1 ? sum : harmonics * highest;
+  std::vector<int> others;
+  for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
+    const auto& info = program.blocks[static_cast<std::size_t>(b)];
+    if (info.n_u > 0 && !info.kernel->is_sampled()) others.push_back(b);
+    // A series is monotone between its samples, and those are stops already.
+    if (info.n_u > 0 || info.kernel->pace == nullptr || info.series_index >= 0) continue;
+    const double pace = info.kernel->pace(view_of(program, run, b));
+    if (pace > 0) frequency[static_cast<std::size_t>(b)] = 1 / pace;
+  }
+  for (bool rises = true; rises;) {  // at most once along the longest way
+    rises = false;
+    for (const int b : others) {
+      const double highest = highest_input(program, program.blocks[static_cast<std::size_t>(b)], frequency);
+      rises = rises || highest > frequency[static_cast<std::size_t>(b)];
+      frequency[static_cast<std::size_t>(b)] = std::max(frequency[static_cast<std::size_t>(b)], highest);
     }
+  }
+  return frequency;
+}
+
+/// Per block: the highest frequency in what it puts out [Hz]. On ways without states curves make harmonics, and the
+/// frequencies of factors add up in their product. States that move by harmonics are followed by the control of their
+/// error; those that rest are seen at what drives them.
+std::vector<double> highest_frequencies(const Program& program, const Run& run) {
+  auto frequency = driving_frequencies(program, run);
+  for (const int block : program.value_order) {
+    const auto b = static_cast<std::size_t>(block);
+    const auto& info = program.blocks[b];
+    if (info.n_u == 0 || info.sizes.states > 0 || info.kernel->is_sampled()) continue;
+    const double highest = highest_input(program, info, frequency);
+    double sum = 0;
+    for (const int s : info.source)
+      sum += frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)];
+    const bool curved = !info.kernel->declaration.is_linear && !is_switched(info);
+    frequency[b] = !curved ? highest : info.n_u > 1 ? sum : harmonics * highest;
+  }
   return frequency;
 }
 

@@ -151,8 +151,8 @@ struct Program {
   const ParameterInfo* find_parameter(const std::string& path) const;
   int block_index(const std::string& path) const;  ///< -1 if there is none
   /// Blocks whose outputs depend (through any path, states included) on block `from`, itself not counted unless in a
-  /// loop.
-  std::vector<bool> downstream_of(int from) const;
+  /// loop. `between_samples`: while no sample is taken; nothing passes through what is sampled then.
+  std::vector<bool> downstream_of(int from, bool between_samples = false) const;
 };
 
 using ProgramPointer = std::shared_ptr<const Program>;
