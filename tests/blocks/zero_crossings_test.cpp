@@ -176,6 +176,33 @@ TEST(ZeroCrossings, ARoundedSineIsIntegrated) {
   EXPECT_NEAR(simulated(d, 3).values[0].back(), time_above(0.5 / 1.2, 2, 0.3, 3), 1e-5);
 }
 
+TEST(ZeroCrossings, ARoundingThatIsOnlySampledEndsNoStep) {
+  // Between samples nothing hangs on it: 80 000 levels are passed within these 2 s, 2 000 samples are taken.
+  const auto steps = [](const Node& encoder) {
+    const auto d = tools::diagram({{"u", sine(5, 2)},
+                                   {"x", block("lag", {{"times", number(10, "ms")}}, {"u"})},
+                                   {"encoder", encoder},
+                                   {"k", block("sample_hold", {{"period", "1 ms"}}, {"encoder"})},
+                                   {"i", block("integrator", {}, {"k"})}},
+                                  {"i"});
+    return simulated(d, 2).statistics.steps;
+  };
+  EXPECT_LT(steps(block("rounding", {{"step", 1e-3}}, {"x"})), 2 * steps(block("gain", {{"gain", 1.0}}, {"x"})));
+}
+
+TEST(ZeroCrossings, PowersInALoopThroughAStateShortenNoStep) {
+  // A loop has no highest harmonic. A step of a hundredth of the period is usual at this tolerance: 300 steps.
+  const auto d = tools::diagram({{"u", sine(1, 1)},
+                                 {"x3", block("product", {}, {"x", "x", "x"})},
+                                 {"x9", block("product", {}, {"x3", "x3", "x3"})},
+                                 {"e", block("sum", {{"signs", "+-"}}, {"u", "x9"})},
+                                 {"x", block("integrator", {}, {"e"})},
+                                 {"s", block("saturation", {{"lower", -0.1}, {"upper", 0.1}}, {"x"})},
+                                 {"y", block("integrator", {}, {"s"})}},
+                                {"y"});
+  EXPECT_LT(simulated(d, 3).statistics.steps, 1000);
+}
+
 TEST(ZeroCrossings, AMassBehindABreakawayThatASineJustPassesSlides) {
   // Largest speed of the mass, by an independent integration with fine fixed steps: 0.06013 m/s.
   const auto d = tools::diagram(
