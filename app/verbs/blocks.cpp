@@ -25,7 +25,7 @@ constexpr char blocks_help[] =
     "Prints to the terminal, writes no files.\n"
     "Exit codes: 0 done, 2 there is no such block.";
 
-using Rows = std::vector<std::vector<std::string>>;
+using TableRows = std::vector<std::vector<std::string>>;
 
 std::vector<std::string> shown_types() {
   std::vector<std::string> types;
@@ -41,7 +41,7 @@ void print_all() {
     if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
   }
   for (const auto& group : groups) {
-    Rows rows;
+    TableRows rows;
     for (const auto& type : shown_types()) {
       const auto& declaration = registry().find(type)->declaration;
       if (declaration.group == group) rows.push_back({type, declaration.summary});
@@ -122,7 +122,7 @@ std::string example(const Declaration& d) {
 
 void print_ports(const std::string& title, const std::vector<PortDeclaration>& ports) {
   if (ports.empty()) return;
-  Rows rows;
+  TableRows rows;
   for (const auto& p : ports)
     rows.push_back({p.name + (p.variadic && title == "outputs" ? "0, " + p.name + "1, ..." : ""), unit_column(p.unit),
                     p.meaning + (p.variadic && title == "inputs" ? " (any number of wires)" : "") +
@@ -148,7 +148,7 @@ std::string neutral_text(const VariationDeclaration& variation) {
 
 void print_variations(const Declaration& d) {
   if (d.variations.empty()) return;
-  Rows rows;
+  TableRows rows;
   for (const auto& v : d.variations)
     rows.push_back({v.name, v.type == d.type ? "this type" : v.type, "no change with " + neutral_text(v)});
   fmt::print("\nvariations (same ports, further parameters)\n{}", table_text({}, rows));
@@ -212,13 +212,13 @@ void print_one(const Declaration& d) {
   print_ports("inputs", d.inputs);
   print_ports("outputs", d.outputs);
   if (!d.parameters.empty()) {
-    Rows rows;
+    TableRows rows;
     for (const auto& p : d.parameters)
       rows.push_back({p.name, p.kind == ParameterKind::text ? "" : unit_column(p.unit), kind_column(p), conditions(p)});
     fmt::print("\nparameters\n{}", table_text({}, rows));
   }
   if (!d.states.empty()) {
-    Rows rows;
+    TableRows rows;
     for (const auto& s : d.states) rows.push_back({s.name, unit_column(s.unit), s.meaning});
     fmt::print("\nstates\n{}", table_text({}, rows));
   }

@@ -17,7 +17,7 @@ constexpr std::size_t poles_in_a_sentence = 8;
 
 double degrees(double radians) { return radians * 180 / pi; }
 
-std::string time_text(double seconds) {
+std::string delay_text(double seconds) {
   return seconds < 1e-3 ? number_text(seconds * 1e6) + " us"
          : seconds < 1  ? number_text(seconds * 1e3) + " ms"
                         : number_text(seconds) + " s";
@@ -99,10 +99,10 @@ void tell_phase(Document& document, Facts& given, const SmallMotions& m) {
   if (margins.delay_margin) {
     const double delay = *margins.delay_margin;
     given.set("delay_margin_s", delay);
-    std::string amount = time_text(delay);
+    std::string amount = delay_text(delay);
     if (m.sampled) {
       amount +=
-          fmt::format(" ({} samples of {})", number_text(delay / m.sampled->sample), time_text(m.sampled->sample));
+          fmt::format(" ({} samples of {})", number_text(delay / m.sampled->sample), delay_text(m.sampled->sample));
       given.set("delay_margin_samples", delay / m.sampled->sample);
     }
     if (delay == 0)
@@ -207,7 +207,7 @@ void tell_poles(Document& document, Facts& facts, const SmallMotions& m) {
     const std::string held =
         m.sampled->acts_between ? "; the input acts between the instants too, and is taken as held there" : "";
     add(document, fmt::format("Sampled: every {} the same, {} in it at which the input counts; exact at these{}.",
-                              time_text(m.sampled->period), count_text(m.sampled->looks, "instant"), held));
+                              delay_text(m.sampled->period), count_text(m.sampled->looks, "instant"), held));
     facts.set("common_period_s", m.sampled->period);
     facts.set("sample_s", m.sampled->sample);
   }
