@@ -193,10 +193,12 @@ TEST(ZeroCrossings, ARoundingThatIsOnlySampledEndsNoStep) {
 TEST(ZeroCrossings, PowersInALoopThroughAStateShortenNoStep) {
   // A loop has no highest harmonic. A step of a hundredth of the period is usual at this tolerance: 300 steps.
   const auto d = tools::diagram({{"u", sine(1, 1)},
-                                 {"x3", block("product", {}, {"x", "x", "x"})},
-                                 {"x9", block("product", {}, {"x3", "x3", "x3"})},
+                                 {"x2", block("product", {}, {"x", "x"})},
+                                 {"x4", block("product", {}, {"x2", "x2"})},
+                                 {"x8", block("product", {}, {"x4", "x4"})},
+                                 {"x9", block("product", {}, {"x8", "x"})},
                                  {"e", block("sum", {{"signs", "+-"}}, {"u", "x9"})},
-                                 {"x", block("integrator", {}, {"e"})},
+                                 {"x", block("lag", {{"times", number(100, "ms")}}, {"e"})},
                                  {"s", block("saturation", {{"lower", -0.1}, {"upper", 0.1}}, {"x"})},
                                  {"y", block("integrator", {}, {"s"})}},
                                 {"y"});
