@@ -18,8 +18,7 @@ namespace {
 struct Lab {
   Lab() {
     Diagram d = lab::diagram("sensor");
-    auto& lag = lab::add(d, "lag", "lag", "u");
-    lag.parameters["times"] = Value(NumberList{Number{20, "ms"}});
+    lab::add(d, "lag", "lag", "u").parameters["times"] = Value(NumberList{Number{20, "ms"}});
     auto& sensor = lab::add(d, "sensor", "calibration", "lag");
     sensor.parameters["gain"] = Value(Number{1.5, "um/V"});
     sensor.parameters["offset"] = Value(Number{0.1, "um"});
@@ -28,7 +27,7 @@ struct Lab {
     data.recordings = {lab::recording("a", Role::train, 0.005, 2000, wave),
                        lab::recording("b", Role::validate, 0.005, 1000, wave)};
     lab::measure(data, truth, 1e-8, 3);
-    lag.parameters["times"] = Value(NumberList{Number{300, "ms"}});
+    d.blocks["lag"].parameters["times"] = Value(NumberList{Number{300, "ms"}});
     sensor.parameters["gain"] = Value(Number{1.0, "um/V"});
     program = compile(d, lab::registry());
     for (const char* path : {"lag.times[0]", "sensor.gain", "sensor.offset"}) {
