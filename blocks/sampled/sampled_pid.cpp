@@ -9,10 +9,10 @@ void SampledPid::describe(BlockSpec<SampledPid>& spec) {
       .in_group("sampled")
       .elementwise();
   spec.law(
-          "y = sat(kp e + I + D), D_k = (filter D_(k-1) + kd (e_k - e_(k-1)))/(filter + T); forward: I = I_k, I_(k+1) "
-          "= "
-          "I_k + ki T e_k; backward: with e_k at once; trapezoidal: with (e_k + e_(k-1))/2 at once; clamping: no "
-          "increment that pushes beyond a limit; back_calculation: I_(k+1) += T/tracking_time (sat(y) - y)")
+          "y = sat(kp e + I + D), D_k = (filter D_(k-1) + kd (e_k - e_(k-1)))/(filter + T); forward: I = I_k, "
+          "I_(k+1) = I_k + ki T e_k; backward: with e_k at once; trapezoidal: with (e_k + e_(k-1))/2 at once; "
+          "clamping: an increment that pushes the command beyond a limit is not kept in I; back_calculation: "
+          "I_(k+1) += T/tracking_time (sat(y) - y)")
       .from("thesis section 2.3 (forward rule); Astrom, Hagglund, Advanced PID Control (2006)");
   spec.remark("The input is the control error: reference minus measured, from a sum with \"signs\": \"+-\".");
   spec.remark("Where there is no limit, write \"-inf V\" or \"inf V\" in the unit of the command.");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/diagram/index.h"
+#include "engine/events/start_order.h"
 #include "engine/program/histories.h"
 #include "engine/program/steps.h"
 
@@ -30,6 +31,7 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
       path_(program, relative_tolerance, absolute_tolerance),
       span_(until - begin),
       milestone_(begin),
+      ranks_(start_ranks(program)),
       changes_(program.modal_blocks.size(), 0) {}
 
 double Events::next() const { return std::min(corners_.next(), clocks_.next()); }
@@ -72,16 +74,23 @@ bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
   starting_ = true;
   const auto memory = run.m;
+  const int last = ranks_.empty() ? 0 : *std::max_element(ranks_.begin(), ranks_.end());
   rest_histories(program_, run, work, t, x.data());
-  bool changed = pass(run, work, t, x);
-  rest_histories(program_, run, work, t, x.data());
-  // What was sampled has seen modes that were only to be tried first: sample again, with those that the inputs ask for.
-  for (int round = 0; changed && !instant_.hits.empty() && round < most_rounds; ++round) {
-    run.m = memory;
-    cross(run, work, t, x);
-    changed = settle(run, work, t, x, {});
-    rest_histories(program_, run, work, t, x.data());
+  bool changed = true;
+  for (settling_ = 0; (changed || settling_ <= last) && settling_ < last + most_rounds; ++settling_) {
+    // What was sampled has seen what had not settled: sample again.
+    if (changed) {
+      run.m = memory;
+      cross(run, work, t, x);
+    }
+    changed = rest_histories(program_, run, work, t, x.data());
+    if (settle(run, work, t, x, {})) {
+      rest_histories(program_, run, work, t, x.data());
+      changed = true;
+    }
   }
+  settling_ = std::numeric_limits<int>::max();
+  hits_ += static_cast<long>(instant_.hits.size());
   starting_ = false;
 }
 
@@ -103,7 +112,8 @@ bool Events::settle(Run& run, Work& work, double t, std::vector<double>& x, std:
     throw_if_unsolved(program_, work, t);
     std::vector<int> due;
     for (int i = 0; i < guards(); ++i)
-      if (work.guard[at(i)] <= 0 || (round == 0 && std::find(fired.begin(), fired.end(), i) != fired.end()))
+      if (ranks_[at(i)] <= settling_ &&
+          (work.guard[at(i)] <= 0 || (round == 0 && std::find(fired.begin(), fired.end(), i) != fired.end())))
         due.push_back(i);
     if (due.empty()) return changed;
     if (round == most_rounds) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -80,6 +81,8 @@ class Events {
   double milestone_;  // [s]
   long since_milestone_ = 0;
   bool starting_ = false;
+  std::vector<int> ranks_;                          // per guard, see start_order.h
+  int settling_ = std::numeric_limits<int>::max();  // guards up to this rank
   struct Instant {
     bool corner = false;
     std::vector<int> hits;  // places in program.sampled_blocks

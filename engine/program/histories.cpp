@@ -53,8 +53,8 @@ void remember_signals(const Program& program, Run& run, const Work& work, double
   }
 }
 
-void rest_histories(const Program& program, Run& run, Work& work, double t, const double* x) {
-  bool changed = program.n_histories > 0;
+bool rest_histories(const Program& program, Run& run, Work& work, double t, const double* x) {
+  bool changed = program.n_histories > 0, any = false;
   // One behind the other each may be the first to know its value.
   for (int round = 0; changed && round < program.n_histories; ++round) {
     changed = false;
@@ -65,9 +65,10 @@ void rest_histories(const Program& program, Run& run, Work& work, double t, cons
       const double u = work.y[at(b.source[0])];
       if (!h.t.empty() || h.before == u) continue;
       h.before = u;
-      changed = true;
+      changed = any = true;
     }
   }
+  return any;
 }
 
 Histories::Histories(const Program& program, std::vector<double> sizes, double tolerance)

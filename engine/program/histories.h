@@ -15,7 +15,8 @@ void remember_signals(const Program& program, Run& run, const Work& work, double
 
 /// Before the first point: what each dead time reads was at rest at its value at the start (t, x), dead times behind
 /// dead times included.
-void rest_histories(const Program& program, Run& run, Work& work, double t, const double* x);
+/// Returns true if that moved the output of one.
+bool rest_histories(const Program& program, Run& run, Work& work, double t, const double* x);
 
 /// Fills the histories inside of a step that has been done and whose end is not accepted yet.
 class Histories {

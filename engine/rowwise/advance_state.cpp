@@ -190,17 +190,44 @@ void AdvanceState::start(std::span<const int> due, double t, double branch, bool
   if (plan_.has_histories) rest_histories(t, !instant);
   for (const int b : plan_.momentary) evaluate(b);
   if (!instant) return;
+  const auto memory = run.m;
   sample(due, t, sampling);
+  if (plan_.has_histories) sample_until_at_rest(due, t, memory, sampling);
+  begin_behind(t, true);
+  if (plan_.has_histories) rest_histories(t, true);
+  for (const int b : plan_.momentary_behind) evaluate(b);
+}
+
+/// Everything behind what was sampled; nothing moves at the start.
+void AdvanceState::begin_behind(double t, bool accept) {
   for (const auto& level : plan_.levels) {
     for (const int i : level.linear) parts[at(i)].refresh(y);
     for (const int b : level.nonlinear) {
       remember_inputs(b);
-      start_block(b, t, true);
+      start_block(b, t, accept);
     }
-    for (const int i : level.loops) start_loop(i, true);
+    for (const int i : level.loops) start_loop(i, accept);
   }
-  if (plan_.has_histories) rest_histories(t, true);
-  for (const int b : plan_.momentary_behind) evaluate(b);
+}
+
+/// What was sampled behind a dead time has seen what that was before its own input was sampled: once more, until each
+/// dead time has been what its input is. `memory`: as it was before any sample.
+void AdvanceState::sample_until_at_rest(std::span<const int> due, double t, const std::vector<double>& memory,
+                                        Sampling& sampling) {
+  const auto rests = [&] {
+    std::vector<double> list;
+    for (const auto& h : run.histories) list.push_back(h.before);
+    return list;
+  };
+  for (std::size_t round = 0; round <= run.histories.size(); ++round) {
+    const auto before = rests();
+    begin_behind(t, false);
+    rest_histories(t, false);
+    if (rests() == before) return;
+    run.m = memory;
+    hits -= static_cast<long>(due.size());
+    sample(due, t, sampling);
+  }
 }
 
 void AdvanceState::start_block(int block, double t, bool accept) {

@@ -60,6 +60,8 @@ class AdvanceState {
   void foresee(int block);
   void start_block(int block, double t, bool accept);
   void rest_histories(double t, bool accept);
+  void begin_behind(double t, bool accept);
+  void sample_until_at_rest(std::span<const int> due, double t, const std::vector<double>& memory, Sampling& sampling);
   void start_loop(int loop, bool accept);
   void sample(std::span<const int> due, double t, Sampling& sampling);
   void pass_on(double t, bool with_delays);

@@ -60,13 +60,22 @@ constexpr double rounding = 1e-15;  // of the span: no time in which anything mo
 // four memory models: up to 17 times the tolerance with half of it, up to 7 times with a quarter, the largest of the
 // shares tried that stayed within ten (docs/performance.md; no bound). Doubles carry no more than the last of these.
 constexpr double share_of_tolerance = 0.25;
+// Behind each restart the first steps are of a low order, and every one of them errs by what it may.
+constexpr double share_with_restarts = 0.1;
 constexpr double tightest_tolerance = 1e-13;
 constexpr double least_tolerance = 1e-290;  // [SI] absolute; one over it is a number
 
+/// Something in it switches, turns, bends, is sampled or comes late: the integrator starts again and again.
+bool restarts(const Program& program) {
+  return program.remembers() || !program.modal_blocks.empty() || !program.kinked_blocks.empty() ||
+         !program.sampled_blocks.empty() || program.n_histories > 0;
+}
+
 /// The options as the integrators get them; the absolute tolerance is a multiple of the relative one.
-SimulateOptions held_tolerance(SimulateOptions options) {
+SimulateOptions held_tolerance(const Program& program, SimulateOptions options) {
   const double asked = options.relative_tolerance;
-  options.relative_tolerance = std::max(share_of_tolerance * asked, std::min(asked, tightest_tolerance));
+  const double share = restarts(program) ? share_with_restarts : share_of_tolerance;
+  options.relative_tolerance = std::max(share * asked, std::min(asked, tightest_tolerance));
   return options;
 }
 
@@ -109,6 +118,7 @@ class Simulation {
   void pass_look() {
     if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
   }
+  bool begin_anew_before_reversal();
   void pass_crossing(const ZeroCrossings::Found& crossing);
   void pass_root();
   void switch_modes(const std::vector<int>& turned, const std::vector<int>& fell);
@@ -439,10 +449,32 @@ bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
   return true;
 }
 
+/// The step in which an input of memory was found to turn went on behind that as if it had not turned, and memory said
+/// there what it had said at its beginning, whatever it said between. What leads to the reversal is true if dx/dt is
+/// there what the step has made of it, to the error that a step may have; else it is taken again, up to just before.
+bool Simulation::begin_anew_before_reversal() {
+  const double h = solver_->t() - t_, piece = h / 16;
+  if (program_.n_x == 0 || h <= 2 * root_width(t_, solver_->t())) return false;
+  bool turns = false;
+  for (int i = 0; i < reversals(); ++i) turns = turns || solver_->fired(i);
+  if (!turns) return false;
+  slope_at(solver_->t() - piece / 2, before_);
+  solver_->interpolate(solver_->t() - piece, interpolated_);
+  const auto end = solver_->x();
+  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = ((end[i] - interpolated_[i]) / piece - before_[i]) * h;
+  if (solver_->weighted_norm(after_) <= 1) return false;
+  if (look_at_ < then_at_) then_at_ = look_at_;
+  look_at_ = solver_->t() - h / 64;
+  crossings_.forget();
+  solver_->start(t_, x_, s_);
+  return true;
+}
+
 /// The step ends at the crossing; t_ and x_ are there already.
 void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
   if (!crossing.guards.empty()) return switch_modes({}, crossing.guards);
   commit();
+  if (reversals_.count() > 0) follow_directions();  // the rate of what bends here may have changed its sign
   // What is behind the kink has to be seen by the integrator too: another step may be as long.
   if (crossing.seen > t_ + 2 * root_width(t_, crossing.seen)) look_at_ = crossing.seen;
   restart();
@@ -476,6 +508,7 @@ void Simulation::take_step(double stop) {
   const auto outcome = solver_->step(stop);
   const auto crossing = find_crossing();
   if (crossing && begin_anew(*crossing)) return;
+  if (!crossing && outcome == Integrator::Outcome::root && begin_anew_before_reversal()) return;
   const double from = t_, to = crossing ? crossing->t : solver_->t();
   record_inside(from, to);
   if (histories_.any()) histories_.fill(run_, work_, from, to, states_inside_);
@@ -601,7 +634,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
   const auto begin = std::chrono::steady_clock::now();
   auto instants = output_instants(options);
   check_inputs(program, run);
-  const auto held = held_tolerance(options);
+  const auto held = held_tolerance(program, options);
   set_loop_accuracy(program, run, held.relative_tolerance, held.absolute_tolerance);
   const auto& signals = options.signals.empty() ? program.record_signals : options.signals;
   run.t = options.begin;
@@ -625,7 +658,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
     if (has_fixed_steps(options.method)) {
       traces = simulate_in_fixed_steps(program, std::move(run), options, std::move(instants), signals);
     } else {
-      auto how = held_tolerance(options);
+      auto how = held_tolerance(program, options);
       MethodChoice choice{options.method, ""};
       if (options.method == Method::automatic)
         choice = choose_method(program, run, options.begin, instants.back() - options.begin);

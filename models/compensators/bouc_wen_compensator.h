@@ -28,7 +28,7 @@ T displacement_slope(const Params<T>& p, const T& z, int direction) {
   using std::pow;
   const T bend = p.beta * T(direction) * z + p.gamma * abs(z);
   if (p.exponent == 1) return p.d_p - p.alpha + bend;
-  return p.d_p - p.alpha + bend * pow(T{abs(z) / T{p.scale}}, p.exponent - 1);
+  return p.d_p - p.alpha + bend * pow(T{abs(z) / T{p.scale} + T{bouc_wen::least_size}}, p.exponent - 1);
 }
 
 /// Rate of the hysteretic part of the compensator for the rate of the wanted displacement: u = (r + z)/d_p with z

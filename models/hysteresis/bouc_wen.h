@@ -19,6 +19,9 @@ struct Params {
   double scale{1};     ///< [m]    size of z for which beta and gamma are given; without effect for n = 1
 };
 
+/// Added to |z|/scale under the power: its slope alone has no bound at z = 0 for n < 2, that of the product is 0 there.
+inline constexpr double least_size = std::numeric_limits<double>::min();
+
 /// Rate of the hysteretic part z; the displacement is y = d_p u - z.
 ///
 ///   dz/dt = alpha v - (beta |v| z + gamma v |z|) |z/scale|^(n-1)
@@ -32,7 +35,7 @@ T z_rate(const Params<T>& p, const T& z, const T& v) {
   using std::pow;
   const T bend = p.beta * abs(v) * z + p.gamma * v * abs(z);
   if (p.exponent == 1) return p.alpha * v - bend;
-  return p.alpha * v - bend * pow(abs(z) / T{p.scale}, p.exponent - 1);
+  return p.alpha * v - bend * pow(abs(z) / T{p.scale} + T{least_size}, p.exponent - 1);
 }
 
 /// The hysteretic part [m] behind a way of the input [V] in one direction, from z: z_rate solved along the way, in

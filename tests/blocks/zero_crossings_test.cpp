@@ -268,6 +268,86 @@ TEST(ZeroCrossings, ASampleAtTheStartSeesARelayThatItsInputHasSet) {
   }
 }
 
+TEST(ZeroCrossings, AtTheStartBlocksSettleInTheOrderOfTheWires) {
+  // The first relay goes on and gives -1.7, which leaves the second one off, though it would go on for the 0.8 of
+  // before.
+  const auto d = tools::diagram(
+      {{"c", block("constant", {{"value", 0.0}})},
+       {"x", block("lag", {{"times", number(10, "ms")}}, {"c"})},
+       {"a", block("relay", {{"on_at", -0.2}, {"off_at", -0.4}, {"on_value", -1.7}, {"off_value", 0.8}}, {"x"})},
+       {"b", block("relay", {{"on_at", -1.4}, {"off_at", -1.9}, {"on_value", 1.0}, {"off_value", 0.0}}, {"a"})}},
+      {"b"});
+  for (const Method method : {Method::automatic, Method::bdf, Method::rk4})
+    EXPECT_EQ(simulated(d, 0.1, method, 0.05).values[0].front(), 0) << method_name(method);
+}
+
+TEST(ZeroCrossings, ADeadTimeBehindASampleIsAtRestForTheSampleBehindIt) {
+  // c is sampled at the start; the dead time begins as if that had been there always; what samples it sees that.
+  const auto chain = [](bool switched) {
+    std::vector<std::pair<std::string, Node>> blocks = {{"c", block("constant", {{"value", 2.0}})},
+                                                        {"k", block("sample_hold", {{"period", "0.1 s"}}, {"c"})},
+                                                        {"d", block("dead_time", {{"delay", "0.25 s"}}, {"k"})},
+                                                        {"h", block("sample_hold", {{"period", "0.1 s"}}, {"d"})}};
+    if (switched) {  // not advanced from row to row
+      blocks.push_back(
+          {"r", block("relay", {{"on_at", 1.0}, {"off_at", -1.0}, {"on_value", 1.0}, {"off_value", 0.0}}, {"x"})});
+      blocks.push_back({"x", block("lag", {{"times", number(10, "ms")}}, {"h"})});
+    }
+    return tools::diagram(blocks, switched ? std::vector<std::string>{"h", "r"} : std::vector<std::string>{"h"});
+  };
+  for (const bool switched : {false, true}) {
+    const auto traces = simulated(chain(switched), 1, Method::automatic, 0.05);
+    for (const double h : traces.values[0]) EXPECT_EQ(h, 2) << switched;
+  }
+}
+
+TEST(ZeroCrossings, AReversalAtAKinkIsOne) {
+  // The sine turns once at its top, and where it comes out of the limit below: two reversals a period.
+  const auto d = tools::diagram({{"u", sine(1, 4, 0.3)},
+                                 {"s", block("saturation", {{"lower", -0.6}, {"upper", 2.0}}, {"u"})},
+                                 {"late", block("saturation", {{"lower", -0.7}, {"upper", 0.7}}, {"s"})},
+                                 {"x", block("lag", {{"times", number(50, "ms")}}, {"late"})},
+                                 {"b", block("backlash", {{"gap", 0.8}}, {"s"})}},
+                                {"x", "b"});
+  for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta}) {
+    const auto traces = simulated(d, 2, method, 0.01);
+    EXPECT_EQ(traces.statistics.reversals, 16) << method_name(method);
+    // Between top and limit the output moves from 0.6 to -0.2 and back.
+    const auto& b = traces.values[1];
+    EXPECT_NEAR(*std::max_element(b.begin() + 50, b.end()), 0.6, 1e-5);
+    EXPECT_NEAR(*std::min_element(b.begin() + 50, b.end()), -0.2, 1e-5);
+  }
+}
+
+TEST(ZeroCrossings, ALawThatMovesBetweenTheEndsOfAStepOnlyIsIntegrated) {
+  // Behind the dead time the input falls from 0 to -1 and rises again, within a sixth of the run. The backlash is met
+  // at -0.6 and left at the trough: its output goes to -0.4 and stays. The integral is that of the way down, int
+  // -(sin(w s) - 0.6) ds over the sines between 0.6 and 1, and -0.4 times what is left.
+  const auto d =
+      tools::diagram({{"u", block("sine", {{"amplitude", 1.0}, {"frequency", "1 Hz"}, {"phase", "180 deg"}})},
+                      {"d", block("dead_time", {{"delay", "2 s"}}, {"u"})},
+                      {"b", block("backlash", {{"gap", 1.2}}, {"d"})},
+                      {"i", block("integrator", {}, {"b"})}},
+                     {"i"});
+  const double w = 2 * M_PI, met = std::asin(0.6) / w;
+  const double way = -(std::cos(w * met) / w - 0.6 * (0.25 - met));
+  for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta})
+    EXPECT_NEAR(simulated(d, 2.5, method).values[0].back(), way - 0.4 * 0.25, 1e-5) << method_name(method);
+}
+
+TEST(ZeroCrossings, ABoucWenLawOfAnyExponentBeginsAtZero) {
+  // The slope of |z|^(n-1) has no bound there, that of the law is that of a spring.
+  const auto d = tools::diagram(
+      {{"u", sine(1, 2)},
+       {"p", block("rectifier", {{"mix", 0.5}}, {"u"})},
+       {"law", block("bouc_wen",
+                     {{"alpha", 0.4}, {"beta", 0.4}, {"gamma", -0.1}, {"d_p", 1.3}, {"exponent", 1.4}, {"scale", 1.4}},
+                     {"p"})},
+       {"x", block("lag", {{"times", number(20, "ms")}}, {"law"})}},
+      {"x"});
+  EXPECT_NO_THROW(simulated(d, 1, Method::bdf));
+}
+
 TEST(ZeroCrossings, ChatteringEndsWithTheBlockWhateverItsWidth) {
   for (const double width : {1e-8, 1e-9, 1e-11}) {
     const auto d = tools::diagram(

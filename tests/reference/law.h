@@ -55,6 +55,9 @@ class Law {
   /// Does an output at an instant need an input at that instant?
   virtual bool direct() const { return true; }
   virtual void start(double* /*x*/) const {}
+  /// Does it hand on what its input was earlier, at first what that had been for ever before the start: `rest`?
+  virtual bool is_late() const { return false; }
+  virtual void rest_at(double /*rest*/) {}
   virtual void output(const Point& p, double* y) const = 0;
   virtual void rates(const Point& /*p*/, double* /*dx*/) const {}
   /// What must not change within a step.

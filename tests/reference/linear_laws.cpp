@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "tests/reference/law.h"
 
@@ -169,8 +170,10 @@ class DeadTime : public Law {
  public:
   explicit DeadTime(const Block& b) : delay(b.number("delay")) {}
   bool direct() const override { return delay == 0; }
+  bool is_late() const override { return delay > 0; }
+  void rest_at(double rest) override { before = rest; }
   void output(const Point& p, double* y) const override {
-    *y = delay == 0 ? u(p) : pieces.empty() ? u(p) : reading < 0 ? first : past(p.t - delay);
+    *y = delay == 0 ? u(p) : pieces.empty() ? before.value_or(u(p)) : reading < 0 ? first : past(p.t - delay);
   }
   double next() const override {
     const auto following = static_cast<std::size_t>(reading + 1);
@@ -185,7 +188,7 @@ class DeadTime : public Law {
   void keep(const Point& p) override {
     if (delay == 0) return;
     if (p.free && (coming <= 1 || pieces.empty())) {
-      if (pieces.empty()) first = u(p);
+      if (pieces.empty()) first = before.value_or(u(p));
       if (pieces.empty() || pieces.back().begin + 1 != t.size() || t.back() != p.t) {
         if (pieces.size() > 20000) throw Unknown("a dead time that is fed back with too many instants");
         pieces.push_back({t.size(), coming});
@@ -219,6 +222,7 @@ class DeadTime : public Law {
   }
   static constexpr double nearest = 1e-9;  ///< points nearer than this would spoil the cubic [s]
   double delay, first = 0;
+  std::optional<double> before{};  ///< the start; else as the input is at first
   std::vector<double> t{}, v{};
   struct Piece {
     std::size_t begin;

@@ -16,7 +16,6 @@ class Simulation {
  public:
   Simulation(const FlatDiagram& diagram_, const Settings& settings_) : diagram(diagram_), settings(settings_) {
     build();
-    order = evaluation_order(laws);
   }
 
   Result run() {
@@ -34,6 +33,9 @@ class Simulation {
  private:
   // --- building ---------------------------------------------------------------------------------------------------
   void build() {
+    laws.clear();
+    writer.clear();
+    recorded.clear();
     std::map<std::string, int> places;
     int signals = 0, states = 0;
     for (Block block : diagram.blocks) {
@@ -59,6 +61,7 @@ class Simulation {
     step = settings.step;
     for (const auto& law : laws) step = std::min({step, law->fastest() / 20, law->largest_step()});
     if (step < 1e-6) throw Unknown("too fast for fixed steps");
+    order = evaluation_order(laws);
   }
 
   void disturb(Block& block) const {
@@ -160,11 +163,24 @@ class Simulation {
   }
 
   // --- time -------------------------------------------------------------------------------------------------------
+  /// Before the start the input of a dead time had been for ever what it is there, samples that are taken at the start
+  /// and modes that are settled there included.
   void begin() {
-    for (const auto& law : laws) law->start(x.data());
-    scratch = s;
-    at_rest_before();
-    instant(true);
+    std::vector<double> rest;
+    for (int round = 0; round < 100; ++round) {
+      for (std::size_t b = 0; b < rest.size(); ++b)
+        if (laws[b]->is_late()) laws[b]->rest_at(rest[b]);
+      for (const auto& law : laws) law->start(x.data());
+      scratch = s;
+      at_rest_before();
+      instant(true);
+      std::vector<double> now_rest;
+      for (const auto& law : laws) now_rest.push_back(law->is_late() ? s[law->in[0]] : 0);
+      if (now_rest == (rest.empty() ? std::vector<double>(laws.size(), 0) : rest)) return;
+      rest = std::move(now_rest);
+      build();
+    }
+    throw Unknown("dead times that need each other at the start");
   }
 
   /// A dead time hands on at first what its input is at first, whatever the order of evaluation.

@@ -154,8 +154,7 @@ class SampledPid : public Sampled {
     c.wanted = kp * e + c.integral + c.derivative;
     const bool beyond = (c.wanted > upper && increment > 0) || (c.wanted < lower && increment < 0);
     if (windup == "clamping" && beyond) {
-      if (at_once) c.wanted -= increment;
-      c.integral = integral;
+      c.integral = integral;  // the command of this instant is the limit all the same
     } else if (!at_once) {
       c.integral += increment;
     }
