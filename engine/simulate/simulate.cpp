@@ -474,7 +474,8 @@ bool Simulation::begin_anew_before_reversal() {
 void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
   if (!crossing.guards.empty()) return switch_modes({}, crossing.guards);
   commit();
-  if (reversals_.count() > 0) follow_directions();  // the rate of what bends here may have changed its sign
+  if (events_.settle(run_, work_, t_, x_, {})) commit();  // a jump of what bends here may switch others
+  if (reversals_.count() > 0) follow_directions();        // and the rate may have changed its sign
   // What is behind the kink has to be seen by the integrator too: another step may be as long.
   if (crossing.seen > t_ + 2 * root_width(t_, crossing.seen)) look_at_ = crossing.seen;
   restart();

@@ -335,6 +335,24 @@ TEST(ZeroCrossings, ALawThatMovesBetweenTheEndsOfAStepOnlyIsIntegrated) {
     EXPECT_NEAR(simulated(d, 2.5, method).values[0].back(), way - 0.4 * 0.25, 1e-5) << method_name(method);
 }
 
+TEST(ZeroCrossings, AJumpOfABlockWithoutModesSwitchesThoseBehindItAtOnce) {
+  // The limiter turns round where the rounded sine jumps. Against steps of a microsecond, each late by half of one
+  // where it turns: 1e-6 a turn.
+  const auto d = tools::diagram(
+      {{"u", sine(1.2, 2, 0.3)},
+       {"r", block("rounding", {{"step", 1.0}}, {"u"})},
+       {"y", block("rate_limiter", {{"rise", "0.5 1/s"}, {"fall", "0.5 1/s"}, {"time", "10 ms"}}, {"r"})}},
+      {"y"});
+  constexpr double h = 1e-6;
+  double y = 0, t = 0;
+  for (int k = 0; k < 1'400'000; ++k, t = h * k) {
+    const double r = std::round(1.2 * std::sin(4 * M_PI * (t + h / 2) + 0.3));
+    y += h * std::clamp((r - y) / 0.01, -0.5, 0.5);
+  }
+  for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta})
+    EXPECT_NEAR(simulated(d, 1.4, method).values[0].back(), y, 3e-6) << method_name(method);
+}
+
 TEST(ZeroCrossings, ABoucWenLawOfAnyExponentBeginsAtZero) {
   // The slope of |z|^(n-1) has no bound there, that of the law is that of a spring.
   const auto d = tools::diagram(
