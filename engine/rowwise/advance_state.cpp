@@ -194,7 +194,10 @@ void AdvanceState::start(std::span<const int> due, double t, double branch, bool
   sample(due, t, sampling);
   if (plan_.has_histories) sample_until_at_rest(due, t, memory, sampling);
   begin_behind(t, true);
-  if (plan_.has_histories) rest_histories(t, true);
+  if (plan_.has_histories) {
+    rest_histories(t, true);
+    for (const int b : plan_.momentary) evaluate(b);
+  }
   for (const int b : plan_.momentary_behind) evaluate(b);
 }
 

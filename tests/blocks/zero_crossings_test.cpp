@@ -287,17 +287,20 @@ TEST(ZeroCrossings, ADeadTimeBehindASampleIsAtRestForTheSampleBehindIt) {
     std::vector<std::pair<std::string, Node>> blocks = {{"c", block("constant", {{"value", 2.0}})},
                                                         {"k", block("sample_hold", {{"period", "0.1 s"}}, {"c"})},
                                                         {"d", block("dead_time", {{"delay", "0.25 s"}}, {"k"})},
-                                                        {"h", block("sample_hold", {{"period", "0.1 s"}}, {"d"})}};
+                                                        {"h", block("sample_hold", {{"period", "0.1 s"}}, {"d"})},
+                                                        {"sum", block("sum", {{"signs", "+-"}}, {"d", "c"})}};
     if (switched) {  // not advanced from row to row
       blocks.push_back(
           {"r", block("relay", {{"on_at", 1.0}, {"off_at", -1.0}, {"on_value", 1.0}, {"off_value", 0.0}}, {"x"})});
       blocks.push_back({"x", block("lag", {{"times", number(10, "ms")}}, {"h"})});
     }
-    return tools::diagram(blocks, switched ? std::vector<std::string>{"h", "r"} : std::vector<std::string>{"h"});
+    return tools::diagram(blocks,
+                          switched ? std::vector<std::string>{"h", "sum", "r"} : std::vector<std::string>{"h", "sum"});
   };
   for (const bool switched : {false, true}) {
     const auto traces = simulated(chain(switched), 1, Method::automatic, 0.05);
     for (const double h : traces.values[0]) EXPECT_EQ(h, 2) << switched;
+    for (const double sum : traces.values[1]) EXPECT_EQ(sum, 0) << switched;
   }
 }
 
