@@ -13,6 +13,7 @@
 
 #include "app/cli/failure.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/perform.h"
 #include "app/cli/verb.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
@@ -37,12 +38,32 @@ constexpr char first_steps[] =
     "Exit codes: 0 done, 1 the answer to a yes-or-no question is no, 2 the input is wrong,\n"
     "            3 the numerics failed, 130 interrupted.";
 
-/// Read before anything else, so that failures of the command line itself come in the form asked for.
-bool wants_json(const std::vector<std::string>& words) {
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (words[i] == "--errors=json" || (words[i] == "--errors" && i + 1 < words.size() && words[i + 1] == "json"))
-      return true;
-  return false;
+/// Read before anything else, so that failures of the command line itself come in the form asked for: as --errors says,
+/// else as the answer would have come.
+bool wants_json_errors(const std::vector<std::string>& words) {
+  bool json = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool apart = words[i] == "--errors" && i + 1 < words.size();
+    if (apart || words[i].starts_with("--errors=")) return (apart ? words[i + 1] : words[i].substr(9)) == "json";
+    json = json || words[i] == "--json";
+  }
+  return json;
+}
+
+/// What every verb takes; `values`: the only words that the option may have.
+struct CommonOption {
+  OptionSpec spec;
+  std::vector<std::string> values{};
+};
+
+const std::vector<CommonOption>& common_options() {
+  static const std::vector<CommonOption> list{
+      {{"--quiet", "", "print no more than the result"}},
+      {{"--json", "", "print the answer as one JSON object, for programs; failures, too (docs/programs.md)"}},
+      {{"--progress", "FORM", "tell how far it is as \"text\" (default, on a terminal) or \"json\", a line per event"},
+       {"text", "json"}},
+      {{"--errors", "FORM", "print failures as \"text\" (default) or \"json\""}, {"text", "json"}}};
+  return list;
 }
 
 /// A verb as the parser sees it, with the places where it stores what it reads.
@@ -59,8 +80,7 @@ void add_verb_to(CLI::App& app, ParsedVerb& parsed, bool asked) {
   if (!asked) return;
   parsed.app->description(parsed.verb.summary);
   parsed.app->footer(parsed.verb.help);
-  parsed.verb.options.push_back({"--quiet", "", "print no more than the result", false, false});
-  parsed.verb.options.push_back({"--errors", "FORM", "print failures as \"text\" (default) or \"json\"", false, false});
+  for (const auto& common : common_options()) parsed.verb.options.push_back(common.spec);
   for (const auto& spec : parsed.verb.options) {
     auto& value = parsed.values.emplace_back();
     CLI::Option* option = nullptr;
@@ -74,10 +94,11 @@ void add_verb_to(CLI::App& app, ParsedVerb& parsed, bool asked) {
       option->multi_option_policy(spec.repeated ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
       option->expected(1);
       if (spec.repeated) option->expected(1, 1 << 20)->allow_extra_args(!spec.name.starts_with("-"));
-      if (spec.name == "--errors") option->check(CLI::IsMember({"text", "json"}));
     }
     parsed.parsed.push_back(option);
   }
+  for (const auto& common : common_options())
+    if (!common.values.empty()) parsed.app->get_option(common.spec.name)->check(CLI::IsMember(common.values));
 }
 
 Arguments arguments_of(const ParsedVerb& parsed) {
@@ -145,7 +166,7 @@ int parse_and_act(const std::vector<std::string>& words) {
          fmt::format("see hysteron {}--help", verb));
   }
   if (!chosen()) fail("bad_command_line", "hysteron", "no verb was given", "see hysteron --help");
-  return chosen()->verb.act(arguments_of(*chosen()));
+  return perform(chosen()->verb, arguments_of(*chosen()));
 }
 
 Problem output_not_written() {
@@ -166,7 +187,7 @@ std::vector<Problem> unexpected(const char* what) {
 }  // namespace
 
 int run_command_line(const std::vector<std::string>& words) {
-  const bool as_json = wants_json(words);
+  const bool as_json = wants_json_errors(words);
   int code = exit_code::done;
   watch_interrupts();
   try {

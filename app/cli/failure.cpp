@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/answer_json.h"
+#include "app/cli/shape.h"
+
 namespace hysteron {
 
 std::string problems_json(const std::vector<Problem>& problems, int code) {
@@ -23,6 +26,19 @@ std::string problems_json(const std::vector<Problem>& problems, int code) {
   }
   // A file name or a cell of a CSV may hold bytes that are no UTF-8.
   return root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string failure_schema() {
+  using namespace shape;
+  const Facts problem = object("one of them", {{"code", text("its kind, for programs")},
+                                               {"path", text("where: an option, a file, a place in a file")},
+                                               {"what", text("is wrong")},
+                                               {"cure", text("what to do")},
+                                               {"file", text("in which it lies"), sometimes},
+                                               {"line", whole("of the file, from 1"), sometimes}});
+  return schema_text("failure of hysteron", object("What is printed on the error stream with --json or --errors json.",
+                                                   {{"exit_code", whole("2: wrong input, 3: the numerics failed")},
+                                                    {"problems", list("all that were found", problem)}}));
 }
 
 void print_problems(const std::vector<Problem>& problems, int code, bool as_json) {

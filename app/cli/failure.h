@@ -12,6 +12,9 @@ namespace hysteron {
 /// {"exit_code": 2, "problems": [{"code", "path", "what", "cure", "file", "line"}]}
 std::string problems_json(const std::vector<Problem>& problems, int code);
 
+/// The JSON Schema of problems_json().
+std::string failure_schema();
+
 /// Prints problems on stderr, in the form that the user asked for.
 void print_problems(const std::vector<Problem>& problems, int code, bool as_json);
 

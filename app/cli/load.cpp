@@ -49,16 +49,15 @@ void with_lines_of(const Diagram& diagram, const std::function<void()>& action) 
   }
 }
 
-Diagram load_diagram(const Arguments& arguments) {
+Diagram load_diagram(const Arguments& arguments, const Watch& watch) {
   Diagram diagram = read_diagram(arguments.text("diagram"), arguments.list("--allow"));
-  apply_overrides(diagram, arguments);
+  apply_overrides(diagram, arguments, watch);
   return diagram;
 }
 
-void apply_overrides(Diagram& diagram, const Arguments& arguments) {
+void apply_overrides(Diagram& diagram, const Arguments& arguments, const Watch& watch) {
   const auto notes = settings_applied(diagram, overrides(arguments, "--set"), overrides(arguments, "--choose"));
-  for (const auto& note : notes)
-    if (!arguments.quiet()) fmt::print(stderr, "note: {}\n", note);
+  for (const auto& note : notes) watch.note(note);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/cli/verb.h"
+#include "app/cli/watch.h"
 #include "discover/hypotheses/effect.h"
 #include "engine/program/program.h"
 #include "io/data/dataset.h"
@@ -16,9 +17,9 @@ namespace hysteron {
 const Registry& registry();
 
 /// The diagram of the arguments, with --set and --choose applied.
-Diagram load_diagram(const Arguments& arguments);
-/// Applies --set and --choose.
-void apply_overrides(Diagram& diagram, const Arguments& arguments);
+Diagram load_diagram(const Arguments& arguments, const Watch& watch);
+/// Applies --set and --choose; notes what the user should know of it.
+void apply_overrides(Diagram& diagram, const Arguments& arguments, const Watch& watch);
 
 /// Runs `action`; an Error that it throws gets the file and line of the diagram.
 void with_lines_of(const Diagram& diagram, const std::function<void()>& action);

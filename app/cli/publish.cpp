@@ -1,28 +1,16 @@
-// Decides how a verb ends: its folder of results is written, and what matters is printed, the report's place last.
-// Does not decide what was found.
 #include "app/cli/publish.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "app/cli/interrupt.h"
-#include "app/cli/terminal.h"
 #include "engine/diagram/stop.h"
+#include "io/files/atomic_file.h"
 #include "report/page/report.h"
 
 namespace hysteron {
 namespace {
-
-void print_answer(const Arguments& arguments, const std::string& folder, const Document& document,
-                  const std::vector<std::string>& said_here_only) {
-  if (!document.headline.empty()) fmt::print("{}", wrapped(document.headline));
-  if (!arguments.quiet()) {
-    for (const auto& sentence : document.sentences) fmt::print("{}", wrapped(sentence, 2));
-    for (const auto& warning : document.warnings) fmt::print("{}", wrapped("note: " + warning, 2));
-    for (const auto& line : said_here_only) fmt::print("{}", wrapped(line, 2));
-  }
-  fmt::print("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
-             folder.size() > 1 && folder.back() == '/' ? folder.substr(0, folder.size() - 1) : folder);
-}
 
 /// Writes, unless Ctrl-C comes before anything is replaced. Who was interrupted before and keeps what was found by
 /// then is not stopped by the first Ctrl-C to come.
@@ -38,8 +26,6 @@ void write_in_order(const std::string& folder, const Action& action) {
   }
 }
 
-}  // namespace
-
 FolderLock::Waiting say_who_writes(const std::string& folder) {
   constexpr int too_short_to_be_said = 10;  // calls, of which there are twenty a second
   return [folder, calls = 0](const std::string& holder) mutable {
@@ -47,22 +33,36 @@ FolderLock::Waiting say_who_writes(const std::string& folder) {
   };
 }
 
-void write_results(const std::string& folder, const Document& document) {
-  const std::string page = report_html(document);
-  write_in_order(folder, [&] { write_result(folder, document, page, say_who_writes(folder)); });
+}  // namespace
+
+std::shared_ptr<HeldFolder> hold_folder(const std::string& folder) {
+  return std::make_shared<HeldFolder>(folder, say_who_writes(folder));
 }
 
-void publish(const Arguments& arguments, const std::string& folder, const Document& document,
-             const std::vector<std::string>& said_here_only) {
-  write_results(folder, document);
-  print_answer(arguments, folder, document, said_here_only);
+void publish_folder(const Answer& answer) {
+  const std::string page = report_html(answer.document);
+  write_in_order(answer.folder, [&] {
+    if (answer.held && answer.held->staged)
+      finish_result(*answer.held->staged, answer.folder, answer.document, page);
+    else
+      write_result(answer.folder, answer.document, page, say_who_writes(answer.folder));
+  });
 }
 
-void publish_staged(const Arguments& arguments, StagedResults& staged, const std::string& folder,
-                    const Document& document, const std::vector<std::string>& said_here_only) {
-  const std::string page = report_html(document);
-  write_in_order(folder, [&] { finish_result(staged, folder, document, page); });
-  print_answer(arguments, folder, document, said_here_only);
+void publish_files(const Answer& answer) {
+  std::error_code code;
+  std::vector<std::string> made;
+  try {
+    for (const auto& file : answer.files) {
+      if (file.in_place) continue;
+      const bool is_new = !std::filesystem::exists(file.path, code);
+      write_file(file.path, file.content);
+      if (is_new) made.push_back(file.path);
+    }
+  } catch (...) {
+    for (const auto& file : made) std::filesystem::remove(file, code);
+    throw;
+  }
 }
 
 }  // namespace hysteron

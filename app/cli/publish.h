@@ -1,30 +1,32 @@
-// Decides how a verb ends: its folder of results is written, and what matters is printed, the report's place last.
-// Does not decide what was found.
+// Decides how results reach the disk: the one door through which a verb's folder and files are put in place, whole or
+// not at all. Does not decide what was found.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "app/cli/verb.h"
+#include "app/cli/answer.h"
 #include "io/files/folder_lock.h"
-#include "io/results/result.h"
 #include "io/results/staged_results.h"
 
 namespace hysteron {
 
-/// The folder of results alone; nothing is printed. Throws Interrupted, and then nothing was replaced.
-void write_results(const std::string& folder, const Document& document);
+/// A folder of results that a verb has for itself from its first file until its answer is in place.
+struct HeldFolder {
+  HeldFolder(const std::string& folder, const FolderLock::Waiting& waiting) : lock(folder, waiting) {}
 
-/// Writes `folder` whole or not at all, then prints headline, sentences, warnings, what is said here only (times, which
-/// no result may depend on) and, on the last line, the verdict and where report.html lies.
-void publish(const Arguments& arguments, const std::string& folder, const Document& document,
-             const std::vector<std::string>& said_here_only = {});
+  FolderLock lock;
+  std::optional<StagedResults> staged;  ///< where some of the results are written before the answer
+};
 
-/// The same where the folder is locked and some of its files were written before.
-void publish_staged(const Arguments& arguments, StagedResults& staged, const std::string& folder,
-                    const Document& document, const std::vector<std::string>& said_here_only = {});
+/// Waits for others who write there, and says so once on the error stream. Throws as FolderLock does.
+std::shared_ptr<HeldFolder> hold_folder(const std::string& folder);
 
-/// Says once, on the error stream, for whom this program waits.
-FolderLock::Waiting say_who_writes(const std::string& folder);
+/// The folder of an answer. Throws Interrupted, and then nothing was replaced.
+void publish_folder(const Answer& answer);
+
+/// Its files, those that lie in no folder of results: all of them, or none that was not there before.
+void publish_files(const Answer& answer);
 
 }  // namespace hysteron

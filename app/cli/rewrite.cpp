@@ -21,21 +21,27 @@ std::string place_of(const Diagram& diagram, const std::string& written) {
 
 }  // namespace
 
-void rewrite(const Arguments& arguments, const Diagram& diagram, const NestedDiagrams& nested) {
+WrittenFile diagram_file(const std::string& file, const Diagram& diagram) {
+  return {file, diagram_text(moved_diagram(diagram, file))};
+}
+
+void rewrite(Answer& answer, const Arguments& arguments, const Diagram& diagram, const NestedDiagrams& nested) {
   if (!arguments.has("-o")) {
-    if (!arguments.quiet()) fmt::print("nothing was written; -o FILE.json writes it\n");
+    if (!arguments.quiet()) answer.text += "nothing was written; -o FILE.json writes it\n";
     return;
   }
-  const std::string file = arguments.text("-o");
   std::error_code code;
-  for (const auto& [written, content] : nested)
-    if (fs::exists(place_of(diagram, written), code))
-      fail("file_there", place_of(diagram, written),
-           "the changed nested diagram would go here, and there is a file already", "remove or rename that file");
-  for (const auto& [written, content] : nested) write_diagram(place_of(diagram, written), content);
-  write_diagram(file, diagram);
-  for (const auto& [written, content] : nested) fmt::print("wrote {}\n", place_of(diagram, written));
-  fmt::print("wrote {}\n", file);
+  for (const auto& [written, content] : nested) {
+    const std::string file = place_of(diagram, written);
+    behind(answer.text, [&, &there = file] {
+      if (fs::exists(there, code))
+        fail("file_there", there, "the changed nested diagram would go here, and there is a file already",
+             "remove or rename that file");
+    });
+    answer.files.push_back(diagram_file(file, content));
+  }
+  answer.files.push_back(diagram_file(arguments.text("-o"), diagram));
+  for (const auto& file : answer.files) answer.closing += fmt::format("wrote {}\n", file.path);
 }
 
 }  // namespace hysteron

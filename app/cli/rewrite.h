@@ -2,12 +2,16 @@
 // Does not change diagrams.
 #pragma once
 
-#include "app/cli/verb.h"
+#include "app/cli/answer.h"
 #include "io/results/result_diagram.h"
 
 namespace hysteron {
 
-/// Writes the diagram to "-o" (and its changed nested diagrams beside it) and says so; without -o says how to write it.
-void rewrite(const Arguments& arguments, const Diagram& diagram, const NestedDiagrams& nested);
+/// A diagram as the file that an answer writes: its relative paths are seen from there.
+WrittenFile diagram_file(const std::string& file, const Diagram& diagram);
+
+/// Adds to the answer what "-o" asks for: the diagram, and its changed nested diagrams beside it; without -o how to
+/// write it.
+void rewrite(Answer& answer, const Arguments& arguments, const Diagram& diagram, const NestedDiagrams& nested);
 
 }  // namespace hysteron

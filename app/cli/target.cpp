@@ -38,6 +38,12 @@ void need_ending(const std::string& option, const std::string& file, const std::
        "name " + what);
 }
 
+void make_folder(const std::string& folder, const std::string& cure) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) fail("cannot_write", folder, "the folder cannot be made: " + code.message(), cure);
+}
+
 void check_diagram_target(const std::string& option, const std::string& file, const Diagram& diagram) {
   std::error_code none;
   const auto status = fs::status(file, none);

@@ -1,5 +1,5 @@
-// Decides what a verb of the command line is: its name, what its help teaches, its options and what it does.
-// Does not parse (command_line.cpp) and does not compute (the rooms below).
+// Decides what a verb of the command line is: its name, what its help teaches, its options, what it does and what its
+// answer holds for programs. Does not parse (command_line.cpp) and does not compute (the rooms below).
 #pragma once
 
 #include <map>
@@ -7,6 +7,12 @@
 #include <vector>
 
 namespace hysteron {
+
+struct Answer;  // answer.h
+struct Watch;   // watch.h
+namespace shape {
+struct Member;  // shape.h
+}
 
 /// Exit codes of the program (DESIGN 8).
 namespace exit_code {
@@ -41,6 +47,7 @@ class Arguments {
   double seconds(const std::string& name, double otherwise) const;
   int threads() const;  ///< of --threads; one per core if it is not given
   bool quiet() const { return has("--quiet"); }
+  bool json() const { return has("--json"); }
   void set(const std::string& name, std::vector<std::string> values) { given_[name] = std::move(values); }
 
  private:
@@ -52,7 +59,9 @@ struct Verb {
   std::string summary;  ///< one line, in the list of verbs
   std::string help;     ///< what it answers, examples, what it writes
   std::vector<OptionSpec> options;
-  int (*act)(const Arguments&) = nullptr;  ///< returns the exit code
+  Answer (*act)(const Arguments&, const Watch&) = nullptr;
+  /// What --json says beside the members that every answer has; its schema is made of it (answer_json.h).
+  std::vector<shape::Member> (*shape)() = nullptr;
 };
 
 /// Options that several verbs take, said once.
@@ -67,25 +76,6 @@ OptionSpec allow();
 OptionSpec effects();
 OptionSpec threads(const std::string& things);  ///< so many of these at once
 }  // namespace options
-
-Verb new_verb();
-Verb run_verb();
-Verb check_verb();
-Verb explain_verb();
-Verb draw_verb();
-Verb linearize_verb();
-Verb blocks_verb();
-Verb effects_verb();
-Verb inspect_verb();
-Verb compare_verb();
-Verb diagnose_verb();
-Verb add_verb();
-Verb remove_verb();
-Verb fit_verb();
-Verb discover_verb();
-Verb study_verb();
-Verb reproduce_verb();
-Verb schema_verb();
 
 /// All verbs, in the order in which a user meets them.
 std::vector<Verb> all_verbs();

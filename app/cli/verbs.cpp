@@ -13,6 +13,26 @@
 
 namespace hysteron {
 
+// Each stands in app/verbs, in a file of its name.
+Verb new_verb();
+Verb run_verb();
+Verb check_verb();
+Verb explain_verb();
+Verb draw_verb();
+Verb linearize_verb();
+Verb inspect_verb();
+Verb compare_verb();
+Verb diagnose_verb();
+Verb add_verb();
+Verb remove_verb();
+Verb fit_verb();
+Verb discover_verb();
+Verb study_verb();
+Verb reproduce_verb();
+Verb blocks_verb();
+Verb effects_verb();
+Verb schema_verb();
+
 std::vector<Verb> all_verbs() {
   return {new_verb(),      run_verb(),     check_verb(),     explain_verb(), draw_verb(),    linearize_verb(),
           inspect_verb(),  compare_verb(), diagnose_verb(),  add_verb(),     remove_verb(),  fit_verb(),

@@ -12,6 +12,7 @@
 
 #include "app/cli/interrupt.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/stop.h"
 #include "io/files/atomic_file.h"
 #include "report/pages/numbers.h"
 
@@ -36,7 +37,7 @@ void for_each_row(const StudyFolder& folder, const Study& study, const std::func
   for (int k = 0; k < folder.shards(); ++k) {
     const ColumnReader file(folder.shard_file(k));
     for (std::uint64_t first = 0; first < file.rows(); first += rows_at_once) {
-      if (interrupted())
+      if (stop_asked())
         throw Interrupted(fmt::format("interrupted; all {} shards are kept in {}, and the same command joins them",
                                       folder.shards(), folder.file("shards")));
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows_at_once, file.rows() - first));

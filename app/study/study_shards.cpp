@@ -100,7 +100,7 @@ class ShardWork {
     std::unique_lock lock(mutex_);
     while (done_ < threads) {
       changed_.wait_for(lock, std::chrono::milliseconds(100));
-      if (interrupted()) stop_ = true;
+      if (stop_asked()) stop_ = true;
       if (show) show({static_cast<int>(shards_.size()), static_cast<int>(finished_), draws_, accepted_});
     }
   }
@@ -111,15 +111,18 @@ class ShardWork {
   std::size_t finished() const { return finished_; }
 
  private:
+  /// Whoever asks the thread that began the work.
+  bool asked_to_stop() const { return asked_ != nullptr && (*asked_)(); }
+
   bool compute(int shard) try {
     StudyCounts before;
-    const StopScope scope([&] { return stop_ || interrupted(); });
+    const StopScope scope([&] { return stop_ || asked_to_stop(); });
     return folder_.compute(shard, [&](const StudyCounts& counts) {
       draws_ += counts.draws - before.draws;
       accepted_ += counts.accepted - before.accepted;
       before.draws = counts.draws;
       before.accepted = counts.accepted;
-      return !stop_ && !interrupted();
+      return !stop_ && !asked_to_stop();
     });
   } catch (const Stopped&) {
     return false;
@@ -127,6 +130,7 @@ class ShardWork {
 
   const StudyFolder& folder_;
   const std::vector<int>& shards_;
+  const StopScope::Asked* const asked_ = current_stop();
   std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> finished_{0};
   std::atomic<std::uint64_t> draws_{0}, accepted_{0};
@@ -268,7 +272,6 @@ bool StudyFolder::compute(int shard, const std::function<bool(const StudyCounts&
 void StudyFolder::compute(const std::vector<int>& list, std::size_t there, int threads,
                           const std::function<void(const StudyProgress&)>& show) const {
   if (list.empty()) return;
-  const DeferInterrupts until_safe;
   ShardWork work(*this, list);
   const int n = std::clamp(threads, 1, static_cast<int>(list.size()));
   std::vector<std::thread> workers;
@@ -276,7 +279,7 @@ void StudyFolder::compute(const std::vector<int>& list, std::size_t there, int t
   work.wait_for(n, show);
   for (auto& worker : workers) worker.join();
   work.rethrow();
-  if (!interrupted() || work.finished() == list.size()) return;
+  if (!stop_asked() || work.finished() == list.size()) return;
   throw Interrupted(fmt::format(
       "interrupted; {} of {} shards are finished and kept in {}/shards; the same command goes on from there",
       there + work.finished(), there + list.size(), folder_));

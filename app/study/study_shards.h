@@ -42,7 +42,8 @@ class StudyFolder {
   /// Computes a shard and writes it. `go_on` as in compute_shard(); false if it ended it: then nothing is written.
   bool compute(int shard, const std::function<bool(const StudyCounts&)>& go_on) const;
   /// Computes these shards on several threads; `show` is called every now and then by the calling thread. Throws
-  /// Interrupted after Ctrl-C, saying what is kept: those that were `there` of the ones that are wanted, and new ones.
+  /// Interrupted where it is asked to stop (engine/diagram/stop.h), saying what is kept: those that were `there` of the
+  /// ones that are wanted, and new ones.
   void compute(const std::vector<int>& shards, std::size_t there, int threads,
                const std::function<void(const StudyProgress&)>& show) const;
   /// Removes what killed processes left.

@@ -75,9 +75,9 @@ bool wants_slurm(const Arguments& arguments) {
   return std::any_of(options.begin(), options.end(), [&](const OptionSpec& o) { return arguments.has(o.name); });
 }
 
-int submit_study(const Arguments& arguments, const std::string& job, const std::string& title,
-                 const StudyFolder& folder, const std::vector<std::string>& words,
-                 const std::vector<std::string>& merge_words) {
+Answer submit_study(const Arguments& arguments, const std::string& job, const std::string& title,
+                    const StudyFolder& folder, const std::vector<std::string>& words,
+                    const std::vector<std::string>& merge_words) {
   SlurmStudy study;
   study.title = title;
   study.folder = absolute(folder.file("slurm"));
@@ -95,16 +95,27 @@ int submit_study(const Arguments& arguments, const std::string& job, const std::
   const bool dry = arguments.has("--slurm-dry-run");
   if (!dry) refuse_second_submission(study.folder);
   write_slurm_scripts(study);
+  Answer answer;
+  for (const char* script : {"shards.sh", "merge.sh"})
+    if (script != std::string("shards.sh") || !study.missing.empty())
+      answer.files.push_back({study.folder + "/" + script, "", true});
+  SlurmJobs jobs;
   if (dry) {
-    fmt::print("{}: {}; nothing was submitted\n  by hand: cd {}, then as {} says\n", title, work_text(study),
-               shell_word(study.folder), study.missing.empty() ? "merge.sh" : "shards.sh");
-    return exit_code::done;
+    answer.text =
+        fmt::format("{}: {}; nothing was submitted\n  by hand: cd {}, then as {} says\n", title, work_text(study),
+                    shell_word(study.folder), study.missing.empty() ? "merge.sh" : "shards.sh");
+  } else {
+    jobs = submit_to_slurm(study);
+    answer.text =
+        fmt::format("{}: {}; submitted as job {}\n", title, work_text(study),
+                    jobs.shards.empty() ? jobs.merge : fmt::format("{}, the merge as job {}", jobs.shards, jobs.merge));
+    if (!arguments.quiet()) answer.text += slurm_hints(study, jobs);
   }
-  const SlurmJobs jobs = submit_to_slurm(study);
-  fmt::print("{}: {}; submitted as job {}\n", title, work_text(study),
-             jobs.shards.empty() ? jobs.merge : fmt::format("{}, the merge as job {}", jobs.shards, jobs.merge));
-  if (!arguments.quiet()) fmt::print("{}", slurm_hints(study, jobs));
-  return exit_code::done;
+  answer.facts = Facts::object({{"submitted", !dry},
+                                {"shards", study.shards},
+                                {"missing", study.missing.size()},
+                                {"jobs", Facts::object({{"shards", jobs.shards}, {"merge", jobs.merge}})}});
+  return answer;
 }
 
 }  // namespace hysteron

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/verb.h"
+#include "app/cli/answer.h"
 #include "app/study/study_shards.h"
 
 namespace hysteron {
@@ -17,8 +17,8 @@ bool wants_slurm(const Arguments& arguments);
 
 /// `folder` is open. `words`: what the user said that belongs to every shard and to the merge ("--set", "a=1");
 /// `merge_words`: what belongs to the merge alone ("--csv").
-int submit_study(const Arguments& arguments, const std::string& job, const std::string& title,
-                 const StudyFolder& folder, const std::vector<std::string>& words,
-                 const std::vector<std::string>& merge_words);
+Answer submit_study(const Arguments& arguments, const std::string& job, const std::string& title,
+                    const StudyFolder& folder, const std::vector<std::string>& words,
+                    const std::vector<std::string>& merge_words);
 
 }  // namespace hysteron

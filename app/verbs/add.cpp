@@ -7,11 +7,12 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/rewrite.h"
+#include "app/cli/shape.h"
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
 #include "discover/placement/circumstances.h"
 #include "engine/diagram/error.h"
 #include "io/diagram/diagram_file.h"
@@ -33,10 +34,10 @@ constexpr char add_help[] =
     "Prints the difference of the diagram file; writes it with -o.\n"
     "Exit codes: 0 done, 2 the diagram, the effect or the place is wrong.";
 
-int add(const Arguments& arguments) {
+Answer add(const Arguments& arguments, const Watch& watch) {
   const Effects library = load_effects(arguments);
   const Effect& effect = library.get(arguments.text("effect"));
-  const Diagram diagram = load_diagram(arguments);
+  const Diagram diagram = load_diagram(arguments, watch);
   if (arguments.has("-o")) check_diagram_target("-o", arguments.text("-o"), diagram);
   const ProgramPointer program = compile_file(diagram);
   std::optional<DataSet> data;
@@ -50,12 +51,23 @@ int add(const Arguments& arguments) {
                                  circumstances ? &*circumstances : nullptr, data ? &*data : nullptr);
   refuse_new_loop(*program, *compile(added.diagram, registry()), added.at);  // what is written must run
 
-  fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(added.diagram)));
+  Answer answer;
+  const std::string change = text_diff(diagram_text(diagram), diagram_text(added.diagram));
+  answer.text = change;
   if (!arguments.quiet())
-    for (const auto& remark : added.remarks) fmt::print("{}", wrapped("note: " + remark));
-  rewrite(arguments, added.diagram, added.nested);
-  if (!arguments.quiet()) fmt::print("{} enters at {} as {}\n", effect.id, added.at, added.name);
-  return exit_code::done;
+    for (const auto& remark : added.remarks) answer.text += wrapped("note: " + remark);
+  rewrite(answer, arguments, added.diagram, added.nested);
+  if (!arguments.quiet()) answer.closing += fmt::format("{} enters at {} as {}\n", effect.id, added.at, added.name);
+  answer.warnings = added.remarks;
+  answer.facts = Facts::object({{"effect", effect.id}, {"at", added.at}, {"block", added.name}, {"change", change}});
+  return answer;
+}
+
+std::vector<shape::Member> add_shape() {
+  return {{"effect", shape::text("as \"hysteron effects\" names it")},
+          {"at", shape::text("where it enters")},
+          {"block", shape::text("the name of its block")},
+          {"change", shape::text("lines of the diagram file, as diff -u has them")}};
 }
 
 }  // namespace
@@ -71,7 +83,8 @@ Verb add_verb() {
            options::effects(),
            options::output_file(),
            options::allow()},
-          add};
+          add,
+          add_shape};
 }
 
 }  // namespace hysteron

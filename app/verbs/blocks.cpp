@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/cli/answer.h"
 #include "app/cli/block_words.h"
 #include "app/cli/load.h"
+#include "app/cli/shape.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
 #include "engine/diagram/error.h"
 #include "report/pages/facts.h"
 #include "report/pages/numbers.h"
@@ -34,7 +35,8 @@ std::vector<std::string> shown_types() {
   return types;
 }
 
-void print_all() {
+std::string all_text() {
+  std::string text;
   std::vector<std::string> groups;
   for (const auto& type : shown_types()) {
     const auto& group = registry().find(type)->declaration.group;
@@ -46,11 +48,11 @@ void print_all() {
       const auto& declaration = registry().find(type)->declaration;
       if (declaration.group == group) rows.push_back({type, declaration.summary});
     }
-    fmt::print("{}\n{}\n", group, table_text({}, rows));
+    text += fmt::format("{}\n{}\n", group, table_text({}, rows));
   }
-  fmt::print(
-      "\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts\n"
-      "one diagram into another.\n");
+  return text +
+         "\"hysteron blocks TYPE\" shows one in full. Besides these, \"type\": \"diagram\" with \"file\" puts\n"
+         "one diagram into another.\n";
 }
 
 std::string unit_column(const UnitExpression& unit) { return unit.empty() ? "1" : unit; }
@@ -120,23 +122,22 @@ std::string example(const Declaration& d) {
   return text + "}";
 }
 
-void print_ports(const std::string& title, const std::vector<PortDeclaration>& ports) {
-  if (ports.empty()) return;
+std::string ports_text(const std::string& title, const std::vector<PortDeclaration>& ports) {
+  if (ports.empty()) return "";
   TableRows rows;
   for (const auto& p : ports)
     rows.push_back({p.name + (p.variadic && title == "outputs" ? "0, " + p.name + "1, ..." : ""), unit_column(p.unit),
                     p.meaning + (p.variadic && title == "inputs" ? " (any number of wires)" : "") +
                         (p.is_vector ? " (any length)" : "")});
-  fmt::print("\n{}\n{}", title, table_text({}, rows));
+  return fmt::format("\n{}\n{}", title, table_text({}, rows));
 }
 
-void print_memory(const Declaration& d) {
-  if (d.memory_port.empty()) return;
-  fmt::print("\nmemory\n{}",
-             wrapped(fmt::format("{}, in the unit of {}; \"simulate\": {{\"memory\": {{\"name\": [...]}}}} "
-                                 "gives it at the start",
-                                 d.memory_meaning, d.memory_port),
-                     2));
+std::string memory_text(const Declaration& d) {
+  if (d.memory_port.empty()) return "";
+  return "\nmemory\n" + wrapped(fmt::format("{}, in the unit of {}; \"simulate\": {{\"memory\": {{\"name\": [...]}}}} "
+                                            "gives it at the start",
+                                            d.memory_meaning, d.memory_port),
+                                2);
 }
 
 /// "coulomb 0 N, breakaway 0 N"
@@ -146,12 +147,12 @@ std::string neutral_text(const VariationDeclaration& variation) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void print_variations(const Declaration& d) {
-  if (d.variations.empty()) return;
+std::string variations_text(const Declaration& d) {
+  if (d.variations.empty()) return "";
   TableRows rows;
   for (const auto& v : d.variations)
     rows.push_back({v.name, v.type == d.type ? "this type" : v.type, "no change with " + neutral_text(v)});
-  fmt::print("\nvariations (same ports, further parameters)\n{}", table_text({}, rows));
+  return "\nvariations (same ports, further parameters)\n" + table_text({}, rows);
 }
 
 Facts port_facts(const std::vector<PortDeclaration>& ports) {
@@ -167,7 +168,7 @@ Facts port_facts(const std::vector<PortDeclaration>& ports) {
 
 Facts finite_or_null(double bound) { return std::isfinite(bound) ? Facts(bound) : Facts(); }
 
-/// All that print_one() says, for programs.
+/// All that one_text() says, for programs.
 Facts facts_of(const Declaration& d) {
   Facts::List parameters, states, variations;
   for (const auto& p : d.parameters)
@@ -206,71 +207,115 @@ Facts facts_of(const Declaration& d) {
   return facts;
 }
 
-void print_one(const Declaration& d) {
-  fmt::print("{}", wrapped(fmt::format("{}: {} [{}]", d.type, d.summary, d.group)));
-  if (!d.equation.empty()) fmt::print("\nlaw\n{}", wrapped(d.equation, 2));
-  print_ports("inputs", d.inputs);
-  print_ports("outputs", d.outputs);
+std::string one_text(const Declaration& d) {
+  std::string text = wrapped(fmt::format("{}: {} [{}]", d.type, d.summary, d.group));
+  if (!d.equation.empty()) text += "\nlaw\n" + wrapped(d.equation, 2);
+  text += ports_text("inputs", d.inputs);
+  text += ports_text("outputs", d.outputs);
   if (!d.parameters.empty()) {
     TableRows rows;
     for (const auto& p : d.parameters)
       rows.push_back({p.name, p.kind == ParameterKind::text ? "" : unit_column(p.unit), kind_column(p), conditions(p)});
-    fmt::print("\nparameters\n{}", table_text({}, rows));
+    text += "\nparameters\n" + table_text({}, rows);
   }
   if (!d.states.empty()) {
     TableRows rows;
     for (const auto& s : d.states) rows.push_back({s.name, unit_column(s.unit), s.meaning});
-    fmt::print("\nstates\n{}", table_text({}, rows));
+    text += "\nstates\n" + table_text({}, rows);
   }
-  print_memory(d);
-  print_variations(d);
+  text += memory_text(d);
+  text += variations_text(d);
   if (d.is_elementwise)
-    fmt::print("\n{}",
-               wrapped("On vectors it works element by element, with the same parameters for all; single numbers "
-                       "go to every element."));
+    text += "\n" + wrapped(
+                       "On vectors it works element by element, with the same parameters for all; single numbers "
+                       "go to every element.");
   if (!d.remarks.empty()) {
-    fmt::print("\nremarks\n");
-    for (const auto& remark : d.remarks) fmt::print("{}", wrapped(remark, 2));
+    text += "\nremarks\n";
+    for (const auto& remark : d.remarks) text += wrapped(remark, 2);
   }
-  if (!d.source.empty()) fmt::print("\nsource\n{}", wrapped(d.source, 2));
-  fmt::print("\nexample\n{}", wrapped(example(d), 2));
+  if (!d.source.empty()) text += "\nsource\n" + wrapped(d.source, 2);
+  text += "\nexample\n" + wrapped(example(d), 2);
   const auto variable = [](const auto& item) { return item.unit.find('$') != std::string::npos; };
   if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
       std::any_of(d.outputs.begin(), d.outputs.end(), variable))
-    fmt::print("\n{}", wrapped("$a, $b stand for units that come from the wires and from the units written at the "
-                               "parameters; $a[i] for that of each element."));
+    text += "\n" + wrapped(
+                       "$a, $b stand for units that come from the wires and from the units written at the "
+                       "parameters; $a[i] for that of each element.");
+  return text;
 }
 
-int blocks(const Arguments& arguments) {
+Answer blocks(const Arguments& arguments, const Watch&) {
+  Answer answer;
   if (!arguments.has("type")) {
-    if (arguments.has("--json")) {
-      Facts::List list;
-      for (const auto& type : shown_types()) list.push_back(facts_of(registry().find(type)->declaration));
-      fmt::print("{}\n", json_text(list));
-    } else {
-      print_all();
-    }
-    return exit_code::done;
+    Facts::List list;
+    for (const auto& type : shown_types()) list.push_back(facts_of(registry().find(type)->declaration));
+    answer.text = all_text();
+    answer.facts = Facts::object({{"blocks", list}});
+    return answer;
   }
   const std::string type = arguments.text("type");
   const Kernel* kernel = registry().find(type);
   if (kernel == nullptr) fail("unknown_block", type, "there is no block type \"" + type + "\"", instead_of_type(type));
-  if (arguments.has("--json"))
-    fmt::print("{}\n", json_text(facts_of(kernel->declaration)));
-  else
-    print_one(kernel->declaration);
-  return exit_code::done;
+  answer.text = one_text(kernel->declaration);
+  answer.facts = facts_of(kernel->declaration);
+  return answer;
+}
+
+/// The members of facts_of().
+std::vector<shape::Member> type_members() {
+  using namespace shape;
+  const Facts port = object("a port", {{"name", text("in \"in\", or behind the block's name")},
+                                       {"unit", text("$a stands for any")},
+                                       {"meaning", text("what it is")},
+                                       {"any_number", flag("of wires")},
+                                       {"vector", flag("of any length")}});
+  const Facts parameter =
+      object("a parameter", {{"name", text("as diagrams write it")},
+                             {"unit", text("empty: none")},
+                             {"meaning", text("what it is")},
+                             {"kind", choice("of value", {"number", "list", "text", "matrix"})},
+                             {"default", Facts::object({{"type", std::vector<std::string>{"string", "null"}}})},
+                             {"choices", texts("of a text: the words it may be")},
+                             {"minimum", number("in SI")},
+                             {"exclusive_minimum", flag("it must be above")},
+                             {"maximum", number("in SI")},
+                             {"linear", flag("found by linear least squares")}});
+  const Facts state = object("a continuous state", {{"name", text("")}, {"unit", text("")}, {"meaning", text("")}});
+  const Facts variation = object("a richer law with the same ports",
+                                 {{"name", text("")},
+                                  {"type", text("the block type that has it")},
+                                  {"neutral", named("values that change nothing", text("a quantity"))}});
+  return {{"type", text("as diagrams write it")},
+          {"summary", text("what it is")},
+          {"group", text("of blocks")},
+          {"law", text("its equation")},
+          {"source", text("of the law")},
+          {"remarks", texts("what a reader should know")},
+          {"inputs", list("ports", port)},
+          {"outputs", list("ports", port)},
+          {"parameters", list("in their order", parameter)},
+          {"states", list("continuous ones", state)},
+          {"elementwise", flag("works on vectors, element by element")},
+          {"sampled", flag("runs at instants")},
+          {"variations", list("of its law", variation)},
+          {"memory", object("what it remembers", {{"unit_of", text("a port")}, {"meaning", text("")}}), sometimes}};
+}
+
+/// Of one type its members, else all types.
+std::vector<shape::Member> blocks_shape() {
+  auto members = type_members();
+  const Facts one = shape::object("a block type", members);
+  for (auto& member : members) member.sometimes = true;
+  members.push_back({"blocks", shape::list("all types, where none was named", one), shape::sometimes});
+  return members;
 }
 
 }  // namespace
 
 Verb blocks_verb() {
-  return {"blocks",
-          "which blocks are there, and what does one do",
-          blocks_help,
-          {{"type", "TYPE", "the block type to show in full", false, false},
-           {"--json", "", "as JSON, for programs", false, false}},
-          blocks};
+  return {"blocks",    "which blocks are there, and what does one do",
+          blocks_help, {{"type", "TYPE", "the block type to show in full", false, false}},
+          blocks,      blocks_shape};
 }
 
 }  // namespace hysteron

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/verb.h"
+#include "app/cli/shape.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -22,36 +23,63 @@ constexpr char check_help[] =
     "file, line, place, what is wrong and the cure.\n"
     "Exit codes: 0 the file is right, 2 it is not.";
 
-int check(const Arguments& arguments) {
-  const Diagram diagram = load_diagram(arguments);
+Facts diagram_facts(const Program& program, long free) {
+  return Facts::object({{"blocks", program.blocks.size()},
+                        {"inputs", program.input_names},
+                        {"outputs", program.output_names},
+                        {"continuous_states", program.n_x},
+                        {"numbers", program.parameters.size()},
+                        {"free", free},
+                        {"blocks_with_memory", program.memory_blocks.size()}});
+}
+
+Answer check(const Arguments& arguments, const Watch& watch) {
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const auto free =
       std::count_if(program->parameters.begin(), program->parameters.end(), [](const auto& p) { return p.free; });
-  fmt::print("{}: ok: {}, {}, {}, {}, {} ({} free), {}\n", arguments.text("diagram"),
-             count_text(static_cast<long>(program->blocks.size()), "block"),
-             count_text(static_cast<long>(program->input_names.size()), "input"),
-             count_text(static_cast<long>(program->output_names.size()), "output"),
-             count_text(program->n_x, "continuous state"),
-             count_text(static_cast<long>(program->parameters.size()), "number"), free,
-             count_text(static_cast<long>(program->memory_blocks.size()), "block") + " with memory");
-  if (!arguments.has("--data")) return exit_code::done;
-  const DataSet data = load_data(arguments, *program);
+  Answer answer;
+  answer.text = fmt::format("{}: ok: {}, {}, {}, {}, {} ({} free), {}\n", arguments.text("diagram"),
+                            count_text(static_cast<long>(program->blocks.size()), "block"),
+                            count_text(static_cast<long>(program->input_names.size()), "input"),
+                            count_text(static_cast<long>(program->output_names.size()), "output"),
+                            count_text(program->n_x, "continuous state"),
+                            count_text(static_cast<long>(program->parameters.size()), "number"), free,
+                            count_text(static_cast<long>(program->memory_blocks.size()), "block") + " with memory");
+  answer.facts = Facts::object({{"diagram", diagram_facts(*program, free)}});
+  if (!arguments.has("--data")) return answer;
+  DataSet data;
+  behind(answer.text, [&] { data = load_data(arguments, *program); });
   long rows = 0;
   for (const auto& recording : data.recordings) rows += static_cast<long>(recording.last - recording.first);
-  fmt::print("{}: ok: {}, {} judged\n", arguments.text("--data"),
-             count_text(static_cast<long>(data.recordings.size()), "recording"), count_text(rows, "row"));
-  for (const auto& remark : data.remarks) fmt::print("  {}\n", remark);
-  return exit_code::done;
+  answer.text +=
+      fmt::format("{}: ok: {}, {} judged\n", arguments.text("--data"),
+                  count_text(static_cast<long>(data.recordings.size()), "recording"), count_text(rows, "row"));
+  for (const auto& remark : data.remarks) answer.text += fmt::format("  {}\n", remark);
+  answer.warnings = data.remarks;
+  answer.facts.set("data", Facts::object({{"recordings", data.recordings.size()}, {"rows", rows}}));
+  return answer;
+}
+
+std::vector<shape::Member> check_shape() {
+  const Facts diagram = shape::object("what stands in the diagram", {{"blocks", shape::whole("how many")},
+                                                                     {"inputs", shape::texts("their names")},
+                                                                     {"outputs", shape::texts("their names")},
+                                                                     {"continuous_states", shape::whole("how many")},
+                                                                     {"numbers", shape::whole("how many parameters")},
+                                                                     {"free", shape::whole("of these, for a fit")},
+                                                                     {"blocks_with_memory", shape::whole("how many")}});
+  const Facts data = shape::object("what stands in the recordings", {{"recordings", shape::whole("how many")},
+                                                                     {"rows", shape::whole("judged, of all")}});
+  return {{"diagram", diagram}, {"data", data, shape::sometimes}};
 }
 
 }  // namespace
 
 Verb check_verb() {
-  return {"check",
-          "is a diagram (and its data) right",
-          check_help,
-          {options::diagram(), options::data(false), options::set(), options::choose(), options::allow()},
-          check};
+  return {"check",    "is a diagram (and its data) right",
+          check_help, {options::diagram(), options::data(false), options::set(), options::choose(), options::allow()},
+          check,      check_shape};
 }
 
 }  // namespace hysteron

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/publish.h"
-#include "app/cli/terminal.h"
-#include "app/cli/verb.h"
+#include "app/cli/shape.h"
 #include "app/verbs/compare_traces.h"
 #include "engine/diagram/error.h"
 #include "fit/estimate/beginning.h"
@@ -186,10 +185,10 @@ bool names_two_files(const Arguments& arguments) {
   return false;
 }
 
-int compare_verb_acts(const Arguments& arguments) {
+Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
   if (names_two_files(arguments)) return compare_traces(arguments);
   const auto tolerances = read_tolerances(arguments);
-  const Diagram diagram = load_diagram(arguments);
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(load_data(arguments, *program));
   DataModelOptions model_options;
@@ -205,7 +204,10 @@ int compare_verb_acts(const Arguments& arguments) {
   const Comparison comparison = compare(model, judge, prediction, recordings);
   need_something_to_judge(arguments.text("--data"), model, comparison);
 
-  Document document = document_of(diagram, model, comparison);
+  Answer answer;
+  answer.folder = result_folder(arguments, "compare");
+  answer.document = document_of(diagram, model, comparison);
+  Document& document = answer.document;
   bool within = true;
   document.sentences = judge_tolerances(tolerances, model, comparison, within);
   for (const auto& sentence : comparison.sentences)
@@ -229,8 +231,42 @@ int compare_verb_acts(const Arguments& arguments) {
     }
   facts.set("delays", delays);
   document.facts = to_json(facts);
-  publish(arguments, result_folder(arguments, "compare"), document);
-  return within ? exit_code::done : exit_code::no;
+  answer.exit_code = within ? exit_code::done : exit_code::no;
+  return answer;
+}
+
+/// Of a diagram and its data, and of two files of traces.
+std::vector<shape::Member> compare_shape() {
+  using namespace shape;
+  const Facts delay = object("an output that is late", {{"output", text("its name")},
+                                                        {"samples", number("by so many")},
+                                                        {"seconds", number("by so much [s]")},
+                                                        {"sentence", text("the same in words")}});
+  const Facts signal = object("two columns", {{"first", text("its name in the first file")},
+                                              {"second", text("its name in the second file")},
+                                              {"unit", text("of what follows")},
+                                              {"points", whole("at which they were compared")},
+                                              {"left_out", whole("outside the common range")},
+                                              {"largest", number("difference")},
+                                              {"largest_at", number("where")},
+                                              {"rms", number("of the differences")},
+                                              {"tolerance", text("as it was written"), sometimes},
+                                              {"outside", whole("points beyond the tolerance"), sometimes},
+                                              {"within", flag("none"), sometimes},
+                                              {"furthest_beyond", number("the tolerance"), sometimes},
+                                              {"furthest_at", number("where"), sometimes}});
+  const Facts facts = object("how far, where", {{"diagram", text("its file"), sometimes},
+                                                {"data", text("its recordings"), sometimes},
+                                                {"metrics", Facts::object({}), sometimes},
+                                                {"splits", Facts::object({}), sometimes},
+                                                {"delays", list("found in what is left over", delay), sometimes},
+                                                {"first", text("file of traces"), sometimes},
+                                                {"second", text("file of traces"), sometimes},
+                                                {"over", text("column of both"), sometimes},
+                                                {"over_unit", text("its unit"), sometimes},
+                                                {"signals", list("of two files of traces", signal), sometimes},
+                                                {"within_tolerance", flag("where one was given"), sometimes}});
+  return published({{"facts", facts}});
 }
 
 }  // namespace
@@ -252,7 +288,8 @@ Verb compare_verb() {
        options::set(),
        options::choose(),
        options::allow()},
-      compare_verb_acts};
+      compare_verb_acts,
+      compare_shape};
 }
 
 }  // namespace hysteron

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/load.h"
-#include "app/cli/publish.h"
 #include "engine/diagram/error.h"
 #include "fit/compare/trace_files.h"
 #include "report/pages/curves.h"
@@ -240,7 +239,7 @@ std::string plot_of_where(const TraceComparison& c) {
 
 }  // namespace
 
-int compare_traces(const Arguments& arguments) {
+Answer compare_traces(const Arguments& arguments) {
   for (const char* option : {"--data", "--set", "--choose"})
     if (arguments.has(option))
       fail("bad_command_line", option, "two files of traces were named, and no diagram",
@@ -248,10 +247,12 @@ int compare_traces(const Arguments& arguments) {
   const TraceWishes wishes = wishes_of(arguments);
   const TraceComparison comparison =
       compare_trace_files(read_csv(arguments.text("diagram")), read_csv(arguments.text("other")), wishes);
-  const Document document = document_of(arguments, comparison);
-  if (!arguments.quiet()) fmt::print("{}", plot_of_where(comparison));
-  publish(arguments, result_folder(arguments, "compare"), document);
-  return comparison.within() ? exit_code::done : exit_code::no;
+  Answer answer;
+  if (!arguments.quiet()) answer.text = plot_of_where(comparison);
+  answer.folder = result_folder(arguments, "compare");
+  answer.document = document_of(arguments, comparison);
+  answer.exit_code = comparison.within() ? exit_code::done : exit_code::no;
+  return answer;
 }
 
 }  // namespace hysteron

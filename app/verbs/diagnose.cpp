@@ -1,6 +1,5 @@
 // The verb diagnose: which physical effect is missing, with evidence; one, the first.
 // Does not search itself (look.h, discover/).
-#include "app/cli/verb.h"
 #include "app/verbs/look.h"
 
 namespace hysteron {
@@ -16,12 +15,13 @@ constexpr char diagnose_help[] =
     "Writes into the folder: result.json, traces/*.csv, report.html, and the diagram with the effect named.\n"
     "Exit codes: 0 done, whatever was found; 2 wrong input, 3 numerics failed, 130 interrupted.";
 
-int diagnose(const Arguments& arguments) { return look("diagnose", arguments); }
+Answer diagnose(const Arguments& arguments, const Watch& watch) { return look("diagnose", arguments, watch); }
 
 }  // namespace
 
 Verb diagnose_verb() {
-  return {"diagnose", "which physical effect is missing, with evidence", diagnose_help, look_options(), diagnose};
+  return {"diagnose", "which physical effect is missing, with evidence", diagnose_help, look_options(), diagnose,
+          look_shape};
 }
 
 }  // namespace hysteron

@@ -1,6 +1,5 @@
 // The verb discover: the whole loop - compare, name the missing effect, add it, fit it - until only noise is left.
 // Does not search itself (look.h, discover/).
-#include "app/cli/verb.h"
 #include "app/verbs/look.h"
 
 namespace hysteron {
@@ -39,7 +38,7 @@ constexpr char discover_help[] =
     "Exit codes: 0 done, 1 with --check: no longer explained, 2 wrong input, 3 numerics failed,\n"
     "            130 interrupted.";
 
-int discover(const Arguments& arguments) { return look("discover", arguments); }
+Answer discover(const Arguments& arguments, const Watch& watch) { return look("discover", arguments, watch); }
 
 }  // namespace
 
@@ -49,7 +48,8 @@ Verb discover_verb() {
   list.push_back({"--check", "",
                   "do the recordings still follow the model as it stands? Exit code 1 if not, and the name", false,
                   false});
-  return {"discover", "the whole loop, step by step, until only noise is left", discover_help, list, discover};
+  return {"discover", "the whole loop, step by step, until only noise is left", discover_help, list, discover,
+          look_shape};
 }
 
 }  // namespace hysteron

@@ -1,15 +1,13 @@
 // The verb draw: the picture of a diagram.
 // Does not lay out (draw/), nor simulate.
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
+#include "app/cli/shape.h"
 #include "app/cli/target.h"
-#include "app/cli/verb.h"
 #include "draw/drawing.h"
 #include "engine/diagram/error.h"
-#include "io/files/atomic_file.h"
 
 namespace hysteron {
 namespace {
@@ -25,8 +23,8 @@ constexpr char draw_help[] =
     "dot of Graphviz.\n"
     "Exit codes: 0 done, 2 the diagram is wrong or Graphviz is missing.";
 
-int draw(const Arguments& arguments) {
-  const Diagram diagram = load_diagram(arguments);
+Answer draw(const Arguments& arguments, const Watch& watch) {
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const double depth = arguments.number("--depth", 0);
   if (depth < 0 || depth != std::floor(depth) || depth > 100)
@@ -34,10 +32,14 @@ int draw(const Arguments& arguments) {
          "write a whole number, e.g. --depth 1");
   const std::string file = arguments.text("-o", stem_of(arguments.text("diagram")) + ".svg");
   need_ending("-o", file, {".svg"}, "an SVG file, e.g. -o stage.svg");
-  write_file(file, diagram_svg(diagram, *program, registry(), {static_cast<int>(depth)}));
-  fmt::print("wrote {}\n", file);
-  return exit_code::done;
+  Answer answer;
+  answer.files.push_back({file, diagram_svg(diagram, *program, registry(), {static_cast<int>(depth)})});
+  answer.closing = "wrote " + file + "\n";
+  answer.facts = Facts::object({{"picture", file}});
+  return answer;
 }
+
+std::vector<shape::Member> draw_shape() { return {{"picture", shape::text("the SVG file")}}; }
 
 }  // namespace
 
@@ -51,7 +53,8 @@ Verb draw_verb() {
            options::set(),
            options::choose(),
            options::allow()},
-          draw};
+          draw,
+          draw_shape};
 }
 
 }  // namespace hysteron

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
+#include "app/cli/shape.h"
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
 #include "discover/hypotheses/bounds.h"
 #include "discover/hypotheses/effect.h"
 #include "engine/diagram/error.h"
-#include "io/files/atomic_file.h"
 #include "report/page/report.h"
 #include "report/pages/effect_picture.h"
 
@@ -46,12 +46,12 @@ std::string varied(const Effect& effect) {
   return effect.way == Way::vary ? fmt::format("{} of a block", effect.parameter) : "";
 }
 
-void print_all(const Effects& effects) {
+std::string all_text(const Effects& effects) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& effect : effects.list())
     rows.push_back({effect.id, fmt::format("{}", fmt::join(effect.places, ", ")), varied(effect), effect.title});
-  fmt::print("{}", table_text({"effect", "enters at", "or varies", "what it is"}, rows));
-  fmt::print("\n\"hysteron effects ID\" shows one in full, \"hysteron add ID DIAGRAM.json\" puts it into a diagram.\n");
+  return table_text({"effect", "enters at", "or varies", "what it is"}, rows) +
+         "\n\"hysteron effects ID\" shows one in full, \"hysteron add ID DIAGRAM.json\" puts it into a diagram.\n";
 }
 
 std::string way_text(const Effect& effect) {
@@ -154,36 +154,63 @@ std::vector<Section> sections_of(const Effect& effect, const Effects& library, c
   return sections;
 }
 
-void print_one(const Effect& effect, const std::vector<Section>& sections, const Demonstration& shown) {
-  fmt::print("{}", wrapped(fmt::format("{}: {}", effect.id, effect.title)));
+std::string one_text(const Effect& effect, const std::vector<Section>& sections, const Demonstration& shown) {
+  std::string all = wrapped(fmt::format("{}: {}", effect.id, effect.title));
   for (const auto& section : sections) {
-    fmt::print("\n{}\n", section.title);
-    for (const auto& text : section.text) fmt::print("{}", wrapped(text, 2));
-    for (const auto& table : section.tables) fmt::print("{}", table_text(table.columns, table.rows));
+    all += fmt::format("\n{}\n", section.title);
+    for (const auto& text : section.text) all += wrapped(text, 2);
+    for (const auto& table : section.tables) all += table_text(table.columns, table.rows);
     if (section.title != "law") continue;
-    fmt::print("\npicture\n{}\n{}", wrapped(picture_caption(shown), 2), picture_text(shown));
+    all += fmt::format("\npicture\n{}\n{}", wrapped(picture_caption(shown), 2), picture_text(shown));
   }
+  return all;
 }
 
 /// The page, or the picture alone.
-void write_picture(const std::string& file, const Effect& effect, std::vector<Section> sections,
-                   const Demonstration& shown) {
+std::string picture_file(const std::string& file, const Effect& effect, std::vector<Section> sections,
+                         const Demonstration& shown) {
   const auto figures = picture_figures(shown);
   Document page;
   page.verb = "effects";
   page.title = effect.title;
   page.headline = fmt::format("{}: {}", effect.id, effect.title);
-  if (file.ends_with(".svg")) {
-    write_file(file, figure_file(page, figures.front()));
-  } else {
-    Section picture;
-    picture.title = "picture";
-    picture.figures = figures;
-    sections.insert(sections.begin(), std::move(picture));
-    page.sections = std::move(sections);
-    write_file(file, report_html(page));
-  }
-  fmt::print("\nwrote {}\n", file);
+  if (file.ends_with(".svg")) return figure_file(page, figures.front());
+  Section picture;
+  picture.title = "picture";
+  picture.figures = figures;
+  sections.insert(sections.begin(), std::move(picture));
+  page.sections = std::move(sections);
+  return report_html(page);
+}
+
+/// What every effect says of itself in the list.
+Facts short_facts(const Effect& effect) {
+  return Facts::object(
+      {{"id", effect.id}, {"title", effect.title}, {"enters_at", effect.places}, {"varies", varied(effect)}});
+}
+
+/// All that one_text() says, for programs.
+Facts facts_of(const Effect& effect, const Effects& library) {
+  Facts facts = short_facts(effect);
+  for (const auto& [name, said] : {std::pair<const char*, std::string>{"cause", effect.cause},
+                                   {"law", effect.equation},
+                                   {"how_it_enters", way_text(effect)},
+                                   {"residual", effect.residual},
+                                   {"needs", effect.needs},
+                                   {"source", effect.source}})
+    facts.set(name, said);
+  Facts::List parameters, alike;
+  for (const auto& p : effect.parameters)
+    parameters.push_back(Facts::object({{"name", p.name},
+                                        {"unit", p.unit},
+                                        {"meaning", p.meaning},
+                                        {"usual", p.range},
+                                        {"searched", bounds_text(effect, p.name)}}));
+  for (const auto& row : look_alikes(effect, library).rows)
+    alike.push_back(Facts::object({{"effect", row[0]}, {"experiment", row[1]}, {"what_decides", row[2]}}));
+  facts.set("parameters", parameters);
+  facts.set("look_alikes", alike);
+  return facts;
 }
 
 /// "-o", or "" where nothing is to be written.
@@ -196,19 +223,52 @@ std::string wanted_file(const Arguments& arguments) {
   return file;
 }
 
-int effects(const Arguments& arguments) {
+Answer effects(const Arguments& arguments, const Watch&) {
   const Effects library = load_effects(arguments);
   const std::string file = wanted_file(arguments);
+  Answer answer;
   if (!arguments.has("effect")) {
-    print_all(library);
-    return exit_code::done;
+    Facts::List list;
+    for (const auto& effect : library.list()) list.push_back(short_facts(effect));
+    answer.text = all_text(library);
+    answer.facts = Facts::object({{"effects", list}});
+    return answer;
   }
   const Effect& effect = library.get(arguments.text("effect"));
   const Demonstration shown = demonstrate(effect, library, registry());
   const auto sections = sections_of(effect, library, shown);
-  print_one(effect, sections, shown);
-  if (!file.empty()) write_picture(file, effect, sections, shown);
-  return exit_code::done;
+  answer.text = one_text(effect, sections, shown);
+  answer.facts = facts_of(effect, library);
+  if (file.empty()) return answer;
+  answer.files.push_back({file, picture_file(file, effect, sections, shown)});
+  answer.closing = "\nwrote " + file + "\n";
+  return answer;
+}
+
+/// Of one effect all that it says, else the list.
+std::vector<shape::Member> effects_shape() {
+  using namespace shape;
+  const std::vector<Member> head{{"id", text("as --only and add take it")},
+                                 {"title", text("what it is")},
+                                 {"enters_at", texts("kinds of place")},
+                                 {"varies", text("a block type or a parameter, in place of a wire")}};
+  const Facts parameter = object("a parameter", {{"name", text("")},
+                                                 {"unit", text("empty: none")},
+                                                 {"meaning", text("")},
+                                                 {"usual", text("range of values")},
+                                                 {"searched", text("between which values")}});
+  const Facts alike =
+      object("an effect that is taken for it easily", {{"effect", text("its id")},
+                                                       {"experiment", text("that tells them apart")},
+                                                       {"what_decides", text("what to look at in it")}});
+  auto members = head;
+  for (const char* name : {"cause", "law", "how_it_enters", "residual", "needs", "source"})
+    members.push_back({name, text("as \"hysteron effects ID\" says it")});
+  members.push_back({"parameters", list("in their order", parameter)});
+  members.push_back({"look_alikes", list("each once", alike)});
+  for (auto& member : members) member.sometimes = true;
+  members.push_back({"effects", list("all of them, where none was named", object("an effect", head)), sometimes});
+  return members;
 }
 
 }  // namespace
@@ -221,7 +281,8 @@ Verb effects_verb() {
            {"-o", "FILE.html|svg", "also write its page, or its picture alone", false, false},
            options::effects(),
            options::allow()},
-          effects};
+          effects,
+          effects_shape};
 }
 
 }  // namespace hysteron

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/publish.h"
+#include "app/cli/shape.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
 #include "app/verbs/program_facts.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/index.h"
@@ -53,42 +53,45 @@ std::string joined(const std::vector<std::string>& list) { return fmt::format("{
 
 class Explanation {
  public:
-  Explanation(const Program& program, const Diagram& diagram, std::string file)
-      : program_(program), diagram_(diagram), file_(std::move(file)), run_(start(program)) {}
+  /// `text` grows by what people read.
+  Explanation(const Program& program, const Diagram& diagram, std::string file, std::string& text)
+      : program_(program), diagram_(diagram), file_(std::move(file)), run_(start(program)), text_(text) {}
 
-  /// Prints everything and returns it.
-  Document print() {
+  /// Says everything and returns it.
+  Document operator()() {
     const auto nonempty = [](const std::string& text) { return text.empty() ? "" : ": " + text; };
-    fmt::print("{}", wrapped(fmt::format("{}{}", file_, nonempty(program_.title))));
-    fmt::print("{}",
-               wrapped(fmt::format("{}, {}, {}, {}", count_text(static_cast<long>(program_.blocks.size()), "block"),
-                                   count_text(static_cast<long>(program_.signals.size()), "signal"),
-                                   count_text(program_.n_x, "continuous state"),
-                                   count_text(static_cast<long>(program_.parameters.size()), "number")),
-                       2));
-    print_choices();
-    print_order();
-    print_loops();
-    print_rates();
-    print_events();
-    print_clocks();
-    print_solver();
-    print_states();
-    print_parameters();
+    text_ += wrapped(fmt::format("{}{}", file_, nonempty(program_.title)));
+    text_ += wrapped(fmt::format("{}, {}, {}, {}", count_text(static_cast<long>(program_.blocks.size()), "block"),
+                                 count_text(static_cast<long>(program_.signals.size()), "signal"),
+                                 count_text(program_.n_x, "continuous state"),
+                                 count_text(static_cast<long>(program_.parameters.size()), "number")),
+                     2);
+    choices();
+    order();
+    loops();
+    rates();
+    events();
+    clocks();
+    solver();
+    states();
+    parameters();
     document_.verb = "explain";
     document_.title = program_.title.empty() ? stem_of(file_) : program_.title;
     document_.headline = fmt::format("{}: what the compiler made of it", document_.title);
-    document_.facts =
-        to_json(Facts::object({{"diagram", file_},
-                               {"blocks", program_.blocks.size()},
-                               {"signals", program_.signals.size()},
-                               {"continuous_states", program_.n_x},
-                               {"parameters", program_.parameters.size()},
-                               {"loops", std::count_if(program_.loops.begin(), program_.loops.end(),
-                                                       [&](const Loop& l) { return is_algebraic(program_, l); })},
-                               {"method", method_},
-                               {"why", why_}}));
+    document_.facts = to_json(facts());
     return std::move(document_);
+  }
+  /// In numbers, once all is said.
+  Facts facts() const {
+    return Facts::object({{"diagram", file_},
+                          {"blocks", program_.blocks.size()},
+                          {"signals", program_.signals.size()},
+                          {"continuous_states", program_.n_x},
+                          {"parameters", program_.parameters.size()},
+                          {"loops", std::count_if(program_.loops.begin(), program_.loops.end(),
+                                                  [&](const Loop& l) { return is_algebraic(program_, l); })},
+                          {"method", method_},
+                          {"why", why_}});
   }
 
  private:
@@ -101,17 +104,17 @@ class Explanation {
   }
   const std::string& type(int b) const { return block(b).kernel->declaration.type; }
 
-  // What is printed is kept for result.json, too.
+  // What people read on the terminal is kept for result.json, too.
   void head(const std::string& title) {
-    fmt::print("\n{}\n", title);
+    text_ += fmt::format("\n{}\n", title);
     document_.sections.emplace_back().title = title;
   }
   void say(const std::string& text) {
-    fmt::print("{}", wrapped(text, 2));
+    text_ += wrapped(text, 2);
     document_.sections.back().text.push_back(text);
   }
   void show(const std::vector<std::string>& heads, const TableRows& rows) {
-    fmt::print("{}", table_text(heads, rows));
+    text_ += table_text(heads, rows);
     Table table;
     table.columns = heads.empty() ? std::vector<std::string>(rows.empty() ? 0 : rows.front().size()) : heads;
     table.rows = rows;
@@ -119,7 +122,7 @@ class Explanation {
     document_.sections.back().tables.push_back(std::move(table));
   }
 
-  void print_choices() {
+  void choices() {
     TableRows rows;
     for (const auto& [name, node] : diagram_.blocks)
       if (!node.from.empty()) rows.push_back({name, node.choose, "of " + joined(node.from.names())});
@@ -130,7 +133,7 @@ class Explanation {
 
   // --- order ---------------------------------------------------------------------------------------------------------
 
-  void print_order() {
+  void order() {
     head("order of evaluation");
     TableRows rows;
     // Values that dx/dt does not need (what is only recorded) come behind.
@@ -183,7 +186,7 @@ class Explanation {
     return names;
   }
 
-  void print_loops() {
+  void loops() {
     head("loops");
     const auto around = [](std::vector<std::string> names) {
       names.push_back(names.front());
@@ -214,7 +217,7 @@ class Explanation {
     if (feedback.empty()) say("feedback: none");
   }
 
-  void print_rates() {
+  void rates() {
     head("rates that are computed (exactly, by the chain rule)");
     TableRows rows;
     for (const auto& rate : needed_rates(program_))
@@ -227,7 +230,7 @@ class Explanation {
 
   // --- events --------------------------------------------------------------------------------------------------------
 
-  void print_events() {
+  void events() {
     head("events");
     TableRows rows;
     const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
@@ -265,7 +268,7 @@ class Explanation {
       show({}, rows);
   }
 
-  void print_clocks() {
+  void clocks() {
     head("clocks");
     const auto clocks = clock_facts(program_);
     if (clocks.empty()) return say("none; no block is sampled");
@@ -311,7 +314,7 @@ class Explanation {
                : "between instants nothing but recordings moves what remembers, and no block changes its mode";
   }
 
-  void print_solver() {
+  void solver() {
     head("solver");
     SimulateOptions options = simulate_options(program_);
     const std::string reason = why_not_exactly(options);
@@ -378,7 +381,7 @@ class Explanation {
     return {time_text(longest), "the shortest dead time"};
   }
 
-  void print_states() {
+  void states() {
     if (program_.n_x == 0) return;
     head("continuous states");
     TableRows rows;
@@ -399,7 +402,7 @@ class Explanation {
 
   // --- parameters ----------------------------------------------------------------------------------------------------
 
-  void print_parameters() {
+  void parameters() {
     head("parameters");
     TableRows rows;
     for (const auto& info : program_.parameters) {
@@ -424,20 +427,59 @@ class Explanation {
   const Diagram& diagram_;
   std::string file_;
   Run run_;
+  std::string& text_;
   Document document_;
   std::string method_, why_;
 };
 
-int explain(const Arguments& arguments) {
-  const Diagram diagram = load_diagram(arguments);
+/// What was said, for programs: sections of sentences and tables.
+Facts::List section_facts(const Document& document) {
+  Facts::List sections;
+  for (const auto& section : document.sections) {
+    Facts::List tables;
+    for (const auto& table : section.tables) {
+      Facts::List rows;
+      for (const auto& row : table.rows) rows.emplace_back(row);
+      tables.push_back(Facts::object({{"columns", table.columns}, {"rows", rows}}));
+    }
+    sections.push_back(Facts::object({{"title", section.title}, {"text", section.text}, {"tables", tables}}));
+  }
+  return sections;
+}
+
+Answer explain(const Arguments& arguments, const Watch& watch) {
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
-  with_lines_of(diagram, [&] {
-    const Document document = Explanation(*program, diagram, arguments.text("diagram")).print();
-    if (!arguments.has("-o")) return;
-    fmt::print("\n");
-    publish(arguments, arguments.text("-o"), document);
+  Answer answer;
+  behind(answer.text, [&] {
+    with_lines_of(diagram, [&] {
+      Explanation explanation(*program, diagram, arguments.text("diagram"), answer.text);
+      answer.document = explanation();
+      answer.facts = Facts::object({{"facts", explanation.facts()}, {"sections", section_facts(answer.document)}});
+    });
   });
-  return exit_code::done;
+  if (!arguments.has("-o")) return answer;
+  answer.text += "\n";
+  answer.folder = arguments.text("-o");
+  return answer;
+}
+
+std::vector<shape::Member> explain_shape() {
+  const Facts table = shape::object("one table", {{"columns", shape::texts("their heads")},
+                                                  {"rows", shape::list("cells as texts", shape::texts("one row"))}});
+  const Facts section = shape::object("one part of it", {{"title", shape::text("what it is about")},
+                                                         {"text", shape::texts("sentences")},
+                                                         {"tables", shape::list("tables", table)}});
+  const Facts facts = shape::object("in numbers", {{"diagram", shape::text("its file")},
+                                                   {"blocks", shape::whole("how many")},
+                                                   {"signals", shape::whole("how many")},
+                                                   {"continuous_states", shape::whole("how many")},
+                                                   {"parameters", shape::whole("how many")},
+                                                   {"loops", shape::whole("algebraic ones")},
+                                                   {"method", shape::text("of integration, as it would be taken")},
+                                                   {"why", shape::text("this method")}});
+  return shape::published({{"facts", facts}, {"sections", shape::list("what was made of the diagram", section)}},
+                          shape::sometimes);
 }
 
 }  // namespace
@@ -451,7 +493,8 @@ Verb explain_verb() {
            options::set(),
            options::choose(),
            options::allow()},
-          explain};
+          explain,
+          explain_shape};
 }
 
 }  // namespace hysteron

@@ -10,13 +10,12 @@
 #include <ctime>
 #include <limits>
 
+#include "app/cli/answer.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/load.h"
-#include "app/cli/progress.h"
-#include "app/cli/publish.h"
 #include "app/cli/rewrite.h"
+#include "app/cli/shape.h"
 #include "app/cli/target.h"
-#include "app/cli/verb.h"
 #include "app/verbs/effect_parameters.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
@@ -55,15 +54,15 @@ constexpr char fit_help[] =
     "Ctrl-C ends with the best values so far, and says so.\n"
     "Exit codes: 0 done, 2 wrong input, 3 the model cannot be simulated, 130 interrupted.";
 
-/// Ctrl-C during a fit ends it with the best so far.
-void watch(FitOptions& settings, Progress& progress) {
-  settings.progress = [&progress](const FitProgress& now) {
+/// Whoever watches sees where the fit stands, and may end it with the best so far.
+void watch_fit(FitOptions& settings, const Watch& watch) {
+  settings.progress = [&watch](const FitProgress& now) {
     const double over = std::sqrt(now.chi2 / std::max(1.0, now.rows));
     const bool paced = now.stage == "scan" || now.stage == "global";
-    progress.show(paced ? now.fraction : -1,
-                  fmt::format("{}: best error {} of the noise, {}, {}", now.stage, percent_text(over),
-                              count_text(now.candidates, "candidate"), count_text(now.runs, "simulation")));
-    return !interrupted();
+    watch.show(paced ? now.fraction : -1,
+               fmt::format("{}: best error {} of the noise, {}, {}", now.stage, percent_text(over),
+                           count_text(now.candidates, "candidate"), count_text(now.runs, "simulation")));
+    return !watch.stop();
   };
 }
 
@@ -89,15 +88,15 @@ FitResult result_of(DataModel& model, const NoiseModel& noise, const std::vector
 
 /// Each method from the same start against the same noise; the free parameters begin where the best of them ended,
 /// which `best` is.
-std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress& progress, FitWithNoise& best) {
+std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, const Watch& watch, FitWithNoise& best) {
   std::vector<Attempt> attempts;
   best.noise = noise_before_fit(model);
   double least = std::numeric_limits<double>::infinity();
   for (auto method : problem.methods) {
-    if (interrupted()) break;
+    if (watch.stop()) break;
     method.options.intervals = false;
     method.options.profile.clear();
-    watch(method.options, progress);
+    watch_fit(method.options, watch);
     const FitResult found = result_of(model, best.noise, problem.free, method);
     if (!found.ok && found.stopped) break;
     Attempt a{found.ok ? found.method : method.name, found.ok, found.error};
@@ -124,12 +123,12 @@ std::vector<Attempt> attempt_all(DataModel& model, FitProblem& problem, Progress
   return attempts;
 }
 
-/// The fit that was asked for; of several methods the best, and the search from there. Ctrl-C ends it with the best so
-/// far.
-FitWithNoise search(DataModel& model, FitProblem& problem, Progress& progress, std::vector<Attempt>& attempts) {
-  const StopScope until_interrupted(interrupted);
+/// The fit that was asked for; of several methods the best, and the search from there. Whoever watches may end it with
+/// the best so far.
+FitWithNoise search(DataModel& model, FitProblem& problem, const Watch& watch, std::vector<Attempt>& attempts) {
+  const StopScope until_interrupted(watch.stop);
   FitOptions options = problem.methods.front().options;
-  watch(options, progress);
+  watch_fit(options, watch);
   FitWithNoise found;
   if (problem.methods.size() == 1 && problem.methods.front().of_thesis) {
     found.noise = noise_before_fit(model);
@@ -138,25 +137,23 @@ FitWithNoise search(DataModel& model, FitProblem& problem, Progress& progress, s
     return found;
   }
   if (problem.methods.size() > 1) {
-    attempts = attempt_all(model, problem, progress, found);
+    attempts = attempt_all(model, problem, watch, found);
     options.global.clear();
     options.starts = 0;
     found.result.stopped = true;  // where nothing follows
-    if (interrupted()) return found;
+    if (watch.stop()) return found;
   }
   auto last = fit_and_noise(model, problem.free, options);
   return last.result.ok || !found.result.ok ? last : found;
 }
 
-Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
-  Progress progress(quiet);
-  const DeferInterrupts defer;
+Fitted fit_and_compare(DataModel& model, FitProblem problem, const Watch& watch) {
+  watch.keep();
   const auto free = problem.free;  // with the starts that the user gave
   Trial start_values;
   for (const auto& f : free) start_values.push_back({f.parameter, f.start, f.recording});
   std::vector<Attempt> attempts;
-  FitWithNoise with_noise = search(model, problem, progress, attempts);
-  progress.clear();
+  FitWithNoise with_noise = search(model, problem, watch, attempts);
   const bool of_thesis = problem.methods.size() == 1 && problem.methods.front().of_thesis;
   if (of_thesis) start_values.clear();
   FitResult& result = with_noise.result;
@@ -194,23 +191,25 @@ Fitted fit_and_compare(DataModel& model, FitProblem problem, bool quiet) {
   return fitted;
 }
 
-/// The job of the arguments: its file, or what the options say.
 /// Columns as wide as their longest cell, for the terminal.
-void print_table(const Table& table) {
+std::string columns_text(const Table& table) {
   std::vector<std::size_t> width;
   for (const auto& name : table.columns) width.push_back(name.size());
   for (const auto& row : table.rows)
     for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::string all;
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text;
     for (std::size_t k = 0; k < cells.size(); ++k) text += fmt::format("{:<{}}  ", cells[k], width[k]);
     while (!text.empty() && text.back() == ' ') text.pop_back();
-    fmt::print("  {}\n", text);
+    all += "  " + text + "\n";
   };
   line(table.columns);
   for (const auto& row : table.rows) line(row);
+  return all;
 }
 
+/// The job of the arguments: its file, or what the options say.
 FitJob job_of(const Arguments& arguments) {
   const std::string named = arguments.text("diagram");
   FitJob job;
@@ -269,11 +268,10 @@ std::string date_text() {
 
 /// Puts the thresholds and weights that the job asks for into the diagram.
 void place_wanted_thresholds(const FitJob& job, const std::shared_ptr<const DataSet>& data, Diagram& diagram,
-                             bool quiet) {
+                             const Watch& watch) {
   const auto& wish = *job.thresholds;
-  Progress progress(quiet);
   FitOptions options;
-  watch(options, progress);
+  watch_fit(options, watch);
   try {
     const auto found = fit_thresholds(diagram, registry(), data, wish.block.text, wish.count,
                                       wish.by_swing ? Placement::by_swing : Placement::even, options);
@@ -288,13 +286,37 @@ void place_wanted_thresholds(const FitJob& job, const std::shared_ptr<const Data
   }
 }
 
-int fit_verb_acts(const Arguments& arguments) {
+/// What the reader of a fit must not overlook.
+std::vector<std::string> warnings_of(const Fitted& fitted, const std::vector<FreeParameter>& free,
+                                     const std::vector<std::string>& unusual, const DataSet& data) {
+  const FitResult& result = fitted.result;
+  std::vector<std::string> list;
+  for (const auto& u : result.undetermined) list.push_back(u.sentence);
+  list.insert(list.end(), unusual.begin(), unusual.end());
+  for (const auto& n : fitted.noise.outputs)
+    if (!n.remark.empty()) list.push_back(n.remark);
+  if (std::any_of(free.begin(), free.end(), [](const FreeParameter& f) { return f.recording >= 0; }))
+    list.emplace_back(
+        "A diagram knows no recordings: values of single recordings stand in parameters.json, fitted.json keeps its "
+        "own.");
+  for (const auto& delay : fitted.delays)
+    if (!delay.sentence.empty()) list.push_back(delay.sentence);
+  list.insert(list.end(), result.remarks.begin(), result.remarks.end());
+  list.insert(list.end(), data.remarks.begin(), data.remarks.end());
+  if (!result.converged && !result.stopped)
+    list.push_back(
+        fmt::format("The search did not end by itself ({}): there may be better values.", result.convergence));
+  if (result.stopped) list.emplace_back("Interrupted: these are the best values found until then.");
+  return list;
+}
+
+Answer fit_verb_acts(const Arguments& arguments, const Watch& watch) {
   const FitJob job = job_of(arguments);
   Diagram diagram = read_diagram(job.diagram, arguments.list("--allow"));
   const std::string write_option = arguments.has("--write") ? "--write" : "/write";
   if (!job.write.empty()) with_lines_of_job(job, [&] { check_diagram_target(write_option, job.write, diagram); });
   with_lines_of_job(job, [&] { apply_settings(diagram, job.set, job.choose); });
-  apply_overrides(diagram, arguments);
+  apply_overrides(diagram, arguments, watch);
   ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(read_dataset(job.data, arguments.list("--allow")));
   check_binding(*data, *program);
@@ -302,7 +324,7 @@ int fit_verb_acts(const Arguments& arguments) {
   const Diagram as_read = diagram;
   std::vector<std::string> wanted;
   if (job.thresholds) {
-    place_wanted_thresholds(job, data, diagram, arguments.quiet());
+    place_wanted_thresholds(job, data, diagram, watch);
     program = compile_file(diagram);
     wanted.push_back(job.thresholds->block.text + ".weights");
   }
@@ -317,41 +339,36 @@ int fit_verb_acts(const Arguments& arguments) {
   DataModelOptions model_options;
   model_options.threads = 2;
   DataModel model(program, data, model_options);
-  const Fitted fitted = fit_and_compare(model, problem, arguments.quiet());
+  const Fitted fitted = fit_and_compare(model, problem, watch);
   const FitResult& result = fitted.result;
   const Diagram after = with_parameters(diagram, *program, result.values);
 
-  const std::string folder = result_folder(arguments, "fit");
-  Document document;
+  Answer answer;
+  answer.folder = result_folder(arguments, "fit");
+  Document& document = answer.document;
   document.verb = "fit";
   document.title = diagram.title;
   tell(document, model, fitted);
-  for (const auto& u : result.undetermined) document.warnings.push_back(u.sentence);
-  for (const auto& sentence : unusual_values(diagram, result, effects)) document.warnings.push_back(sentence);
-  for (const auto& n : fitted.noise.outputs)
-    if (!n.remark.empty()) document.warnings.push_back(n.remark);
-  if (std::any_of(free.begin(), free.end(), [](const FreeParameter& f) { return f.recording >= 0; }))
-    document.warnings.emplace_back(
-        "A diagram knows no recordings: values of single recordings stand in parameters.json, fitted.json keeps its "
-        "own.");
-  for (const auto& delay : fitted.delays)
-    if (!delay.sentence.empty()) document.warnings.push_back(delay.sentence);
-  for (const auto& remark : result.remarks) document.warnings.push_back(remark);
-  for (const auto& remark : data->remarks) document.warnings.push_back(remark);
-  if (!result.converged && !result.stopped)
-    document.warnings.push_back(
-        fmt::format("The search did not end by itself ({}): there may be better values.", result.convergence));
-  if (result.stopped) document.warnings.emplace_back("Interrupted: these are the best values found until then.");
+  for (auto& warning : warnings_of(fitted, free, unusual_values(diagram, result, effects), *data))
+    document.warnings.push_back(std::move(warning));
   add_sections(document, model, fitted, text_diff(diagram_text(as_read), diagram_text(after)));
   document.facts = to_json(fit_facts(job, model, fitted));
-  document.files.emplace_back("fitted.json", text_in_folder(after, folder, "fitted.json"));
+  document.files.emplace_back("fitted.json", text_in_folder(after, answer.folder, "fitted.json"));
   document.files.emplace_back(
       "parameters.json", parameter_file_text(result, *program, *data, {job.diagram, job.data, date_text(), job.seed}));
-  if (!fitted.attempts.empty() && !arguments.quiet()) print_table(method_table(model, fitted.attempts, true));
-  publish(arguments, folder, document);
-  if (!job.write.empty()) write_diagram(job.write, after);
-  if (!result.stopped) return exit_code::done;
-  throw Interrupted("interrupted; the best values so far are in " + folder);
+  if (!fitted.attempts.empty() && !arguments.quiet())
+    answer.text = columns_text(method_table(model, fitted.attempts, true));
+  if (!job.write.empty()) answer.files.push_back(diagram_file(job.write, after));
+  if (!result.stopped) return answer;
+  answer.exit_code = exit_code::interrupted;
+  answer.interrupted = "interrupted; the best values so far are in " + answer.folder;
+  return answer;
+}
+
+std::vector<shape::Member> fit_shape() {
+  return shape::published(
+      {{"facts", shape::open_object("parameters with their uncertainty, errors before and after: \"facts\" of "
+                                    "result.json")}});
 }
 
 }  // namespace
@@ -376,7 +393,8 @@ Verb fit_verb() {
        options::set(),
        options::choose(),
        options::allow()},
-      fit_verb_acts};
+      fit_verb_acts,
+      fit_shape};
 }
 
 }  // namespace hysteron

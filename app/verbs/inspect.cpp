@@ -2,9 +2,9 @@
 // Does not inspect itself (fit/inspect/inspection.h, discover/placement/visible.h).
 #include <fmt/format.h>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/publish.h"
-#include "app/cli/verb.h"
+#include "app/cli/shape.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "report/pages/inspection_page.h"
@@ -26,7 +26,8 @@ constexpr char inspect_help[] =
     "an offset stand for it, inputs and outputs are told by the names of the columns (u*, y*, x*, T*), and it says\n"
     "so.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
-    "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing.\n"
+    "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing\n"
+    "unless a folder is named.\n"
     "Exit codes: 0 done, whatever was found; 2 wrong input.";
 
 /// The columns of one recording as a table, as `new` takes it.
@@ -89,21 +90,21 @@ Subject without_diagram(const Arguments& arguments) {
   return subject;
 }
 
-Subject with_diagram(Arguments arguments) {
+Subject with_diagram(Arguments arguments, const Watch& watch) {
   Subject subject;
   arguments.set("diagram", {arguments.text("--diagram")});
   arguments.set("--data", {arguments.text("data")});
-  subject.diagram = load_diagram(arguments);
+  subject.diagram = load_diagram(arguments, watch);
   subject.data = load_data(arguments, *compile_file(subject.diagram));
   return subject;
 }
 
-int inspect_verb_acts(const Arguments& arguments) {
+Answer inspect_verb_acts(const Arguments& arguments, const Watch& watch) {
   const bool named = arguments.has("--diagram");
   if (named && (arguments.has("--input") || arguments.has("--output")))
     fail("bad_command_line", arguments.has("--input") ? "--input" : "--output",
          "the diagram says what its inputs and outputs are", "leave out --diagram or this option");
-  const Subject subject = named ? with_diagram(arguments) : without_diagram(arguments);
+  const Subject subject = named ? with_diagram(arguments, watch) : without_diagram(arguments);
   DataModelOptions options;
   options.threads = 2;
   DataModel model(compile_file(subject.diagram), std::make_shared<const DataSet>(subject.data), options);
@@ -113,12 +114,10 @@ int inspect_verb_acts(const Arguments& arguments) {
   if (named) facts.set("diagram", arguments.text("--diagram"));
   facts.set("assumed", subject.assumed);
   facts.set("inspection", inspection_facts(seen));
-  if (arguments.has("--json")) {
-    fmt::print("{}\n", json_text(facts));
-    return exit_code::done;
-  }
-
-  Document document;
+  Answer answer;
+  if (!arguments.json() || arguments.has("-o"))
+    answer.folder = arguments.text("-o", stem_of(arguments.text("data")) + ".inspect");
+  Document& document = answer.document;
   document.verb = "inspect";
   document.title = subject.data.title.empty() ? stem_of(arguments.text("data")) : subject.data.title;
   document.headline = inspection_headline(seen);
@@ -128,9 +127,16 @@ int inspect_verb_acts(const Arguments& arguments) {
   document.warnings.insert(document.warnings.end(), subject.data.remarks.begin(), subject.data.remarks.end());
   document.sections.push_back(inspection_section(seen));
   document.facts = to_json(facts);
-  const std::string folder = arguments.text("-o", stem_of(arguments.text("data")) + ".inspect");
-  publish(arguments, folder, document);
-  return exit_code::done;
+  answer.facts = std::move(facts);
+  return answer;
+}
+
+std::vector<shape::Member> inspect_shape() {
+  return shape::published({{"data", shape::text("the data set or the recording")},
+                           {"diagram", shape::text("the model that they were judged for"), shape::sometimes},
+                           {"assumed", shape::texts("what was guessed")},
+                           {"inspection", shape::open_object("faults of the data, excitation, what they can show")}},
+                          shape::sometimes);
 }
 
 }  // namespace
@@ -145,13 +151,13 @@ Verb inspect_verb() {
            {"--diagram", "DIAGRAM.json", "the model that shall be judged on them", false, false},
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},
            {"--output", "COLUMN", "this column was measured (else guessed from the names)", false, true},
-           {"--json", "", "print the facts as JSON", false, false},
            options::effects(),
            folder,
            options::set(),
            options::choose(),
            options::allow()},
-          inspect_verb_acts};
+          inspect_verb_acts,
+          inspect_shape};
 }
 
 }  // namespace hysteron

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/publish.h"
-#include "app/cli/verb.h"
+#include "app/cli/shape.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
 #include "engine/events/rest.h"
@@ -184,8 +184,8 @@ std::optional<double> low_gain(const SmallMotions& m) {
   return integrator ? b.magnitude.front() : std::abs(m.response(0));
 }
 
-int linearize_verb_act(const Arguments& arguments) {
-  const Diagram diagram = load_diagram(arguments);
+Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   LinearizeOptions wanted;
   wanted.from = {signal_of(arguments, "--from", diagram, *program, program->input_signals)};
@@ -196,7 +196,9 @@ int linearize_verb_act(const Arguments& arguments) {
   const bool opened = !wanted.open.empty();
   const bool loop = opened && from.unit.dimension == to.unit.dimension;
 
-  Document document;
+  Answer answer;
+  answer.folder = result_folder(arguments, "linearize");
+  Document& document = answer.document;
   document.verb = "linearize";
   document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
   with_lines_of(diagram, [&] {
@@ -260,8 +262,12 @@ int linearize_verb_act(const Arguments& arguments) {
     draw_bode(document, unit);
     document.facts = to_json(facts);
   });
-  publish(arguments, result_folder(arguments, "linearize"), document);
-  return exit_code::done;
+  return answer;
+}
+
+std::vector<shape::Member> linearize_shape() {
+  return shape::published(
+      {{"facts", shape::open_object("state space in SI, poles, zeros, margins: \"facts\" of result.json")}});
 }
 
 }  // namespace
@@ -285,7 +291,8 @@ Verb linearize_verb() {
        options::set(),
        options::choose(),
        options::allow()},
-      linearize_verb_act};
+      linearize_verb_act,
+      linearize_shape};
 }
 
 }  // namespace hysteron

@@ -11,8 +11,6 @@
 
 #include "app/cli/interrupt.h"
 #include "app/cli/load.h"
-#include "app/cli/progress.h"
-#include "app/cli/publish.h"
 #include "discover/placement/add.h"
 #include "discover/search/check.h"
 #include "engine/diagram/error.h"
@@ -37,8 +35,8 @@ std::vector<std::string> wanted_effects(const Arguments& arguments, const Effect
   return ids;
 }
 
-/// What --json prints: the answer; all its numbers stand in result.json.
-Facts short_answer(const Document& document, const Discovery& found, const Check* answer, const std::string& folder) {
+/// What --json prints beside the verdict; all numbers stand in result.json.
+Facts short_answer(const Discovery& found, const std::optional<Check>& check) {
   std::vector<std::string> effects;
   Facts::List ties;
   for (const auto& step : found.steps) {
@@ -47,13 +45,8 @@ Facts short_answer(const Document& document, const Discovery& found, const Check
     for (const auto& tie : step.ties) as_good.push_back(tie.effect);
     ties.push_back(as_good);
   }
-  Facts facts = Facts::object({{"verdict", document.verdict},
-                               {"headline", document.headline},
-                               {"effects", effects},
-                               {"ties", ties},
-                               {"warnings", document.warnings},
-                               {"result", folder + "/result.json"}});
-  if (answer != nullptr) facts.set("check", check_facts(*answer));
+  Facts facts = Facts::object({{"effects", effects}, {"ties", ties}});
+  if (check) facts.set("check", check_facts(*check));
   return facts;
 }
 
@@ -79,9 +72,9 @@ constexpr std::chrono::milliseconds to_inspect{300};
 /// Judged against the user's own diagram with what was free in it fitted: a wrong gain is no fault of the data. None
 /// where the time was `over` before.
 std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet& data, const Effects& effects,
-                                           const std::vector<std::string>& free_paths, bool over) {
+                                           const std::vector<std::string>& free_paths, bool over, const Watch& watch) {
   const auto begun = Steady::now();
-  const StopScope scope([&] { return (over || interrupted()) && Steady::now() - begun > to_inspect; });
+  const StopScope scope([&] { return (over || watch.stop()) && Steady::now() - begun > to_inspect; });
   try {
     DataModel model(compile_file(diagram), std::make_shared<const DataSet>(data));
     return inspect_data(diagram, registry(), model, effects, free_paths);
@@ -90,91 +83,126 @@ std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet
   }
 }
 
-}  // namespace
+/// What is looked for, in what, and for how long.
+struct Wish {
+  Effects effects;
+  DiscoverOptions settings{};
+  Diagram diagram{};
+  DataSet given{};
+  bool is_check = false;
+  std::chrono::duration<double> within{};  ///< the time that --within leaves
+};
 
-int look(const std::string& verb, const Arguments& arguments) {
-  const Effects effects = load_effects(arguments);
-  DiscoverOptions settings;
-  settings.only = wanted_effects(arguments, effects);
+Wish read_wish(const Arguments& arguments, const Watch& watch) {
+  Wish wish{load_effects(arguments)};
+  auto& settings = wish.settings;
+  settings.only = wanted_effects(arguments, wish.effects);
   settings.free_paths = arguments.list("--free");
   settings.numbers_are_exact = arguments.has("--exact");
   settings.max_steps = arguments.whole_number("--steps", settings.max_steps, 20);
   settings.threads = arguments.threads();
-  const Diagram diagram = load_diagram(arguments);
-  const ProgramPointer program = compile_file(diagram);
-  const bool is_check = arguments.has("--check");
-  const DataSet given = load_data(arguments, *program);
-  need_moving_outputs(given, *program);
-  DataSet data = is_check ? with_both_roles(given) : given;
-
-  const DeferInterrupts defer;
-  Progress progress(arguments.quiet());
-  settings.progress = [&](const std::string& what, double done) { progress.show(done, what); };
-  const auto begun = Steady::now();
-  const std::chrono::duration<double> within{arguments.seconds("--within", std::numeric_limits<double>::infinity())};
-  if (!(within.count() > 0))
+  wish.diagram = load_diagram(arguments, watch);
+  const ProgramPointer program = compile_file(wish.diagram);
+  wish.is_check = arguments.has("--check");
+  wish.given = load_data(arguments, *program);
+  need_moving_outputs(wish.given, *program);
+  wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
+  if (!(wish.within.count() > 0))
     fail("bad_command_line", "--within", fmt::format("\"{}\" leaves no time", arguments.text("--within")),
          "write a time such as --within=\"2 min\", or leave it out");
-  if (is_check && arguments.has("--within"))
+  if (wish.is_check && arguments.has("--within"))
     fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
          "leave out --within, or --check");
-  const auto past = [&](double share) { return Steady::now() - begun > share * within; };
-  settings.enough = [&] { return past(DiscoverOptions::to_search); };
-  settings.stop = [&] { return interrupted() || past(1); };
+  return wish;
+}
+
+struct Looked {
   Discovery found;
-  std::optional<Check> answer;
-  const auto searched = [&] {
-    const StopScope until_interrupted(interrupted);
-    if (is_check) {
-      answer = check(diagram, data, registry(), effects, settings);
-      found = answer->discovery;
-    } else {
-      found = verb == "discover" ? discover(diagram, data, registry(), effects, settings)
-                                 : diagnose(diagram, data, registry(), effects, settings);
-    }
-  };
+  std::optional<Check> check{};
+};
+
+/// Ended by whoever watches, or when the time is over, with what was found by then.
+Looked search(const std::string& verb, Wish& wish, const DataSet& data, const Watch& watch) {
+  auto& settings = wish.settings;
+  const auto begun = Steady::now();
+  const auto past = [&, begun](double share) { return Steady::now() - begun > share * wish.within; };
+  settings.progress = [&](const std::string& what, double done) { watch.show(done, what); };
+  settings.enough = [past] { return past(DiscoverOptions::to_search); };
+  settings.stop = [&, past] { return watch.stop() || past(1); };
+  Looked looked;
   try {
-    with_lines_of(diagram, searched);
+    with_lines_of(wish.diagram, [&] {
+      const StopScope until_interrupted(watch.stop);
+      if (wish.is_check) {
+        looked.check = check(wish.diagram, data, registry(), wish.effects, settings);
+        looked.found = looked.check->discovery;
+      } else {
+        looked.found = verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
+                                          : diagnose(wish.diagram, data, registry(), wish.effects, settings);
+      }
+    });
   } catch (const Stopped&) {
     throw_nothing_found();
   }
-  if (!is_check) tell_held_effects(diagram, settings.free_paths, found.warnings);
-  progress.clear();
-  data = as_found(std::move(data), found);
-  const bool stopped = interrupted();
-  if (stopped) answer.reset();  // nothing is known to be explained before everything was tried
-  const auto inspected =
-      inspected_against(found.base_diagram, data, effects, settings.free_paths, stopped || found.broken_off);
-  const std::string folder = result_folder(arguments, verb);
-  Document document =
-      discovery_document(verb, found, data, registry(), inspected.value_or(Inspected{}),
-                         {arguments.text("diagram"), arguments.text("--data"), folder}, answer ? &*answer : nullptr);
-  if (!inspected)
-    document.warnings.emplace_back(
-        "There was no time to inspect the data themselves: run \"hysteron inspect\" on them.");
-  for (auto& warning : warnings_of_same_rows(given)) document.warnings.push_back(std::move(warning));
+  return looked;
+}
+
+/// What the reader must know of how it came to its end, first.
+void tell_end(Document& document, const Arguments& arguments, bool stopped, bool broken_off) {
   if (stopped) document.warnings.insert(document.warnings.begin(), "Interrupted: this is what was found until then.");
-  if (found.broken_off && !stopped)
+  if (broken_off && !stopped)
     document.warnings.insert(
         document.warnings.begin(),
         fmt::format("Ended by --within {}: this is what was found until then; with more time there "
                     "may be more, or other names.",
                     arguments.text("--within")));
-  if (arguments.has("--json")) {
-    write_results(folder, document);
-    fmt::print("{}\n", json_text(short_answer(document, found, answer ? &*answer : nullptr, folder)));
-  } else {
-    publish(arguments, folder, document);
-  }
-  if (stopped) throw Interrupted("interrupted; what was found so far is in " + folder);
-  return answer && !answer->explained ? exit_code::no : exit_code::done;
 }
 
+}  // namespace
+
+Answer look(const std::string& verb, const Arguments& arguments, const Watch& watch) {
+  Wish wish = read_wish(arguments, watch);
+  DataSet data = wish.is_check ? with_both_roles(wish.given) : wish.given;
+  watch.keep();
+  auto [found, check] = search(verb, wish, data, watch);
+  if (!wish.is_check) tell_held_effects(wish.diagram, wish.settings.free_paths, found.warnings);
+  data = as_found(std::move(data), found);
+  const bool stopped = watch.stop();
+  if (stopped) check.reset();  // nothing is known to be explained before everything was tried
+  const auto inspected = inspected_against(found.base_diagram, data, wish.effects, wish.settings.free_paths,
+                                           stopped || found.broken_off, watch);
+  Answer answer;
+  answer.folder = result_folder(arguments, verb);
+  Document& document = answer.document;
+  document = discovery_document(verb, found, data, registry(), inspected.value_or(Inspected{}),
+                                {arguments.text("diagram"), arguments.text("--data"), answer.folder},
+                                check ? &*check : nullptr);
+  if (!inspected)
+    document.warnings.emplace_back(
+        "There was no time to inspect the data themselves: run \"hysteron inspect\" on them.");
+  for (auto& warning : warnings_of_same_rows(wish.given)) document.warnings.push_back(std::move(warning));
+  tell_end(document, arguments, stopped, found.broken_off);
+  answer.facts = short_answer(found, check);
+  answer.exit_code = check && !check->explained ? exit_code::no : exit_code::done;
+  if (!stopped) return answer;
+  answer.exit_code = exit_code::interrupted;
+  answer.interrupted = "interrupted; what was found so far is in " + answer.folder;
+  return answer;
+}
+
+std::vector<shape::Member> look_shape() {
+  const Facts check =
+      shape::object("the answer to --check", {{"explained", shape::flag("by the model as it stands")},
+                                              {"parameters_moved", shape::flag("other values would do")},
+                                              {"named", shape::texts("what is new")}});
+  return shape::published({{"effects", shape::texts("found, in their order")},
+                           {"ties", shape::list("of each step", shape::texts("effects that explain it as well"))},
+                           {"check", check, shape::sometimes}});
+}
 std::vector<OptionSpec> look_options() {
   return {options::diagram(),
           options::data(true),
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
-          {"--json", "", "print the answer as JSON, for programs", false, false},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
            false},

@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/verb.h"
+#include "app/cli/answer.h"
+#include "app/cli/shape.h"
+#include "app/cli/watch.h"
 
 namespace hysteron {
 
-/// Runs the verb "discover" or "diagnose" and returns the exit code.
-int look(const std::string& verb, const Arguments& arguments);
+/// Runs the verb "discover" or "diagnose".
+Answer look(const std::string& verb, const Arguments& arguments, const Watch& watch);
+
+/// What both say with --json.
+std::vector<shape::Member> look_shape();
 
 /// The options that both take.
 std::vector<OptionSpec> look_options();

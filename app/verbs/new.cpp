@@ -1,17 +1,19 @@
-// The verb new: writes a starter diagram and a data set from the columns of one recording.
+// The verb new: a starter diagram and a data set from the columns of one recording.
 // Does not decide what they hold (starter.h).
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <system_error>
 
+#include "app/cli/answer.h"
+#include "app/cli/rewrite.h"
+#include "app/cli/shape.h"
 #include "app/cli/shell_word.h"
+#include "app/cli/target.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "io/data/recording_file.h"
-#include "io/diagram/diagram_file.h"
 #include "io/files/atomic_file.h"
 
 namespace hysteron {
@@ -41,29 +43,23 @@ void refuse_overwriting(const fs::path& folder, const std::vector<std::string>& 
            "name another place with -o FOLDER");
 }
 
-/// All files or none: what was written before a failure is taken away again.
-void write_all(const fs::path& folder, const Starter& starter, const std::string& csv_name,
-               const std::string& csv_text) {
-  std::vector<fs::path> written;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    write_file((folder / name).string(), text);
-    written.push_back(folder / name);
-  };
+/// The project's files; the recording unless it lies there already.
+std::vector<WrittenFile> files_of(const fs::path& folder, const Starter& starter, const fs::path& recording,
+                                  bool recording_is_there) {
+  const auto place = [&](const std::string& name) { return (folder / name).string(); };
   std::error_code code;
-  try {
-    if (!csv_name.empty()) write(csv_name, csv_text);
-    write("dataset.json", starter.dataset_text);
-    if (!fs::exists(folder / "hysteron.project", code))
-      write("hysteron.project",
-            "This file marks a hysteron project: paths in its JSON files may point anywhere below this folder.\n");
-    write_diagram((folder / "diagram.json").string(), starter.diagram);
-  } catch (...) {
-    for (const auto& file : written) fs::remove(file, code);
-    throw;
-  }
+  std::vector<WrittenFile> files;
+  if (!recording_is_there) files.push_back({place(recording.filename().string()), read_file(recording.string())});
+  files.push_back({place("dataset.json"), starter.dataset_text});
+  if (!fs::exists(folder / "hysteron.project", code))
+    files.push_back(
+        {place("hysteron.project"),
+         "This file marks a hysteron project: paths in its JSON files may point anywhere below this folder.\n"});
+  files.push_back(diagram_file(place("diagram.json"), starter.diagram));
+  return files;
 }
 
-int make_new(const Arguments& arguments) {
+Answer make_new(const Arguments& arguments, const Watch&) {
   const fs::path from = arguments.text("--from");
   const fs::path folder = arguments.text("-o");
   const CsvTable table = read_csv(from.string());
@@ -79,19 +75,28 @@ int make_new(const Arguments& arguments) {
   std::vector<std::string> written{"diagram.json", "dataset.json"};
   if (!recording_is_there) written.push_back(csv_name);
   refuse_overwriting(folder, written);
-  fs::create_directories(folder, code);
-  if (code)
-    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(), "name another with -o");
-  write_all(folder, starter, recording_is_there ? "" : csv_name, read_file(from.string()));
+  make_folder(folder.string(), "name another with -o");
+  Answer answer;
+  answer.files = files_of(folder, starter, from, recording_is_there);
 
-  fmt::print("wrote {}, {}\n", (folder / "diagram.json").string(), (folder / "dataset.json").string());
+  const std::string diagram = (folder / "diagram.json").string(), dataset = (folder / "dataset.json").string();
+  const std::string next = fmt::format("hysteron compare {} --data {}", shell_word(diagram), shell_word(dataset));
+  answer.closing = fmt::format("wrote {}, {}\n", diagram, dataset);
   if (!arguments.quiet()) {
-    fmt::print("assumed:\n");
-    for (const auto& line : starter.assumed) fmt::print("{}", wrapped("- " + line, 2));
+    answer.closing += "assumed:\n";
+    for (const auto& line : starter.assumed) answer.closing += wrapped("- " + line, 2);
   }
-  fmt::print("next: hysteron compare {} --data {}\n", shell_word((folder / "diagram.json").string()),
-             shell_word((folder / "dataset.json").string()));
-  return exit_code::done;
+  answer.closing += fmt::format("next: {}\n", next);
+  answer.facts =
+      Facts::object({{"diagram", diagram}, {"dataset", dataset}, {"assumed", starter.assumed}, {"next", next}});
+  return answer;
+}
+
+std::vector<shape::Member> new_shape() {
+  return {{"diagram", shape::text("the diagram file")},
+          {"dataset", shape::text("the data set that binds the recording to it")},
+          {"assumed", shape::texts("what was guessed of the columns")},
+          {"next", shape::text("the command that compares both")}};
 }
 
 }  // namespace
@@ -104,7 +109,8 @@ Verb new_verb() {
            {"-o", "FOLDER", "the folder to write into; made if it is not there", true, false},
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},
            {"--output", "COLUMN", "this column was measured (else guessed from the names)", false, true}},
-          make_new};
+          make_new,
+          new_shape};
 }
 
 }  // namespace hysteron

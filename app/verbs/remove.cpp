@@ -1,11 +1,10 @@
 // The verb remove: takes an effect out of a diagram again, so that nothing of it is left.
 // Removes only what was added as an effect, never a block of the user's own.
-#include <fmt/format.h>
-
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/rewrite.h"
+#include "app/cli/shape.h"
 #include "app/cli/target.h"
-#include "app/cli/verb.h"
 #include "discover/placement/add.h"
 #include "io/diagram/diagram_file.h"
 
@@ -20,13 +19,20 @@ constexpr char remove_help[] =
     "Prints the difference of the diagram file; writes it with -o.\n"
     "Exit codes: 0 done, 2 the effect is not there, or stands there twice.";
 
-int remove(const Arguments& arguments) {
-  const Diagram diagram = load_diagram(arguments);
+Answer remove(const Arguments& arguments, const Watch& watch) {
+  const Diagram diagram = load_diagram(arguments, watch);
   if (arguments.has("-o")) check_diagram_target("-o", arguments.text("-o"), diagram);
   const Diagram without = remove_effect(diagram, registry(), arguments.text("effect"));
-  fmt::print("{}", text_diff(diagram_text(diagram), diagram_text(without)));
-  rewrite(arguments, without, {});
-  return exit_code::done;
+  Answer answer;
+  answer.text = text_diff(diagram_text(diagram), diagram_text(without));
+  answer.facts = Facts::object({{"effect", arguments.text("effect")}, {"change", answer.text}});
+  rewrite(answer, arguments, without, {});
+  return answer;
+}
+
+std::vector<shape::Member> remove_shape() {
+  return {{"effect", shape::text("the effect or its block, as it was named")},
+          {"change", shape::text("lines of the diagram file, as diff -u has them")}};
 }
 
 }  // namespace
@@ -39,7 +45,8 @@ Verb remove_verb() {
            options::diagram(),
            options::output_file(),
            options::allow()},
-          remove};
+          remove,
+          remove_shape};
 }
 
 }  // namespace hysteron

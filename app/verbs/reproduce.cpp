@@ -10,11 +10,10 @@
 #include <map>
 #include <thread>
 
-#include "app/cli/interrupt.h"
-#include "app/cli/progress.h"
-#include "app/cli/publish.h"
+#include "app/cli/answer.h"
+#include "app/cli/shape.h"
 #include "app/cli/terminal.h"
-#include "app/cli/verb.h"
+#include "app/cli/watch.h"
 #include "app/jobs/baseline.h"
 #include "app/jobs/claims.h"
 #include "app/jobs/job_figures.h"
@@ -238,7 +237,7 @@ void do_task(Task& task, const std::vector<Job>& jobs, JobPool& pool, std::vecto
 }
 
 /// All jobs, several runs at once; what comes out does not depend on how many.
-std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet) {
+std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, const Watch& watch) {
   std::vector<Done> results(jobs.size());
   std::vector<Task> tasks = tasks_of(jobs, pool);
   std::atomic<std::size_t> next{0}, ready{0};
@@ -251,14 +250,11 @@ std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, bool quiet
   std::vector<std::thread> threads;
   const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, 8U);
   for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
-  {
-    Progress progress(quiet);
-    while (ready < tasks.size()) {
-      const std::size_t now = std::clamp<std::size_t>(next, 1, tasks.size()) - 1;
-      progress.show(static_cast<double>(ready) / static_cast<double>(tasks.size()),
-                    fmt::format("{}, figure {} of {}", jobs[tasks[now].job].name, tasks[now].job + 1, jobs.size()));
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+  while (ready < tasks.size()) {
+    const std::size_t now = std::clamp<std::size_t>(next, 1, tasks.size()) - 1;
+    watch.show(static_cast<double>(ready) / static_cast<double>(tasks.size()),
+               fmt::format("{}, figure {} of {}", jobs[tasks[now].job].name, tasks[now].job + 1, jobs.size()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   for (auto& thread : threads) thread.join();
   for (const auto& task : tasks) results[task.job].seconds += task.seconds;
@@ -300,18 +296,17 @@ std::string counts_text(const std::vector<ClaimOutcome>& claims) {
 }
 
 /// One claim for the terminal: its outcome, what it says, and each part below it.
-void print_claim(const ClaimOutcome& c) {
-  fmt::print("{}", wrapped(fmt::format("{} {}: {}", c.claim.id, c.outcome, c.claim.says)));
-  if (!c.reason.empty()) fmt::print("{}", wrapped(c.reason, 8));
+std::string claim_text(const ClaimOutcome& c) {
+  std::string text = wrapped(fmt::format("{} {}: {}", c.claim.id, c.outcome, c.claim.says));
+  if (!c.reason.empty()) text += wrapped(c.reason, 8);
   for (const auto& part : c.parts) {
-    fmt::print("{}", wrapped(fmt::format("{}{}: {}; expected {}", part.holds ? "" : "differs: ", part.job,
-                                         part.came_out, part.expected),
-                             8));
-    if (!part.holds && !part.remark.empty()) fmt::print("{}", wrapped(part.remark, 8));
+    text += wrapped(
+        fmt::format("{}{}: {}; expected {}", part.holds ? "" : "differs: ", part.job, part.came_out, part.expected), 8);
+    if (!part.holds && !part.remark.empty()) text += wrapped(part.remark, 8);
   }
-  if (!c.claim.remark.empty()) fmt::print("{}", wrapped(c.claim.remark, 8));
-  if (!c.claim.calibrated.empty() && c.outcome == "calibrated")
-    fmt::print("{}", wrapped("calibrated: " + c.claim.calibrated, 8));
+  if (!c.claim.remark.empty()) text += wrapped(c.claim.remark, 8);
+  if (!c.claim.calibrated.empty() && c.outcome == "calibrated") text += wrapped("calibrated: " + c.claim.calibrated, 8);
+  return text;
 }
 
 Facts claim_facts(const std::vector<ClaimOutcome>& claims) {
@@ -415,7 +410,7 @@ std::string times_text(double seconds, const std::vector<Job>& jobs, const std::
   return text;
 }
 
-int reproduce(const Arguments& arguments) {
+Answer reproduce(const Arguments& arguments, const Watch& watch) {
   const auto begin = Clock::now();
   const std::string folder = folder_of(arguments);
   const std::string claims_file = (fs::path(folder) / "claims.json").string();
@@ -424,7 +419,7 @@ int reproduce(const Arguments& arguments) {
   auto words = arguments.list("what");
   if (words.empty()) words.emplace_back("all");
   const Wanted wanted = wanted_jobs(words, jobs_in(folder), published, pool);
-  auto results = do_all(wanted.jobs, pool, arguments.quiet());
+  auto results = do_all(wanted.jobs, pool, watch);
 
   std::vector<PartOutcome> parts;
   for (const auto& r : results) parts.insert(parts.end(), r.parts.begin(), r.parts.end());
@@ -433,7 +428,8 @@ int reproduce(const Arguments& arguments) {
     std::erase_if(claims,
                   [&](const auto& c) { return std::find(words.begin(), words.end(), c.claim.id) == words.end(); });
   tell_missing_parts(claims, wanted.others, pool);
-  Document document;
+  Answer answer;
+  Document& document = answer.document;
   document.verb = "reproduce";
   document.title = fmt::format("{}", fmt::join(words, " "));
   document.headline = fmt::format("{} redrawn; claims: {}", count_text(static_cast<long>(wanted.jobs.size()), "figure"),
@@ -454,21 +450,38 @@ int reproduce(const Arguments& arguments) {
     for (auto& file : page.files) document.files.push_back(std::move(file));
   }
   document.warnings = notes_on(wanted.jobs, "", pool);
-  int code = exit_code::done;
   if (arguments.has("--baseline"))
-    code = tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces, wanted.others.empty()),
-                         arguments.text("--baseline"), document);
+    answer.exit_code =
+        tell_baseline(hold_against(arguments.text("--baseline"), claims, document.traces, wanted.others.empty()),
+                      arguments.text("--baseline"), document);
   for (const auto& r : results)
     if (!r.failed.empty()) {
       document.warnings.push_back(r.failed);
-      code = exit_code::numerics;
+      answer.exit_code = exit_code::numerics;
     }
   document.facts = to_json(Facts::object({{"claims", claim_facts(claims)}}));
   if (!arguments.quiet())
-    for (const auto& c : claims) print_claim(c);
-  publish(arguments, arguments.text("-o", "reproduce"), document,
-          {times_text(seconds_since(begin), wanted.jobs, results)});
-  return code;
+    for (const auto& c : claims) answer.text += claim_text(c);
+  answer.folder = arguments.text("-o", "reproduce");
+  answer.asides = {times_text(seconds_since(begin), wanted.jobs, results)};
+  return answer;
+}
+
+std::vector<shape::Member> reproduce_shape() {
+  using namespace shape;
+  const Facts part = object("what one job says of it", {{"job", text("its name")},
+                                                        {"holds", flag("within the tolerance")},
+                                                        {"came_out", text("value")},
+                                                        {"expected", text("value")},
+                                                        {"remark", text("why it differs, where that is known")}});
+  const Facts claim =
+      object("a claim of the published work",
+             {{"says", text("the claim")},
+              {"outcome", choice("of all parts", {"agrees", "calibrated", "differs", "cannot be checked"})},
+              {"reason", text("why it cannot be checked")},
+              {"remark", text("what a reader should know")},
+              {"parts", list("by job", part)}});
+  return published({{"facts", object("what came out", {{"claims", named("by id", claim)}})}});
 }
 
 }  // namespace
@@ -484,7 +497,8 @@ Verb reproduce_verb() {
        {"--baseline", "FOLDER", "keep outcomes and curves there, or compare with those that are there", false, false},
        {"-o", "FOLDER", "where the results go; default: reproduce", false, false},
        options::allow()},
-      reproduce};
+      reproduce,
+      reproduce_shape};
 }
 
 }  // namespace hysteron

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
+#include "app/cli/answer.h"
 #include "app/cli/load.h"
-#include "app/cli/progress.h"
-#include "app/cli/publish.h"
-#include "app/cli/verb.h"
+#include "app/cli/shape.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/stop.h"
 #include "engine/program/feedthrough.h"
 #include "engine/simulate/simulate.h"
 #include "io/results/result.h"
@@ -240,14 +241,22 @@ SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diag
   return settings;
 }
 
-void run_own_time(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
-                  RunFacts& facts) {
+/// How far one of several simulations is.
+std::function<void(double)> shown(const Watch& watch, std::size_t which, std::size_t of, const std::string& what) {
+  const auto all = static_cast<double>(of);
+  const double before = static_cast<double>(which) / all;
+  return [&watch, before, all, what](double fraction) { watch.show(before + fraction / all, what); };
+}
+
+void run_own_time(const Arguments& arguments, const Watch& watch, const Diagram& diagram, const Program& program,
+                  Document& document, RunFacts& facts) {
   if (!program.input_names.empty())
     fail("unbound_input", "/inputs/" + program.input_names.front(),
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
          "give --data FILE with that column, or put a source block (sine, step ...) in its place");
   with_lines_of(diagram, [&] {
-    const SimulateOptions settings = own_time_options(arguments, diagram, program);
+    SimulateOptions settings = own_time_options(arguments, diagram, program);
+    settings.progress = shown(watch, 0, 1, fmt::format("of {} s", number_text(settings.until, 6)));
     const Traces traces = simulate(program, start(program), settings);
     document.headline = fmt::format("{}: simulated {} s, {} recorded", document.title, number_text(settings.until, 6),
                                     count_text(static_cast<long>(settings.signals.size()), "signal"));
@@ -255,13 +264,15 @@ void run_own_time(const Arguments& arguments, const Diagram& diagram, const Prog
   });
 }
 
-void run_recordings(const Arguments& arguments, const Diagram& diagram, const Program& program, Document& document,
-                    RunFacts& facts) {
+void run_recordings(const Arguments& arguments, const Watch& watch, const Diagram& diagram, const Program& program,
+                    Document& document, RunFacts& facts) {
   const DataSet data = load_data(arguments, program);
   document.warnings = data.remarks;
   std::string seen;
+  const std::size_t count = data.recordings.size();
   for (const auto& recording : data.recordings) {
     if (data.single && recording.file == seen) continue;  // its two parts are one simulation
+    const auto index = static_cast<std::size_t>(&recording - data.recordings.data());
     seen = recording.file;
     with_lines_of(diagram, [&] {
       SimulateOptions settings = simulate_options(program);
@@ -270,6 +281,7 @@ void run_recordings(const Arguments& arguments, const Diagram& diagram, const Pr
       settings.until = recording.t.back();
       settings.signals = signals_to_record(program);
       settings.at_rest = recording.at_rest || recording.initial_per_recording;
+      settings.progress = shown(watch, index, count, recording.name);
       const Traces traces = simulate(program, start_recording(program, data, recording), settings);
       add_traces(document, facts, program, traces, recording.name);
     });
@@ -278,23 +290,39 @@ void run_recordings(const Arguments& arguments, const Diagram& diagram, const Pr
                                   count_text(static_cast<long>(document.sections.size()), "recording"));
 }
 
-int run(const Arguments& arguments) {
+Answer run(const Arguments& arguments, const Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
-  const Diagram diagram = load_diagram(arguments);
+  const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const double loading = seconds_since(begin);
-  Document document;
+  Answer answer;
+  answer.folder = result_folder(arguments, "run");
+  Document& document = answer.document;
   document.verb = "run";
   document.title = diagram.title.empty() ? stem_of(arguments.text("diagram")) : diagram.title;
   RunFacts facts;
+  const StopScope until_stopped(watch.stop);
   if (arguments.has("--data"))
-    run_recordings(arguments, diagram, *program, document, facts);
+    run_recordings(arguments, watch, diagram, *program, document, facts);
   else
-    run_own_time(arguments, diagram, *program, document, facts);
+    run_own_time(arguments, watch, diagram, *program, document, facts);
   document.facts = to_json(Facts::object(
       {{"diagram", arguments.text("diagram")}, {"traces", facts.traces}, {"statistics", facts.statistics}}));
-  publish(arguments, result_folder(arguments, "run"), document, {times_text(loading, facts)});
-  return exit_code::done;
+  answer.asides = {times_text(loading, facts)};
+  return answer;
+}
+
+std::vector<shape::Member> run_shape() {
+  using namespace shape;
+  const Facts range = object("a signal", {{"unit", text("of the values")},
+                                          {"smallest", number("value")},
+                                          {"largest", number("value")},
+                                          {"last", number("value")}});
+  const Facts facts =
+      object("what was simulated", {{"diagram", text("its file")},
+                                    {"traces", named("by file in traces/", named("by signal", range))},
+                                    {"statistics", named("by file in traces/", open_object("steps, events, loops"))}});
+  return published({{"facts", facts}});
 }
 
 }  // namespace
@@ -311,7 +339,8 @@ Verb run_verb() {
            options::set(),
            options::choose(),
            options::allow()},
-          run};
+          run,
+          run_shape};
 }
 
 }  // namespace hysteron

@@ -1,15 +1,15 @@
-// The verb schema: writes the JSON Schemas of the files that hysteron reads and writes, from the declarations.
-// Does not decide what they say (io/results/schema.cpp).
-#include <fmt/format.h>
-
+// The verb schema: the JSON Schemas of the files that hysteron reads and writes and of what --json prints, from the
+// declarations. Does not decide what they say (io/results/schema.cpp, answer_json.h).
 #include <filesystem>
-#include <system_error>
 
+#include "app/cli/answer.h"
+#include "app/cli/answer_json.h"
+#include "app/cli/failure.h"
 #include "app/cli/load.h"
-#include "app/cli/verb.h"
-#include "engine/diagram/error.h"
+#include "app/cli/progress_line.h"
+#include "app/cli/shape.h"
+#include "app/cli/target.h"
 #include "io/diagram/diagram_file.h"
-#include "io/files/atomic_file.h"
 #include "io/jobs/claims_file.h"
 #include "io/jobs/job_file.h"
 
@@ -22,19 +22,17 @@ constexpr char schema_help[] =
     "Examples:\n"
     "  hysteron schema -o schema/\n\n"
     "Writes diagram, dataset, job, claims, result and effect (.schema.json); a file\n"
-    "names its schema with \"$schema\": \"../schema/diagram.schema.json\".\n"
+    "names its schema with \"$schema\": \"../schema/diagram.schema.json\". And what the program says to programs:\n"
+    "of each verb what it prints with --json (run.answer.schema.json), failure and progress (docs/programs.md).\n"
     "Exit codes: 0 done, 2 the folder cannot be written.";
 
-int schema(const Arguments& arguments) {
+Answer schemas(const Arguments& arguments, const Watch&) {
   const std::filesystem::path folder = arguments.text("-o", "schema");
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code)
-    fail("cannot_write", folder.string(), "the folder cannot be made: " + code.message(),
-         "name another with -o FOLDER");
-  const auto write = [&](const std::string& name, const std::string& text) {
-    write_file((folder / name).string(), text);
-    fmt::print("{}\n", (folder / name).string());
+  make_folder(folder.string(), "name another with -o FOLDER");
+  Answer answer;
+  const auto write = [&](const std::string& name, std::string text) {
+    answer.files.push_back({(folder / name).string(), std::move(text)});
+    answer.closing += answer.files.back().path + "\n";
   };
   write("diagram.schema.json", diagram_schema(registry()));
   write("dataset.schema.json", dataset_schema());
@@ -42,17 +40,22 @@ int schema(const Arguments& arguments) {
   write("claims.schema.json", claims_schema());
   write("result.schema.json", result_schema());
   write("effect.schema.json", effect_schema(registry()));
-  return exit_code::done;
+  write("failure.schema.json", failure_schema());
+  write("progress.schema.json", progress_schema());
+  for (const auto& verb : all_verbs())
+    if (verb.shape != nullptr) write(answer_schema_name(verb), answer_schema(verb));
+  answer.facts = Facts::object({{"folder", folder.string()}});
+  return answer;
 }
+
+std::vector<shape::Member> schemas_shape() { return {{"folder", shape::text("where the schemas lie")}}; }
 
 }  // namespace
 
 Verb schema_verb() {
-  return {"schema",
-          "write the JSON Schemas of diagrams, data sets, jobs, effects and results",
-          schema_help,
-          {{"-o", "FOLDER", "where they go; default: schema", false, false}},
-          schema};
+  return {"schema",    "write the JSON Schemas of diagrams, data sets, jobs, effects and results",
+          schema_help, {{"-o", "FOLDER", "where they go; default: schema", false, false}},
+          schemas,     schemas_shape};
 }
 
 }  // namespace hysteron

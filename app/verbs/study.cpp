@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <memory>
+#include <set>
 
+#include "app/cli/answer.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/load.h"
-#include "app/cli/progress.h"
 #include "app/cli/publish.h"
+#include "app/cli/shape.h"
 #include "app/cli/shell_word.h"
-#include "app/cli/verb.h"
 #include "app/study/study_merge.h"
 #include "app/study/study_page.h"
 #include "app/study/study_shards.h"
@@ -20,8 +22,6 @@
 #include "engine/diagram/stop.h"
 #include "engine/lanes/lanes.h"
 #include "io/diagram/diagram_file.h"
-#include "io/files/folder_lock.h"
-#include "io/results/staged_results.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -112,8 +112,8 @@ std::string progress_text(const StudyProgress& p, const Study& study) {
 }
 
 /// Computes what is missing of these shards. Returns what is said on the terminal alone: where the time went.
-std::vector<std::string> compute(const Arguments& arguments, const Asked& asked, const StudyFolder& folder,
-                                 const std::vector<int>& wanted) {
+std::vector<std::string> compute(const Arguments& arguments, const Watch& watch, const Asked& asked,
+                                 const StudyFolder& folder, const std::vector<int>& wanted) {
   const Study& study = asked.problem.study;
   std::vector<std::string> said;
   if (folder.open())
@@ -137,16 +137,14 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
   const double part = static_cast<double>(missing.size()) / folder.shards();
   const double all = part * static_cast<double>(study.draws > 0 ? study.draws : study.accepted);
   StudyProgress last;
-  Progress progress(arguments.quiet());
   folder.compute(missing, wanted.size() - missing.size(), threads, [&](const StudyProgress& now) {
     last = now;
-    progress.show(std::min(1.0, static_cast<double>(study.draws > 0 ? now.draws : now.accepted) / all),
-                  progress_text(now, study));
+    watch.show(std::min(1.0, static_cast<double>(study.draws > 0 ? now.draws : now.accepted) / all),
+               progress_text(now, study));
   });
-  progress.clear();
   if (const auto apart = why_not_in_lanes(*study.program, study.base, study.options, study.parameters); !apart.empty())
     said.push_back("simulated one after the other: " + apart);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = seconds_since(begin);
   const int used = std::min(threads, static_cast<int>(missing.size()));
   said.push_back(
       fmt::format("time: {} s for {} in {} on {}; {} ms per draw on one", number_text(seconds, 3),
@@ -156,7 +154,7 @@ std::vector<std::string> compute(const Arguments& arguments, const Asked& asked,
   return said;
 }
 
-int one_shard(const Arguments& arguments, Asked& asked) {
+Answer one_shard(const Arguments& arguments, const Watch& watch, const Asked& asked) {
   const ShardChoice choice = shard_of(arguments.text("--shard"));
   if (arguments.has("--csv"))
     fail("bad_command_line", "--csv", "one shard alone writes no CSV", "give --csv with --merge");
@@ -168,15 +166,19 @@ int one_shard(const Arguments& arguments, Asked& asked) {
          fmt::format("write --shard {}/{}, or change \"shards\" in the job", std::min(choice.shard, asked.shards),
                      asked.shards));
   const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), choice.shards);
-  const auto said = compute(arguments, asked, folder, {choice.shard - 1});
+  const auto said = compute(arguments, watch, asked, folder, {choice.shard - 1});
+  const std::string file = folder.shard_file(choice.shard - 1);
+  Answer answer;
   if (!arguments.quiet())
-    for (const auto& line : said) fmt::print("  {}\n", line);
-  fmt::print("shard {} of {}: {}\n", choice.shard, choice.shards, folder.shard_file(choice.shard - 1));
-  return exit_code::done;
+    for (const auto& line : said) answer.text += fmt::format("  {}\n", line);
+  answer.text += fmt::format("shard {} of {}: {}\n", choice.shard, choice.shards, file);
+  answer.files.push_back({file, "", true});
+  answer.facts = Facts::object({{"shard", choice.shard}, {"shards", choice.shards}});
+  return answer;
 }
 
 /// What the shards and the merge on a cluster must be told as this command was.
-int submit(const Arguments& arguments, const Asked& asked, const StudyFolder& folder) {
+Answer submit(const Arguments& arguments, const Asked& asked, const StudyFolder& folder) {
   std::vector<std::string> words;
   if (arguments.has("--shards")) words = {"--shards", fmt::format("{}", asked.shards)};
   for (const auto& allowed : arguments.list("--allow")) words.push_back("--allow=" + allowed);
@@ -189,16 +191,18 @@ int submit(const Arguments& arguments, const Asked& asked, const StudyFolder& fo
 }
 
 /// Every shard that is missing, unless only those that are there are to be joined; then the results.
-int whole_study(const Arguments& arguments, Asked& asked, const StudyFolder& folder, const FolderLock& lock) {
-  std::vector<std::string> said;
+Answer whole_study(const Arguments& arguments, const Watch& watch, const Asked& asked, const StudyFolder& folder,
+                   std::shared_ptr<HeldFolder> held) {
+  Answer answer;
+  auto& said = answer.asides;
   if (arguments.has("--merge")) {
     folder.clean();
   } else {
     std::vector<int> all;
     for (int k = 0; k < asked.shards; ++k) all.push_back(k);
-    said = compute(arguments, asked, folder, all);
+    said = compute(arguments, watch, asked, folder, all);
   }
-  StagedResults staged(lock, {"study.h5", "study.csv"});
+  StagedResults& staged = held->staged.emplace(held->lock, std::set<std::string>{"study.h5", "study.csv"});
   const MergedStudy merged = merge_shards(folder, asked.problem, asked.job.title, arguments.has("--csv"),
                                           again_text(arguments, asked), staged);
   if (merged.unsealed > 0)
@@ -207,13 +211,14 @@ int whole_study(const Arguments& arguments, Asked& asked, const StudyFolder& fol
         "cannot be seen. Without {}/shards the same command computes them anew",
         merged.unsealed == 1 ? "1 shard was written" : fmt::format("{} shards were written", merged.unsealed),
         asked.folder));
-  Document document = study_document(asked.job, asked.problem, folder, merged);
-  document.data = merged.files;
-  publish_staged(arguments, staged, asked.folder, document, said);
-  return exit_code::done;
+  answer.document = study_document(asked.job, asked.problem, folder, merged);
+  answer.document.data = merged.files;
+  answer.folder = asked.folder;
+  answer.held = std::move(held);
+  return answer;
 }
 
-int study(const Arguments& arguments) {
+Answer study(const Arguments& arguments, const Watch& watch) {
   if (arguments.has("--shard") && arguments.has("--merge"))
     fail("bad_command_line", "--merge", "one shard alone cannot be merged",
          "give --shard or --merge, or none of them for everything");
@@ -222,20 +227,35 @@ int study(const Arguments& arguments) {
       fail("bad_command_line", other,
            fmt::format("{} and --slurm exclude each other: shards and merge become jobs of one core each", other),
            "leave one of them out; a shard computed by --shard before is kept and not submitted");
-  Asked asked = read(arguments);
-  const DeferInterrupts until_safe;
-  const StopScope scope(interrupted);
+  const Asked asked = read(arguments);
+  watch.keep();
+  const StopScope scope(watch.stop);
   try {
-    if (arguments.has("--shard")) return one_shard(arguments, asked);
+    if (arguments.has("--shard")) return one_shard(arguments, watch, asked);
     const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), asked.shards);
     folder.check();
-    const FolderLock lock(asked.folder, say_who_writes(asked.folder));
-    return wants_slurm(arguments) ? submit(arguments, asked, folder) : whole_study(arguments, asked, folder, lock);
+    auto held = hold_folder(asked.folder);
+    return wants_slurm(arguments) ? submit(arguments, asked, folder)
+                                  : whole_study(arguments, watch, asked, folder, std::move(held));
   } catch (const Stopped&) {
     throw Interrupted(fmt::format(
         "interrupted; shards that are finished are kept in {}/shards, and the same command goes on from there",
         asked.folder));
   }
+}
+
+/// Of the whole study its folder; of one shard, or of a submission to Slurm, what follows it.
+std::vector<shape::Member> study_shape() {
+  using namespace shape;
+  const Facts jobs = object("as Slurm numbers them", {{"shards", text("empty: none was missing")},
+                                                      {"merge", text("empty: nothing was submitted")}});
+  return published({{"facts", open_object("draws, filters, columns: \"facts\" of result.json"), sometimes},
+                    {"shard", whole("that was computed alone, from 1"), sometimes},
+                    {"shards", whole("of so many"), sometimes},
+                    {"submitted", flag("to Slurm"), sometimes},
+                    {"missing", whole("shards that the jobs compute"), sometimes},
+                    {"jobs", jobs, sometimes}},
+                   sometimes);
 }
 
 }  // namespace
@@ -253,7 +273,8 @@ Verb study_verb() {
        options::threads("shards"),
        {"--csv", "", "write the samples as study.csv, too", false, false},
        options::allow()},
-      study};
+      study,
+      study_shape};
   for (auto& option : slurm_options()) verb.options.push_back(std::move(option));
   return verb;
 }

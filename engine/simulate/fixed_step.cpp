@@ -32,6 +32,7 @@ class FixedSteps {
         options_(options),
         work_(program),
         derivative_(program, run_, work_),
+        how_far_(options_, instants.back()),
         recording_(steps_for(program, signals)),
         growth_(nominal_states(program, run_), options.begin),
         tolerance_(absolute_tolerances(nominal_sizes(program, run_), options)),
@@ -72,6 +73,7 @@ class FixedSteps {
     }
     for (long grid = 1;;) {
       look_up_();
+      how_far_(t_);
       while (events_.next() <= t_ + same_instant(t_)) {
         const Stopwatch watch(traces_.statistics.phases.events);
         events_.take(t_, run_);
@@ -216,6 +218,7 @@ class FixedSteps {
   Work work_;
   FoldedDerivative derivative_;
   LookUp look_up_;
+  HowFar how_far_;
   std::vector<Step> recording_;
   GrowthWatch growth_;
   std::vector<double> tolerance_;  // for the paths of jumps only

@@ -136,6 +136,7 @@ class Simulation {
   Work work_;
   FoldedDerivative derivative_;
   LookUp look_up_;
+  HowFar how_far_;
   std::vector<Step> recording_;
   NominalSizes sizes_;
   GrowthWatch growth_;
@@ -171,6 +172,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       options_(options),
       work_(program),
       derivative_(program, run_, work_),
+      how_far_(options_, std::max(options.begin, instants.back())),
       recording_(steps_for(program, signals)),
       sizes_(nominal_sizes(program, run_)),
       growth_(sizes_.states, options.begin),
@@ -505,6 +507,7 @@ void Simulation::check_pace() {
 
 void Simulation::take_step(double stop) {
   look_up_();
+  how_far_(t_);
   check_pace();
   const auto outcome = solver_->step(stop);
   const auto crossing = find_crossing();

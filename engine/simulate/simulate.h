@@ -2,6 +2,7 @@
 // done stands in simulate.cpp (adaptive steps), fixed_step.h (fixed ones) and advance.h (exactly, row by row).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,6 +42,9 @@ struct SimulateOptions {
   bool reversal_events = true;                             ///< off only to measure what they bring
   std::vector<int> slopes_for{};  ///< parameters (places in program.parameters) whose slopes are wanted
   bool at_rest = false;           ///< start in equilibrium for the inputs at `begin`
+  /// Told, by the thread that simulates, which share of the span is done (0..1, rising): at most every 50 ms, and not
+  /// by the exact advance, which is there at once. The results do not depend on it.
+  std::function<void(double)> progress{};
 };
 
 /// What it took to solve one algebraic loop, in the evaluations of the simulation itself (not in those for slopes).

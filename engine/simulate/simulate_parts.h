@@ -2,7 +2,9 @@
 // Internal to the ways of simulating.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -29,6 +31,32 @@ class Stopwatch {
  private:
   double& phase_;
   std::chrono::steady_clock::time_point begin_;
+};
+
+/// Tells SimulateOptions::progress how far a simulation is. Costs nothing that is felt where nobody asks.
+class HowFar {
+ public:
+  HowFar(const SimulateOptions& options, double until)
+      : told_(options.progress), begin_(options.begin), span_(until - options.begin) {}
+  void operator()(double t) {
+    if (told_ && span_ > 0 && steps_++ % every == 0) tell(t);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr unsigned every = 16;  // steps: looking at the clock each time would be felt
+  static constexpr std::chrono::milliseconds pace{50};
+  void tell(double t) {
+    const auto now = Clock::now();
+    if (now - last_ < pace) return;
+    last_ = now;
+    told_(std::clamp((t - begin_) / span_, 0.0, 1.0));
+  }
+
+  const std::function<void(double)>& told_;
+  double begin_, span_;
+  unsigned steps_ = 0;
+  Clock::time_point last_{};
 };
 
 /// The output times: as given, or begin, begin + every ... until. Throws Error "bad_value" for options that make no

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/json/schema_text.h"
+
 namespace hysteron::schema {
 
 using Json = nlohmann::ordered_json;
@@ -35,8 +37,5 @@ void add_head_members(Json& properties);
 Json runs_job();
 /// A job with "do": "study" (study_schema.cpp).
 Json study_job();
-
-/// Indented text; objects and lists that fit stay on one line.
-std::string to_text(const Json& schema);
 
 }  // namespace hysteron::schema

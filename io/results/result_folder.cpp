@@ -113,6 +113,12 @@ void on_the_disk(const std::string& folder, const Action& action) {
 
 }  // namespace
 
+std::vector<std::string> files_of_result(const Document& document) {
+  std::vector<std::string> names = document.data, written = names_in(document, true);
+  names.insert(names.end(), written.begin(), written.end());
+  return names;
+}
+
 std::string trace_file_name(const std::string& name) {
   std::string safe;
   for (const char c : name) {

@@ -6,8 +6,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace hysteron {
+
+struct Document;
 
 inline constexpr char result_file[] = "result.json";  ///< the last to be written: with it a result is whole
 
@@ -18,6 +21,9 @@ struct ResultManifest {
 
 /// nullopt where no result of hysteron lies there.
 std::optional<ResultManifest> read_manifest(const std::filesystem::path& folder);
+
+/// Those that a document becomes, with its report.html, relative to the folder; result.json last.
+std::vector<std::string> files_of_result(const Document& document);
 
 /// Is this the name of a file inside a folder: relative, and without ".."?
 bool stays_inside(const std::string& name);

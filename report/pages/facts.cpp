@@ -6,25 +6,31 @@
 namespace hysteron {
 namespace {
 
-nlohmann::json json_of(const Facts& facts) {
-  struct Visitor {
-    nlohmann::json operator()(std::monostate) const { return nullptr; }
-    nlohmann::json operator()(bool value) const { return value; }
-    nlohmann::json operator()(long long value) const { return value; }
-    nlohmann::json operator()(double value) const { return value; }
-    nlohmann::json operator()(const std::string& text) const { return text; }
-    nlohmann::json operator()(const Facts::List& list) const {
-      auto array = nlohmann::json::array();
-      for (const auto& item : list) array.push_back(json_of(item));
-      return array;
-    }
-    nlohmann::json operator()(const Facts::Members& members) const {
-      auto object = nlohmann::json::object();
-      for (const auto& member : members) object[member.name] = json_of(member.value);
-      return object;
-    }
-  };
-  return std::visit(Visitor{}, facts.content);
+template <class Json>
+Json json_of(const Facts& facts);
+
+template <class Json>
+struct Visitor {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(bool value) const { return value; }
+  Json operator()(long long value) const { return value; }
+  Json operator()(double value) const { return value; }
+  Json operator()(const std::string& text) const { return text; }
+  Json operator()(const Facts::List& list) const {
+    auto array = Json::array();
+    for (const auto& item : list) array.push_back(json_of<Json>(item));
+    return array;
+  }
+  Json operator()(const Facts::Members& members) const {
+    auto object = Json::object();
+    for (const auto& member : members) object[member.name] = json_of<Json>(member.value);
+    return object;
+  }
+};
+
+template <class Json>
+Json json_of(const Facts& facts) {
+  return std::visit(Visitor<Json>{}, facts.content);
 }
 
 }  // namespace
@@ -49,8 +55,10 @@ void Facts::set(const std::string& name, Facts value) {
   members.push_back({name, std::move(value)});
 }
 
-std::shared_ptr<nlohmann::json> to_json(const Facts& facts) { return std::make_shared<nlohmann::json>(json_of(facts)); }
+std::shared_ptr<nlohmann::json> to_json(const Facts& facts) {
+  return std::make_shared<nlohmann::json>(json_of<nlohmann::json>(facts));
+}
 
-std::string json_text(const Facts& facts) { return to_json(facts)->dump(2); }
+nlohmann::ordered_json in_order(const Facts& facts) { return json_of<nlohmann::ordered_json>(facts); }
 
 }  // namespace hysteron

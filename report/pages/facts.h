@@ -43,9 +43,9 @@ struct FactMember {
   Facts value;
 };
 
-/// As text, indented.
-std::string json_text(const Facts& facts);
 /// For Document::facts.
 std::shared_ptr<nlohmann::json> to_json(const Facts& facts);
+/// Members in the order in which they were said.
+nlohmann::ordered_json in_order(const Facts& facts);
 
 }  // namespace hysteron

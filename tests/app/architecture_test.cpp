@@ -133,6 +133,20 @@ TEST(Architecture, HeadersAreReadOnceAndOpenWithWhatTheyDecide) {
   });
 }
 
+// A verb gives an answer; app/cli prints it and puts its results in place.
+TEST(Architecture, OnlyTheCommandLinePrintsAndPublishes) {
+  for_each_source([](const std::string& folder, const fs::path& file, const std::string& text) {
+    const std::string own = fs::relative(file, HYSTERON_SOURCE_DIR).generic_string();
+    if (own.starts_with("app/cli/")) return;
+    for (const char* door : {"fmt::print(", "printf(stdout", "printf(stderr", "std::printf", "std::fputs", "std::cout",
+                             "std::cerr", "publish_folder(", "publish_files(", "perform("})
+      EXPECT_EQ(text.find(door), std::string::npos) << own << " calls " << door;
+    if (folder != "app") return;
+    for (const char* door : {"write_result(", "finish_result(", "interrupted()", "isatty("})
+      EXPECT_EQ(text.find(door), std::string::npos) << own << " calls " << door;
+  });
+}
+
 // A header that costs seconds to read may be included by sources and by headers that no other room sees.
 TEST(Architecture, NoRoomReadsAHeavyHeaderThroughAnother) {
   std::set<std::string> heavy;  // "engine/rowwise/linear_part.h"

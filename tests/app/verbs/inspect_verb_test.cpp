@@ -41,7 +41,7 @@ TEST_F(InspectVerb, InspectPrintsTheSameFactsAsJsonAndWritesNothing) {
   EXPECT_EQ(folder_.entries(), before);
   const json facts = json::parse(outcome.out);
   hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json", "-o", "out"});
-  EXPECT_EQ(facts, result("out")["facts"]);
+  for (const auto& [name, fact] : result("out")["facts"].items()) EXPECT_EQ(facts[name], fact) << name;
 }
 
 TEST_F(InspectVerb, InspectNeedsNoDiagramAndSaysWhatItAssumed) {

@@ -1,0 +1,97 @@
+#include "app/cli/perform.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <mutex>
+#include <optional>
+
+#include "app/cli/answer.h"
+#include "app/cli/answer_json.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress_line.h"
+#include "app/cli/publish.h"
+#include "app/cli/terminal.h"
+#include "app/cli/watch.h"
+
+namespace hysteron {
+namespace {
+
+ProgressLine::Form form_of(const Arguments& arguments) {
+  if (arguments.text("--progress") == "json") return ProgressLine::Form::json;
+  return !arguments.quiet() && isatty(STDERR_FILENO) == 1 ? ProgressLine::Form::terminal : ProgressLine::Form::silent;
+}
+
+/// What a verb says while it works, and when it may be ended.
+struct Watched {
+  explicit Watched(const Arguments& arguments) : line(form_of(arguments)), quiet(arguments.quiet()) {
+    watch.show = [this](double fraction, const std::string& what) { line.show(fraction, what); };
+    watch.note = [this](const std::string& what) {
+      const std::lock_guard lock(mutex);
+      notes.push_back(what);
+      if (!quiet) line.say("note: " + what);
+    };
+    watch.stop = interrupted;
+    watch.keep = [this] {
+      if (!deferred) deferred.emplace();
+    };
+  }
+
+  Watch watch;
+  ProgressLine line;
+  bool quiet;
+  std::mutex mutex;
+  std::vector<std::string> notes;
+  std::optional<DeferInterrupts> deferred;
+};
+
+/// Headline, sentences, warnings, what is said here only and, on the last line, the verdict and where report.html lies.
+std::string document_text(const Answer& answer, bool quiet) {
+  const Document& document = answer.document;
+  std::string text;
+  if (!document.headline.empty()) text += wrapped(document.headline);
+  if (!quiet) {
+    for (const auto& sentence : document.sentences) text += wrapped(sentence, 2);
+    for (const auto& warning : document.warnings) text += wrapped("note: " + warning, 2);
+    for (const auto& line : answer.asides) text += wrapped(line, 2);
+  }
+  return text + fmt::format("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
+                            answer.folder.size() > 1 && answer.folder.back() == '/'
+                                ? answer.folder.substr(0, answer.folder.size() - 1)
+                                : answer.folder);
+}
+
+/// What is in place is told when it is: a failure comes behind what was said before it.
+void put_in_place(const Answer& answer, bool quiet, bool told) {
+  const auto tell = [told](const std::string& text) {
+    if (told && !text.empty()) fmt::print("{}", text);
+  };
+  tell(answer.text);
+  if (!answer.folder.empty()) {
+    publish_folder(answer);
+    tell(document_text(answer, quiet));
+  }
+  publish_files(answer);
+  tell(answer.closing);
+}
+
+}  // namespace
+
+int perform(const Verb& verb, const Arguments& arguments) {
+  Watched watched(arguments);
+  try {
+    const Answer answer = verb.act(arguments, watched.watch);
+    watched.line.clear();
+    put_in_place(answer, arguments.quiet(), !arguments.json());
+    if (arguments.json()) fmt::print("{}", answer_json(verb, answer, watched.notes));
+    watched.line.end(answer.interrupted.empty());
+    if (!answer.interrupted.empty()) fmt::print(stderr, "{}\n", answer.interrupted);
+    return answer.exit_code;
+  } catch (const ErrorBehindText& error) {
+    watched.line.clear();
+    if (!arguments.json()) fmt::print("{}", error.text());
+    throw;
+  }
+}
+
+}  // namespace hysteron
