@@ -3,27 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
 #include "app/cli/terminal.h"
+#include "app/verbs/explain_solver.h"
 #include "app/verbs/program_facts.h"
-#include "engine/diagram/error.h"
 #include "engine/diagram/index.h"
-#include "engine/lanes/lanes.h"
-#include "engine/program/corners.h"
 #include "engine/program/feedthrough.h"
 #include "engine/program/nominal.h"
-#include "engine/simulate/choose_method.h"
-#include "engine/simulate/fixed_step.h"
-#include "engine/simulate/jacobian.h"
 #include "engine/simulate/simulate.h"
-#include "engine/simulate/simulate_parts.h"
-#include "io/results/result.h"
-#include "report/pages/facts.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -41,13 +32,6 @@ constexpr char explain_help[] =
     "Exit codes: 0 done, 2 the diagram is wrong.";
 
 using TableRows = std::vector<std::vector<std::string>>;
-
-/// "0.1 ms": times here come from many files, so none of their units is right for all.
-std::string time_text(double seconds) {
-  const double size = std::abs(seconds);
-  const char* unit = size == 0 || size >= 1 ? "s" : size >= 0.999e-3 ? "ms" : size >= 0.999e-6 ? "us" : "ns";
-  return quantity_text(seconds, parse_unit(unit), 6);
-}
 
 std::string joined(const std::vector<std::string>& list) { return fmt::format("{}", fmt::join(list, ", ")); }
 
@@ -275,7 +259,7 @@ class Explanation {
     TableRows rows;
     for (const auto& clock : clocks)
       rows.push_back(
-          {"every " + time_text(clock.period), "from " + time_text(clock.offset), joined(paths(clock.blocks))});
+          {"every " + time_words(clock.period), "from " + time_words(clock.offset), joined(paths(clock.blocks))});
     show({}, rows);
     std::vector<std::string> taken, held;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b)
@@ -293,93 +277,15 @@ class Explanation {
 
   // --- solver --------------------------------------------------------------------------------------------------------
 
-  bool inputs_unbound() const { return !program_.input_names.empty(); }
-
-  /// "" if the exact advance applies; else what stands in the way.
-  std::string why_not_exactly(SimulateOptions options) const {
-    options.method = Method::exact;
-    try {
-      advances_exactly(program_, options);
-      return "";
-    } catch (const Error& error) {
-      const std::string& what = error.problems.front().what;
-      const auto colon = what.find(": ");
-      return colon == std::string::npos ? what : what.substr(colon + 2);
-    }
-  }
-
-  std::string exact_because() const {
-    return program_.sampled_blocks.empty()
-               ? "every source is a recording, and no block changes its mode"
-               : "between instants nothing but recordings moves what remembers, and no block changes its mode";
-  }
-
   void solver() {
     head("solver");
-    SimulateOptions options = simulate_options(program_);
-    const std::string reason = why_not_exactly(options);
-    const bool exact = reason.empty() && advances_exactly(program_, options);
-    TableRows rows;
-    const bool asked = options.method != Method::automatic;
-    MethodChoice choice{options.method, "as the diagram says"};
-    if (!asked && exact) choice = {Method::exact, exact_because()};
-    if (!asked && !exact) choice = choose_method(program_, run_, options.begin, options.until - options.begin);
-    method_ = method_name(choice.method);
-    why_ = choice.why;
-    rows.push_back({"method", method_, why_});
-    rows.push_back({"exact row by row", reason.empty() ? "applies" : "does not apply", reason});
-    const double until = options.until;
-    rows.push_back({"until", program_.simulate.until ? time_text(until) : "open",
-                    program_.simulate.until ? from_diagram(true) : "--until, or the recordings of --data"});
-    rows.push_back({"output every", options.every > 0 ? time_text(options.every) : "a thousandth of the time",
-                    from_diagram(program_.simulate.every.has_value())});
-    const std::string apart = why_not_in_lanes(program_);
-    rows.push_back(
-        {"in lanes", apart.empty() ? "applies" : "does not apply",
-         apart.empty()
-             ? "many parameter sets side by side, with the methods euler and rk4; not where the corners of a source "
-               "are varied"
-             : apart});
-    options.method = choice.method;
-    if (!exact) add_integrator_rows(rows, options);
-    show({}, rows);
+    const SolverWords words = solver_words(program_, run_);
+    method_ = words.method;
+    why_ = words.why;
+    show({}, words.rows);
   }
 
-  static std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }
-
-  void add_integrator_rows(TableRows& rows, const SimulateOptions& options) const {
-    const auto& given = program_.simulate;
-    if (has_fixed_steps(options.method)) {
-      rows.push_back({"step", time_text(options.step), from_diagram(given.step.has_value())});
-      return;
-    }
-    rows.push_back({"relative tolerance", number_text(options.relative_tolerance),
-                    from_diagram(given.relative_tolerance.has_value())});
-    rows.push_back({"absolute tolerance", number_text(options.absolute_tolerance),
-                    from_diagram(given.absolute_tolerance.has_value()) +
-                        "; times the relative one, times the nominal size of each state"});
-    const auto [longest, why] = longest_step_and_why(options);
-    rows.push_back({"longest step", longest, why});
-    if (options.method == Method::bdf && program_.n_x > 0) {
-      const Jacobian jacobian(program_);
-      rows.push_back({"Jacobian", fmt::format("{} x {}", program_.n_x, program_.n_x),
-                      fmt::format("exact slopes, {}", count_text(jacobian.colours(), "direction"))});
-    }
-  }
-
-  std::pair<std::string, std::string> longest_step_and_why(const SimulateOptions& options) const {
-    if (options.max_step > 0) return {time_text(options.max_step), "as the diagram says"};
-    const double longest = longest_step(program_, run_, options.until - options.begin);
-    if (!std::isfinite(longest)) return {"not limited", "no source reaches a memory, and there is no dead time"};
-    for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
-      const auto& one = program_.blocks[b];
-      if (one.kernel->pace == nullptr || one.series_index >= 0) continue;
-      if (one.kernel->pace(view_of(program_, run_, static_cast<int>(b))) / 4 == longest)
-        return {time_text(longest),
-                fmt::format("a quarter of the shortest period of {}, which reaches a memory", one.path)};
-    }
-    return {time_text(longest), "the shortest dead time"};
-  }
+  bool inputs_unbound() const { return !program_.input_names.empty(); }
 
   void states() {
     if (program_.n_x == 0) return;

@@ -1,26 +1,19 @@
 // The verb reproduce: runs the jobs behind the figures of a published work and holds its claims against what comes out.
-// Does not run a single job itself (job_runs.h), draw it (job_figures.h) nor judge a claim (claims.h).
+// Does not run the jobs itself (published_runs.h), draw them (job_figures.h) nor judge a claim (claims.h).
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <map>
-#include <thread>
 
 #include "app/cli/answer.h"
 #include "app/cli/shape.h"
 #include "app/cli/terminal.h"
-#include "app/cli/watch.h"
 #include "app/jobs/baseline.h"
-#include "app/jobs/claims.h"
-#include "app/jobs/job_figures.h"
+#include "app/jobs/published_runs.h"
 #include "engine/diagram/error.h"
-#include "engine/diagram/number_text.h"
 #include "report/page/report.h"
-#include "report/pages/facts.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -49,222 +42,8 @@ constexpr char reproduce_help[] =
     "Exit codes: 0 done, whatever was found, 1 a claim that held in the baseline does not any more, 2 a job is\n"
     "wrong, 3 a run failed.";
 
-struct Job {
-  std::string file, name, chapter;
-};
-
-/// "diagrams" here or in a folder above; else where the program is installed.
-std::string folder_of(const Arguments& arguments) {
-  if (arguments.has("--from")) return arguments.text("--from");
-  std::error_code code;
-  for (fs::path here = fs::current_path(code); !here.empty(); here = here.parent_path()) {
-    if (fs::exists(here / "diagrams" / "claims.json", code))
-      return (here / "diagrams").lexically_relative(fs::current_path()).string();
-    if (here == here.parent_path()) break;
-  }
-  const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "hysteron" / "diagrams";
-  if (!code && fs::exists(installed / "claims.json", code)) return installed.string();
-  fail("no_folder", "--from", "there is no folder \"diagrams\" with a claims.json here or above",
-       "name the folder of the jobs with --from FOLDER");
-}
-
-/// "fig2_15" before "fig2_100": digits count as numbers.
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0, k = 0;
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  while (i < a.size() && k < b.size()) {
-    if (digit(a[i]) && digit(b[k])) {
-      std::size_t i_end = i, k_end = k;
-      while (i_end < a.size() && digit(a[i_end])) ++i_end;
-      while (k_end < b.size() && digit(b[k_end])) ++k_end;
-      const int x = leading_whole_number(a.substr(i, std::min<std::size_t>(i_end - i, 9)), 0);
-      const int y = leading_whole_number(b.substr(k, std::min<std::size_t>(k_end - k, 9)), 0);
-      if (x != y) return x < y;
-      i = i_end;
-      k = k_end;
-    } else {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-    }
-  }
-  return a.size() - i < b.size() - k;
-}
-
-/// Every job with "do": "runs" below the folder; its chapter is the folder in which it lies.
-std::vector<Job> jobs_in(const std::string& folder) {
-  if (!fs::is_directory(folder))
-    fail("no_folder", folder, "there is no such folder", "name the folder of the jobs with --from FOLDER");
-  std::vector<Job> jobs;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    if (!entry.is_regular_file() || path.extension() != ".json" || path.filename() == "claims.json") continue;
-    if (what_a_job_does(path.string()) != "runs") continue;
-    jobs.push_back({path.string(), path.stem().string(), path.parent_path().filename().string()});
-  }
-  if (jobs.empty())
-    fail("no_jobs", folder, "no file in this folder is a job with \"do\": \"runs\"",
-         "name the folder of the jobs with --from FOLDER");
-  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
-    return a.chapter != b.chapter ? natural_less(a.chapter, b.chapter) : natural_less(a.name, b.name);
-  });
-  return jobs;
-}
-
-/// What the user asked for: jobs, and the beginnings of the ids of claims that are told even without a job.
-struct Wanted {
-  std::vector<Job> jobs, others;
-  std::vector<std::string> prefixes;
-  bool claims_alone = true;  ///< nothing but claims was named: no others are told
-};
-
-/// "chapter2" -> "C2-".
-std::string prefix_of(const std::string& chapter) {
-  return chapter.starts_with("chapter") ? "C" + chapter.substr(7) + "-" : "";
-}
-
-Wanted wanted_jobs(const std::vector<std::string>& words, const std::vector<Job>& all,
-                   const std::vector<PublishedClaim>& claims, JobPool& pool) {
-  Wanted wanted;
-  std::vector<bool> take(all.size(), false);
-  for (const auto& word : words) {
-    bool known = word == "all";
-    if (known) {
-      take.assign(all.size(), true);
-      wanted.prefixes.emplace_back("");
-      wanted.claims_alone = false;
-      continue;
-    }
-    const bool place =
-        std::any_of(all.begin(), all.end(), [&](const Job& j) { return j.name == word || j.chapter == word; });
-    bool claim = std::any_of(claims.begin(), claims.end(), [&](const auto& c) { return c.id == word; });
-    std::vector<std::string> names{"all"};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      bool is = all[i].name == word || all[i].chapter == word;
-      if (all[i].chapter == word && !prefix_of(word).empty()) wanted.prefixes.push_back(prefix_of(word));
-      if (!place)
-        for (const auto& part : pool.job(all[i].file).job().claims)
-          if (part.id == word) is = claim = true;
-      if (is) take[i] = known = true;
-      names.push_back(all[i].name);
-      if (std::find(names.begin(), names.end(), all[i].chapter) == names.end()) names.push_back(all[i].chapter);
-    }
-    if (claim) wanted.prefixes.push_back(word);
-    wanted.claims_alone = wanted.claims_alone && claim;
-    for (const auto& c : claims) names.push_back(c.id);
-    if (!known && !claim)
-      fail("unknown_figure", word, fmt::format("there is no chapter, figure or claim \"{}\"", word),
-           nearest_name(word, names).empty()
-               ? "name \"all\", a chapter (chapter2), a figure (fig2_15) or a claim (C2-07)"
-               : fmt::format("did you mean \"{}\"?", nearest_name(word, names)));
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) (take[i] ? wanted.jobs : wanted.others).push_back(all[i]);
-  return wanted;
-}
-
-/// What one job gave. A run whose numerics failed costs its job alone; wrong input ends everything.
-struct Done {
-  JobPage page;
-  std::vector<PartOutcome> parts;
-  std::string failed{};
-  std::exception_ptr error{};
-  double seconds = 0;
-};
-
-/// What stands in place of a job whose numerics failed: none of its claims holds.
-void tell_failure(const Job& job, const Error& error, JobPool& pool, Done& d) {
-  const Problem& p = error.problems.front();
-  d.failed = fmt::format("{} failed: {}: {}", job.name, p.path, p.what);
-  d.parts.clear();
-  for (const auto& claim : pool.job(job.file).job().claims)
-    d.parts.push_back(
-        {job.name, claim.id, false, "the run failed: " + p.what, claim.expected ? claim.expected->text : "-", p.cure});
-  d.page = {};
-  d.page.section.title = figure_name(job.name);
-  d.page.section.text.push_back(d.failed);
-}
-
-using Clock = std::chrono::steady_clock;
-/// Claims judged and figures drawn, from runs that are done by now or are done here.
-Done done(const Job& job, JobPool& pool) {
-  Done d;
-  try {
-    JobRunner& runner = pool.job(job.file);
-    for (const auto& claim : runner.job().claims) d.parts.push_back(judge(runner, claim));
-    d.page = page_of(runner, pool.allowed());
-  } catch (const Error& error) {
-    if (error.fault == Fault::input)
-      d.error = std::current_exception();
-    else
-      tell_failure(job, error, pool, d);
-  } catch (...) {
-    d.error = std::current_exception();
-  }
-  return d;
-}
-
-/// One piece of work for a thread: a run of a job, or (no run) its claims and figures.
-struct Task {
-  std::size_t job = 0;
-  const RunWish* run = nullptr;
-  double seconds = 0;
-};
-
-/// The runs of each job, then what is made of them.
-std::vector<Task> tasks_of(const std::vector<Job>& jobs, JobPool& pool) {
-  std::vector<Task> tasks;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    for (const auto& run : pool.job(jobs[i].file).job().runs)
-      if (run.kind != RunKind::elsewhere) tasks.push_back({i, &run});
-    tasks.push_back({i, nullptr});
-  }
-  return tasks;
-}
-
-void do_task(Task& task, const std::vector<Job>& jobs, JobPool& pool, std::vector<Done>& results) {
-  const auto begin = Clock::now();
-  if (task.run == nullptr) {
-    results[task.job] = done(jobs[task.job], pool);
-  } else {
-    try {
-      pool.job(jobs[task.job].file).shared_result({task.run->name, task.run->pointer});
-    } catch (const std::exception&) {
-      // Told by the task that needs the run, with what it was needed for.
-    }
-  }
-  task.seconds = seconds_since(begin);
-}
-
-/// All jobs, several runs at once; what comes out does not depend on how many.
-std::vector<Done> do_all(const std::vector<Job>& jobs, JobPool& pool, const Watch& watch) {
-  std::vector<Done> results(jobs.size());
-  std::vector<Task> tasks = tasks_of(jobs, pool);
-  std::atomic<std::size_t> next{0}, ready{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      do_task(tasks[i], jobs, pool, results);
-      ++ready;
-    }
-  };
-  std::vector<std::thread> threads;
-  const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, 8U);
-  for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
-  while (ready < tasks.size()) {
-    const std::size_t now = std::clamp<std::size_t>(next, 1, tasks.size()) - 1;
-    watch.show(static_cast<double>(ready) / static_cast<double>(tasks.size()),
-               fmt::format("{}, figure {} of {}", jobs[tasks[now].job].name, tasks[now].job + 1, jobs.size()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  for (auto& thread : threads) thread.join();
-  for (const auto& task : tasks) results[task.job].seconds += task.seconds;
-  for (const auto& d : results)
-    if (d.error) std::rethrow_exception(d.error);
-  return results;
-}
-
 /// Claims of which jobs that were not run settle further parts: the outcome is that of the parts that were.
-void tell_missing_parts(std::vector<ClaimOutcome>& claims, const std::vector<Job>& others, JobPool& pool) {
+void tell_missing_parts(std::vector<ClaimOutcome>& claims, const std::vector<PublishedJob>& others, JobPool& pool) {
   std::map<std::string, std::vector<std::string>> elsewhere;
   for (const auto& job : others) try {
       for (const auto& part : pool.job(job.file).job().claims) {
@@ -339,7 +118,7 @@ std::vector<ClaimOutcome> claims_of(const std::vector<ClaimOutcome>& claims, con
 }
 
 /// The page of one chapter; its traces are those of the whole result.
-Document chapter_page(const std::string& chapter, const std::vector<Job>& jobs, std::vector<Done>& results,
+Document chapter_page(const std::string& chapter, const std::vector<PublishedJob>& jobs, std::vector<JobDone>& results,
                       const std::vector<ClaimOutcome>& claims) {
   Document page;
   page.verb = "reproduce";
@@ -366,7 +145,7 @@ Document chapter_page(const std::string& chapter, const std::vector<Job>& jobs, 
 }
 
 /// What the reader of any of these figures must know: what stands in for a measurement, and where numbers are assumed.
-std::vector<std::string> notes_on(const std::vector<Job>& jobs, const std::string& chapter, JobPool& pool) {
+std::vector<std::string> notes_on(const std::vector<PublishedJob>& jobs, const std::string& chapter, JobPool& pool) {
   std::vector<std::string> notes, assumed;
   for (const auto& job : jobs) {
     if (!chapter.empty() && job.chapter != chapter) continue;
@@ -400,9 +179,9 @@ int tell_baseline(const BaselineAnswer& answer, const std::string& folder, Docum
 }
 
 /// "time: 12 s, most work in fig2_13 with 2.1 s": runs that wait for others count too
-std::string times_text(double seconds, const std::vector<Job>& jobs, const std::vector<Done>& results) {
+std::string times_text(double seconds, const std::vector<PublishedJob>& jobs, const std::vector<JobDone>& results) {
   const auto longest = std::max_element(results.begin(), results.end(),
-                                        [](const Done& a, const Done& b) { return a.seconds < b.seconds; });
+                                        [](const JobDone& a, const JobDone& b) { return a.seconds < b.seconds; });
   std::string text = fmt::format("time: {} s", number_text(seconds, 3));
   if (results.size() > 1)
     text += fmt::format(", most work in {} with {} s", jobs[static_cast<std::size_t>(longest - results.begin())].name,
@@ -411,15 +190,15 @@ std::string times_text(double seconds, const std::vector<Job>& jobs, const std::
 }
 
 Answer reproduce(const Arguments& arguments, const Watch& watch) {
-  const auto begin = Clock::now();
-  const std::string folder = folder_of(arguments);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string folder = arguments.has("--from") ? arguments.text("--from") : folder_of_jobs();
   const std::string claims_file = (fs::path(folder) / "claims.json").string();
   const auto published = fs::exists(claims_file) ? read_claims(claims_file) : std::vector<PublishedClaim>{};
   JobPool pool(arguments.list("--allow"), arguments.has("--full"));
   auto words = arguments.list("what");
   if (words.empty()) words.emplace_back("all");
-  const Wanted wanted = wanted_jobs(words, jobs_in(folder), published, pool);
-  auto results = do_all(wanted.jobs, pool, watch);
+  const WantedJobs wanted = wanted_jobs(words, jobs_in(folder), published, pool);
+  auto results = run_all(wanted.jobs, pool, watch);
 
   std::vector<PartOutcome> parts;
   for (const auto& r : results) parts.insert(parts.end(), r.parts.begin(), r.parts.end());

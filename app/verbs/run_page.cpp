@@ -1,0 +1,182 @@
+#include "app/verbs/run_page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/program/feedthrough.h"
+#include "report/pages/numbers.h"
+
+namespace hysteron {
+namespace {
+
+/// The name under which a signal is recorded: an output by its own name, anything else by its path.
+std::string signal_name(const Program& program, int signal) {
+  if (program.record_signals.empty())
+    for (std::size_t i = 0; i < program.output_signals.size(); ++i)
+      if (program.output_signals[i] == signal) return program.output_names[i];
+  return program.signals[static_cast<std::size_t>(signal)].path;
+}
+
+CsvTable table_of(const Program& program, const Traces& traces, const std::string& file) {
+  CsvTable table;
+  table.file = file;
+  table.columns.push_back({"t", parse_unit("s"), traces.t});
+  for (std::size_t i = 0; i < traces.signals.size(); ++i) {
+    const Unit& unit = program.signals[static_cast<std::size_t>(traces.signals[i])].unit;
+    CsvColumn column{signal_name(program, traces.signals[i]), unit, traces.values[i]};
+    for (auto& value : column.values) value = unit.from_si(value);
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+/// One figure per unit, so that curves of one figure share an axis.
+void add_figures(Section& section, const CsvTable& table) {
+  std::vector<std::string> units;
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const auto& column = table.columns[i];
+    const std::string unit = unit_text(column.unit);
+    auto at = std::find(units.begin(), units.end(), unit);
+    if (at == units.end()) {
+      units.push_back(unit);
+      at = units.end() - 1;
+      Figure figure;
+      figure.x_label = "t [s]";
+      figure.y_label = unit.empty() ? "[1]" : "[" + unit + "]";
+      section.figures.push_back(std::move(figure));
+    }
+    Curve curve;
+    curve.name = column.name;
+    curve.style = "line";
+    curve.trace = table.file;
+    curve.x_column = "t";
+    curve.y_column = column.name;
+    section.figures[static_cast<std::size_t>(at - units.begin())].curves.push_back(std::move(curve));
+  }
+  for (auto& figure : section.figures) {
+    std::vector<std::string> names;
+    for (const auto& curve : figure.curves) names.push_back(curve.name);
+    figure.title = fmt::format("{}", fmt::join(names, ", "));
+  }
+}
+
+/// Smallest, largest and last value of each signal: for the reader, and as facts for programs.
+Facts add_ranges(Section& section, const CsvTable& table) {
+  Table ranges;
+  ranges.columns = {"signal", "smallest", "largest", "last"};
+  Facts entries;
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const auto& column = table.columns[i];
+    if (column.values.empty()) continue;
+    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+    const auto text = [&](double value) {
+      const std::string unit = unit_text(column.unit);
+      return number_text(value, 6) + (unit.empty() ? "" : " " + unit);
+    };
+    ranges.rows.push_back({column.name, text(*low), text(*high), text(column.values.back())});
+    entries.set(column.name, Facts::object({{"unit", unit_text(column.unit)},
+                                            {"smallest", *low},
+                                            {"largest", *high},
+                                            {"last", column.values.back()}}));
+  }
+  section.tables.push_back(std::move(ranges));
+  return entries;
+}
+
+/// One sentence for each algebraic loop.
+std::vector<std::string> loop_texts(const Program& program, const Statistics& s) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < s.loops.size(); ++i) {
+    const auto& loop = s.loops[i];
+    if (loop.solved + loop.failed == 0 || !is_algebraic(program, program.loops[i])) continue;
+    texts.push_back(fmt::format(
+        "Algebraic loop {}: solved {} times, {:.1f} evaluations each, at most {}; {} by bracketing; relative residual "
+        "at "
+        "most {:.1g}{}.",
+        loop.path, loop.solved, static_cast<double>(loop.evaluations) / static_cast<double>(loop.solved + loop.failed),
+        loop.most_evaluations, loop.bracketed, loop.worst_residual,
+        loop.failed > 0 ? fmt::format("; {} trials without a solution", loop.failed) : ""));
+  }
+  return texts;
+}
+
+Facts loop_facts(const Statistics& s) {
+  Facts::List list;
+  for (const auto& loop : s.loops)
+    list.push_back(Facts::object({{"path", loop.path},
+                                  {"solved", loop.solved},
+                                  {"failed", loop.failed},
+                                  {"evaluations", loop.evaluations},
+                                  {"most_evaluations", loop.most_evaluations},
+                                  {"bracketed", loop.bracketed},
+                                  {"worst_residual", loop.worst_residual}}));
+  return list;
+}
+
+/// "100 runs of sampled blocks; changes of mode: relay 12." or "".
+std::string events_text(const Statistics& s) {
+  std::vector<std::string> parts;
+  if (s.samples > 0) parts.push_back(count_text(s.samples, "run") + " of sampled blocks");
+  if (s.paths > 0) parts.push_back(count_text(s.paths, "jump") + " followed along the path");
+  std::vector<std::string> changes;
+  for (const auto& [block, count] : s.mode_changes) changes.push_back(fmt::format("{} {}", block, count));
+  if (!changes.empty()) parts.push_back(fmt::format("changes of mode: {}", fmt::join(changes, ", ")));
+  return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+}  // namespace
+
+std::string times_text(double loading, const RunFacts& facts) {
+  const Phases& p = facts.phases;
+  const double setting_up = std::max(0.0, facts.seconds - p.integrate - p.events - p.output);
+  std::vector<std::string> parts;
+  for (const auto& [name, seconds] : {std::pair<const char*, double>{"load and compile", loading},
+                                      {"set up", setting_up},
+                                      {"steps", p.integrate},
+                                      {"events", p.events},
+                                      {"output", p.output}})
+    parts.push_back(seconds < 1 ? fmt::format("{} {} ms", name, number_text(1e3 * seconds, 2))
+                                : fmt::format("{} {} s", name, number_text(seconds, 3)));
+  return fmt::format("time: {}", fmt::join(parts, ", "));
+}
+
+void add_traces(Document& document, RunFacts& facts, const Program& program, const Traces& traces,
+                const std::string& name) {
+  document.traces.push_back(table_of(program, traces, trace_file(name, document.traces)));
+  const auto& table = document.traces.back();
+  Section section;
+  section.title = name == "signals" ? "Signals over time" : name;
+  add_figures(section, table);
+  facts.traces.set(table.file, add_ranges(section, table));
+  const auto& s = traces.statistics;
+  section.text.push_back(fmt::format(
+      "{}; method {}, {}, {} rejected, {} evaluations, {}.", count_text(static_cast<long>(traces.t.size()), "row"),
+      s.method, count_text(s.steps, "step"), s.rejected, s.evaluations, count_text(s.reversals, "reversal")));
+  document.warnings.insert(document.warnings.end(), s.warnings.begin(), s.warnings.end());
+  if (!s.why.empty()) section.text.push_back(fmt::format("Method {}: {}.", s.method, s.why));
+  if (const std::string events = events_text(s); !events.empty()) section.text.push_back(events);
+  for (auto& text : loop_texts(program, s)) section.text.push_back(std::move(text));
+  facts.seconds += s.seconds;
+  facts.phases.integrate += s.phases.integrate;
+  facts.phases.events += s.phases.events;
+  facts.phases.output += s.phases.output;
+  Facts changes = Facts::object({});
+  for (const auto& [block, count] : s.mode_changes) changes.set(block, count);
+  facts.statistics.set(table.file, Facts::object({{"method", s.method},
+                                                  {"why", s.why},
+                                                  {"steps", s.steps},
+                                                  {"rejected", s.rejected},
+                                                  {"evaluations", s.evaluations},
+                                                  {"jacobians", s.jacobians},
+                                                  {"reversals", s.reversals},
+                                                  {"restarts", s.restarts},
+                                                  {"samples", s.samples},
+                                                  {"jump_paths", s.paths},
+                                                  {"mode_changes", changes},
+                                                  {"loops", loop_facts(s)}}));
+  document.sections.push_back(std::move(section));
+}
+
+}  // namespace hysteron
