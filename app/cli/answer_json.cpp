@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/cli/publish.h"
 #include "app/cli/shape.h"
 #include "io/json/schema_text.h"
 #include "io/results/result_manifest.h"
@@ -13,17 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "out" of "out/".
-std::string without_slash(std::string folder) {
-  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-  return folder;
-}
-
 std::vector<std::string> files_of(const Answer& answer) {
   std::vector<std::string> files;
   if (!answer.folder.empty())
-    for (const auto& name : files_of_result(answer.document))
-      files.push_back(without_slash(answer.folder) + "/" + name);
+    for (const auto& name : files_of_result(answer.document)) files.push_back(place_in(answer, name));
   for (const auto& file : answer.files) files.push_back(file.path);
   return files;
 }
@@ -43,7 +37,7 @@ std::string answer_json(const Verb& verb, const Answer& answer, const std::vecto
     root["headline"] = answer.document.headline;
     if (!answer.document.verdict.empty()) root["verdict"] = answer.document.verdict;
     root["folder"] = answer.folder;
-    root["result"] = without_slash(answer.folder) + "/" + result_file;
+    root["result"] = place_in(answer, result_file);
   }
   const Json own = in_order(answer.facts);
   if (own.is_object()) root.update(own);

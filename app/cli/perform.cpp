@@ -55,10 +55,8 @@ std::string document_text(const Answer& answer, bool quiet) {
     for (const auto& warning : document.warnings) text += wrapped("note: " + warning, 2);
     for (const auto& line : answer.asides) text += wrapped(line, 2);
   }
-  return text + fmt::format("{}: {}/report.html\n", document.verdict.empty() ? "report" : document.verdict,
-                            answer.folder.size() > 1 && answer.folder.back() == '/'
-                                ? answer.folder.substr(0, answer.folder.size() - 1)
-                                : answer.folder);
+  return text + fmt::format("{}: {}\n", document.verdict.empty() ? "report" : document.verdict,
+                            place_in(answer, "report.html"));
 }
 
 /// What is in place is told when it is: a failure comes behind what was said before it.

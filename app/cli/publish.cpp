@@ -35,6 +35,11 @@ FolderLock::Waiting say_who_writes(const std::string& folder) {
 
 }  // namespace
 
+std::string place_in(const Answer& answer, const std::string& name) {
+  const bool slash = answer.folder.size() > 1 && answer.folder.back() == '/';
+  return answer.folder + (slash ? "" : "/") + name;
+}
+
 std::shared_ptr<HeldFolder> hold_folder(const std::string& folder) {
   return std::make_shared<HeldFolder>(folder, say_who_writes(folder));
 }

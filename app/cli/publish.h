@@ -20,6 +20,9 @@ struct HeldFolder {
   std::optional<StagedResults> staged;  ///< where some of the results are written before the answer
 };
 
+/// "out/report.html", also where the folder was named "out/".
+std::string place_in(const Answer& answer, const std::string& name);
+
 /// Waits for others who write there, and says so once on the error stream. Throws as FolderLock does.
 std::shared_ptr<HeldFolder> hold_folder(const std::string& folder);
 

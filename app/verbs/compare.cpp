@@ -9,6 +9,7 @@
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
 #include "app/verbs/compare_traces.h"
+#include "app/verbs/fact_shapes.h"
 #include "engine/diagram/error.h"
 #include "fit/estimate/beginning.h"
 #include "fit/estimate/starts.h"
@@ -257,8 +258,8 @@ std::vector<shape::Member> compare_shape() {
                                               {"furthest_at", number("where"), sometimes}});
   const Facts facts = object("how far, where", {{"diagram", text("its file"), sometimes},
                                                 {"data", text("its recordings"), sometimes},
-                                                {"metrics", Facts::object({}), sometimes},
-                                                {"splits", Facts::object({}), sometimes},
+                                                {"metrics", metrics(), sometimes},
+                                                {"splits", splits(), sometimes},
                                                 {"delays", list("found in what is left over", delay), sometimes},
                                                 {"first", text("file of traces"), sometimes},
                                                 {"second", text("file of traces"), sometimes},

@@ -15,6 +15,7 @@
 #include "app/cli/shape.h"
 #include "app/cli/target.h"
 #include "app/verbs/effect_parameters.h"
+#include "app/verbs/fact_shapes.h"
 #include "app/verbs/fit_search.h"
 #include "engine/diagram/error.h"
 #include "fit/estimate/thresholds.h"
@@ -220,11 +221,7 @@ Answer fit_verb_acts(const Arguments& arguments, const Watch& watch) {
   return answer;
 }
 
-std::vector<shape::Member> fit_shape() {
-  return shape::published(
-      {{"facts", shape::open_object("parameters with their uncertainty, errors before and after: \"facts\" of "
-                                    "result.json")}});
-}
+std::vector<shape::Member> fit_shape() { return shape::published({{"facts", shape::of_fit()}}); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
+#include "app/verbs/fact_shapes.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "report/pages/inspection_page.h"
@@ -135,7 +136,7 @@ std::vector<shape::Member> inspect_shape() {
   return shape::published({{"data", shape::text("the data set or the recording")},
                            {"diagram", shape::text("the model that they were judged for"), shape::sometimes},
                            {"assumed", shape::texts("what was guessed")},
-                           {"inspection", shape::open_object("faults of the data, excitation, what they can show")}},
+                           {"inspection", shape::of_inspection()}},
                           shape::sometimes);
 }
 

@@ -10,6 +10,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
+#include "app/verbs/fact_shapes.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
 #include "engine/events/rest.h"
@@ -265,10 +266,7 @@ Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
   return answer;
 }
 
-std::vector<shape::Member> linearize_shape() {
-  return shape::published(
-      {{"facts", shape::open_object("state space in SI, poles, zeros, margins: \"facts\" of result.json")}});
-}
+std::vector<shape::Member> linearize_shape() { return shape::published({{"facts", shape::of_small_motions()}}); }
 
 }  // namespace
 

@@ -249,7 +249,24 @@ std::vector<shape::Member> study_shape() {
   using namespace shape;
   const Facts jobs = object("as Slurm numbers them", {{"shards", text("empty: none was missing")},
                                                       {"merge", text("empty: nothing was submitted")}});
-  return published({{"facts", open_object("draws, filters, columns: \"facts\" of result.json"), sometimes},
+  const Facts filter = object(
+      "a filter", {{"filter", text("as it is meant")}, {"passed", whole("draws")}, {"share", number("of all draws")}});
+  const Facts column = object("of the accepted samples", {{"unit", text("of the values")},
+                                                          {"meaning", text("what it is")},
+                                                          {"smallest", number("")},
+                                                          {"mean", number("")},
+                                                          {"deviation", number("standard deviation")},
+                                                          {"largest", number("")}});
+  const Facts facts = object("of the whole study", {{"job", text("digest of what decides the numbers")},
+                                                    {"draws", whole("all")},
+                                                    {"accepted", whole("by every filter")},
+                                                    {"share", number("accepted of all")},
+                                                    {"filters", list("in their order", filter)},
+                                                    {"failed", named("draws, by code", whole("how many"))},
+                                                    {"not_finite", named("draws, by column", whole("how many"))},
+                                                    {"gave_up", flag("too few were accepted")},
+                                                    {"columns", named("by name", column)}});
+  return published({{"facts", facts, sometimes},
                     {"shard", whole("that was computed alone, from 1"), sometimes},
                     {"shards", whole("of so many"), sometimes},
                     {"submitted", flag("to Slurm"), sometimes},

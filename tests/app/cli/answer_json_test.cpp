@@ -38,6 +38,7 @@ constexpr char published_diagram[] = R"({
 
 /// At least one command line of every verb; those of one verb in their order, in one folder.
 const std::map<std::string, std::vector<Words>>& lines() {
+  static const std::string chapter2 = HYSTERON_SOURCE_DIR "/diagrams/chapter2/";
   static const Words traces{"a.csv", "b.csv", "--tolerance", "y: 1 nm"};
   static const std::map<std::string, std::vector<Words>> all{
       {"new", {{"--from", "a.csv", "-o", "lab"}}},
@@ -45,13 +46,19 @@ const std::map<std::string, std::vector<Words>>& lines() {
       {"check", {{"diagram.json"}, {"diagram.json", "--data", "dataset.json"}}},
       {"explain", {{"stage.json"}, {"diagram.json", "-o", "explained"}}},
       {"draw", {{"diagram.json"}}},
-      {"linearize", {{"lag.json"}}},
+      {"linearize",
+       {{"lag.json"},
+        {chapter2 + "feedback_continuous.json", "--from", "error", "--to", "stage", "--open", "error"},
+        {chapter2 + "feedback_sampled.json", "--from", "error", "--to", "measured", "--open", "error", "--choose",
+         "converter=ideal", "--choose", "sensor=ideal", "--choose", "stage=linear", "-o", "sampled"}}},
       {"inspect", {{"a.csv"}, {"dataset.json", "--diagram", "diagram.json", "-o", "inspected"}}},
       {"compare", {{"diagram.json", "--data", "dataset.json"}, traces}},
       {"diagnose", {{"diagram.json", "--data", "dataset.json", "--only", "creep"}}},
       {"add", {{"creep", "diagram.json"}, {"creep", "diagram.json", "-o", "next.json"}}},
       {"remove", {{"creep", "with_creep.json", "-o", "without.json"}}},
-      {"fit", {{"diagram.json", "--data", "dataset.json", "--write", "fitted.json"}}},
+      {"fit",
+       {{"diagram.json", "--data", "dataset.json", "--write", "fitted.json"},
+        {"diagram.json", "--data", "dataset.json", "--free", "sensor.offset", "--profile", "gain", "-o", "profile"}}},
       {"discover",
        {{"diagram.json", "--data", "dataset.json", "--only", "creep"},
         {"diagram.json", "--data", "dataset.json", "--only", "creep", "--check", "-o", "checked"}}},
