@@ -56,6 +56,7 @@ std::string progress_schema() {
 
 void ProgressLine::show(double fraction, const std::string& what) {
   if (form_ == Form::silent) return;
+  if (form_ == Form::json && fraction >= 1) return;  // said once, by end()
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   if (now - last_ < (form_ == Form::json ? json_pace : terminal_pace)) return;

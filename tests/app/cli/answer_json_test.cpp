@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -189,6 +190,7 @@ TEST_F(AnswerJson, ProgressIsALinePerEventAndEndsWithAll) {
       EXPECT_GE(event["fraction"].get<double>(), before) << outcome.err;
       before = event["fraction"];
     }
+    EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const json& e) { return e["fraction"] == 1; }), 1);
     EXPECT_EQ(events.back(), json::parse(R"({"fraction": 1.0, "what": "done", "seconds_left": 0.0})"));
   }
   EXPECT_EQ(hysteron(folder_.path(), {"run", "stage.json", "--until", "0.2 s"}).err, "") << "no terminal is there";
