@@ -14,7 +14,7 @@ namespace shape {
 struct Member;  // shape.h
 }
 
-/// Exit codes of the program (DESIGN 8).
+/// Exit codes of the program (docs/programs.md).
 namespace exit_code {
 inline constexpr int done = 0;       ///< whatever was found
 inline constexpr int no = 1;         ///< a yes-or-no question was asked, and the answer is no

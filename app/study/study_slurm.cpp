@@ -96,9 +96,8 @@ Answer submit_study(const Arguments& arguments, const std::string& job, const st
   if (!dry) refuse_second_submission(study.folder);
   write_slurm_scripts(study);
   Answer answer;
-  for (const char* script : {"shards.sh", "merge.sh"})
-    if (script != std::string("shards.sh") || !study.missing.empty())
-      answer.files.push_back({study.folder + "/" + script, "", true});
+  if (!study.missing.empty()) answer.files.push_back({study.folder + "/shards.sh", "", true});
+  answer.files.push_back({study.folder + "/merge.sh", "", true});
   SlurmJobs jobs;
   if (dry) {
     answer.text =
