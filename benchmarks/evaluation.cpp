@@ -7,7 +7,7 @@
 
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
-#include "engine/simulate/folded.h"
+#include "engine/simulate/linear_row_kernel.h"
 
 namespace hysteron::benchmarks {
 namespace {
@@ -47,7 +47,7 @@ void loop_folded(benchmark::State& state) {
   const auto program = closed_loop_program();
   const auto run = start(*program);
   Work work(*program);
-  FoldedDerivative derivative(*program, run, work);
+  LinearRowKernel derivative(*program, run, work);
   std::vector<double> x(run.x.size(), 1e-7);
   for (auto _ : state)
     for (int k = 0; k < evaluations; ++k) {

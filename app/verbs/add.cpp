@@ -13,7 +13,7 @@
 #include "app/cli/shape.h"
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "engine/diagram/error.h"
 #include "io/diagram/diagram_file.h"
 
@@ -41,14 +41,14 @@ Answer add(const Arguments& arguments, const Watch& watch) {
   if (arguments.has("-o")) check_diagram_target("-o", arguments.text("-o"), diagram);
   const ProgramPointer program = compile_file(diagram);
   std::optional<DataSet> data;
-  std::optional<Circumstances> circumstances;
+  std::optional<Excitation> excitation;
   if (arguments.has("--data")) {
     data = load_data(arguments, *program);
     const Place place = place_for(effect, diagram, registry(), arguments.text("--at"), &*data);
-    circumstances = circumstances_at(diagram, registry(), *data, place);
+    excitation = circumstances_at(diagram, registry(), *data, place);
   }
   const Added added = add_effect(diagram, registry(), effect, arguments.text("--at"),
-                                 circumstances ? &*circumstances : nullptr, data ? &*data : nullptr);
+                                 excitation ? &*excitation : nullptr, data ? &*data : nullptr);
   refuse_new_loop(*program, *compile(added.diagram, registry()), added.at);  // what is written must run
 
   Answer answer;

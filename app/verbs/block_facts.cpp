@@ -43,9 +43,9 @@ Facts block_facts(const Declaration& d) {
   for (const auto& s : d.states)
     states.push_back(Facts::object({{"name", s.name}, {"unit", s.unit}, {"meaning", s.meaning}}));
   for (const auto& v : d.variations) {
-    Facts neutral = Facts::object({});
-    for (const auto& [parameter, value] : v.neutral) neutral.set(parameter, value);
-    variations.push_back(Facts::object({{"name", v.name}, {"type", v.type}, {"neutral", neutral}}));
+    Facts null_value = Facts::object({});
+    for (const auto& [parameter, value] : v.null_value) null_value.set(parameter, value);
+    variations.push_back(Facts::object({{"name", v.name}, {"type", v.type}, {"neutral", null_value}}));
   }
   Facts facts = Facts::object({{"type", d.type},
                                {"summary", d.summary},

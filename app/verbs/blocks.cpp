@@ -136,7 +136,7 @@ std::string memory_text(const Declaration& d) {
 /// "coulomb 0 N, breakaway 0 N"
 std::string neutral_text(const VariationDeclaration& variation) {
   std::vector<std::string> parts;
-  for (const auto& [parameter, value] : variation.neutral) parts.push_back(parameter + " " + value);
+  for (const auto& [parameter, value] : variation.null_value) parts.push_back(parameter + " " + value);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -14,7 +14,7 @@ namespace hysteron {
 namespace {
 
 /// The effect's laws on a wire and, where a block may be replaced instead, those of its richer type.
-std::vector<Law> every_law(const Effect& effect, Circumstances at) {
+std::vector<Law> every_law(const Effect& effect, Excitation at) {
   auto laws = effect.laws(at);
   if (effect.way != Way::insert || effect.variation.empty()) return laws;
   at.by = effect.variation;
@@ -24,7 +24,7 @@ std::vector<Law> every_law(const Effect& effect, Circumstances at) {
 
 /// Parameters that some law of the effect frees, each with its first free element ("weights" from 1 where the first
 /// weight is the wire's own gain).
-std::map<std::string, int> freed_by(const Effect& effect, const Circumstances& at) {
+std::map<std::string, int> freed_by(const Effect& effect, const Excitation& at) {
   std::map<std::string, int> first;
   for (const auto& law : every_law(effect, at))
     for (const auto& parameter : law.free) {
@@ -40,7 +40,7 @@ std::map<std::string, int> freed_by(const Effect& effect, const Circumstances& a
 }  // namespace
 
 std::vector<std::string> effect_parameters(const Diagram& diagram, const Program& program, const Effects& effects) {
-  Circumstances at;
+  Excitation at;
   // Beside a free gain of the user's own, a gain of the effect would not be determined.
   at.gain_is_free =
       std::any_of(program.parameters.begin(), program.parameters.end(), [](const auto& p) { return p.free; });

@@ -85,12 +85,12 @@ std::string changes_nothing(const Effect& effect, const Demonstration& shown) {
     const std::string text = neutral_text(values);
     if (!text.empty() && std::find(ways.begin(), ways.end(), text) == ways.end()) ways.push_back(text);
   };
-  if (effect.variation.empty() || effect.way == Way::insert) add(shown.neutral);
+  if (effect.variation.empty() || effect.way == Way::insert) add(shown.null_value);
   for (const auto& type : registry().types())
     for (const auto& v : registry().find(type)->declaration.variations) {
       if (effect.variation.empty() || v.name != effect.variation) continue;
       std::vector<NeutralValue> declared;
-      for (const auto& n : v.neutral) declared.push_back({n.parameter, n.value});
+      for (const auto& n : v.null_value) declared.push_back({n.parameter, n.value});
       add(declared);
     }
   return fmt::format("{}", fmt::join(ways, "; in a block that has it "));

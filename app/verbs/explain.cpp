@@ -220,11 +220,11 @@ class Explanation {
     const auto add = [&](const char* what, const std::vector<std::string>& who, const char* how) {
       if (!who.empty()) rows.push_back({what, joined(who), how});
     };
-    std::vector<std::string> corners, late, jumping, noisy, following, modal, turning, silent;
+    std::vector<std::string> breakpoints, late, jumping, noisy, following, modal, turning, silent;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
       const auto& one = program_.blocks[b];
-      if (one.n_u == 0 && (one.kernel->next_corner != nullptr || one.kernel->declaration.is_series))
-        corners.push_back(one.path);
+      if (one.n_u == 0 && (one.kernel->next_breakpoint != nullptr || one.kernel->declaration.is_series))
+        breakpoints.push_back(one.path);
       if (one.sizes.history) late.push_back(one.path);
       if (one.kernel->has_modes()) modal.push_back(one.path);
       bool jump = false;
@@ -238,7 +238,7 @@ class Explanation {
       if (signal.smoothness == Smoothness::jumps) jumping.push_back(signal.path);
       if (signal.smoothness == Smoothness::no_rate) noisy.push_back(signal.path);
     }
-    add("corners of sources", corners, "known times: the solver stops there");
+    add("corners of sources", breakpoints, "known times: the solver stops there");
     add("dead times", late, "corners come again, later");
     add("signals that jump", jumping, "");
     add("followed as paths", following, "a jump is walked as the path of a fast ramp");

@@ -6,7 +6,7 @@
 
 #include "engine/diagram/error.h"
 #include "engine/lanes/lanes.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/simulate/choose_method.h"
 #include "engine/simulate/fixed_step.h"
 #include "engine/simulate/jacobian.h"
@@ -45,8 +45,8 @@ std::pair<std::string, std::string> longest_step_and_why(const Program& program,
   if (!std::isfinite(longest)) return {"not limited", "no source reaches a memory, and there is no dead time"};
   for (std::size_t b = 0; b < program.blocks.size(); ++b) {
     const auto& one = program.blocks[b];
-    if (one.kernel->pace == nullptr || one.series_index >= 0) continue;
-    if (one.kernel->pace(view_of(program, run, static_cast<int>(b))) / 4 == longest)
+    if (one.kernel->shortest_period == nullptr || one.series_index >= 0) continue;
+    if (one.kernel->shortest_period(view_of(program, run, static_cast<int>(b))) / 4 == longest)
       return {time_words(longest),
               fmt::format("a quarter of the shortest period of {}, which reaches a memory", one.path)};
   }

@@ -25,7 +25,7 @@ struct SensorNoise {
     const auto s = static_cast<std::uint64_t>(value_of(v.parameter(seed)));
     v.out[0] = v.u[0] + v.parameter(rms) * T{random::normal(s, v.key + 1, static_cast<std::uint64_t>(k))};
   }
-  static double next_corner(const View<double>& v) {
+  static double next_breakpoint(const View<double>& v) {
     const double step = v.parameter(period);
     return signals::strictly_behind(v.t, (sample(v.t, step) + 1) * step);
   }

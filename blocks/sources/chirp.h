@@ -25,10 +25,10 @@ struct Chirp {
     const T cycles = signals::chirp_cycles(time.t, p.from, p.to, p.duration, sweep, piece);
     return {p.offset + p.amplitude * sin(T{2 * signals::pi} * cycles + p.phase)};
   }
-  static double next_corner(const Params<double>& p, double t) {
+  static double next_breakpoint(const Params<double>& p, double t) {
     return t < 0 ? 0 : t < p.duration ? p.duration : signals::never;
   }
-  static double pace(const Params<double>& p) { return 1 / std::max(p.from, p.to); }
+  static double shortest_period(const Params<double>& p) { return 1 / std::max(p.from, p.to); }
 };
 
 Kernel chirp_block();

@@ -25,7 +25,7 @@ struct Multisine {
     const auto seed = static_cast<std::uint64_t>(value_of(p.seed));
     return {p.offset + p.rms * signals::multisine(time.t, p.lowest, p.spacing, count, seed)};
   }
-  static double pace(const Params<double>& p) { return 1 / p.highest; }
+  static double shortest_period(const Params<double>& p) { return 1 / p.highest; }
   static std::string check(const Params<double>& p);
 };
 

@@ -29,8 +29,8 @@ struct SeriesBlock {
     else
       v.out[0] = value;
   }
-  static double next_corner(const View<double>& v) {
-    return v.series == nullptr ? std::numeric_limits<double>::infinity() : v.series->next_corner(v.t);
+  static double next_breakpoint(const View<double>& v) {
+    return v.series == nullptr ? std::numeric_limits<double>::infinity() : v.series->next_breakpoint(v.t);
   }
   // No pace: every sample is a corner, at which a solver stops anyway, and between two of them nothing turns back.
 };

@@ -21,7 +21,7 @@ struct Sine {
   static Out<T> output(const Params<T>& p, const Time<T>& time) {
     return {p.offset + p.amplitude * signals::sine(time.t, p.frequency, p.phase)};
   }
-  static double pace(const Params<double>& p) { return 1 / p.frequency; }
+  static double shortest_period(const Params<double>& p) { return 1 / p.frequency; }
 };
 
 Kernel sine_block();

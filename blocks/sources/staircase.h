@@ -20,8 +20,8 @@ struct Staircase {
         signals::staircase_piece(value_of(v.parameter(duration)), static_cast<double>(level.size()), v.branch);
     v.out[0] = level[static_cast<std::size_t>(k)];
   }
-  static double next_corner(const View<double>& v) {
-    return signals::staircase_next_corner(v.parameter(duration), static_cast<double>(v.list(levels).size()), v.t);
+  static double next_breakpoint(const View<double>& v) {
+    return signals::staircase_next_breakpoint(v.parameter(duration), static_cast<double>(v.list(levels).size()), v.t);
   }
 };
 

@@ -22,7 +22,7 @@ struct StepSource {
   static Out<T> output(const Params<T>& p, const Time<T>& time) {
     return {time.branch < value_of(p.time) ? p.before : p.after};
   }
-  static double next_corner(const Params<double>& p, double t) { return t < p.time ? p.time : signals::never; }
+  static double next_breakpoint(const Params<double>& p, double t) { return t < p.time ? p.time : signals::never; }
 };
 
 Kernel step_block();

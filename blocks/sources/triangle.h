@@ -22,11 +22,11 @@ struct Triangle {
     const double piece = signals::triangle_piece(value_of(p.frequency), value_of(p.phase), time.branch);
     return {p.offset + p.amplitude * signals::triangle(time.t, p.frequency, p.phase, piece)};
   }
-  static double next_corner(const Params<double>& p, double t) {
+  static double next_breakpoint(const Params<double>& p, double t) {
     const double next = signals::triangle_piece(p.frequency, p.phase, t) + 1;
-    return signals::strictly_behind(t, signals::triangle_corner(p.frequency, p.phase, next));
+    return signals::strictly_behind(t, signals::triangle_breakpoint(p.frequency, p.phase, next));
   }
-  static double pace(const Params<double>& p) { return 0.5 / p.frequency; }
+  static double shortest_period(const Params<double>& p) { return 0.5 / p.frequency; }
 };
 
 Kernel triangle_block();

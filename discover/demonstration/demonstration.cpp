@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/demonstration/bench.h"
+#include "discover/demonstration/demo_rig.h"
 #include "discover/demonstration/trial.h"
 #include "engine/diagram/error.h"
 
@@ -47,7 +47,7 @@ std::string numbers_text(const Effect& effect, const DemoRun& trial) {
   std::vector<double> values = trial.values();
   if (std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); })) return trial.law().name;
   if (effect.summary)
-    if (std::string text = effect.summary(trial.law(), values, trial.circumstances()); !text.empty()) return text;
+    if (std::string text = effect.summary(trial.law(), values, trial.excitation()); !text.empty()) return text;
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i)
     text += fmt::format("{}{} {:.3g}", i > 0 ? ", " : "", trial.law().free[i].path, values[i]);
@@ -75,25 +75,25 @@ void set_times(Demonstration& d, const DemoRun& trial, const Stimulus& stimulus,
   }
 }
 
-Demonstration show(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const DemoRun& trial,
+Demonstration show(const Effect& effect, const DemoRig& demo_rig, const Stimulus& stimulus, const DemoRun& trial,
                    Nature nature) {
   Demonstration d;
   d.signal = stimulus.text;
-  d.device = bench.device;
+  d.device = demo_rig.device;
   d.law = trial.law().name;
   d.numbers = numbers_text(effect, trial);
-  d.neutral = neutral_values(trial);
-  d.in_unit = bench.unit;
+  d.null_value = neutral_values(trial);
+  d.in_unit = demo_rig.unit;
   d.out_unit = trial.out_unit();
-  d.side_name = bench.side;
-  d.side_unit = bench.side_unit;
+  d.side_name = demo_rig.side;
+  d.side_unit = demo_rig.side_unit;
   set_times(d, trial, stimulus, nature);
   d.without = trial.without(d.t);
   d.with = trial.with(d.t);
   d.span = span_of(trial.plain());
   for (const double t : d.t) {
     d.in.push_back(stimulus.in.value(t, t));
-    if (!bench.side.empty()) d.side.push_back(stimulus.side.value(t, t));
+    if (!demo_rig.side.empty()) d.side.push_back(stimulus.side.value(t, t));
   }
   if (d.log_time)
     for (double& t : d.t) t -= stimulus.step_at;
@@ -109,16 +109,16 @@ double Demonstration::share() const { return span > 0 ? largest(difference()) / 
 Demonstration demonstrate(const Effect& effect, const Effects& library, const Registry& registry) {
   const Nature nature = nature_of(effect, registry);
   std::string why = "no signal brings it out";
-  for (const auto& bench : benches(effect, library, registry))
+  for (const auto& demo_rig : demo_rigs(effect, library, registry))
     for (const double length : {100.0, 10.0, 1000.0})  // [s]
       for (const Waveform waveform : waveforms_for(nature)) {
-        const Stimulus signal = stimulus(waveform, bench, length);
+        const Stimulus signal = stimulus(waveform, demo_rig, length);
         try {
-          DemoRun trial(effect, bench, signal, registry);
-          if (auto unseen = effect.unseen(trial.circumstances()); !unseen.empty())
+          DemoRun trial(effect, demo_rig, signal, registry);
+          if (auto unseen = effect.unseen(trial.excitation()); !unseen.empty())
             why = unseen;
           else if (trial.find_values())
-            return show(effect, bench, signal, trial, nature);
+            return show(effect, demo_rig, signal, trial, nature);
         } catch (const Error& error) {  // a bench in a unit that its law does not take
           why = error.problems.empty() ? error.what() : error.problems.front().what;
         }

@@ -19,7 +19,7 @@ struct Demonstration {
   std::string law;      ///< Law::name
   std::string numbers;  ///< the values of its parameters, for people
   /// Values of the law's parameters with which it changes nothing: gain 1, offset 0 (neutral.h); empty = none known.
-  std::vector<NeutralValue> neutral;
+  std::vector<NeutralValue> null_value;
   bool against_input = false;  ///< looked at over the input: a loop or a curve; else over time
   bool log_time = false;       ///< t counts from a step, and the effect goes on by decades
   std::vector<double> t, in, without, with;

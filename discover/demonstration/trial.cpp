@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "discover/placement/add.h"
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "engine/diagram/error.h"
 #include "engine/program/parameter_values.h"
 #include "engine/simulate/simulate.h"
@@ -36,11 +36,11 @@ double largest(const std::vector<double>& v) {
   return most;
 }
 
-DemoRun::DemoRun(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry)
-    : bench_(bench), stimulus_(stimulus) {
-  at_ = circumstances_at(bench.diagram, registry, recorded(stimulus, bench), bench.place);
+DemoRun::DemoRun(const Effect& effect, const DemoRig& demo_rig, const Stimulus& stimulus, const Registry& registry)
+    : demo_rig_(demo_rig), stimulus_(stimulus) {
+  at_ = circumstances_at(demo_rig.diagram, registry, recorded(stimulus, demo_rig), demo_rig.place);
   law_ = effect.laws(at_).front();
-  Added added = add_effect(bench.diagram, registry, effect, law_, bench.place);
+  Added added = add_effect(demo_rig.diagram, registry, effect, law_, demo_rig.place);
   paths_ = added.free;
   on_ = compile(added.diagram, registry);
   added.diagram.blocks.find(added.name)->choose = "off";
@@ -91,7 +91,7 @@ std::vector<double> DemoRun::response(const Program& program, const std::vector<
   prepare(program, run);
   reset(program, run);
   bind_input(program, run, "in", std::make_shared<const Series>(stimulus_.in));
-  if (!bench_.side.empty()) bind_input(program, run, bench_.side, std::make_shared<const Series>(stimulus_.side));
+  if (!demo_rig_.side.empty()) bind_input(program, run, demo_rig_.side, std::make_shared<const Series>(stimulus_.side));
   SimulateOptions options;
   options.until = t.back();
   options.instants = t;

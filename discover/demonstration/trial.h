@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/demonstration/bench.h"
+#include "discover/demonstration/demo_rig.h"
 #include "discover/hypotheses/effect.h"
 #include "engine/program/program.h"
 
@@ -14,9 +14,9 @@ namespace hysteron {
 /// One effect on one bench under one signal; both outlive it. Numbers in SI.
 class DemoRun {
  public:
-  DemoRun(const Effect& effect, const Bench& bench, const Stimulus& stimulus, const Registry& registry);
+  DemoRun(const Effect& effect, const DemoRig& demo_rig, const Stimulus& stimulus, const Registry& registry);
 
-  const Circumstances& circumstances() const { return at_; }
+  const Excitation& excitation() const { return at_; }
   const Law& law() const { return law_; }
   const std::vector<double>& values() const { return values_; }  ///< as Law::free
   const std::vector<double>& rows() const { return rows_; }      ///< times of a recording
@@ -39,9 +39,9 @@ class DemoRun {
   bool shows(const std::vector<double>& values) const;
   bool find_amplitudes();
 
-  const Bench& bench_;
+  const DemoRig& demo_rig_;
   const Stimulus& stimulus_;
-  Circumstances at_;
+  Excitation at_;
   Law law_;
   std::vector<std::string> paths_;
   ProgramPointer on_, off_;

@@ -10,18 +10,18 @@ namespace hysteron::effects {
 namespace {
 
 /// In hours where the side signal is a time, else in cycles.
-bool by_hours(const Circumstances& at) { return at.side_unit.dimension == parse_unit("s").dimension; }
+bool by_hours(const Excitation& at) { return at.side_unit.dimension == parse_unit("s").dimension; }
 
 /// Where the decades begin: a hundred cycles, or an hour [SI]. Before that a device is still settling.
-double first_use(const Circumstances& at) { return by_hours(at) ? 3600 : 100; }
+double first_use(const Excitation& at) { return by_hours(at) ? 3600 : 100; }
 
 /// Decades of use between the recordings, those that only judge among them.
-double decades_of_use(const Circumstances& at) {
+double decades_of_use(const Excitation& at) {
   const double n0 = first_use(at);
   return std::log10((1 + at.side_highest_of_all / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
 }
 
-Law logarithmic(const Circumstances& at, bool free_first) {
+Law logarithmic(const Excitation& at, bool free_first) {
   Law law;
   law.name = free_first ? "decades that begin anywhere" : by_hours(at) ? "per decade of hours" : "per decade of cycles";
   law.block.type = "ageing";
@@ -76,15 +76,15 @@ Effect ageing() {
                    {"calibration", "repeat_after_cycles", "a calibration is the same in all recordings"},
                    {"asymmetry", "repeat_after_cycles", "a curve is the same in all recordings"}};
   e.plainer = {"calibration"};  // a constant
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text =
         fmt::format("{:.3g} % of the gain per decade of {}", 100 * values[0], by_hours(at) ? "time" : "cycles");
     if (law.free.size() > 1)
       text += by_hours(at) ? " beyond " + time_text(values[1]) : fmt::format(" beyond {:.3g} cycles", values[1]);
     return text;
   };
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{logarithmic(at, false), logarithmic(at, true)}; };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.laws = [](const Excitation& at) { return std::vector<Law>{logarithmic(at, false), logarithmic(at, true)}; };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     if (at.range() <= 0) return stands_still(at);
     const double decades = decades_of_use(at);
@@ -93,7 +93,7 @@ Effect ageing() {
                        by_hours(at) ? "hours" : "cycles");
   };
   // Much use behind all recordings alike; a new device has not aged.
-  e.may_hide = [](const Circumstances& at) { return at.side_lowest >= 10 * first_use(at); };
+  e.may_hide = [](const Excitation& at) { return at.side_lowest >= 10 * first_use(at); };
   return e;
 }
 

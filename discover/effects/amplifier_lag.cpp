@@ -9,7 +9,7 @@
 namespace hysteron::effects {
 namespace {
 
-LawParameter time_constant(const Circumstances& at, int index) {
+LawParameter time_constant(const Excitation& at, int index) {
   LawParameter tau;
   tau.path = element("times", index);
   tau.log_scale = true;
@@ -23,7 +23,7 @@ LawParameter time_constant(const Circumstances& at, int index) {
 
 }  // namespace
 
-std::vector<Law> lag_laws(const Circumstances& at) {
+std::vector<Law> lag_laws(const Excitation& at) {
   Law one;
   one.name = "one pole";
   one.block.type = "lag";
@@ -39,7 +39,7 @@ std::vector<Law> lag_laws(const Circumstances& at) {
   return {one, two};
 }
 
-std::string lag_summary(const Law&, const std::vector<double>& values, const Circumstances&) {
+std::string lag_summary(const Law&, const std::vector<double>& values, const Excitation&) {
   std::string text;
   double total = 0;
   for (const double tau : values) {
@@ -50,7 +50,7 @@ std::string lag_summary(const Law&, const std::vector<double>& values, const Cir
                      1 / (2 * std::numbers::pi * total));
 }
 
-std::string lag_without_end(const Law& law, const std::vector<double>& values, const Circumstances&) {
+std::string lag_without_end(const Law& law, const std::vector<double>& values, const Excitation&) {
   const double slowest = *std::max_element(values.begin(), values.end());
   if (slowest < 0.99 * law.free.front().upper) return "";
   return fmt::format("its time constant is at the length of the longest recording, {}: that is no lag, it integrates",
@@ -82,7 +82,7 @@ Effect amplifier_lag() {
   e.family = "lag";
   e.summary = lag_summary;
   e.implausible = lag_without_end;
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     auto laws = lag_laws(at);
     // The prior speaks of amplifiers for piezo actuators: volts.
     if (at.unit.dimension == parse_unit("V").dimension)
@@ -92,7 +92,7 @@ Effect amplifier_lag() {
       }
     return laws;
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     return at.from_data && at.range() <= 0 ? "the drive does not move" : "";
   };
   return e;

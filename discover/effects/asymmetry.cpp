@@ -6,7 +6,7 @@ namespace hysteron::effects {
 namespace {
 
 /// The curve before the operators, and other weights of these: what bends the drive bends the loops too.
-Law reweighed(const Circumstances& at) {
+Law reweighed(const Excitation& at) {
   Law law = curve(at, 3);
   law.name = "cubic, with other weights of the operators";
   law.reweighs = true;
@@ -23,13 +23,13 @@ Effect asymmetry() {
   e.source = "Gu, Zhu, Su, IEEE Trans. Ind. Electron. 61 (2014) 1583 (cubic input function)";
   e.residual = "Differs between the lower and the upper half of the range; a second harmonic of half the share.";
   e.needs = "Full drive, and small motion about two or more levels.";
-  e.unsure = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) -> std::string {
     return at.from_data && at.swings.middles < 2 ? "all swings are about one level, two would tell it from the loop"
                                                  : "";
   };
   e.places = {"core"};
   e.before_sensor = true;
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     // The cubic first: an S about the middle has nothing quadratic to begin with.
     std::vector<Law> laws{curve(at, 3), curve(at, 2), curve(at, 5)};
     if (!at.weights.empty()) laws.push_back(reweighed(at));

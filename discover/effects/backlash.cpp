@@ -30,10 +30,10 @@ Effect backlash() {
   e.look_alikes = {{"hysteresis", "triangle", "a loop's share grows with the amplitude, that of backlash falls"},
                    {"friction", "load_pair", "friction needs velocity and grows with the load"}};
   e.family = "backlash";
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("{:.3g} {} of lost motion", at.unit.difference_from_si(values[0]), at.unit.text);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "clearance";
     law.block.type = "backlash";
@@ -49,15 +49,15 @@ Effect backlash() {
     law.free = {gap};
     return std::vector<Law>{law};
   };
-  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances& at) -> std::string {
+  e.implausible = [](const Law&, const std::vector<double>& values, const Excitation& at) -> std::string {
     return values[0] < no_gap * at.range() ? "without lost motion it is only a zero" : "";
   };
-  e.unsure = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) -> std::string {
     if (!at.from_data || at.swings.size_ratio >= 5) return "";
     return fmt::format("the largest swing is {:.2g} times the smallest, five times would tell it from hysteresis",
                        at.swings.size_ratio);
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     return at.from_data && at.reversals < 2
                ? fmt::format("{} reversal{}, lost motion needs two", at.reversals, at.reversals == 1 ? "" : "s")
                : "";

@@ -25,7 +25,7 @@ Effect calibration() {
   e.look_alikes = {};
   e.family = "calibration";
   e.straight = true;
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text;
     for (std::size_t i = 0; i < law.free.size(); ++i) {
       const bool gain = law.free[i].path == "gain";
@@ -47,7 +47,7 @@ Effect calibration() {
     }
     return text;
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = at.gain_is_free ? "offset" : at.offset_is_free ? "gain" : "gain and offset";
     law.block.type = "calibration";
@@ -74,7 +74,7 @@ Effect calibration() {
     }
     return laws;
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.gain_is_free && at.offset_is_free) return "gain and offset are free in the diagram already";
     if (at.from_data && !at.gain_is_free && !at.offset_is_free && at.range() <= 0)
       return "the signal does not move, so gain and offset cannot be told apart";

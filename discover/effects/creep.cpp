@@ -27,7 +27,7 @@ std::vector<Relaxation> relaxations(const Law& law, const std::vector<double>& v
 }
 
 /// Creep goes by the logarithm of time: what shows nothing within the longest hold and much behind it is a drift.
-std::string why_no_creep(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string why_no_creep(const Law& law, const std::vector<double>& values, const Excitation& at) {
   double shown = 0, all = 0;
   for (const auto& [time, amount] : relaxations(law, values)) {
     all += amount;
@@ -40,7 +40,7 @@ std::string why_no_creep(const Law& law, const std::vector<double>& values, cons
 
 /// Two relaxations make a decade; those slower than the longest hold are extrapolated and do not count, nor those
 /// before creep sets in.
-std::string creep_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string creep_summary(const Law& law, const std::vector<double>& values, const Excitation& at) {
   const auto all = relaxations(law, values);
   const double hold = std::max(at.longest_hold, 10 * at.shortest_step);
   double largest = 0, sum = 0, first = 0, last = 0;
@@ -58,15 +58,15 @@ std::string creep_summary(const Law& law, const std::vector<double>& values, con
       100 * sum / decades, time_text(first), time_text(last), time_text(at.longest_hold));
 }
 
-double shortest_time(const Circumstances& at) { return std::max(at.shortest_step, 1e-3); }
+double shortest_time(const Excitation& at) { return std::max(at.shortest_step, 1e-3); }
 
 /// Two relaxations per decade, up to so many times the longest recording.
-std::vector<double> times_up_to(double recordings, const Circumstances& at) {
+std::vector<double> times_up_to(double recordings, const Excitation& at) {
   return per_decade(shortest_time(at), std::max(recordings * at.longest_recording, 10 * shortest_time(at)), 2);
 }
 
 /// Two numbers, as catalogues tell it.
-Law by_the_logarithm(const Circumstances& at) {
+Law by_the_logarithm(const Excitation& at) {
   const auto times = times_up_to(10, at);  // an end there is missed by 2 % of what a decade adds
   Law law;
   law.name = "logarithm of time";
@@ -93,7 +93,7 @@ Law by_the_logarithm(const Circumstances& at) {
 }
 
 /// What is no logarithm: each relaxation has an amount of its own.
-Law by_relaxations(const Circumstances& at) {
+Law by_relaxations(const Excitation& at) {
   const auto times = times_up_to(2, at);
   Law law;
   law.name = "two relaxations per decade";
@@ -156,8 +156,8 @@ Effect creep() {
   e.family = "creep";
   e.implausible = why_no_creep;
   e.summary = creep_summary;
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{by_the_logarithm(at), by_relaxations(at)}; };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.laws = [](const Excitation& at) { return std::vector<Law>{by_the_logarithm(at), by_relaxations(at)}; };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double needed = 100 * at.step_at_longest_hold;
     if (at.longest_hold < needed)

@@ -10,7 +10,7 @@ namespace hysteron::effects {
 namespace {
 
 /// The same behind a lag: between as good as at once and as good as a drift.
-Law late(Law law, const Circumstances& at) {
+Law late(Law law, const Excitation& at) {
   law.name = "late";
   law.block.type = "late_cross_coupling";
   give(law.block, "time", with_unit(at.shortest_step, parse_unit("s")));
@@ -48,12 +48,12 @@ Effect cross_coupling() {
   e.look_alikes = {{"calibration", "axes_independent", "a calibration does not follow the other axis"},
                    {"mains_interference", "zero_run", "the mains is coherent with no axis"}};
   e.family = "cross_coupling";
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const double own = at.range() / std::max(at.side_highest - at.side_lowest, 1e-300);
     return fmt::format("{:.3g} % of what this axis does for its own drive{}", 100 * values[0] / own,
                        values.size() > 1 ? ", late by " + time_text(values[1]) : "");
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "static";
     law.block.type = "cross_coupling";
@@ -69,7 +69,7 @@ Effect cross_coupling() {
     law.free = {c};
     return std::vector<Law>{law, late(law, at)};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     if (!(at.side_highest > at.side_lowest)) return "the other axis does not move";
     return std::abs(at.side_correlation) > 0.9
@@ -77,7 +77,7 @@ Effect cross_coupling() {
                              at.side_correlation)
                : "";
   };
-  e.may_hide = [](const Circumstances& at) { return at.side_highest > at.side_lowest; };  // both axes move alike
+  e.may_hide = [](const Excitation& at) { return at.side_highest > at.side_lowest; };  // both axes move alike
   return e;
 }
 

@@ -29,11 +29,11 @@ Effect dead_time() {
                    {"hysteresis", "high_frequencies", "phase of a delay grows with frequency, that of a loop does not"},
                    {"creep", "low_frequencies", "a delay has no gain that falls with frequency"}};
   e.family = "dead_time";
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("{}, {:.3g} rows of the fastest recording", time_text(values.front()),
                        values.front() / at.shortest_step);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "one delay";
     law.block.type = "dead_time";

@@ -22,10 +22,10 @@ Effect drive_gain() {
   e.parameters = {
       {"gain", "", "true over written drive", "0.9 .. 1.1 usually: the travel of a stack is known to 10 %"}};
   e.look_alikes = {{"calibration", "reference_sensor", "a sensor's gain changes its own reading only"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
     return fmt::format("gain {:.5g}", values.empty() ? 1.0 : values[0]);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     std::vector<Law> laws;
     if (at.gain_is_free) return laws;
     Law law;
@@ -42,7 +42,7 @@ Effect drive_gain() {
     laws.push_back(std::move(law));
     return laws;
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.gain_is_free) return "a gain is free in the diagram already";
     return at.from_data && at.range() <= 0 ? "the drive does not move" : "";
   };

@@ -13,7 +13,7 @@ namespace {
 
 /// The contact resists its own motion while it sticks (LuGre's s1/s0): a time, of which nobody knows more than that
 /// rows must show it.
-Law with_contact_time(Law law, const Circumstances& at) {
+Law with_contact_time(Law law, const Excitation& at) {
   give(law.block, "contact_time", with_unit(0.0, parse_unit("s")));
   LawParameter time;
   time.path = "contact_time";
@@ -25,7 +25,7 @@ Law with_contact_time(Law law, const Circumstances& at) {
 }
 
 /// On a wire that carries a speed: the dashpot behind it makes a force of it. `flows`: it yields below sliding too.
-Law on_a_speed(const Circumstances& at, bool flows) {
+Law on_a_speed(const Excitation& at, bool flows) {
   Law law;
   law.name = flows ? "sticks, flows and slides" : "sticks and slides (Dahl)";
   law.block.type = "sliding_friction";
@@ -101,7 +101,7 @@ Effect friction() {
                    {"backlash", "triangle", "lost motion is the same at all amplitudes"},
                    {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     if (at.by.empty() && is_motion(at.unit))
       return fmt::format(
           "{:.3g} {} held back, after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
@@ -113,7 +113,7 @@ Effect friction() {
     return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1],
                        100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     const Law sticky = presliding_with_excess(at);
@@ -123,7 +123,7 @@ Effect friction() {
     // The contact first: without it an excess at no speed at all stands for it, and a search that begins there stays.
     return std::vector<Law>{presliding(at), damped, all, sticky};
   };
-  e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances&) -> std::string {
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Excitation&) -> std::string {
     if (law.block.type != "guide_friction") return "";
     const double level = values[0], slip = values[1];
     if (std::max(level, slip) > 0.99 * law.free[1].upper)
@@ -131,8 +131,8 @@ Effect friction() {
     // Dry friction without presliding and a gap obey one law, the play operator.
     return slip < 0.1 * level ? "it sticks fully until it slides: that is lost motion" : "";
   };
-  e.unsure = [](const Circumstances& at) { return one_speed(at, 3, "tell it from what grows with the speed"); };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) { return one_speed(at, 3, "tell it from what grows with the speed"); };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
                          fmt::join(at.memory_blocks, ", "));

@@ -13,7 +13,7 @@ namespace {
 
 /// Plays with thresholds from `from` to `to` of the range; the weight of threshold 0 is the wire's own gain, 1.
 /// Spacing grows with the threshold: small loops need fine thresholds, large ones do not.
-Law plays(const Circumstances& at, const char* name, int n, double from, double to, const char* sides, double growth) {
+Law plays(const Excitation& at, const char* name, int n, double from, double to, const char* sides, double growth) {
   const double range = at.range() > 0 ? at.range() : 1.0;
   std::vector<double> thresholds{0.0};
   for (int i = 0; i < n; ++i)
@@ -46,7 +46,7 @@ Law plays(const Circumstances& at, const char* name, int n, double from, double 
 /// The operators follow a bent drive, beside a linear part that does not: domains need not switch evenly over the
 /// range, so that loops are wider at one end and their middle lines are bent (Preisach's density need not be even). Of
 /// a drive to one side of zero, whose ends are not alike.
-Law plays_of_a_bent_drive(const Circumstances& at) {
+Law plays_of_a_bent_drive(const Excitation& at) {
   Law law = plays(at, "10 one-sided plays of a bent drive", 10, 0.03, 0.9, "one", 1.0);
   law.block.type = "generalized_prandtl_ishlinskii";
   give(law.block, "lower", level(at.lowest, at.unit));
@@ -67,7 +67,7 @@ Law plays_of_a_bent_drive(const Circumstances& at) {
 
 /// Relays that may lie anywhere: nothing is said of how they are spread, and many numbers are. They say nothing beyond
 /// the range that was driven.
-Law relays(const Circumstances& at, int cells) {
+Law relays(const Excitation& at, int cells) {
   Law law;
   law.name = fmt::format("relays that switch in {} cells", cells);
   law.block.type = "preisach";
@@ -97,7 +97,7 @@ Law relays(const Circumstances& at, int cells) {
 }
 
 /// Is the drive to one side of zero: a tenth of its range may lie beyond.
-bool is_unipolar(const Circumstances& at) { return at.lowest > -0.1 * at.range() || at.highest < 0.1 * at.range(); }
+bool is_unipolar(const Excitation& at) { return at.lowest > -0.1 * at.range() || at.highest < 0.1 * at.range(); }
 
 /// Elements that have not slipped add to the spring, and whoever measured that over a stroke has them in it already.
 LawParameter own_stiffness() {
@@ -110,7 +110,7 @@ LawParameter own_stiffness() {
 
 /// Elements that yield beside the spring of a mass. They follow the motion, as the loss in a flexure or a piezo stack
 /// does; plays on the drive would ring along with the mass.
-Law slip_elements(const Circumstances& at) {
+Law slip_elements(const Excitation& at) {
   const double range = at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6;
   const double force = at.range() > 0 ? at.range() : 1;
   Law law;
@@ -136,7 +136,7 @@ Law slip_elements(const Circumstances& at) {
 
 /// The same where the spring gives way unevenly over the travel: grains and domains yield at one place more than at
 /// another, as a Preisach's density says that is even along no line.
-Law uneven_plays_in_the_spring(const Circumstances& at) {
+Law uneven_plays_in_the_spring(const Excitation& at) {
   const double half = 0.5 * (at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6);
   const double softer = 0.01 * (at.range() > 0 ? at.range() : 1) / half;
   Law law;
@@ -169,7 +169,7 @@ Law uneven_plays_in_the_spring(const Circumstances& at) {
 
 /// A law of three numbers whose loops soften or harden with the travel and need not close at turning points: joints,
 /// wire ropes, dampers. Elements that yield, and plays, only soften.
-Law bouc_wen_in_the_spring(const Circumstances& at) {
+Law bouc_wen_in_the_spring(const Excitation& at) {
   const double range = at.travel_highest > at.travel_lowest ? at.travel_highest - at.travel_lowest : 1e-6;
   Law law;
   law.name = "Bouc-Wen in the spring";
@@ -196,7 +196,7 @@ Law bouc_wen_in_the_spring(const Circumstances& at) {
 
 /// How much of the spring remembers, and how far its loop is apart in the middle of the travel, for loops that are not
 /// large: the half travel times beta of what that part holds back.
-std::string bouc_wen_summary(const std::vector<double>& values, const Circumstances& at) {
+std::string bouc_wen_summary(const std::vector<double>& values, const Excitation& at) {
   if (values.size() < 2) return "";
   const double half = 0.5 * (at.travel_highest - at.travel_lowest);
   return fmt::format("{:.2g} % of the stiffness remembers, in a loop of about {:.2g} % of what it holds back",
@@ -204,7 +204,7 @@ std::string bouc_wen_summary(const std::vector<double>& values, const Circumstan
 }
 
 /// [N] by which the force is apart there, where the motion passes the middle on its way up and down.
-double apart_by_plays(const NumberList& plays, const std::vector<double>& values, const Circumstances& at) {
+double apart_by_plays(const NumberList& plays, const std::vector<double>& values, const Excitation& at) {
   const std::size_t n = plays.size();
   double force = 0;  // a play stands its half width to either side, and is there about as strong as in the middle
   for (std::size_t i = 0; i < n; ++i) {
@@ -215,7 +215,7 @@ double apart_by_plays(const NumberList& plays, const std::vector<double>& values
 }
 
 /// [N] by which elements hold the mass back: after half the travel k times its distance each, or what it was bent.
-double held_back_by_elements(const NumberList& distances, const std::vector<double>& values, const Circumstances& at) {
+double held_back_by_elements(const NumberList& distances, const std::vector<double>& values, const Excitation& at) {
   double force = 0;
   for (std::size_t i = 0; i < distances.size(); ++i)
     force += values[i] * std::min(distances[i].value * 1e-6, (at.travel_highest - at.travel_lowest) / 2);
@@ -227,7 +227,7 @@ struct SpringLoop {
   double share = 0;  ///< of the force of the drive by which it is apart
   std::string text;
 };
-std::optional<SpringLoop> spring_loop(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::optional<SpringLoop> spring_loop(const Law& law, const std::vector<double>& values, const Excitation& at) {
   if (!(at.travel_highest > at.travel_lowest) || !(at.range() > 0)) return std::nullopt;
   if (law.block.type == "mass_on_bouc_wen_spring") {
     if (values.size() < 2) return std::nullopt;
@@ -252,7 +252,7 @@ struct Loop {
   double narrow = 0;  ///< part of the gap by plays that a short way takes along
 };
 /// The same of relays: behind a rising branch lag those that switch up above half the range and down below it.
-Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Excitation& at) {
   Loop loop;
   loop.stroke = (law.free.back().path == "gain" ? values.back() : 1) * at.range();
   const auto* levels = written<NumberList>(law, "levels");
@@ -265,7 +265,7 @@ Loop loop_of_relays(const Law& law, const std::vector<double>& values, const Cir
   return loop;
 }
 
-std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, const Excitation& at) {
   const double range = at.range();
   if (law.block.type == "preisach") return loop_of_relays(law, values, at);
   const auto* list = written<NumberList>(law, "thresholds");
@@ -286,7 +286,7 @@ std::optional<Loop> loop_of(const Law& law, const std::vector<double>& values, c
 }
 
 /// Width of the largest loop over the stroke.
-std::string loop_width(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string loop_width(const Law& law, const std::vector<double>& values, const Excitation& at) {
   if (!at.by.empty()) {
     const auto in_the_spring = spring_loop(law, values, at);
     return in_the_spring ? in_the_spring->text : "";
@@ -301,7 +301,7 @@ constexpr double nearly_all = 0.95;  // of a loop: what noise puts on the other 
 
 /// Domains switch over the whole range; what has followed after a tenth of it is a clearance. Without a loop only what
 /// the law finds anew besides is left: a gain, a stiffness, a curve.
-std::string why_no_hysteresis(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string why_no_hysteresis(const Law& law, const std::vector<double>& values, const Excitation& at) {
   const std::string no_memory = "it has no loop: nothing of it remembers";
   if (!at.by.empty()) {
     const auto in_the_spring = spring_loop(law, values, at);
@@ -370,7 +370,7 @@ Effect hysteresis() {
   e.variation = "hysteretic_spring";
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     if (!at.by.empty())
       return std::vector<Law>{slip_elements(at), uneven_plays_in_the_spring(at), bouc_wen_in_the_spring(at)};
     std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
@@ -381,8 +381,8 @@ Effect hysteresis() {
       for (const int cells : {6, 10}) laws.push_back(relays(at, cells));
     return laws;
   };
-  e.unsure = [](const Circumstances& at) { return few_sizes(at, "tell its loop from a lag and from lost motion"); };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) { return few_sizes(at, "tell its loop from a lag and from lost motion"); };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.springless) return "the mass is on no spring: what remembers its turning points there is friction";
     if (!at.memory_blocks.empty())
       return fmt::format(

@@ -26,10 +26,10 @@ Effect initial_remanence() {
   e.family = "initial_remanence";
   // No past is quite one visit, and all that its law leaves lies where recordings begin: at one level of the drive.
   e.leaves = {"saturation", "asymmetry", "sensor_nonlinearity"};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("as after a visit to {:.4g} {}", at.unit.difference_from_si(values.front()), at.unit.text);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "one value";
     give(law.block, "before", with_unit(0.0, at.unit));
@@ -46,7 +46,7 @@ Effect initial_remanence() {
     law.free.push_back(before);
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.from_data && at.range() <= 0) return "the input of the memory does not move";
     return "";
   };

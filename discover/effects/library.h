@@ -39,10 +39,10 @@ Effect sqrt_outflow();
 Effect overflow();
 
 /// The laws that amplifier and sensor lag share: one pole, two poles.
-std::vector<Law> lag_laws(const Circumstances& at);
-std::string lag_summary(const Law& law, const std::vector<double>& values, const Circumstances& at);
+std::vector<Law> lag_laws(const Excitation& at);
+std::string lag_summary(const Law& law, const std::vector<double>& values, const Excitation& at);
 /// Why a lag of these time constants is none: slower than all recordings, it integrates. "" = it is one.
-std::string lag_without_end(const Law& law, const std::vector<double>& values, const Circumstances& at);
+std::string lag_without_end(const Law& law, const std::vector<double>& values, const Excitation& at);
 /// [K] A room in which a device is usually calibrated, 20 .. 25 degC: of it what is nearest to `temperature`.
 double usual_room(double temperature);
 

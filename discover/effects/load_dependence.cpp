@@ -28,12 +28,12 @@ Effect load_dependence() {
                   {"softening", "1/N", "part of the stroke that a newton takes", "kS/kT below a tenth"}};
   e.look_alikes = {{"calibration", "load_pair", "a calibration is the same with and without the load"},
                    {"temperature_gain", "load_pair", "the temperature is the same with and without the load"}};
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text = fmt::format("{:.3g} {}/N", at.unit.difference_from_si(values[0]), at.unit.text);
     if (law.free.size() > 1) text += fmt::format(", {:.3g} % of the stroke per newton", 100 * values[1]);
     return text;
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     const double force = std::max(at.side_highest - at.side_lowest, 1e-30), range = std::max(at.range(), 1e-30);
     Law law;
     law.name = "compliance";
@@ -55,7 +55,7 @@ Effect load_dependence() {
     more.free.push_back(softening);
     return std::vector<Law>{law, more};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     if (!(at.side_highest > at.side_lowest)) return "the force does not move";
     // With less than this the two are one signal: whatever is put down to the force may be the drive's.

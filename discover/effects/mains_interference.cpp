@@ -9,11 +9,11 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double away = 0.2;      // [Hz] that the mains is off at most, mostly ...
-constexpr double shortest = 0.2;  // [s] ten periods
-constexpr double widest = 0.5;    // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
+constexpr double away = 0.2;           // [Hz] that the mains is off at most, mostly ...
+constexpr double shortest = 0.2;       // [s] ten periods
+constexpr double simd_dispatch = 0.5;  // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
 
-Law lines(const Circumstances& at, int harmonics) {
+Law lines(const Excitation& at, int harmonics) {
   Law law;
   law.name = harmonics == 1 ? "one line" : "a line and its harmonics";
   law.block.type = "mains_interference";
@@ -24,12 +24,12 @@ Law lines(const Circumstances& at, int harmonics) {
   LawParameter f;
   f.path = "frequency";
   f.start = 50;
-  f.lower = 50 - widest;
-  f.upper = 60 + widest;
+  f.lower = 50 - simd_dispatch;
+  f.upper = 60 + simd_dispatch;
   // A recording of length T tells frequencies 1/T apart; of longer ones the local search takes care.
   const double step = std::clamp(0.5 / at.longest_recording, 2 * away / 100, 2 * away / 8);
   for (const double mains : {50.0, 60.0}) {
-    f.line_bands.emplace_back(mains - widest, mains + widest);
+    f.line_bands.emplace_back(mains - simd_dispatch, mains + simd_dispatch);
     for (double d = -away; d <= away * 1.001; d += step) f.scan.push_back(mains + d);
   }
   law.free = {f};
@@ -62,16 +62,16 @@ Effect mains_interference() {
                   {"cosine, sine", "unit of the output", "amplitudes, per recording", "0.1 .. 20 nm at a sensor"}};
   e.look_alikes = {{"structural_resonance", "zero_run", "a mode is silent where nothing moves"},
                    {"cross_coupling", "zero_run", "another axis is silent where nothing moves"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("{:.5g} Hz, {:.3g} {} in the last recording", values[0],
                        at.unit.difference_from_si(std::hypot(values[1], values[2])), at.unit.text);
   };
-  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
-    if (std::abs(values[0] - 50) <= widest || std::abs(values[0] - 60) <= widest) return "";
-    return fmt::format("no mains runs at {:.4g} Hz: it keeps within {} Hz of 50 or 60", values[0], widest);
+  e.implausible = [](const Law&, const std::vector<double>& values, const Excitation&) -> std::string {
+    if (std::abs(values[0] - 50) <= simd_dispatch || std::abs(values[0] - 60) <= simd_dispatch) return "";
+    return fmt::format("no mains runs at {:.4g} Hz: it keeps within {} Hz of 50 or 60", values[0], simd_dispatch);
   };
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.laws = [](const Excitation& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     if (at.shortest_step > 1.0 / 120)
       return fmt::format(

@@ -22,10 +22,10 @@ Effect overflow() {
   e.parameters = {{"brim", "level", "at which it runs over", "within the levels of the model without a brim"}};
   e.look_alikes = {{"saturation", "fast_steps", "a sensor that is full shows the right level as soon as it can again"},
                    {"sqrt_outflow", "fast_steps", "an outlet has no flat tops"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
     return fmt::format("brim at {:.4g} m", values[0]);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "brim";
     law.block.type = "tank";
@@ -40,7 +40,7 @@ Effect overflow() {
     law.free = {brim};
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) { return stands(at, "the level"); };
+  e.unseen = [](const Excitation& at) { return stands(at, "the level"); };
   return e;
 }
 

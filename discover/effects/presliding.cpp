@@ -12,7 +12,7 @@ namespace {
 
 /// Holds more before it slides fast. `range`: of the motion. An excess at no speed at all is none, and looks best to
 /// begin with: a search from there ends at an excess without bound that nothing shows.
-Law with_excess(Law law, double range, const Circumstances& at, const Unit& speed_unit) {
+Law with_excess(Law law, double range, const Excitation& at, const Unit& speed_unit) {
   // Largest speed of the motion, if that is as quick as what drives it; at most the whole range in a row.
   const double row_rate = 1 / std::max(at.shortest_step, 1e-9);                                // [1/s]
   const double fast = range * (at.quickest > 0 ? std::min(at.quickest, row_rate) : row_rate);  // in speed_unit's SI
@@ -43,7 +43,7 @@ bool is_motion(const Unit& unit) {
   return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
 }
 
-Law presliding(const Circumstances& at) {
+Law presliding(const Excitation& at) {
   Law law;
   law.name = "presliding (Dahl)";
   law.block.type = "mass_with_presliding";
@@ -69,13 +69,13 @@ Law presliding(const Circumstances& at) {
   return law;
 }
 
-Law presliding_with_excess(const Circumstances& at) {
+Law presliding_with_excess(const Excitation& at) {
   Law law = with_excess(presliding(at), travel(at), at, parse_unit("m/s"));
   law.name = "presliding with Stribeck's excess (LuGre)";
   return law;
 }
 
-Law guided(const Circumstances& at) {
+Law guided(const Excitation& at) {
   Law law;
   law.name = "holds the motion back (Dahl)";
   law.block.type = "guide_friction";
@@ -100,7 +100,7 @@ Law guided(const Circumstances& at) {
   return law;
 }
 
-Law guided_with_excess(const Circumstances& at) {
+Law guided_with_excess(const Excitation& at) {
   const double range = at.range() > 0 ? at.range() : 1;
   Law law = with_excess(guided(at), range, at, parse_unit(fmt::format("({})/s", unit_text(at.unit))));
   law.name = "holds the motion back, with Stribeck's excess (LuGre)";

@@ -30,11 +30,11 @@ Effect pyro_charge_drift() {
       {"thermal_expansion", "temperature_staircase", "on a plateau the charge leaks away, an expansion stays"},
       {"creep", "temperature_constant", "creep follows the last step of the drive"},
       {"sensor_drift", "temperature_constant", "a drift does not follow the temperature"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("{:.3g} {}/K, gone after {}", at.unit.difference_from_si(values[0]), at.unit.text,
                        time_text(values[1]));
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "one leak";
     law.block.type = "pyro_charge";
@@ -61,7 +61,7 @@ Effect pyro_charge_drift() {
     law.free = {coefficient, time};
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;
     return span < 0.5 ? fmt::format("the temperature spans {:.2g} K, the charge needs 0.5 K", span) : "";

@@ -22,10 +22,10 @@ Effect quadratic_drag() {
   e.parameters = {{"drag", "N s^2/m^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
   e.look_alikes = {{"friction", "triangle", "friction does not grow with the speed"},
                    {"stiffening", "low_frequencies", "a spring acts at rest too"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
     return fmt::format("{:.3g} N at 1 m/s", values[0]);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "square of the speed";
     law.block.type = at.by.empty() ? "mass_with_drag" : at.by;
@@ -43,8 +43,8 @@ Effect quadratic_drag() {
     law.free = {c};
     return std::vector<Law>{law};
   };
-  e.unsure = [](const Circumstances& at) { return one_speed(at, 3, "tell it from a damper"); };
-  e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
+  e.unsure = [](const Excitation& at) { return one_speed(at, 3, "tell it from a damper"); };
+  e.unseen = [](const Excitation& at) { return stands(at, "the mass"); };
   return e;
 }
 

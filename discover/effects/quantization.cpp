@@ -23,10 +23,10 @@ Effect quantization() {
       {"step", "unit of the output", "read off the levels of the column", "range/2^bits: 0.1 nm for 20 bit on 100 um"}};
   e.look_alikes = {{"backlash", "triangle", "rounding has no memory: both ways it steps at the same levels"},
                    {"friction", "triangle", "a stick is not always at the same levels"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("levels every {:.4g} {}", at.unit.difference_from_si(values[0]), at.unit.text);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "levels of the column";
     law.block.type = "rounding";
@@ -41,11 +41,11 @@ Effect quantization() {
     law.free = {step};
     return std::vector<Law>{law};
   };
-  e.unsure = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) -> std::string {
     if (!at.from_data || at.resolution >= 2 * at.roughness) return "";
     return fmt::format("its steps are {:.2g} times the noise, from two on they show", at.resolution / at.roughness);
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     if (at.resolution <= 0) return "the values of the column are no multiples of one step";
     // What is finer than a simulation is not predicted: the digits of a text file.

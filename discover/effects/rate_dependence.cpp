@@ -13,7 +13,7 @@ constexpr double least_ahead =
 
 /// The operators come late, or how far they are behind the input (ahead = 1); richer: wide loops later than small ones,
 /// and only a share.
-Law late(const Circumstances& at, const char* name, bool spread, bool shared) {
+Law late(const Excitation& at, const char* name, bool spread, bool shared) {
   Law law;
   law.name = name;
   law.block.type = "late_prandtl_ishlinskii";
@@ -76,22 +76,22 @@ Effect rate_dependence() {
       {"dead_time", "high_frequencies", "small motion is late too behind a delay, a hysteresis is not in it"},
       {"structural_resonance", "high_frequencies", "a resonance rings, at all amplitudes alike"},
       {"creep", "step_hold", "creep goes on in a hold with log t, what is late settles"}};
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation&) {
     std::string text = fmt::format("late by {}, {:.2g} of the input ahead", time_text(values[0]), values[1]);
     if (law.free.size() > 2) text += fmt::format(", times to the power {:.2g} of the threshold", values[2]);
     return text;
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     return std::vector<Law>{late(at, "one time", false, false),
                             late(at, "times that grow with the threshold", true, false),
                             late(at, "a share, with times that grow", true, true)};
   };
-  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances&) -> std::string {
+  e.implausible = [](const Law&, const std::vector<double>& values, const Excitation&) -> std::string {
     if (values[1] > 0.99 * least_ahead) return "";
     return fmt::format("with {:.2g} of the input ahead, the limit, small motion is late too, as behind a lag",
                        values[1]);
   };
-  e.unsure = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) -> std::string {
     if (at.from_data && at.swings.sizes < 2) return "swings of one size, two would tell it from a lag";
     return one_speed(at, 30, "tell it from a wider loop");
   };

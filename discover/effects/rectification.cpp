@@ -21,10 +21,10 @@ Effect rectification() {
   e.look_alikes = {{"asymmetry", "sine_amplitudes", "a curve bends everywhere, a rectifier at zero only"},
                    {"sensor_nonlinearity", "sine_amplitudes", "a curve bends everywhere, a rectifier at zero only"},
                    {"saturation", "sine_amplitudes", "a clamp has a level, a rectifier zero"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
     return fmt::format("{:.3g} of it without its sign", values[0]);
   };
-  e.laws = [](const Circumstances&) {
+  e.laws = [](const Excitation&) {
     Law law;
     law.name = "mixed";
     law.block.type = "rectifier";
@@ -40,7 +40,7 @@ Effect rectification() {
     law.free = {mix};
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     // Rounding of a drive that ends at zero is no sign.
     const double little = 1e-3 * at.range();

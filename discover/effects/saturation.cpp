@@ -27,7 +27,7 @@ Effect saturation() {
                    {"sensor_nonlinearity", "reference_sensor", "a clamp does nothing below its level"}};
   e.family = "saturation";
   e.leaves = {"asymmetry", "sensor_nonlinearity"};  // no supply's knee is quite this one
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     if (law.block.type == "soft_saturation")
       return fmt::format("at {:.4g} {}, sharpness {:.2g}", at.unit.difference_from_si(values[0]), at.unit.text,
                          values[1]);
@@ -38,7 +38,7 @@ Effect saturation() {
            : low       ? fmt::format("below {} {}", shown(values[0]), at.unit.text)
                        : fmt::format("above {} {}", shown(values[1]), at.unit.text);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "hard limits";
     law.block.type = "saturation";

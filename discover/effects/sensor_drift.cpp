@@ -22,10 +22,10 @@ Effect sensor_drift() {
                   {"zero", "unit of the output", "per recording", "any"}};
   e.look_alikes = {{"thermal_expansion", "temperature_constant", "a drift does not follow the temperature"},
                    {"creep", "zero_run", "creep follows the last move"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("{:.3g} {}/h in the last recording", 3600 * at.unit.difference_from_si(values[0]), at.unit.text);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "steady";
     law.block.type = "sensor_drift";
@@ -43,7 +43,7 @@ Effect sensor_drift() {
     more.free.push_back(zero);
     return std::vector<Law>{law, more};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data || at.longest_recording >= 600) return "";
     return fmt::format("the longest recording lasts {}, a drift needs 10 min", time_text(at.longest_recording));
   };

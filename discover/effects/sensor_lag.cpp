@@ -26,7 +26,7 @@ Effect sensor_lag() {
   e.family = "lag";
   e.summary = lag_summary;
   e.implausible = lag_without_end;
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     auto laws = lag_laws(at);
     if (at.unit.dimension == parse_unit("m").dimension)
       for (auto& law : laws) {
@@ -35,7 +35,7 @@ Effect sensor_lag() {
       }
     return laws;
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     return at.from_data && at.range() <= 0 ? "the output does not move" : "";
   };
   return e;

@@ -6,7 +6,7 @@ namespace hysteron::effects {
 namespace {
 
 /// A sensor that is calibrated over its range is off at zero too: its constant is free where nobody else's zero is.
-std::vector<Law> curves_of_sensor(const Circumstances& at) {
+std::vector<Law> curves_of_sensor(const Excitation& at) {
   std::vector<Law> laws;
   for (const int order : {3, 2, 5}) {
     Law law = curve(at, order);

@@ -10,7 +10,7 @@ namespace hysteron::effects {
 namespace {
 
 /// One rate for both ways, or one for each.
-Law limit(const Circumstances& at, bool each_way) {
+Law limit(const Excitation& at, bool each_way) {
   Law law;
   law.name = each_way ? "one rate for each way" : "one rate";
   law.block.type = "slew_limit";
@@ -65,18 +65,18 @@ Effect slew_limit() {
       {"saturation", "sine_amplitudes", "a clamp has a level, a slew limit a rate"},
       {"dead_time", "sine_amplitudes", "at half the amplitude the error of a limit goes, a delay's halves"},
       {"structural_resonance", "fast_steps", "a resonance rings about the level, a limit makes a ramp"}};
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text = fmt::format("at most {:.4g} {}/s", at.unit.difference_from_si(values[0]), at.unit.text);
     if (law.free.size() > 1) text += fmt::format(" upwards, {:.4g} downwards", at.unit.difference_from_si(values[1]));
     return text;
   };
-  e.implausible = [](const Law&, const std::vector<double>& values, const Circumstances& at) -> std::string {
+  e.implausible = [](const Law&, const std::vector<double>& values, const Excitation& at) -> std::string {
     // The weakest piezo amplifiers (2 mA) take a second to charge the largest stacks (20 uF) to 100 V.
     const double whole = at.range() / *std::min_element(values.begin(), values.end());
     if (whole <= 10) return "";
     return fmt::format("the range of the drive would take {}: no current limit is so slow", time_text(whole));
   };
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{limit(at, false), limit(at, true)}; };
+  e.laws = [](const Excitation& at) { return std::vector<Law>{limit(at, false), limit(at, true)}; };
   e.unseen = stands_still;
   return e;
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// An outlet by the root has the flow of the linear one at the middle of the levels where it has this share of it at
 /// the reference level.
-double share_of_root(const Circumstances& at) {
+double share_of_root(const Excitation& at) {
   const double middle = 0.5 * (at.travel_lowest + at.travel_highest);
   return at.from_data && at.reference > 0 && middle > 0 ? std::sqrt(middle / at.reference) : 1;
 }
@@ -34,11 +34,11 @@ Effect sqrt_outflow() {
   e.look_alikes = {{"calibration", "sine_amplitudes", "a gain is the same at every level"},
                    {"asymmetry", "fast_steps", "a curve does not change the time constant"},
                    {"overflow", "fast_steps", "an overflow is flat at one level and lacks water afterwards"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances&) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
     return values.empty() ? "the outflow follows the root of the level, its size is a free number of the diagram"
                           : fmt::format("{:.3g} m^3/s [SI] at the reference level", values[0]);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "root of the level";
     law.block.type = "tank";
@@ -51,7 +51,7 @@ Effect sqrt_outflow() {
     law.free = {outlet};
     return std::vector<Law>{law};
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (auto still = stands(at, "the level"); !still.empty()) return still;
     const double share = at.travel_highest > 0 ? travelled(at) / at.travel_highest : 1;
     return at.from_data && share < 0.25

@@ -13,12 +13,12 @@ namespace {
 
 /// What the powers of a curve are about: the middle of what the signal does where zero, the rest position, is far from
 /// it. A few degrees about 300 K are no powers of a temperature: each would undo what the others do.
-std::optional<Number> far_from_zero(const Circumstances& at) {
+std::optional<Number> far_from_zero(const Excitation& at) {
   if (at.range() <= 0 || (at.lowest - at.range() <= 0 && at.highest + at.range() >= 0)) return std::nullopt;
   return level_within(at.range(), 0.5 * (at.lowest + at.highest), at.unit);
 }
 
-std::string curve_summary(const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string curve_summary(const Law& law, const std::vector<double>& values, const Excitation& at) {
   std::string text;
   for (std::size_t k = 0; k < values.size() && law.free[k].path.starts_with("coefficients["); ++k) {
     const int power = static_cast<int>(k) + 2;
@@ -33,12 +33,12 @@ std::string curve_summary(const Law& law, const std::vector<double>& values, con
 
 }  // namespace
 
-double neutral_constant(const Circumstances& at) {
+double neutral_constant(const Excitation& at) {
   const auto middle = far_from_zero(at);
   return middle ? at.unit.to_si(middle->value) : 0;
 }
 
-Law curve(const Circumstances& at, int order) {
+Law curve(const Excitation& at, int order) {
   Law law;
   law.name = order == 2 ? "quadratic" : order == 3 ? "cubic" : fmt::format("of order {}", order);
   law.block.type = "polynomial";

@@ -26,11 +26,11 @@ Effect stiffening() {
                    {"asymmetry", "multisine", "a curved drive cannot move a resonance"},
                    {"saturation", "sine_amplitudes", "a clamp does nothing below its level"},
                    {"friction", "sine_amplitudes", "a stiffening spring has no memory"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const double x = std::max(std::abs(at.travel_lowest), std::abs(at.travel_highest));
     return fmt::format("{:.3g} N of cubic force at the largest travel", values[0] * x * x * x);
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     Law law;
     law.name = "cubic";
     law.block.type = at.by.empty() ? "mass_on_stiffening_spring" : at.by;
@@ -64,8 +64,8 @@ Effect stiffening() {
     further("quintic", unit / (x * x), "N/m^5");
     return std::vector<Law>{law, more};
   };
-  e.unsure = [](const Circumstances& at) { return few_sizes(at, "tell it from a wrong stiffness"); };
-  e.unseen = [](const Circumstances& at) { return stands(at, "the mass"); };
+  e.unsure = [](const Excitation& at) { return few_sizes(at, "tell it from a wrong stiffness"); };
+  e.unseen = [](const Excitation& at) { return stands(at, "the mass"); };
   return e;
 }
 

@@ -35,10 +35,10 @@ Effect stribeck_friction() {
                   {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"}};
   e.look_alikes = {{"friction", "triangle", "without the excess it holds as much at every speed"},
                    {"quadratic_drag", "triangle", "a drag rises with the speed, it falls"}};
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     return std::vector<Law>{at.by.empty() ? guided_with_excess(at) : presliding_with_excess(at)};
   };
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const std::string level = at.by.empty()
                                   ? fmt::format("{:.3g} {}", at.unit.difference_from_si(values[0]), at.unit.text)
                                   : fmt::format("{:.3g} N", values[0] * values[1]);
@@ -46,8 +46,8 @@ Effect stribeck_friction() {
     return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} mm/s", level, 100 * values[2],
                        1e3 * values[3]);
   };
-  e.unsure = [](const Circumstances& at) { return one_speed(at, 10, "tell what falls with it"); };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unsure = [](const Excitation& at) { return one_speed(at, 10, "tell what falls with it"); };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.by.empty() && !is_motion(at.unit)) return "it needs a mass, or a wire that carries a motion";
     if (at.by.empty() && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",

@@ -16,10 +16,10 @@ constexpr double least_damping = 5e-4, most_damping = 0.1, searched_damping = 0.
 
 /// A mode is known by what is sampled four times a period; one more, beside it, by what is sampled more than twice.
 /// Less than five periods a recording do not ring.
-double fastest(const Circumstances& at, int index = 0) { return (index == 0 ? 0.25 : 0.45) / at.shortest_step; }
-double slowest(const Circumstances& at) { return std::min(5 / at.longest_recording, fastest(at) / 100); }
+double fastest(const Excitation& at, int index = 0) { return (index == 0 ? 0.25 : 0.45) / at.shortest_step; }
+double slowest(const Excitation& at) { return std::min(5 / at.longest_recording, fastest(at) / 100); }
 
-LawParameter frequency_of(const Circumstances& at, int index) {
+LawParameter frequency_of(const Excitation& at, int index) {
   LawParameter p;
   p.path = element("frequencies", index);
   p.start = fastest(at, index) / 3;
@@ -55,7 +55,7 @@ LawParameter residue(const std::string& list, int index, double start) {
 }
 
 /// So many modes, searched where they are not plausible, too, to be told what they are.
-Law modes(const Circumstances& at, int count) {
+Law modes(const Excitation& at, int count) {
   Law law;
   law.name = count == 1 ? "one mode" : "two modes";
   law.block.type = "modes";
@@ -79,7 +79,7 @@ Law modes(const Circumstances& at, int count) {
 /// Of the values of a law: frequency, damping and two residues of each mode.
 constexpr std::size_t numbers_of_a_mode = 4;
 
-std::string tell_modes(const Law&, const std::vector<double>& values, const Circumstances&) {
+std::string tell_modes(const Law&, const std::vector<double>& values, const Excitation&) {
   std::string text;
   for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
     text += fmt::format("{}{:.4g} Hz, damping {:.2g}, {:.2g} % of the motion", text.empty() ? "" : "; ", values[k],
@@ -93,7 +93,7 @@ bool is_own(const Resonance& own, double frequency, double damping) {
 }
 
 /// The mode that adds most must ring; what one more does beside it refines the shape.
-std::string why_no_mode(const Law&, const std::vector<double>& values, const Circumstances& at) {
+std::string why_no_mode(const Law&, const std::vector<double>& values, const Excitation& at) {
   double most = -1, damping = 0, frequency = 0;
   for (std::size_t k = 0; k + numbers_of_a_mode <= values.size(); k += numbers_of_a_mode)
     if (const double adds = std::hypot(values[k + 2], values[k + 3]); adds > most) {
@@ -153,9 +153,9 @@ Effect structural_resonance() {
                    {"dead_time", "fast_steps", "a delay repeats the step, a resonance rings about the level"}};
   e.family = "structural_resonance";
   e.summary = tell_modes;
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{modes(at, 1), modes(at, 2)}; };
+  e.laws = [](const Excitation& at) { return std::vector<Law>{modes(at, 1), modes(at, 2)}; };
   e.implausible = why_no_mode;
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (at.unit.dimension == parse_unit("K").dimension)
       return "a temperature does not ring: conduction of heat has real poles only";
     return stands_still(at);

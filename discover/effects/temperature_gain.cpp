@@ -14,10 +14,10 @@ constexpr double most_curvature = 1e-3;  // [1/K^2] 0.1 %/K in every kelvin: mor
 constexpr double work_place = 15;        // [K] beyond what was recorded: another season, another laboratory
 
 /// It does not tell its own reference: the gain is then that of a usual room.
-bool one_temperature(const Circumstances& at) { return at.from_data && at.side_highest - at.side_lowest < least_span; }
+bool one_temperature(const Excitation& at) { return at.from_data && at.side_highest - at.side_lowest < least_span; }
 
 /// `bent`: the change of the gain per kelvin is another one where it is warmer.
-Law law(const Circumstances& at, bool bent) {
+Law law(const Excitation& at, bool bent) {
   Law law;
   law.name = bent ? "bent in temperature" : "linear in temperature";
   law.block.type = "temperature_gain";
@@ -98,7 +98,7 @@ Effect temperature_gain() {
                    {"ageing", "repeat_after_cycles", "ageing follows the cycles, not the temperature"}};
   e.family = "temperature_gain";
   e.plainer = {"calibration"};  // a constant
-  e.summary = [](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text = fmt::format("{:.3g} %/K", 100 * values[0]);
     for (std::size_t i = 1; i < law.free.size(); ++i)
       text += law.free[i].path == "reference"
@@ -106,12 +106,12 @@ Effect temperature_gain() {
                   : fmt::format(", {:+.2g} %/K more per kelvin", 200 * values[i]);
     return text;
   };
-  e.laws = [](const Circumstances& at) {
+  e.laws = [](const Excitation& at) {
     std::vector<Law> laws{law(at, false)};
     if (!one_temperature(at)) laws.push_back(law(at, true));
     return laws;
   };
-  e.implausible = [](const Law& law, const std::vector<double>& values, const Circumstances& at) -> std::string {
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Excitation& at) -> std::string {
     if (is_right_nowhere(law, values))
       return fmt::format(
           "the gain of the model would be right {:g} K beyond all that was recorded, the limit: that is a "
@@ -125,12 +125,12 @@ Effect temperature_gain() {
     return "it rises and falls within the temperatures recorded: strokes of ceramics rise steadily from -30 to 125 "
            "degC";
   };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;
     return span < least_span ? fmt::format("the temperature spans {:.2g} K, a gain needs 3 K", span) : "";
   };
-  e.may_hide = [](const Circumstances& at) {
+  e.may_hide = [](const Excitation& at) {
     const double middle = 0.5 * (at.side_lowest + at.side_highest);
     return std::abs(middle - usual_room(middle)) >= least_span;
   };

@@ -12,10 +12,10 @@ namespace {
 constexpr double another_day = 3;  // [K] between the laboratory's temperatures when the model was made and now
 
 /// [s] where the search for the time constant of part k begins.
-double first_time(const Circumstances& at, int k) { return at.longest_recording / (k == 0 ? 10 : 100); }
+double first_time(const Excitation& at, int k) { return at.longest_recording / (k == 0 ? 10 : 100); }
 
 /// One or two parts, each late by its own time.
-Law parts(const Circumstances& at, int n) {
+Law parts(const Excitation& at, int n) {
   Law law;
   law.name = n == 1 ? "one time constant" : "two time constants";
   law.block.type = "thermal_expansion";
@@ -85,7 +85,7 @@ Effect thermal_expansion() {
                    {"temperature_gain", "temperature_staircase", "expansion shifts the mean, a gain the amplitude"}};
   e.family = "thermal_expansion";
   e.contains = {"pyro_charge_drift"};  // two parts, one of them at once and of the other sign
-  e.summary = [](const Law&, const std::vector<double>& values, const Circumstances& at) {
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     std::string text;
     const std::size_t parts = values.size() / 2;
     for (std::size_t k = 0; k < parts; ++k)
@@ -98,8 +98,8 @@ Effect thermal_expansion() {
     for (std::size_t k = 0; k < values.size() / 2; ++k) per_kelvin += values[k];
     return std::abs(per_kelvin) * another_day;
   };
-  e.laws = [](const Circumstances& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
-  e.unseen = [](const Circumstances& at) -> std::string {
+  e.laws = [](const Excitation& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
+  e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;
     return span < 0.5 ? fmt::format("the temperature spans {:.2g} K, expansion needs 0.5 K", span) : "";

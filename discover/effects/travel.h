@@ -8,13 +8,13 @@
 namespace hysteron::effects {
 
 /// How far the block's output moved [SI].
-inline double travelled(const Circumstances& at) { return at.travel_highest - at.travel_lowest; }
+inline double travelled(const Excitation& at) { return at.travel_highest - at.travel_lowest; }
 
 /// [m] that a mass moves; a micrometre where nobody looked.
-inline double travel(const Circumstances& at) { return travelled(at) > 0 ? travelled(at) : 1e-6; }
+inline double travel(const Excitation& at) { return travelled(at) > 0 ? travelled(at) : 1e-6; }
 
 /// Why the effects of what moves ("the mass") cannot be seen in these recordings; "" where they can.
-inline std::string stands(const Circumstances& at, const char* what) {
+inline std::string stands(const Excitation& at, const char* what) {
   return at.from_data && !(travelled(at) > 0) ? std::string(what) + " does not move" : "";
 }
 

@@ -13,8 +13,8 @@ namespace hysteron {
 namespace {
 
 /// Recordings of some wire.
-Circumstances usual() {
-  Circumstances at;
+Excitation usual() {
+  Excitation at;
   at.from_data = true;
   at.unit = parse_unit("V");
   at.lowest = at.lowest_of_all = -5;
@@ -33,12 +33,12 @@ Circumstances usual() {
 /// One thing about recordings, made larger.
 struct Change {
   const char* what;
-  std::function<void(Circumstances&)> make;
+  std::function<void(Excitation&)> make;
 };
 const std::vector<Change>& changes() {
   static const std::vector<Change> all{
       {"the range of the signal",
-       [](Circumstances& at) {
+       [](Excitation& at) {
          at.lowest *= 3;
          at.lowest_of_all *= 3;
          at.highest *= 3;
@@ -46,20 +46,20 @@ const std::vector<Change>& changes() {
          at.travel_highest *= 3;
        }},
       {"the time between rows",
-       [](Circumstances& at) {
+       [](Excitation& at) {
          at.shortest_step *= 3;
          at.longest_step *= 3;
          at.step_at_longest_hold *= 3;
        }},
-      {"the length of the recordings", [](Circumstances& at) { at.longest_recording *= 3; }},
-      {"the longest hold", [](Circumstances& at) { at.longest_hold *= 3; }},
+      {"the length of the recordings", [](Excitation& at) { at.longest_recording *= 3; }},
+      {"the longest hold", [](Excitation& at) { at.longest_hold *= 3; }},
       {"the pace of the signal",
-       [](Circumstances& at) {
+       [](Excitation& at) {
          at.quickest *= 3;
          at.quickest_of_all *= 3;
        }},
-      {"the levels of the column", [](Circumstances& at) { at.resolution *= 3; }},
-      {"what it reads besides", [](Circumstances& at) {
+      {"the levels of the column", [](Excitation& at) { at.resolution *= 3; }},
+      {"what it reads besides", [](Excitation& at) {
          at.side_lowest /= 2;
          at.side_at_start /= 2;
          at.side_highest *= 1e4;          // of a use, decades
@@ -74,16 +74,16 @@ struct Bounds {
 };
 
 /// The widest that any element has in any law.
-std::optional<Bounds> bounds_of(const Effect& effect, const std::string& name, const Circumstances& at) {
-  std::optional<Bounds> widest;
+std::optional<Bounds> bounds_of(const Effect& effect, const std::string& name, const Excitation& at) {
+  std::optional<Bounds> simd_dispatch;
   for (const auto& law : effect.laws(at))
     for (const auto& p : law.free) {
       if (p.path.substr(0, p.path.find('[')) != name.substr(0, name.find('['))) continue;
-      if (!widest) widest = Bounds{p.lower, p.upper};
-      widest->lower = std::min(widest->lower, p.lower);
-      widest->upper = std::max(widest->upper, p.upper);
+      if (!simd_dispatch) simd_dispatch = Bounds{p.lower, p.upper};
+      simd_dispatch->lower = std::min(simd_dispatch->lower, p.lower);
+      simd_dispatch->upper = std::max(simd_dispatch->upper, p.upper);
     }
-  return widest;
+  return simd_dispatch;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::string bounds_text(const Effect& effect, const std::string& name) {
   const auto end_text = [&](double Bounds::*end) -> std::string {
     std::vector<std::string> set_by;
     for (const auto& change : changes()) {
-      Circumstances at = usual();
+      Excitation at = usual();
       change.make(at);
       if (const auto changed = bounds_of(effect, name, at); changed && (*changed).*end != (*bounds).*end)
         set_by.emplace_back(change.what);

@@ -48,7 +48,7 @@ struct Resonance {
 
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
 /// the train recordings, and how finely and how long it was recorded. Numbers in SI.
-struct Circumstances {
+struct Excitation {
   bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
   Unit unit;               ///< of the wire, as it is written
   double lowest = 0, highest = 1;
@@ -176,22 +176,22 @@ struct Effect {
   std::vector<std::string> plainer;
   /// Laws, simplest first; those behind the first are tried where the first is among the best, or where they stand
   /// apart.
-  std::function<std::vector<Law>(const Circumstances&)> laws;
+  std::function<std::vector<Law>(const Excitation&)> laws;
   /// Why this effect cannot be seen in this data at this place, and which data would show it; "" = it can.
-  std::function<std::string(const Circumstances&)> unseen;
+  std::function<std::string(const Excitation&)> unseen;
   /// Why it can be seen in this data but not well told from others, or not in full: which of its needs are not met; ""
   /// = they are. May be empty.
-  std::function<std::string(const Circumstances&)> unsure{};
+  std::function<std::string(const Excitation&)> unsure{};
   /// Where it cannot be seen: true if it may have acted all the same, alike in all recordings, so that a look-alike
   /// would be taken for it. May be empty: then it has not.
-  std::function<bool(const Circumstances&)> may_hide;
+  std::function<bool(const Excitation&)> may_hide;
   /// Why fitted values, though they may fit, are not this effect ("all of it lies beyond the longest hold"); "" = they
   /// are.
-  std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> implausible;
+  std::function<std::string(const Law&, const std::vector<double>&, const Excitation&)> implausible;
   /// What the fitted law says, in one phrase ("1.5 % of the move per decade"); values [SI] as Law::free, but
   /// for numbers that begin where the user has them and are free in the diagram: these come last, and lack. May be
   /// empty.
-  std::function<std::string(const Law&, const std::vector<double>&, const Circumstances&)> summary;
+  std::function<std::string(const Law&, const std::vector<double>&, const Excitation&)> summary;
 };
 
 /// The effects that hysteron knows, in the order in which they are tried.

@@ -282,7 +282,7 @@ class EffectReader {
   /// The numbers of one parameter have one dimension, and the start lies between the bounds; what depends on the wire
   /// is known only there.
   static void check_order(const JsonPlace& place, const FreeNumber& f) {
-    const Circumstances nowhere;
+    const Excitation nowhere;
     const auto plain = [](const std::optional<EffectQuantity>& q) { return q && !q->relative(); };
     for (const auto& [key, q] : {std::pair{"lower", &f.lower}, {"upper", &f.upper}}) {
       if (!plain(*q) || f.start.relative()) continue;
@@ -378,7 +378,7 @@ void put(Node& block, const Diagram& diagram, const std::string& path, const Num
   std::get<NumberList>(value.content)[static_cast<std::size_t>(index)] = number;
 }
 
-Law law_of(const Content& c, const Circumstances& at) {
+Law law_of(const Content& c, const Excitation& at) {
   Law law;
   law.name = c.law_name;
   law.block.type = "diagram";
@@ -404,7 +404,7 @@ Law law_of(const Content& c, const Circumstances& at) {
   return law;
 }
 
-std::string unseen(const Content& c, const Circumstances& at) {
+std::string unseen(const Content& c, const Excitation& at) {
   const std::string wanted = c.diagram->inputs.find("in")->unit;
   if (!wanted.empty() && !at.unit.text.empty() &&
       dimension_factor(at.unit.dimension, parse_unit(wanted).dimension) == 0)
@@ -431,7 +431,7 @@ std::string unseen(const Content& c, const Circumstances& at) {
   return "";
 }
 
-std::string summary(const Content& c, const Law& law, const std::vector<double>& values, const Circumstances& at) {
+std::string summary(const Content& c, const Law& law, const std::vector<double>& values, const Excitation& at) {
   std::string text = c.says;
   for (std::size_t i = 0; i < law.free.size() && i < values.size(); ++i) {
     const std::string name = "{" + c.free[i].path + "}";
@@ -447,7 +447,7 @@ std::string summary(const Content& c, const Law& law, const std::vector<double>&
 
 /// The effect between an input and an output, as it would stand on a wire in the unit that it states.
 ProgramPointer alone(const Effect& effect, Diagram diagram, const Registry& registry) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit(diagram.inputs.find("in")->unit);
   if (effect.side != Side::none) at.side_unit = parse_unit((diagram.inputs.end() - 1)->second.unit);
   const Node block = effect.laws(at).front().block;
@@ -490,10 +490,10 @@ Effect read_effect(const std::string& file, const Registry& registry, const std:
   e.block_type = "diagram";
   e.file = file;
   const auto content = std::make_shared<Content>(reader.content());
-  e.laws = [content](const Circumstances& at) { return std::vector<Law>{law_of(*content, at)}; };
-  e.unseen = [content](const Circumstances& at) { return unseen(*content, at); };
+  e.laws = [content](const Excitation& at) { return std::vector<Law>{law_of(*content, at)}; };
+  e.unseen = [content](const Excitation& at) { return unseen(*content, at); };
   if (!content->says.empty())
-    e.summary = [content](const Law& law, const std::vector<double>& values, const Circumstances& at) {
+    e.summary = [content](const Law& law, const std::vector<double>& values, const Excitation& at) {
       return summary(*content, law, values, at);
     };
   find_in_program(e, *content, registry);

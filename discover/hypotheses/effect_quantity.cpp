@@ -29,14 +29,14 @@ bool is_level(const std::string& word) {
   return word == "lowest" || word == "middle" || word == "highest" || word == "side_middle";
 }
 
-double level_si(const std::string& word, const Circumstances& at) {
+double level_si(const std::string& word, const Excitation& at) {
   if (word == "lowest") return at.lowest;
   if (word == "highest") return at.highest;
   if (word == "middle") return 0.5 * (at.lowest + at.highest);
   return 0.5 * (at.side_lowest + at.side_highest);
 }
 
-Measured measured(const std::string& word, const Circumstances& at) {
+Measured measured(const std::string& word, const Excitation& at) {
   if (word == "range") return difference(at.range(), at.unit);
   if (word == "side_range") return difference(at.side_highest - at.side_lowest, at.side_unit);
   if (word == "row") return time(at.shortest_step);
@@ -85,7 +85,7 @@ EffectQuantity::EffectQuantity(const std::string& text, const std::string& path)
 
 Unit EffectQuantity::unit() const { return factors_.empty() ? Unit{} : parse_unit(factors_.front().text); }
 
-Number EffectQuantity::number(const Circumstances& at) const {
+Number EffectQuantity::number(const Excitation& at) const {
   if (!relative_) return factors_.empty() ? Number{number_, {}} : Number{number_, factors_.front().text};
   if (is_level(factors_.front().text)) {
     const bool side = factors_.front().text == "side_middle";
@@ -112,7 +112,7 @@ Number EffectQuantity::number(const Circumstances& at) const {
   return n;
 }
 
-double EffectQuantity::si(const Circumstances& at) const {
+double EffectQuantity::si(const Excitation& at) const {
   const Number n = number(at);
   return n.unit ? parse_unit(*n.unit).to_si(n.value) : n.value;
 }

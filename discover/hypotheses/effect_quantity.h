@@ -21,10 +21,10 @@ class EffectQuantity {
   /// Throws Error "bad_value" or "bad_unit" at `path`.
   EffectQuantity(const std::string& text, const std::string& path);
 
-  bool relative() const { return relative_; }    ///< true if a word of the circumstances stands in it
-  Unit unit() const;                             ///< of one that is not relative
-  Number number(const Circumstances& at) const;  ///< as it is written into a diagram
-  double si(const Circumstances& at) const;
+  bool relative() const { return relative_; }  ///< true if a word of the circumstances stands in it
+  Unit unit() const;                           ///< of one that is not relative
+  Number number(const Excitation& at) const;   ///< as it is written into a diagram
+  double si(const Excitation& at) const;
 
   static std::vector<std::string> words();
 

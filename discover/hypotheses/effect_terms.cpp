@@ -39,18 +39,18 @@ Number level_within(double range, double si, const Unit& unit) {
   return {std::round(unit.from_si(si) * per_unit) / per_unit + 0.0, unit_text(unit)};  // no "-0"
 }
 
-std::string few_sizes(const Circumstances& at, const char* what) {
+std::string few_sizes(const Excitation& at, const char* what) {
   if (!at.from_data || at.swings.sizes >= 3) return "";
   return fmt::format("swings of {} size{}, three would {}", at.swings.sizes, at.swings.sizes == 1 ? "" : "s", what);
 }
 
-std::string one_speed(const Circumstances& at, double ratio, const char* what) {
+std::string one_speed(const Excitation& at, double ratio, const char* what) {
   if (!at.from_data || at.swings.speed_ratio >= ratio) return "";
   return fmt::format("the fastest swing is {:.2g} times as fast as the slowest, {:.2g} times would {}",
                      at.swings.speed_ratio, ratio, what);
 }
 
-std::string stands_still(const Circumstances& at) {
+std::string stands_still(const Excitation& at) {
   return at.from_data && at.range() <= 0 ? "the signal does not move" : "";
 }
 

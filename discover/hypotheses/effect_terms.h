@@ -36,10 +36,10 @@ Number level_within(double range, double si, const Unit& unit);
 /// Part of the stroke behind which a clearance or a guide's friction has followed; domains switch over all of it.
 inline constexpr double short_way = 0.1;
 /// Why swings of fewer than three sizes show an effect only in part (`what` they leave open); "" where there are more.
-std::string few_sizes(const Circumstances& at, const char* what);
+std::string few_sizes(const Excitation& at, const char* what);
 /// Why swings whose speeds differ less than `ratio` times do; `what` they leave open.
-std::string one_speed(const Circumstances& at, double ratio, const char* what);
+std::string one_speed(const Excitation& at, double ratio, const char* what);
 /// Why nothing can be seen at a place where the signal does not move, "" where it does or nobody looked.
-std::string stands_still(const Circumstances& at);
+std::string stands_still(const Excitation& at);
 
 }  // namespace hysteron::effects

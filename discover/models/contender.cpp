@@ -87,13 +87,13 @@ double row_tolerance(const DataModel& model, const NoiseModel& noise, double par
   return std::clamp(part * least, 1e-7, 1e-3);
 }
 
-void Workshop::let_go(const std::map<std::string, double>& numbers) {
+void Workshop::free_nominal_parameters(const std::map<std::string, double>& numbers) {
   roughly = numbers;
   for (const auto& [path, written] : numbers) free_paths.push_back(path);
 }
 
 double Contender::score() const {
-  return error_of.evidence() + parameters * std::log(std::max(error_of.witnesses, 2.0));
+  return error_of.evidence() + parameters * std::log(std::max(error_of.effective_sample_size, 2.0));
 }
 double Contender::tie_score() const { return error_of.evidence() + 2.0 * parameters; }
 
@@ -107,7 +107,7 @@ Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort ef
 }
 
 Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
-                      const Place& place, const Circumstances& at, Effort effort) {
+                      const Place& place, const Excitation& at, Effort effort) {
   Contender c;
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;

@@ -61,7 +61,7 @@ struct Contender {
 
 /// Numbers that the user holds, where they are let go: 95 % are as near to what is written as this, and none is
 /// further away than that - a device's data sheet and its maker's drawing, not another device.
-constexpr double known_to = 0.03, at_most_off = 0.15;
+constexpr double nominal_uncertainty = 0.03, at_most_off = 0.15;
 
 /// What every fit of a discovery shares.
 struct Workshop {
@@ -70,7 +70,7 @@ struct Workshop {
   std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
   /// Of these, numbers that the model holds: known roughly as they are written [SI].
   std::map<std::string, double> roughly{};
-  void let_go(const std::map<std::string, double>& numbers);
+  void free_nominal_parameters(const std::map<std::string, double>& numbers);
   const Evidence* evidence = nullptr;
   /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
   /// costs time and decides nothing.
@@ -94,7 +94,7 @@ enum class Effort {
 Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort);
 /// `before` with one more effect.
 Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
-                      const Place& place, const Circumstances& at, Effort effort);
+                      const Place& place, const Excitation& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
 Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
 /// The same model without one of its effects, with the values that were found together with it; not simulated. Not ok

@@ -232,7 +232,7 @@ ModelError Evidence::error(const Prediction& prediction) const {
       e.recordings.push_back(std::move(one));
     }
   }
-  e.witnesses = witnesses_ > 0 ? witnesses_ : e.n();
+  e.effective_sample_size = witnesses_ > 0 ? witnesses_ : e.n();
   e.noise_known = known_;
   const bool one_sum = one_dimension(base_);
   e.nrmse_train = train.nrmse(one_sum);

@@ -56,7 +56,7 @@ struct ModelError {
   double chi2() const { return chi2_train + chi2_validate; }
   double evidence() const { return evidence_train + evidence_validate; }
   double n() const { return n_train + n_validate; }
-  double witnesses = 0;     ///< independent ones among them (Evidence)
+  double effective_sample_size = 0;  ///< independent ones among them (Evidence)
   bool noise_known = true;  ///< stated by the data set; else what the best model leaves is all that is known of it
   double excess_validate() const { return chi2_validate - n_validate; }
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
@@ -129,7 +129,7 @@ class Evidence {
   const DataModel& model() const { return base_; }
   const std::vector<int>& recordings() const { return recordings_; }  ///< train and validate
   bool noise_known() const { return known_; }
-  double witnesses() const { return witnesses_; }  ///< N, or N_eff: what ln N in a score means
+  double effective_sample_size() const { return witnesses_; }  ///< N, or N_eff: what ln N in a score means
   /// Adds how far the model is from the test recordings, which this prediction holds; nothing if there are none.
   void add_test(ModelError& error, const Prediction& prediction) const;
 

@@ -47,7 +47,7 @@ bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, 
 void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f) {
   const auto n = shop.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
   if (n == shop.roughly.end()) return;
-  const double width = known_to * std::abs(n->second), most = at_most_off * std::abs(n->second);
+  const double width = nominal_uncertainty * std::abs(n->second), most = at_most_off * std::abs(n->second);
   f.prior = {n->second - width, n->second + width};
   f.lower = std::max(f.lower, n->second - most);
   f.upper = std::min(f.upper, n->second + most);

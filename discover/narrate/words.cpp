@@ -34,7 +34,7 @@ std::string what_tells_places(const Effect& effect, const std::vector<std::strin
   return "";
 }
 
-std::string remark_of(const ParameterOfEffect& p, const Circumstances& at) {
+std::string remark_of(const ParameterOfEffect& p, const Excitation& at) {
   const ParameterEstimate& e = *p.estimate;
   if (!e.determined) return "the data do not determine it";
   if (!e.value) return "";
@@ -158,7 +158,7 @@ std::string test_sentence(const ModelError& e) {
                      sizes.empty() ? "" : " (" + sizes + " rms)");
 }
 
-std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at) {
+std::vector<FoundParameter> found_parameters(const Contender& c, const Excitation& at) {
   std::vector<FoundParameter> list;
   for (const auto& e : c.fit.estimates) list.push_back({e, "", ""});
   for (const auto& p : parameters_of(c))
@@ -170,7 +170,7 @@ std::vector<FoundParameter> found_parameters(const Contender& c, const Circumsta
   return list;
 }
 
-std::string summary_of(const Contender& c, std::size_t standing, const Circumstances& at) {
+std::string summary_of(const Contender& c, std::size_t standing, const Excitation& at) {
   const Effect* effect = c.standing[standing].effect;
   const Law& law = c.standing[standing].law;
   if (!effect->summary) return "";
@@ -215,8 +215,8 @@ Candidate candidate_of(const Tried& t, int step) {
     c.parameters = t.contender.parameters;
     c.error = t.contender.error_of;
     c.score = t.contender.score();
-    c.found = found_parameters(t.contender, t.circumstances);
-    c.summary = summary_of(t.contender, t.contender.standing.size() - 1, t.circumstances);
+    c.found = found_parameters(t.contender, t.excitation);
+    c.summary = summary_of(t.contender, t.contender.standing.size() - 1, t.excitation);
   }
   c.laws_tried = t.laws_tried.empty() ? std::vector{the_only_law(c, t.fall_by_recording)} : t.laws_tried;
   return c;

@@ -212,14 +212,14 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
 }
 
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
-                 const Circumstances* circumstances, const DataSet* data) {
+                 const Excitation* excitation, const DataSet* data) {
   const Place place = place_for(effect, diagram, registry, at, data);
-  Circumstances none;
+  Excitation none;
   none.by = place.by;
-  if (circumstances == nullptr) none.unit = unit_on(diagram, registry, place.wire);
-  const auto laws = effect.laws(circumstances != nullptr ? *circumstances : none);
+  if (excitation == nullptr) none.unit = unit_on(diagram, registry, place.wire);
+  const auto laws = effect.laws(excitation != nullptr ? *excitation : none);
   Added added = add_effect(diagram, registry, effect, laws.front(), place);
-  if (circumstances == nullptr)
+  if (excitation == nullptr)
     added.remarks.push_back(fmt::format(
         "the numbers of {} are placeholders (signal 0 .. 1, rows every 1 ms, 100 s long): fit them, or add with data",
         added.name));

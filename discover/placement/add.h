@@ -44,7 +44,7 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
 /// For `hysteron add`: the simplest law at `at` (a signal or an input port; "" = the first place where the effect may
 /// enter), with start values for `circumstances`; without data these are placeholders and a remark says so.
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
-                 const Circumstances* circumstances = nullptr, const DataSet* data = nullptr);
+                 const Excitation* excitation = nullptr, const DataSet* data = nullptr);
 
 /// Throws Error "closes_loop" if the program with an effect at `at` has an algebraic loop more than the one before: it
 /// would be solved, but that is another diagram than the one that was asked about.

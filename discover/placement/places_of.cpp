@@ -48,10 +48,10 @@ std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
 /// True if a block that is its own variation is no longer neutral: a tank with the root of the level in it.
 bool has_already(const VariationDeclaration& v, const Node& body) {
   if (v.type != body.type) return false;
-  return std::any_of(v.neutral.begin(), v.neutral.end(), [&](const auto& neutral) {
-    const Value* given = body.parameters.find(neutral.parameter);
+  return std::any_of(v.null_value.begin(), v.null_value.end(), [&](const auto& null_value) {
+    const Value* given = body.parameters.find(null_value.parameter);
     if (given == nullptr) return false;
-    if (const auto* text = std::get_if<std::string>(&given->content)) return *text != neutral.value;
+    if (const auto* text = std::get_if<std::string>(&given->content)) return *text != null_value.value;
     const auto* number = std::get_if<Number>(&given->content);
     return number != nullptr && number->value != 0;
   });

@@ -32,8 +32,8 @@ std::string type_for(const Node& before, const Node& with_parameters, const Regi
   const Kernel* k = registry.find(before.type);
   if (k == nullptr || has_all(before.type)) return before.type;
   for (const auto& v : k->declaration.variations) {
-    const bool meant = std::any_of(v.neutral.begin(), v.neutral.end(), [&](const auto& neutral) {
-      return with_parameters.parameters.find(neutral.parameter) != nullptr;
+    const bool meant = std::any_of(v.null_value.begin(), v.null_value.end(), [&](const auto& null_value) {
+      return with_parameters.parameters.find(null_value.parameter) != nullptr;
     });
     if (meant && has_all(v.type)) return v.type;
   }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/placement/places.h"
 
 namespace hysteron {
@@ -24,7 +24,7 @@ std::string offered_by(const std::string& variation, const Registry& registry) {
 
 /// How near an effect that cannot be seen at a place comes to it: 2 = other recordings would show it, 1 = the diagram
 /// has something else that does the same, 0 = it is no place for it.
-int nearness(const Effect& effect, Circumstances at) {
+int nearness(const Effect& effect, Excitation at) {
   at.from_data = false;
   if (effect.unseen(at).empty()) return 2;
   at.memory_blocks.clear();

@@ -19,7 +19,7 @@ bool on_one_output(const Tried& a, const Tried& b) {
 /// Every kind of recording speaks for it, if only a little, and it is plausible.
 bool agrees(const Tried& t) {
   return t.contender.ok && t.fall_train > 0 && t.fall_validate > 0 &&
-         why_implausible(*t.effect, t.laws[t.law], t.contender, t.circumstances).empty();
+         why_implausible(*t.effect, t.laws[t.law], t.contender, t.excitation).empty();
 }
 
 /// The best candidates of the effect that begins with `i` of this order, one for each output.
@@ -61,7 +61,7 @@ Together fitted_together(const Books& books, const Workshop& shop, const std::ve
     const Tried& m = *members[k];
     books.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
     set.so_far.push_back(
-        with_effect(shop, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.circumstances, Effort::full));
+        with_effect(shop, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.excitation, Effort::full));
     const auto& before = members[k - 1]->outputs;
     set.all.outputs.insert(set.all.outputs.end(), before.begin(), before.end());
   }

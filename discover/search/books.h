@@ -1,7 +1,7 @@
 // Decides what the parts of one discovery share: the user's model and data, the present model, what was found so far.
 // Internal to discover; one file each: the start (fit_base.cpp), who is tried where (candidates.cpp), how they are
 // compared (compare_candidates.cpp), ties (ties.cpp), claims (claim.cpp, other_outputs.cpp, axes_together.cpp,
-// set_on_another_output.cpp, idle.cpp, own_numbers.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp,
+// set_on_another_output.cpp, idle.cpp, nominal_parameters.cpp, zero_held.cpp, two_in_one.cpp, reconsider.cpp,
 // another_beginning.cpp), the verdict (conclude.cpp), what is recorded of who lost (laws_tried.cpp, menu.cpp,
 // structures_tried.cpp).
 #pragma once
@@ -98,13 +98,13 @@ struct Choice {
   const Effect* effect = nullptr;
   Law law;
   Place place;
-  Circumstances at;
+  Excitation at;
 };
 /// Every effect that `may` be taken and could be seen on `model`, at each place where none of its family stands, by
 /// each of its `laws`.
 std::vector<Choice> choices_on(const Books& books, const Contender& model,
                                const std::function<bool(const Effect&)>& may,
-                               const std::function<std::vector<Law>(const Effect&, const Circumstances&)>& laws);
+                               const std::function<std::vector<Law>(const Effect&, const Excitation&)>& laws);
 /// Outputs of a model, measured or not, to which a wire leads: a coupling that reads it beside another axis does not
 /// put it on the way of that one. Empty where nobody knows.
 std::vector<std::string> outputs_moved(const Books& books, const Contender& model, const std::string& written);
@@ -153,10 +153,10 @@ int best_admitted(const std::vector<Tried>& tried);
 /// Noise by the best of them, then everybody's error in its units, then the rules.
 void compare_all(Books& books, std::vector<Tried>& tried, As as);
 /// Further effects were screened with the earlier ones held: the best few are fitted together with them.
-void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar);
+void refit_best(Books& books, std::vector<Tried>& tried, As as, double progress);
 /// A right effect with too simple a law invites wrong ones: richer laws of the best names come first. On top of an
 /// effect that was found they are screened with that one held, and fitted together only where that brings something.
-void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar);
+void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double progress);
 /// The same of one that stands beside others: the laws that refine its own.
 void refine(const Books& books, const Workshop& shop, Tried& t);
 /// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
@@ -185,14 +185,13 @@ void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, cons
 bool stays_itself(const Books& books, Tried& t);
 /// Takes the winner into the present model, with its ties and the experiment that would break them.
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar);
+           double progress);
 
 /// Into the record of what was tried. `winner`, `ties`: indices of tried; -1 = nobody.
 void keep_candidates(Books& books, const std::vector<Tried>& tried, int step, int winner, const std::vector<int>& ties);
 
 /// What the recordings show at places of the model, with what is free anyway and how the user's model rings.
-std::vector<Circumstances> circumstances_on(const Books& books, const Contender& model,
-                                            const std::vector<Place>& places);
+std::vector<Excitation> circumstances_on(const Books& books, const Contender& model, const std::vector<Place>& places);
 
 /// What a gain and a zero alone take away nearly all of is theirs first, whatever the winner's law holds besides:
 /// index of the calibration, or `winner`.
@@ -211,7 +210,7 @@ int held_one_first(const Books& books, const std::vector<Tried>& tried, int winn
 /// The effect `id`, which stands, on the way to the outputs that it does not move yet: axes are built alike and stand
 /// in one room. Each is claimed as a first effect would be there, unless another of those that were `tried` in its step
 /// explains that output better, and told as a step of its own.
-void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& tried, double bar);
+void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& tried, double progress);
 
 /// Of the laws of an effect that stands elsewhere the first, and that by which it stands; begun where it does, for one
 /// room has one frequency of its mains.
@@ -219,7 +218,7 @@ std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const s
 
 /// All effects that stand on the way to one output on that to another one, together, where none of them suffices alone:
 /// if most of what stands above the noise there goes, and nothing of it is needless, each is told as a step of its own.
-bool as_a_set_on_another_output(Books& books, double bar);
+bool as_a_set_on_another_output(Books& books, double progress);
 
 /// Where nobody was admitted in the `first` step and only noise is left: one effect on the ways to several outputs at
 /// once, if the recordings speak for all of it together. Each output is told as a step of its own. False if there is
@@ -245,23 +244,23 @@ enum class Came { one_by_one, at_once };
 /// compared with nobody: each is asked, and look-alikes that explain the recordings as well in its place are ties.
 /// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
 /// output with it.
-void reconsider(Books& books, double bar, Came came = Came::one_by_one, const Contender* before = nullptr);
+void reconsider(Books& books, double progress, Came came = Came::one_by_one, const Contender* before = nullptr);
 /// Axes are built alike: a member that stands on another one too is left for an effect that does not only where the
 /// error in the outputs' units falls as well.
 bool may_leave(const Books& books, const Standing& member, const Tried& other);
 /// A law was chosen while others were missing. Each member is tried by its other laws beside the rest; the first that
 /// brings something on recordings not used for the fit is taken, and the set told anew. False: all are as they were.
-bool refine_what_stands(Books& books, double bar);
+bool refine_what_stands(Books& books, double progress);
 /// A tie of a step was told while others were missing. Where the question is open in all steps, and only noise is left,
 /// a rival that does not explain the recordings as well beside what came later is none any more.
-void ties_beside_what_came_later(Books& books, double bar);
+void ties_beside_what_came_later(Books& books, double progress);
 /// What is left of that where time has ended: a law that could hold another effect besides its own is slow, and beside
 /// what came later that other one, alone, may be all of it.
-void exchange_for_what_they_hold(Books& books, double bar);
+void exchange_for_what_they_hold(Books& books, double progress);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.
-bool in_two(Books& books, Contender before, double bar);
+bool in_two(Books& books, Contender before, double progress);
 
 /// Where structure is left: begins with the next best of the first step instead (where nothing was claimed, with the
 /// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better

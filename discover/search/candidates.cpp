@@ -6,7 +6,7 @@
 #include <set>
 
 #include "discover/models/parts.h"
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/placement/visible.h"
 #include "discover/search/books.h"
 #include "discover/structure/residual_parts.h"
@@ -150,7 +150,7 @@ std::vector<Tried> everywhere(Books& books, int step, const Names& outputs, cons
   }
   if (list.empty()) return list;
   auto seen = circumstances_on(books, books.current, places);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i].circumstances = std::move(seen[i]);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].excitation = std::move(seen[i]);
   return list;
 }
 
@@ -167,8 +167,7 @@ void add_to(Tried& same, Tried t, std::vector<Tried>& kept) {
 
 }  // namespace
 
-std::vector<Circumstances> circumstances_on(const Books& books, const Contender& model,
-                                            const std::vector<Place>& places) {
+std::vector<Excitation> circumstances_on(const Books& books, const Contender& model, const std::vector<Place>& places) {
   auto seen = circumstances_at(model.diagram, books.registry, *books.data, places, free_anyway(books.shop, model));
   if (!model.standing.empty())
     for (auto& c : seen) c.own_resonances = books.own_resonances;
@@ -208,12 +207,12 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   books.hidden.clear();
   std::vector<Tried> kept;
   for (auto& t : everywhere(books, step, outputs, only)) {
-    if (const std::string why = t.effect->unseen(t.circumstances); !why.empty()) {
+    if (const std::string why = t.effect->unseen(t.excitation); !why.empty()) {
       if (step == 1) books.d.refused.push_back({t.effect->id, t.place.where(), why});
-      if (t.effect->may_hide && t.effect->may_hide(t.circumstances)) books.hidden.push_back(std::move(t));
+      if (t.effect->may_hide && t.effect->may_hide(t.excitation)) books.hidden.push_back(std::move(t));
       continue;
     }
-    t.laws = t.effect->laws(t.circumstances);
+    t.laws = t.effect->laws(t.excitation);
     if (t.laws.empty() || t.laws.front().free.empty()) continue;
     if (Tried* same = same_finding(kept, t))
       add_to(*same, std::move(t), kept);
@@ -230,7 +229,7 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
 
 std::vector<Choice> choices_on(const Books& books, const Contender& model,
                                const std::function<bool(const Effect&)>& may,
-                               const std::function<std::vector<Law>(const Effect&, const Circumstances&)>& laws) {
+                               const std::function<std::vector<Law>(const Effect&, const Excitation&)>& laws) {
   std::vector<Choice> list;
   for (const auto& e : books.effects.list()) {
     if (!books.wanted(e) || !may(e)) continue;
@@ -261,7 +260,7 @@ void join_twins(std::vector<Tried>& tried) {
         (!first.contender.ok || second.contender.score() < first.contender.score() + blur(first.contender))) {
       first.same_places.push_back(first.place.where());
       std::swap(first.place, second.place);
-      std::swap(first.circumstances, second.circumstances);
+      std::swap(first.excitation, second.excitation);
       std::swap(first.laws, second.laws);
       std::swap(first.law, second.law);
       std::swap(first.contender, second.contender);

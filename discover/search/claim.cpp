@@ -47,7 +47,7 @@ bool stays_itself(const Books& books, Tried& t) {
   // Of two that explain as well the one with finer rows, which knows its intervals.
   const bool as_good = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + rules::tie;
   t.finished = as_good ? std::move(final) : t.contender;
-  const auto why = why_implausible(*t.effect, t.laws[t.law], *t.finished, t.circumstances);
+  const auto why = why_implausible(*t.effect, t.laws[t.law], *t.finished, t.excitation);
   if (why.empty()) return true;
   t.admitted = false;
   t.reason = "fitted to its end: " + why;
@@ -55,9 +55,9 @@ bool stays_itself(const Books& books, Tried& t) {
 }
 
 void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double bar) {
+           double progress) {
   Tried& w = tried[winner];
-  books.progress("intervals of " + w.effect->id, bar);
+  books.progress("intervals of " + w.effect->id, progress);
   FoundStep found;
   found.before = books.current.error_of;
   stays_itself(books, w);

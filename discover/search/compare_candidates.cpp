@@ -156,7 +156,7 @@ TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_
   std::optional<Contender> as_found;
   if (step > 1 && t.contender.standing.back().weights.empty()) as_found = before_last(shop, t.contender);
   Contender richer = with_effect(shop, as_found ? *as_found : books.current, *t.effect, started_from(t, law), t.place,
-                                 t.circumstances, step == 1 ? Effort::full : Effort::screen);
+                                 t.excitation, step == 1 ? Effort::full : Effort::screen);
   if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
     Contender together = refit(shop, richer, Effort::full);
     if (together.ok) richer = std::move(together);
@@ -167,7 +167,7 @@ TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_
   if (!richer.ok) return tried;
   tried.reason = why_no_better(richer, t.contender, t.laws[t.law], gain);
   // What makes it better is then not the effect: a second mode at the limit of damping is somebody's lag.
-  if (tried.reason.empty()) tried.reason = why_implausible(*t.effect, t.laws[law], richer, t.circumstances);
+  if (tried.reason.empty()) tried.reason = why_implausible(*t.effect, t.laws[law], richer, t.excitation);
   if (!tried.reason.empty()) return tried;
   tried.taken = true;
   t.contender = std::move(richer);
@@ -236,7 +236,7 @@ void compare_all(Books& books, std::vector<Tried>& tried, As as) {
   leave_to_calibration(tried, left);
 }
 
-void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
+void refit_best(Books& books, std::vector<Tried>& tried, As as, double progress) {
   const auto worth = worth_a_fit(tried);
   const auto left = left_by_laws(books, as);
   std::vector<std::size_t> together, screened_out;
@@ -244,7 +244,7 @@ void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
     (worth.contains(i) && within_reach(books, tried[i], left) ? together : screened_out).push_back(i);
   books.side_by_side(together.size(), [&](std::size_t k, const Workshop& shop) {
     Tried& t = tried[together[k]];
-    books.progress("together with what was found: " + t.effect->id, bar);
+    books.progress("together with what was found: " + t.effect->id, progress);
     Contender better = refit(shop, t.contender, Effort::full);
     if (better.ok) t.contender = std::move(better);
     return false;
@@ -253,7 +253,7 @@ void refit_best(Books& books, std::vector<Tried>& tried, As as, double bar) {
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }
 
-void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar) {
+void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double progress) {
   const auto order = ranking(tried);
   if (order.empty()) return;
   const auto laws = laws_to_enrich_by(books, tried, order, step, as);
@@ -266,7 +266,7 @@ void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double bar
     if (!laws[k].empty()) record_present(t, books.current.error_of);
     for (const std::size_t law : laws[k]) {
       if (books.stopped()) break;
-      books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), bar);
+      books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), progress);
       record(t.laws_tried, enriched(books, shop, t, law, step));
       if (t.laws_tried.back().taken) any = true;
     }
@@ -285,10 +285,10 @@ void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, A
   const auto left = left_by_laws(books, as);
   for (auto& t : books.hidden) {
     if (!look_alike(*t.effect, winner) || books.stopped()) continue;
-    t.laws = t.effect->laws(t.circumstances);
+    t.laws = t.effect->laws(t.excitation);
     if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
     t.contender =
-        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
+        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
     if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
     judge(*books.evidence, t, books.current, left);
     t.hidden = true;

@@ -6,7 +6,7 @@
 
 #include "discover/search/between_samples.h"
 #include "discover/search/members.h"
-#include "discover/search/own_numbers.h"
+#include "discover/search/nominal_parameters.h"
 #include "discover/search/structures_tried.h"
 #include "engine/diagram/stop.h"
 #include "fit/signals/unit_words.h"
@@ -88,13 +88,13 @@ JudgedSearch in_all_recordings(const Books& books) {
   const Structure* s = judged.search.winner();
   if (s == nullptr) return judged;
   if (removed_beyond_calibration(books, *s).validate > rules::hardly_shown * s->fall.all())
-    judged.bar.why_not = "the recordings that judge prove the effects, and decide";
+    judged.requirement.why_not = "the recordings that judge prove the effects, and decide";
   else
-    judged.bar = beside_effects(books, *s, Where::all_recordings);
+    judged.requirement = beside_effects(books, *s, Where::all_recordings);
   return judged;
 }
 
-bool wins(const JudgedSearch& judged) { return judged.search.best >= 0 && judged.bar.passed(); }
+bool wins(const JudgedSearch& judged) { return judged.search.best >= 0 && judged.requirement.passed(); }
 
 /// Other recordings show more of it than chance, and it holds a good part of what is left.
 Requirement to_stand_out(const Structure& s) {
@@ -216,12 +216,12 @@ struct OfBase {
 OfBase structure_of_base(Books& books, const Left& left) {
   const bool none_found = books.d.steps.empty();
   JudgedSearch judged{left.search, Where::validation, {}}, all{{}, Where::all_recordings, {}};
-  if (left.structure() != nullptr) judged.bar = beside_effects(books, *left.structure(), Where::validation);
+  if (left.structure() != nullptr) judged.requirement = beside_effects(books, *left.structure(), Where::validation);
   if (!wins(judged) && (left.more_than_noise || !none_found)) all = in_all_recordings(books);
   const std::string more =
       none_found ? "more than chance, and no effect was found" : "takes more away than the effects that were found";
   const bool alone = !wins(judged) && !wins(all) && none_found && left.is_unexplained() && left.told();
-  if (alone) judged.bar = {rules::claim_fall, ""};
+  if (alone) judged.requirement = {rules::claim_fall, ""};
   keep_structures(books.d, judged, LeftBy::base, wins(judged) ? more : "");
   keep_structures(books.d, all, LeftBy::base, wins(all) ? more : "");
   if (wins(judged)) return {*judged.search.winner(), !alone};
@@ -234,7 +234,7 @@ void structure_behind_effects(Books& books) {
   JudgedSearch rest{
       find_structures(*books.evidence, books.current.prediction, books.shop.threads), Where::validation, {}};
   const Structure* s = rest.search.winner();
-  if (s != nullptr) rest.bar = to_stand_out(*s);
+  if (s != nullptr) rest.requirement = to_stand_out(*s);
   const bool told = wins(rest);
   if (told) books.d.structure = *s;
   keep_structures(books.d, rest, LeftBy::effects, told ? "stands out of what the effects leave" : "");

@@ -14,7 +14,7 @@
 #include "discover/models/parts.h"
 #include "discover/search/between_samples.h"
 #include "discover/search/books.h"
-#include "discover/search/own_numbers.h"
+#include "discover/search/nominal_parameters.h"
 #include "discover/search/room.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
@@ -137,7 +137,7 @@ void fit_candidates(Books& books, std::vector<Tried>& tried, int step) {
     const double part = 0.6 * static_cast<double>(i) / static_cast<double>(tried.size());
     books.progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
                    (step - 1 + part) / books.options.max_steps);
-    t.contender = with_effect(shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances,
+    t.contender = with_effect(shop, books.current, *t.effect, t.laws.front(), t.place, t.excitation,
                               step == 1 || taken_up(books, *t.effect) ? Effort::full : Effort::screen);
     return false;
   });
@@ -200,7 +200,7 @@ void decide(const Books& books, const std::function<void()>& work) {
 /// False if nothing was claimed. `kept`: what was tried; `outputs`: only what moves none but these, all if empty.
 bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std::vector<std::string>& outputs = {},
               const std::vector<const Effect*>& only = {}) {
-  const auto bar = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
+  const auto progress = [&](double part) { return (step - 1 + part) / books.options.max_steps; };
   auto tried = list_candidates(books, step, outputs, only);
   fit_candidates(books, tried, step);
   if (step > 1 && books.stopped()) {  // who was not asked might have been the one
@@ -214,15 +214,15 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   const Contender before = books.current;
   decide(books, [&] {
     compare_all(books, tried, as);
-    if (step > 1) refit_best(books, tried, as, bar(0.7));
-    enrich(books, tried, step, as, bar(0.8));
+    if (step > 1) refit_best(books, tried, as, progress(0.7));
+    enrich(books, tried, step, as, progress(0.8));
     winner = who_wins(books, tried);
     numbers = are_the_numbers(books, winner >= 0 ? &tried[static_cast<std::size_t>(winner)] : nullptr);
     if (winner < 0 || numbers) return;
     try_hidden(books, tried, *tried[static_cast<std::size_t>(winner)].effect, as);
     ties = ties_of(books, tried, static_cast<std::size_t>(winner));
     as_on_another_axis(books, tried, winner, ties);
-    claim(books, step, tried, static_cast<std::size_t>(winner), ties, bar(0.9));
+    claim(books, step, tried, static_cast<std::size_t>(winner), ties, progress(0.9));
   });
   if (numbers) {
     keep_candidates(books, tried, step, -1, {});
@@ -231,9 +231,9 @@ bool one_step(Books& books, int step, As as, std::vector<Tried>* kept, const std
   if (winner >= 0) {
     const std::string id = tried[static_cast<std::size_t>(winner)].effect->id;
     unless_it_fails(books, [&] {
-      in_two(books, before, bar(0.92));
-      on_other_outputs(books, id, tried, bar(0.93));
-      if (found_effects(books) > 1) reconsider(books, bar(0.95), Came::one_by_one, &before);
+      in_two(books, before, progress(0.92));
+      on_other_outputs(books, id, tried, progress(0.93));
+      if (found_effects(books) > 1) reconsider(books, progress(0.95), Came::one_by_one, &before);
       return true;
     });
   }
@@ -351,7 +351,7 @@ class Searches {
     auto books = std::make_unique<Books>(diagram, as_found(data, with_), registry, effects, options);
     books->d.smooth_inputs = with_.smooth_inputs;
     books->d.asked_for = options.only;
-    if (!numbers_.empty()) books->shop.let_go(numbers_);
+    if (!numbers_.empty()) books->shop.free_nominal_parameters(numbers_);
     search(*books);
     runs_ += books->shop.notes->runs();
     return books;

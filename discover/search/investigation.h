@@ -17,7 +17,7 @@ namespace hysteron {
 struct Tried {
   const Effect* effect = nullptr;
   Place place;
-  Circumstances circumstances;
+  Excitation excitation;
   std::vector<Law> laws;
   std::size_t law = 0;  ///< of laws: the one in `contender`
   std::vector<std::string> same_places, same_effects;
@@ -140,18 +140,18 @@ std::string what_it_takes(const Tried& tried);
 
 /// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
 /// is.
-std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at);
+std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Excitation& at);
 
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);
 
 std::string percent(double share);
-std::vector<FoundParameter> found_parameters(const Contender& c, const Circumstances& at);
+std::vector<FoundParameter> found_parameters(const Contender& c, const Excitation& at);
 Candidate candidate_of(const Tried& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
 std::string step_sentence(const FoundStep& step, const Effect& effect);
 /// Of the effect that stands at this index, with the values of the whole model; "" where its law says nothing.
-std::string summary_of(const Contender& c, std::size_t standing, const Circumstances& at);
+std::string summary_of(const Contender& c, std::size_t standing, const Excitation& at);
 /// Headline, sentences, warnings of the finished discovery.
 void put_into_words(Discovery& d, const DataSet& data);
 

@@ -280,7 +280,7 @@ std::string what_it_takes(const Tried& tried) {
                      tried.fall_validate, percent(std::clamp(tried.share, 0.0, 1.0)));
 }
 
-std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Circumstances& at) {
+std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Excitation& at) {
   if (!effect.implausible) return "";
   const auto values = values_of(fitted, fitted.standing.size() - 1);
   return !values.empty() && values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
@@ -368,7 +368,7 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     tried.reason = fmt::format("its {} parameters cost more than they bring", c.parameters - before.parameters);
     return;
   }
-  if (const std::string why = why_implausible(*tried.effect, tried.laws[tried.law], c, tried.circumstances);
+  if (const std::string why = why_implausible(*tried.effect, tried.laws[tried.law], c, tried.excitation);
       !why.empty()) {
     tried.reason = why;
     return;

@@ -13,14 +13,13 @@ std::optional<Tried> tried_at(const Books& books, const Workshop& shop, const Co
   Tried t;
   t.effect = m.effect;
   t.place = place;
-  t.circumstances = circumstances_on(books, model, {place}).front();
-  if (line == Line::held && m.effect->of_the_sensor())
-    t.circumstances.gain_is_free = t.circumstances.offset_is_free = true;
-  t.laws = m.effect->laws(t.circumstances);
+  t.excitation = circumstances_on(books, model, {place}).front();
+  if (line == Line::held && m.effect->of_the_sensor()) t.excitation.gain_is_free = t.excitation.offset_is_free = true;
+  t.laws = m.effect->laws(t.excitation);
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
   if (law == t.laws.end()) return std::nullopt;
   t.law = static_cast<std::size_t>(law - t.laws.begin());
-  t.contender = with_effect(shop, model, *t.effect, *law, t.place, t.circumstances, Effort::full);
+  t.contender = with_effect(shop, model, *t.effect, *law, t.place, t.excitation, Effort::full);
   if (!t.contender.ok) return std::nullopt;
   t.admitted = true;
   return t;
@@ -115,7 +114,7 @@ bool tell_again(Books& books, const Contender& set) {
       if (set.score() < t->contender.score()) t->contender = set;
       sharpen(books, *t);
     }
-    if (!why_implausible(*t->effect, t->laws[t->law], t->contender, t->circumstances).empty()) break;
+    if (!why_implausible(*t->effect, t->laws[t->law], t->contender, t->excitation).empty()) break;
     FoundStep found;
     for (const auto& was : steps)
       if (was.winner.effect == t->effect->id && was.winner.place == t->place.where()) {

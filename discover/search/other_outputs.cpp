@@ -45,13 +45,13 @@ std::vector<const Effect*> with_rivals(const Books& books, const Effect& effect)
 
 /// Fits each on the way to these outputs.
 std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& outputs,
-                            const std::vector<const Effect*>& effects, int step, double bar) {
+                            const std::vector<const Effect*>& effects, int step, double progress) {
   auto tried = list_candidates(books, step, outputs, effects);
   books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = tried[i];
-    books.progress(t.effect->id + " at " + t.place.where(), bar);
+    books.progress(t.effect->id + " at " + t.place.where(), progress);
     for (const Law& law : laws_as_found(books, *t.effect, t.laws)) {
-      Contender c = with_effect(shop, books.current, *t.effect, law, t.place, t.circumstances, Effort::full);
+      Contender c = with_effect(shop, books.current, *t.effect, law, t.place, t.excitation, Effort::full);
       const bool stays = t.contender.ok && (!c.ok || c.score() >= t.contender.score());
       TriedLaw one = tried_law(law, c, books.current.error_of);
       one.taken = c.ok && !stays;
@@ -67,7 +67,7 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
   });
   join_twins(tried);
   compare_all(books, tried, As::first);
-  enrich(books, tried, step, As::first, bar);
+  enrich(books, tried, step, As::first, progress);
   return tried;
 }
 
@@ -105,7 +105,7 @@ std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const s
   return list;
 }
 
-void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& others_tried, double bar) {
+void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& others_tried, double progress) {
   if (books.base_model->outputs().size() < 2) return;
   while (!books.stopped()) {
     const Effect* effect = standing_effect(books, id);
@@ -113,7 +113,7 @@ void on_other_outputs(Books& books, const std::string& id, const std::vector<Tri
     const auto others = outputs_without(books, effect->family);
     if (others.empty()) return;
     const int step = static_cast<int>(books.d.steps.size()) + 1;
-    auto tried = tried_on(books, others, with_rivals(books, *effect), step, bar);
+    auto tried = tried_on(books, others, with_rivals(books, *effect), step, progress);
     const int winner = best_place(books, tried, *effect, others_tried);
     std::vector<int> ties;
     if (winner >= 0) {
@@ -121,7 +121,7 @@ void on_other_outputs(Books& books, const std::string& id, const std::vector<Tri
       const auto index = static_cast<std::size_t>(winner);
       try_hidden(books, tried, *effect, As::first);
       ties = ties_of(books, tried, index);
-      claim(books, step, tried, index, ties, bar);
+      claim(books, step, tried, index, ties, progress);
     }
     keep_candidates(books, tried, step, winner, ties);
     if (winner < 0) return;

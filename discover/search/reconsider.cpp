@@ -14,7 +14,7 @@ namespace {
 
 /// Laws by which a look-alike is tried in place of a member: the simplest, those that refine none, and the one that is
 /// called as the member's is (two curves of order 5).
-std::vector<Law> laws_to_try(const Effect& effect, const Circumstances& at, const std::string& like) {
+std::vector<Law> laws_to_try(const Effect& effect, const Excitation& at, const std::string& like) {
   auto laws = effect.laws(at);
   if (!laws.empty())
     laws.erase(std::remove_if(laws.begin() + 1, laws.end(), [&](const Law& l) { return !l.apart && l.name != like; }),
@@ -48,13 +48,13 @@ struct Asked {
 
 /// What is left without each member that is asked.
 using Rests = std::vector<std::optional<Contender>>;
-Rests rests_of(const Books& books, double bar, const Asked& asked) {
+Rests rests_of(const Books& books, double progress, const Asked& asked) {
   Rests rests(books.current.standing.size() - (asked.last ? 0 : 1));
   const auto beside = asked.before != nullptr ? beside_new_ones(books, *asked.before)
                                               : std::vector<bool>(books.current.standing.size(), true);
   books.side_by_side(rests.size(), [&](std::size_t i, const Workshop& shop) {
     if (!beside[i]) return false;
-    books.progress("without " + books.current.standing[i].effect->id, bar);
+    books.progress("without " + books.current.standing[i].effect->id, progress);
     rests[i] = rest_of(books, shop, i);
     return false;
   });
@@ -97,7 +97,7 @@ bool is_as_good(const Books& books, const Tried& t) {
 Contender refined(const Books& books, Tried t) {
   if (t.contender.error_of.over_floor() <= rules::floor_gate) return std::move(t.contender);
   const std::string by = t.laws.front().name;
-  t.laws = t.effect->laws(t.circumstances);
+  t.laws = t.effect->laws(t.excitation);
   const auto same = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& law) { return law.name == by; });
   if (same == t.laws.end()) return std::move(t.contender);
   t.law = static_cast<std::size_t>(same - t.laws.begin());
@@ -108,19 +108,19 @@ Contender refined(const Books& books, Tried t) {
 /// Who `may` stand in place of the member, each by its laws, fitted; those that are themselves are admitted. Ends with
 /// the first one for which `enough` holds.
 std::vector<Tried> fitted_in_place(
-    const Books& books, const Contender& rest, const Standing& m, double bar,
+    const Books& books, const Contender& rest, const Standing& m, double progress,
     const std::function<bool(const Effect&)>& may,
     const std::function<bool(const Tried&)>& enough = [](const Tried&) { return false; }) {
-  const auto list = choices_on(
-      books, rest, may, [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, m.law.name); });
+  const auto list = choices_on(books, rest, may,
+                               [&](const Effect& e, const Excitation& at) { return laws_to_try(e, at, m.law.name); });
   std::vector<Tried> fitted(list.size());
   const std::size_t last = books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
-    books.progress(fmt::format("{} in place of {}", effect->id, m.effect->id), bar);
+    books.progress(fmt::format("{} in place of {}", effect->id, m.effect->id), progress);
     Tried& t = fitted[i];
     t.effect = effect;
     t.place = place;
-    t.circumstances = at;
+    t.excitation = at;
     t.laws = {law};
     t.contender = with_effect(shop, rest, *effect, law, place, at, Effort::full);
     t.admitted = t.contender.ok && why_implausible(*effect, law, t.contender, at).empty();
@@ -162,14 +162,14 @@ bool is_needless(const Books& books, const Effect& member, const Contender& rest
 namespace {
 
 /// `may`: who is tried.
-InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double bar,
+InPlace in_place_of(const Books& books, const Contender& rest, const Standing& m, double progress,
                     const std::function<bool(const Effect&)>& may) {
   const auto is_better = [&](const Tried& t) {
     return (t.contender.score() < books.current.score() - rules::exchange ||
             is_all_of_it(books, rest, *m.effect, *t.effect, t.contender)) &&
            may_leave(books, m, t);
   };
-  auto fitted = fitted_in_place(books, rest, m, bar, may, is_better);
+  auto fitted = fitted_in_place(books, rest, m, progress, may, is_better);
   InPlace found;
   if (!fitted.empty() && fitted.back().admitted && is_better(fitted.back())) {
     found.better = refined(books, std::move(fitted.back()));
@@ -216,8 +216,8 @@ std::vector<std::string> ties_of_step(Books& books, const Member& member) {
 /// The best of these effects in place of the member, if it explains as much, or in the outputs' units more: laws that
 /// are not exact are no ties by chi2 alone.
 std::optional<Tried> as_good_as(const Books& books, const Contender& rest, const Standing& m,
-                                const std::vector<std::string>& ids, double bar) {
-  auto fitted = fitted_in_place(books, rest, m, bar,
+                                const std::vector<std::string>& ids, double progress) {
+  auto fitted = fitted_in_place(books, rest, m, progress,
                                 [&](const Effect& e) { return std::find(ids.begin(), ids.end(), e.id) != ids.end(); });
   std::erase_if(fitted, [](const Tried& t) { return !t.admitted; });
   const auto best = std::min_element(fitted.begin(), fitted.end(), scores_less);
@@ -229,7 +229,7 @@ std::optional<Tried> as_good_as(const Books& books, const Contender& rest, const
 
 /// Axes are built alike: a member that could not be told from an effect which stands on another axis since then is that
 /// one, and the member becomes its tie.
-void as_on_later_axes(Books& books, double bar) {
+void as_on_later_axes(Books& books, double progress) {
   if (books.base_model->outputs().size() < 2) return;
   const auto standing = books.current.standing;
   const auto members = members_of(books.current);
@@ -240,7 +240,7 @@ void as_on_later_axes(Books& books, double bar) {
     if (ids.empty()) continue;
     const auto rest = rest_of(books, books.shop, i);
     if (!rest) continue;
-    auto alike = as_good_as(books, *rest, standing[i], ids, bar);
+    auto alike = as_good_as(books, *rest, standing[i], ids, progress);
     if (!alike) continue;
     const Contender set = refined(books, std::move(*alike));
     if (!tell_again(books, set)) continue;
@@ -255,18 +255,18 @@ void as_on_later_axes(Books& books, double bar) {
 
 }  // namespace
 
-void reconsider(Books& books, double bar, Came came, const Contender* before) {
-  as_on_later_axes(books, bar);
+void reconsider(Books& books, double progress, Came came, const Contender* before) {
+  as_on_later_axes(books, progress);
   const bool all_at_once = came == Came::at_once;
   const Asked asked{all_at_once, before};
-  Rests rests = rests_of(books, bar, asked);
+  Rests rests = rests_of(books, progress, asked);
   if (const Contender* rest = without_a_needless_one(books, rests); rest != nullptr && tell_again(books, *rest))
-    rests = rests_of(books, bar, asked);
+    rests = rests_of(books, progress, asked);
   const auto members = members_of(books.current);
   const auto standing = books.current.standing;
   for (std::size_t i = 0; i < rests.size() && !books.stopped(); ++i) {
     if (!rests[i]) continue;
-    auto in_place = in_place_of(books, *rests[i], standing[i], bar,
+    auto in_place = in_place_of(books, *rests[i], standing[i], progress,
                                 [&](const Effect& e) { return may_stand_for(books, standing[i], e); });
     if (in_place.better && tell_again(books, *in_place.better)) return;  // the members stand in another order now
     if (all_at_once) tell_ties(books, *rests[i], members[i], in_place.as_good);
@@ -276,10 +276,11 @@ void reconsider(Books& books, double bar, Came came, const Contender* before) {
 namespace {
 
 /// The member on the rest by the law that fits best of those that it does not have, at its place.
-std::optional<Contender> by_another_law(const Books& books, const Contender& rest, const Standing& member, double bar) {
+std::optional<Contender> by_another_law(const Books& books, const Contender& rest, const Standing& member,
+                                        double progress) {
   const auto list = choices_on(
       books, rest, [&](const Effect& e) { return &e == member.effect; },
-      [&](const Effect& e, const Circumstances& at) {
+      [&](const Effect& e, const Excitation& at) {
         auto laws = e.laws(at);
         std::erase_if(laws, [&](const Law& law) { return law.name == member.law.name; });
         return laws;
@@ -288,7 +289,7 @@ std::optional<Contender> by_another_law(const Books& books, const Contender& res
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
     if (place.kind != member.place.kind || place.where() != member.place.where()) return false;
-    books.progress(fmt::format("{} beside the others: {}", effect->id, law.name), bar);
+    books.progress(fmt::format("{} beside the others: {}", effect->id, law.name), progress);
     fitted[i] = with_effect(shop, rest, *effect, law, place, at, Effort::full);
     fitted[i].ok = fitted[i].ok && why_implausible(*effect, law, fitted[i], at).empty();
     return false;
@@ -301,19 +302,19 @@ std::optional<Contender> by_another_law(const Books& books, const Contender& res
 
 }  // namespace
 
-bool refine_what_stands(Books& books, double bar) {
+bool refine_what_stands(Books& books, double progress) {
   const auto standing = books.current.standing;
   for (std::size_t i = 0; i < standing.size() && standing.size() > 1 && !books.stopped(); ++i) {
     const auto rest = rest_of(books, books.shop, i);
     if (!rest) continue;
-    const auto richer = by_another_law(books, *rest, standing[i], bar);
+    const auto richer = by_another_law(books, *rest, standing[i], progress);
     if (!richer) continue;
     const double others_say = books.current.error_of.evidence_validate - richer->error_of.evidence_validate;
     // Where nobody states the noise, what is slow is taken for some, and chi2 falls while the error grows.
     if (!(richer->error_of.nrmse_validate < books.current.error_of.nrmse_validate)) continue;
     if (others_say > rules::exchange && richer->score() < books.current.score() - rules::exchange &&
         tell_again(books, *richer)) {
-      reconsider(books, bar, Came::at_once);
+      reconsider(books, progress, Came::at_once);
       return true;
     }
   }
@@ -325,15 +326,15 @@ namespace {
 /// Does the rival of a step explain the recordings as well as the member beside all the others, by its simplest law or
 /// that by which it was tied?
 bool is_tied_beside(const Books& books, const Contender& rest, const std::string& rival, const std::string& tied_by,
-                    double bar) {
+                    double progress) {
   const Effect& effect = books.effects.get(rival);
   const auto list = choices_on(
       books, rest, [&](const Effect& e) { return &e == &effect; },
-      [&](const Effect& e, const Circumstances& at) { return laws_to_try(e, at, tied_by); });
+      [&](const Effect& e, const Excitation& at) { return laws_to_try(e, at, tied_by); });
   std::vector<char> as_good(list.size(), 0);
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [e, law, place, at] = list[i];
-    books.progress(fmt::format("is it {} beside what came later", e->id), bar);
+    books.progress(fmt::format("is it {} beside what came later", e->id), progress);
     Contender c = with_effect(shop, rest, *e, law, place, at, Effort::full);
     if (c.ok) c = refit(shop, c, Effort::final);
     if (!c.ok) return false;
@@ -346,7 +347,7 @@ bool is_tied_beside(const Books& books, const Contender& rest, const std::string
 
 }  // namespace
 
-void ties_beside_what_came_later(Books& books, double bar) {
+void ties_beside_what_came_later(Books& books, double progress) {
   auto& steps = books.d.steps;
   if (steps.size() < 2 || books.current.error_of.over_floor() > rules::floor_gate) return;
   const auto members = members_of(books.current);
@@ -357,10 +358,11 @@ void ties_beside_what_came_later(Books& books, double bar) {
     if (step->ties.empty() && same.empty()) continue;
     const auto rest = rest_of(books, books.shop, i);
     if (!rest) continue;
-    std::erase_if(step->ties, [&](const Candidate& c) { return !is_tied_beside(books, *rest, c.effect, c.law, bar); });
+    std::erase_if(step->ties,
+                  [&](const Candidate& c) { return !is_tied_beside(books, *rest, c.effect, c.law, progress); });
     // In a linear chain its place is of no matter; it is where a gap or a curve stands in it by now.
     std::erase_if(same,
-                  [&](const std::string& id) { return !is_tied_beside(books, *rest, id, step->winner.law, bar); });
+                  [&](const std::string& id) { return !is_tied_beside(books, *rest, id, step->winner.law, progress); });
     if (same.empty()) step->winner.same_places.clear();
     if (step->ties.empty()) {
       step->experiment.reset();
@@ -370,17 +372,18 @@ void ties_beside_what_came_later(Books& books, double bar) {
   }
 }
 
-void exchange_for_what_they_hold(Books& books, double bar) {
+void exchange_for_what_they_hold(Books& books, double progress) {
   for (std::size_t i = 0; i < books.current.standing.size() && !books.stopped(); ++i) {
     const Standing member = books.current.standing[i];
     if (member.law.holds.empty() || books.current.standing.size() == 1) continue;
     const auto rest = rest_of(books, books.shop, i);
     if (!rest) continue;
-    const auto in_place = in_place_of(books, *rest, member, bar, [&](const Effect& e) {
+    const auto in_place = in_place_of(books, *rest, member, progress, [&](const Effect& e) {
       return member.effect != &e && could_hold(books, member.law, e);
     });
     if (!in_place.better || !tell_again(books, *in_place.better)) continue;
-    return reconsider(books, bar, Came::at_once);  // the others were found beside the slow law: now they cost little
+    return reconsider(books, progress,
+                      Came::at_once);  // the others were found beside the slow law: now they cost little
   }
 }
 

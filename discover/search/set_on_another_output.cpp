@@ -21,10 +21,10 @@ std::vector<const Effect*> missing_on(const Books& books, const std::string& out
 
 /// `model` with the effect at the best place on the way to this output alone, by the laws by which it stands elsewhere.
 std::optional<Tried> with_effect_on(const Books& books, const Contender& model, const Effect& effect,
-                                    const std::string& output, double bar) {
+                                    const std::string& output, double progress) {
   auto list = choices_on(
       books, model, [&](const Effect& e) { return &e == &effect; },
-      [&](const Effect& e, const Circumstances& at) { return laws_as_found(books, e, e.laws(at)); });
+      [&](const Effect& e, const Excitation& at) { return laws_as_found(books, e, e.laws(at)); });
   std::erase_if(list, [&](const Choice& c) {
     const auto moved = measured_moved(books, model, c.place.wire);
     return moved.size() != 1 || books.base_model->outputs()[static_cast<std::size_t>(moved.front())] != output;
@@ -32,10 +32,10 @@ std::optional<Tried> with_effect_on(const Books& books, const Contender& model, 
   std::vector<Tried> fitted(list.size());
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     Tried& t = fitted[i];
-    books.progress(effect.id + ", with what stands on another axis, at " + list[i].place.where(), bar);
+    books.progress(effect.id + ", with what stands on another axis, at " + list[i].place.where(), progress);
     t.effect = &effect;
     t.place = list[i].place;
-    t.circumstances = list[i].at;
+    t.excitation = list[i].at;
     t.laws = {list[i].law};
     t.outputs = {output};
     t.contender = with_effect(shop, model, effect, list[i].law, list[i].place, list[i].at, Effort::full);
@@ -51,11 +51,11 @@ std::optional<Tried> with_effect_on(const Books& books, const Contender& model, 
 
 /// All of them, each on top of those before it; empty where one cannot be had.
 std::vector<Tried> all_on(const Books& books, const std::vector<const Effect*>& effects, const std::string& output,
-                          double bar) {
+                          double progress) {
   std::vector<Tried> set;
   for (const Effect* e : effects) {
     if (books.stopped()) return {};
-    auto t = with_effect_on(books, set.empty() ? books.current : set.back().contender, *e, output, bar);
+    auto t = with_effect_on(books, set.empty() ? books.current : set.back().contender, *e, output, progress);
     if (!t) return {};
     set.push_back(std::move(*t));
   }
@@ -76,7 +76,7 @@ bool speaks_for(const Contender& before, const Contender& after) {
 }
 
 /// As a first effect has to, the set takes most of what stands above the noise there, and none of it is needless.
-bool belongs_there(const Books& books, const std::vector<Tried>& set, const std::string& output, double bar) {
+bool belongs_there(const Books& books, const std::vector<Tried>& set, const std::string& output, double progress) {
   const Contender& all = set.back().contender;
   const double excess = excess_on(books.current.error_of, output);
   if (!speaks_for(books.current, all) || excess - excess_on(all.error_of, output) < rules::share_of_first * excess)
@@ -85,7 +85,7 @@ bool belongs_there(const Books& books, const std::vector<Tried>& set, const std:
     std::vector<const Effect*> others;
     for (std::size_t k = 0; k < set.size(); ++k)
       if (k != i) others.push_back(set[k].effect);
-    const auto rest = all_on(books, others, output, bar);
+    const auto rest = all_on(books, others, output, progress);
     if (!rest.empty() && !speaks_for(rest.back().contender, all)) return false;
   }
   return speaks_for(set[set.size() - 2].contender, all);
@@ -93,7 +93,7 @@ bool belongs_there(const Books& books, const std::vector<Tried>& set, const std:
 
 }  // namespace
 
-bool as_a_set_on_another_output(Books& books, double bar) {
+bool as_a_set_on_another_output(Books& books, double progress) {
   const auto outputs = books.base_model->outputs();
   if (outputs.size() < 2) return false;
   books.current.error_of = books.evidence->error(books.current.prediction);
@@ -101,8 +101,8 @@ bool as_a_set_on_another_output(Books& books, double bar) {
     const auto effects = missing_on(books, output);
     // One alone was asked for when it was found.
     if (effects.size() < 2 || !(excess_on(books.current.error_of, output) > 0)) continue;
-    auto set = all_on(books, effects, output, bar);
-    if (set.empty() || !belongs_there(books, set, output, bar)) continue;
+    auto set = all_on(books, effects, output, progress);
+    if (set.empty() || !belongs_there(books, set, output, progress)) continue;
     sharpen(books, set.back());
     for (auto& t : set) {
       const int step = static_cast<int>(books.d.steps.size()) + 1;

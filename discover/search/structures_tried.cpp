@@ -28,9 +28,9 @@ void keep_structures(Discovery& d, const JudgedSearch& judged, LeftBy left_by, c
     tried.left_by = left_by;
     tried.where = judged.where;
     if (&s == best) {
-      tried.needed = judged.bar.needed;
+      tried.needed = judged.requirement.needed;
       tried.told = !why_told.empty();
-      tried.reason = tried.told ? why_told : judged.bar.why_not;
+      tried.reason = tried.told ? why_told : judged.requirement.why_not;
     } else {
       tried.reason = why_not_the_best(s, best, judged.where);
     }

@@ -20,7 +20,7 @@ struct Requirement {
 struct JudgedSearch {
   StructureSearch search;
   Where where = Where::validation;
-  Requirement bar{};
+  Requirement requirement{};
 };
 
 /// All of them into the record. `why_told`: why the best one is told to people, "" if it is not.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/search/books.h"
 #include "discover/wiring/wiring.h"
 
@@ -43,7 +43,7 @@ void sharpen(Books& books, Tried& t) {
   finer.error_of = books.evidence->error(finer.prediction);
   t.contender = std::move(finer);
   // Where it goes on to, it may no longer be itself.
-  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.contender, t.circumstances); !why.empty()) {
+  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.contender, t.excitation); !why.empty()) {
     t.admitted = false;
     t.reason = why;
   }

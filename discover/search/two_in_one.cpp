@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/search/books.h"
 
 namespace hysteron {
@@ -39,14 +39,15 @@ std::optional<Contender> by_a_plain_law(const Books& books, const Contender& bef
 
 /// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places:
 /// screened with the plain law held, the best few are fitted together with it.
-std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed, double bar) {
+std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed,
+                                         double progress) {
   const auto list = choices_on(
       books, plain, [&](const Effect& e) { return could_hold(books, mixed, e); },
-      [](const Effect& e, const Circumstances& at) { return e.laws(at); });
+      [](const Effect& e, const Excitation& at) { return e.laws(at); });
   std::vector<Contender> fitted(list.size());
   books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
-    books.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), bar);
+    books.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), progress);
     fitted[i] = with_effect(shop, plain, *effect, law, place, at, Effort::screen);
     return false;
   });
@@ -94,15 +95,15 @@ int held_one_first(const Books& books, const std::vector<Tried>& tried, int winn
   return winner;
 }
 
-bool in_two(Books& books, Contender before, double bar) {
+bool in_two(Books& books, Contender before, double progress) {
   const Standing mixed = books.current.standing.back();
   const auto stands = [&](const Standing& s) { return could_hold(books, mixed.law, *s.effect); };
   if (mixed.law.holds.empty() || std::any_of(before.standing.begin(), before.standing.end(), stands)) return false;
-  books.progress(fmt::format("{} by itself", mixed.effect->id), bar);
+  books.progress(fmt::format("{} by itself", mixed.effect->id), progress);
   before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
   const auto plain = by_a_plain_law(books, before, mixed);
   if (!plain) return false;
-  const auto best = with_a_held_one(books, *plain, mixed.law, bar);
+  const auto best = with_a_held_one(books, *plain, mixed.law, progress);
   return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
          tell_again(books, *best);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/search/books.h"
 #include "discover/search/members.h"
 

@@ -74,10 +74,10 @@ void sort_poles(std::vector<std::complex<double>>& list) {
 }
 
 /// The first sampled block between inputs and outputs, or -1.
-int sampled_on_the_way(const Program& program, const WiredSlopes& wired, const Flow& flow) {
+int sampled_on_the_way(const Program& program, const WiredSlopes& flattened, const Flow& flow) {
   if (program.sampled_blocks.empty()) return -1;
-  const auto between = wired.between(flow);
-  int held = wired.states() + wired.sampled_states(), state = wired.states();
+  const auto between = flattened.between(flow);
+  int held = flattened.states() + flattened.sampled_states(), state = flattened.states();
   for (const int b : program.sampled_blocks) {
     const auto& sizes = program.blocks[at(b)].sizes;
     for (int i = 0; i < sizes.sampled_states; ++i)
@@ -93,8 +93,8 @@ int sampled_on_the_way(const Program& program, const WiredSlopes& wired, const F
 }  // namespace
 
 bool is_sampled(const Program& program, const Run& run, const LinearizeOptions& options) {
-  const WiredSlopes wired(program, run, options);
-  return sampled_on_the_way(program, wired, wired.flow()) >= 0;
+  const WiredSlopes flattened(program, run, options);
+  return sampled_on_the_way(program, flattened, flattened.flow()) >= 0;
 }
 
 std::vector<int> blocks_that_cut(const Program& program, const Run& run, const LinearizeOptions& options) {
@@ -102,9 +102,9 @@ std::vector<int> blocks_that_cut(const Program& program, const Run& run, const L
 }
 
 LinearModel linearize(const Program& program, const Run& run, const LinearizeOptions& options) {
-  const WiredSlopes wired(program, run, options);
-  const Flow flow = wired.flow();
-  if (const int block = sampled_on_the_way(program, wired, flow); block >= 0) {
+  const WiredSlopes flattened(program, run, options);
+  const Flow flow = flattened.flow();
+  if (const int block = sampled_on_the_way(program, flattened, flow); block >= 0) {
     const auto& b = program.blocks[at(block)];
     fail("not_linear", b.path,
          fmt::format("{} \"{}\" is sampled: what passes it moves at its instants only, which no linear system in "
@@ -113,9 +113,9 @@ LinearModel linearize(const Program& program, const Run& run, const LinearizeOpt
          fmt::format("open the loop there (--open {}) to see the continuous part, or choose a continuous controller",
                      b.path));
   }
-  const int h = wired.held(), m = wired.inputs(), k = static_cast<int>(wired.channels().size());
+  const int h = flattened.held(), m = flattened.inputs(), k = static_cast<int>(flattened.channels().size());
   std::vector<int> sources;
-  for (const auto& channel : wired.channels()) sources.push_back(channel.source);
+  for (const auto& channel : flattened.channels()) sources.push_back(channel.source);
   LinearModel model;
   model.states = program.n_x;
   model.inputs = m;
@@ -131,7 +131,7 @@ LinearModel linearize(const Program& program, const Run& run, const LinearizeOpt
   model.to_delays = numbers(rows_of(flow.seen_z, sources));
   model.to_delays_from_inputs = numbers(into.middleCols(h, m));
   model.between_delays = numbers(into.rightCols(k));
-  for (const auto& channel : wired.channels()) {
+  for (const auto& channel : flattened.channels()) {
     model.delays.push_back(channel.delay);
     model.factors.push_back(channel.factor);
   }

@@ -32,14 +32,14 @@ std::vector<int> wanted(const std::vector<bool>& list, int from, int to) {
 }  // namespace
 
 SampledModel::SampledModel(const Program& program, const Run& run, const LinearizeOptions& options) {
-  const WiredSlopes wired(program, run, options);
-  const Flow flow = wired.flow();
-  const auto between = wired.between(flow);
-  const int n = wired.states(), s = wired.sampled_states(), h = wired.held(), all = n + s + h;
-  for (std::size_t q = 0; q < wired.channels().size(); ++q) {
+  const WiredSlopes flattened(program, run, options);
+  const Flow flow = flattened.flow();
+  const auto between = flattened.between(flow);
+  const int n = flattened.states(), s = flattened.sampled_states(), h = flattened.held(), all = n + s + h;
+  for (std::size_t q = 0; q < flattened.channels().size(); ++q) {
     if (!between[at(all) + q]) continue;
-    const auto& b = program.blocks[at(wired.channels()[q].block)];
-    const bool late = wired.channels()[q].delay > 0;
+    const auto& b = program.blocks[at(flattened.channels()[q].block)];
+    const bool late = flattened.channels()[q].delay > 0;
     fail("not_linear", b.path,
          fmt::format("{} \"{}\" {} in a sampled loop", b.kernel->declaration.type, b.path,
                      late ? "is a dead time in continuous time, which has no finite number of states,"
@@ -80,7 +80,7 @@ SampledModel::SampledModel(const Program& program, const Run& run, const Lineari
   }
   find_instants(program, run, blocks);
   for (const auto& due : due_) {
-    const Hit hit = wired.hit(flow, due);
+    const Hit hit = flattened.hit(flow, due);
     Instant own{Eigen::MatrixXd::Identity(size, size), Eigen::MatrixXd::Zero(size, 1)};
     std::vector<int> rows;
     for (const int i : m) rows.push_back(i - n);

@@ -23,8 +23,8 @@
 //   Sized form: kinks(View<double>), and Sizes::kinks says how many. The integrators locate them (zero_crossings.h).
 // Sized form: static Sizes sizes(const Shape&) and functions of View<T>: output, derivative, advance, update, guard,
 //   reset (templates); next_mode, initial_mode, prepare, rest, initial_states, initial_memory, given_memory,
-//   check_memory, next_corner, pace, reach_back, check (on View<double>); rows(const RowsView&) where the block knows
-//   better than the loop over rows that is made of its advance, derivative and output otherwise (rows.h).
+//   check_memory, next_breakpoint, pace, reach_back, check (on View<double>); rows(const RowsView&) where the block
+//   knows better than the loop over rows that is made of its advance, derivative and output otherwise (rows.h).
 // Both: struct OwnStep, where the block knows its states behind a row of straight inputs better than Runge-Kutta does:
 //   made from Params<double> or a View<double>; takes(h) says whether it steps through a row of that length [s], or
 //   share of a jump; the call (state, from, to, h) -> State, or (double* x, from, to, h), does, `from` and `to` being
@@ -208,12 +208,12 @@ void fixed_initial_memory(const View<double>& v) {
   store<double>(B::start(load<double>(typename Types<B, double>::P{}, v.p)), v.out);
 }
 template <class B>
-double fixed_next_corner(const View<double>& v) {
-  return B::next_corner(load<double>(typename Types<B, double>::P{}, v.p), v.t);
+double fixed_next_breakpoint(const View<double>& v) {
+  return B::next_breakpoint(load<double>(typename Types<B, double>::P{}, v.p), v.t);
 }
 template <class B>
-double fixed_pace(const View<double>& v) {
-  return B::pace(load<double>(typename Types<B, double>::P{}, v.p));
+double fixed_shortest_period(const View<double>& v) {
+  return B::shortest_period(load<double>(typename Types<B, double>::P{}, v.p));
 }
 /// The kinks of a fixed block, or Nothing if it names none.
 template <class B>
@@ -331,8 +331,8 @@ Kernel kernel() {
     if constexpr (requires(const View<double>& v) { B::rest(v); }) k.rest = &B::rest;
     if constexpr (requires(const View<double>& v) { B::initial_states(v); }) k.initial_states = &B::initial_states;
     if constexpr (requires(const View<double>& v) { B::initial_memory(v); }) k.initial_memory = &B::initial_memory;
-    if constexpr (requires(const View<double>& v) { B::next_corner(v); }) k.next_corner = &B::next_corner;
-    if constexpr (requires(const View<double>& v) { B::pace(v); }) k.pace = &B::pace;
+    if constexpr (requires(const View<double>& v) { B::next_breakpoint(v); }) k.next_breakpoint = &B::next_breakpoint;
+    if constexpr (requires(const View<double>& v) { B::shortest_period(v); }) k.shortest_period = &B::shortest_period;
     if constexpr (requires(const View<double>& v) { B::reach_back(v); }) k.reach_back = &B::reach_back;
     if constexpr (requires(const View<double>& v) { B::check(v); }) k.check = &B::check;
     if constexpr (requires(const View<double>& v) { B::given_memory(v); }) k.given_memory = &B::given_memory;
@@ -372,8 +372,9 @@ Kernel kernel() {
     if constexpr (requires(typename Y::P p, typename Y::I i) { B::rest(p, i); }) k.rest = &fixed_rest<B>;
     if constexpr (requires(typename Y::P p) { B::initial(p); }) k.initial_states = &fixed_initial_states<B>;
     if constexpr (requires(typename Y::P p) { B::start(p); }) k.initial_memory = &fixed_initial_memory<B>;
-    if constexpr (requires(typename Y::P p) { B::next_corner(p, 0.0); }) k.next_corner = &fixed_next_corner<B>;
-    if constexpr (requires(typename Y::P p) { B::pace(p); }) k.pace = &fixed_pace<B>;
+    if constexpr (requires(typename Y::P p) { B::next_breakpoint(p, 0.0); })
+      k.next_breakpoint = &fixed_next_breakpoint<B>;
+    if constexpr (requires(typename Y::P p) { B::shortest_period(p); }) k.shortest_period = &fixed_shortest_period<B>;
     if constexpr (requires(typename Y::P p) { B::check(p); }) k.check = &fixed_check<B>;
     if constexpr (requires(typename Y::P p, typename Y::M m) { B::check_memory(p, m); })
       k.check_memory = &fixed_check_memory<B>;

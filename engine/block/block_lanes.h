@@ -11,7 +11,7 @@
 #include "engine/block/block_forms.h"
 #include "engine/block/kernel.h"
 #include "engine/block/lane.h"
-#include "engine/block/widest.h"
+#include "engine/block/simd_dispatch.h"
 
 namespace hysteron::block_detail {
 
@@ -130,7 +130,7 @@ struct OverLanes {
 };
 template <class Body>
 LaneFunctions::Call over_lanes() {
-  return Widest<OverLanes<Body>>::on_this_processor();
+  return SimdDispatch<OverLanes<Body>>::on_this_processor();
 }
 
 template <class B>

@@ -79,7 +79,7 @@ struct VariationDeclaration {
   };
   std::string name;  ///< the hypothesis: "friction"
   std::string type;  ///< that takes the place; may be the block's own
-  std::vector<Neutral> neutral;
+  std::vector<Neutral> null_value;
 };
 
 /// Whether an output may jump (a step, a held sample) or has no rate at all (noise).
@@ -133,8 +133,8 @@ class Declaration {
     return *this;
   }
   Declaration& variation(std::string hypothesis, std::string other_type,
-                         std::vector<VariationDeclaration::Neutral> neutral) {
-    variations.push_back({std::move(hypothesis), std::move(other_type), std::move(neutral)});
+                         std::vector<VariationDeclaration::Neutral> null_value) {
+    variations.push_back({std::move(hypothesis), std::move(other_type), std::move(null_value)});
     return *this;
   }
   Declaration& at(std::string kind_of_place) { return place = std::move(kind_of_place), *this; }

@@ -179,11 +179,11 @@ struct Kernel : Functions<double> {
                                   ///< sampled block: its sampled states
   Call initial_memory = nullptr;  ///< out: memory before the first input (parameters only)
   Call given_memory = nullptr;    ///< out: memory from the numbers m that a diagram gives; absent: these themselves
-  int (*initial_mode)(const View<double>&) = nullptr;    ///< mode to try first (parameters only); absent: 0
-  int (*next_mode)(const View<double>&) = nullptr;       ///< which mode follows `mode`, whose guard is not positive
-  double (*next_corner)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
-  double (*pace)(const View<double>&) = nullptr;         ///< shortest period or corner distance of a source [s]
-  double (*reach_back)(const View<double>&) = nullptr;   ///< how much past a history block needs [s]
+  int (*initial_mode)(const View<double>&) = nullptr;        ///< mode to try first (parameters only); absent: 0
+  int (*next_mode)(const View<double>&) = nullptr;           ///< which mode follows `mode`, whose guard is not positive
+  double (*next_breakpoint)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
+  double (*shortest_period)(const View<double>&) = nullptr;  ///< shortest period or corner distance of a source [s]
+  double (*reach_back)(const View<double>&) = nullptr;       ///< how much past a history block needs [s]
   Call kinks = nullptr;  ///< out: Sizes::kinks numbers, each of which changes its sign where the law has a kink or a
                          ///< jump that is no change of mode (of parameters, states and inputs)
   void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor a source: made by block.h

@@ -2,14 +2,14 @@
 // Does not look at units (unit_check.cpp) nor at the order of evaluation (order.cpp).
 #include "engine/compile/graph.h"
 
-#include "engine/compile/wired.h"
+#include "engine/compile/flatten.h"
 
 namespace hysteron {
 
 Graph build_graph(const Diagram& diagram, const Registry& registry) {
-  WiredDiagram wired = wire_diagram(diagram, registry);
-  infer_lengths(wired);
-  return take_apart(wired, registry);
+  WiredDiagram flattened = wire_diagram(diagram, registry);
+  infer_lengths(flattened);
+  return scalarize_vectors(flattened, registry);
 }
 
 }  // namespace hysteron

@@ -78,7 +78,7 @@ std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node
                                                   const std::string& origin, std::vector<GraphParameter>& parameters,
                                                   Problems& problems);
 
-/// graph.cpp: choices, nested diagrams, wires (wired.h), lengths, and every vector taken apart into numbers.
+/// graph.cpp: choices, nested diagrams, wires (flatten.h), lengths, and every vector taken apart into numbers.
 Graph build_graph(const Diagram& diagram, const Registry& registry);
 
 /// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.

@@ -13,7 +13,7 @@
 #include <deque>
 #include <set>
 
-#include "engine/compile/wired.h"
+#include "engine/compile/flatten.h"
 #include "engine/diagram/index.h"
 
 namespace hysteron {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/compile/wired.h"
+#include "engine/compile/flatten.h"
 
 namespace hysteron {
 namespace {

@@ -48,7 +48,7 @@ double Series::slope(double branch) const {
   return (v[i + 1] - v[i]) / (t[i + 1] - t[i]);
 }
 
-double Series::next_corner(double time) const {
+double Series::next_breakpoint(double time) const {
   const long k = piece(time);
   const auto i = static_cast<std::size_t>(k + 1);
   return i < t.size() ? t[i] : std::numeric_limits<double>::infinity();

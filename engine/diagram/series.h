@@ -28,7 +28,7 @@ struct Series {
   double value(double time, double branch) const;
   double slope(double branch) const;  ///< [SI/s]
   /// First sample time behind `time`, or infinity.
-  double next_corner(double time) const;
+  double next_breakpoint(double time) const;
 };
 
 using SeriesPointer = std::shared_ptr<const Series>;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 
 namespace hysteron {
 namespace {

@@ -25,7 +25,7 @@ constexpr double endless_span = 1e-2;
 Events::Events(const Program& program, const Run& run, double begin, double until, double relative_tolerance,
                std::span<const double> absolute_tolerance)
     : program_(program),
-      corners_(program, run, begin),
+      breakpoints_(program, run, begin),
       clocks_(program, run, begin),
       sampling_(program),
       path_(program, relative_tolerance, absolute_tolerance),
@@ -34,31 +34,31 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
       ranks_(start_ranks(program)),
       changes_(program.modal_blocks.size(), 0) {}
 
-double Events::next() const { return std::min(corners_.next(), clocks_.next()); }
-double Events::branch() const { return corners_.branch(); }
+double Events::next() const { return std::min(breakpoints_.next(), clocks_.next()); }
+double Events::branch() const { return breakpoints_.branch(); }
 
 void Events::take(double t, Run& run) {
-  instant_.corner = corners_.next() <= t + same_instant(t);
-  if (instant_.corner) corners_.pass(t);
+  instant_.breakpoint = breakpoints_.next() <= t + same_instant(t);
+  if (instant_.breakpoint) breakpoints_.pass(t);
   instant_.hits.clear();
   if (clocks_.next() > t + same_instant(t)) return;
   instant_.hits = clocks_.take(t, run);
-  corners_.jumped(t);
+  breakpoints_.jumped(t);
 }
 
 bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
   bool moved = false;
   evaluate_values(program_, run, work, t, x.data());
   before_ = work.y;
-  if (instant_.corner) {
-    run.branch = corners_.branch();
+  if (instant_.breakpoint) {
+    run.branch = breakpoints_.branch();
     moved = follow(run, work, t, x, program_.time_blocks);
   }
   if (instant_.hits.empty()) return moved;
   evaluate_values(program_, run, work, t, x.data());
   before_ = work.y;
   sampling_(run, work, t, x.data(), instant_.hits, program_.hit_values);
-  if (program_.n_histories > 0) run.branch = corners_.branch();  // its echoes end pieces, too
+  if (program_.n_histories > 0) run.branch = breakpoints_.branch();  // its echoes end pieces, too
   blocks_.clear();
   for (const int i : instant_.hits) blocks_.push_back(program_.sampled_blocks[at(i)]);
   return follow(run, work, t, x, blocks_) || moved;

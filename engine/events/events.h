@@ -18,7 +18,7 @@
 #include "engine/events/clocks.h"
 #include "engine/events/path.h"
 #include "engine/events/sampling.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/program/program.h"
 
 namespace hysteron {
@@ -45,7 +45,8 @@ class Events {
   void begin(Run& run, Work& work, double t, std::vector<double>& x);
   /// At a known instant t, memory committed: cross(), then settle(). Returns true if states or modes changed.
   bool pass(Run& run, Work& work, double t, std::vector<double>& x);
-  /// Corners and samples that were taken, for this run or one beside it (twins.h). Returns true if states moved.
+  /// Breakpoints and samples that were taken, for this run or one beside it (forward_sensitivities.h). Returns true if
+  /// states moved.
   bool cross(Run& run, Work& work, double t, std::vector<double>& x);
   /// Modes whose guards are not positive; `fired`: guards in whose step the integrator saw a root (may be empty).
   /// Returns true if a mode changed.
@@ -73,7 +74,7 @@ class Events {
   [[noreturn]] void report_chatter(double t, long changes, double within) const;
 
   const Program& program_;
-  Corners corners_;
+  Breakpoints breakpoints_;
   Clocks clocks_;
   Sampling sampling_;
   JumpPath path_;
@@ -84,7 +85,7 @@ class Events {
   std::vector<int> ranks_;                          // per guard, see start_order.h
   int settling_ = std::numeric_limits<int>::max();  // guards up to this rank
   struct Instant {
-    bool corner = false;
+    bool breakpoint = false;
     std::vector<int> hits;  // places in program.sampled_blocks
   };
   Instant instant_;

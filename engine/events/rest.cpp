@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/diagram/stop.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/program/loops.h"
 #include "engine/program/nominal.h"
 
@@ -36,7 +36,7 @@ class RestProblem {
         zero_(static_cast<std::size_t>(std::max(1, program.n_u))) {
     for (auto& history : trial_.histories) history = History{{}, {}, {}, 0, history.before};
     trial_.t = t;
-    trial_.branch = Corners(program, run, t).branch();
+    trial_.branch = Breakpoints(program, run, t).branch();
     set_loop_accuracy(program, trial_, reached, 1.0);
     const auto sizes = nominal_sizes(program, trial_);
     rate_of_size_one_ = sizes.time_scale > 0 ? 1 / sizes.time_scale : 1.0;

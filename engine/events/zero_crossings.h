@@ -2,7 +2,8 @@
 // of a law without modes (Kernel::kinks). An integrator looks at the ends of its steps only, and where the states are
 // quiet these are long: a sine may rise above a level and fall below it again between two of them. Here every step is
 // looked at in its middle too, and at the extremum of each function that comes near zero between.
-// Does not decide how long a step may be (longest_step in corners.h), nor what happens at a crossing (simulate.cpp).
+// Does not decide how long a step may be (longest_step in breakpoints.h), nor what happens at a crossing
+// (simulate.cpp).
 #pragma once
 
 #include <functional>

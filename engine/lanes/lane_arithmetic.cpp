@@ -1,6 +1,6 @@
 #include "engine/lanes/lane_arithmetic.h"
 
-#include "engine/block/widest.h"
+#include "engine/block/simd_dispatch.h"
 
 namespace hysteron {
 namespace {
@@ -42,20 +42,20 @@ struct Watch {
 }  // namespace
 
 void lane_fill(const LaneFill& a) {
-  static const auto call = Widest<Fill>::on_this_processor();
+  static const auto call = SimdDispatch<Fill>::on_this_processor();
   call(a);
 }
 void lane_move(const LaneMove& a) {
-  static const auto call = Widest<Move>::on_this_processor();
+  static const auto call = SimdDispatch<Move>::on_this_processor();
   call(a);
 }
 void lane_combine(const LaneCombination& a) {
-  static const auto call = Widest<Combine>::on_this_processor();
+  static const auto call = SimdDispatch<Combine>::on_this_processor();
   call(a);
 }
 
 void lane_watch(const LaneSum& a) {
-  static const auto call = Widest<Watch>::on_this_processor();
+  static const auto call = SimdDispatch<Watch>::on_this_processor();
   call(a);
 }
 

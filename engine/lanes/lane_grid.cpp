@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/simulate/fixed_step.h"
 
 namespace hysteron {
@@ -10,12 +10,12 @@ namespace hysteron {
 std::vector<LanePoint> lane_points(const Program& program, const Run& run, const SimulateOptions& options,
                                    const std::vector<double>& instants) {
   const bool fixed = has_fixed_steps(options.method);
-  Corners corners(program, run, options.begin);
+  Breakpoints breakpoints(program, run, options.begin);
   std::vector<LanePoint> points;
   std::size_t next = 0;
   const auto arrive = [&](LanePoint point) {
-    while (corners.next() <= point.t + same_instant(point.t)) corners.pass(point.t);
-    point.branch = corners.branch();
+    while (breakpoints.next() <= point.t + same_instant(point.t)) breakpoints.pass(point.t);
+    point.branch = breakpoints.branch();
     for (; next < instants.size() && instants[next] <= point.t + same_instant(point.t); ++next) ++point.rows;
     points.push_back(point);
   };
@@ -27,7 +27,7 @@ std::vector<LanePoint> lane_points(const Program& program, const Run& run, const
       ++grid;
       continue;
     }
-    const double end = std::min(stop, corners.next());
+    const double end = std::min(stop, breakpoints.next());
     arrive({.t = end, .h = end - t, .branch_before = points.back().branch});
   }
   return points;

@@ -78,7 +78,7 @@ std::string why_not_in_lanes(const Program& program, const Run& run, const Simul
   }
   const auto shared = shared_blocks(program, parameters);
   for (std::size_t i = 0; i < shared.size(); ++i)
-    if (const BlockInstance& b = program.blocks[i]; !shared[i] && b.kernel->next_corner != nullptr)
+    if (const BlockInstance& b = program.blocks[i]; !shared[i] && b.kernel->next_breakpoint != nullptr)
       return in_the_way(b, "has corners, and what is varied would move them");
   return "";
 }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/diagram/index.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 
 namespace hysteron {
 namespace {
 
 constexpr int pieces_sampled = 16;  // smooth pieces of a source that we look at
 constexpr int points_per_piece = 16;
-constexpr double paces_without_corners = 4;  // a source without corners: over so many of its periods
+constexpr double periods_without_breakpoints = 4;  // a source without corners: over so many of its periods
 
 bool is_length(const Dimension& d) {
   Dimension metre;
@@ -110,18 +110,18 @@ void Sizer::source(int b) {
   const auto& info = block(b);
   const auto* kernel = info.kernel;
   auto view = view_of(program_, run_, b);
-  const double pace = kernel->pace != nullptr ? kernel->pace(view) : 0.0;
+  const double shortest_period = kernel->shortest_period != nullptr ? kernel->shortest_period(view) : 0.0;
   double fastest = 0, largest = 0;
   double t = run_.t;
   for (int piece = 0; piece < pieces_sampled; ++piece) {
     view.t = view.branch = t;
-    const double corner =
-        kernel->next_corner != nullptr ? corner_behind(program_, run_, b, t) : std::numeric_limits<double>::infinity();
-    const bool last = !std::isfinite(corner);
-    const double periods = paces_without_corners * pace;
-    const double end = last ? t + (periods > 0 && std::isfinite(periods) ? periods : 1.0) : corner;
+    const double breakpoint = kernel->next_breakpoint != nullptr ? breakpoint_behind(program_, run_, b, t)
+                                                                 : std::numeric_limits<double>::infinity();
+    const bool last = !std::isfinite(breakpoint);
+    const double periods = periods_without_breakpoints * shortest_period;
+    const double end = last ? t + (periods > 0 && std::isfinite(periods) ? periods : 1.0) : breakpoint;
     const double branch = t + (end - t) / 2;
-    const int points = last ? static_cast<int>(paces_without_corners) * points_per_piece : points_per_piece;
+    const int points = last ? static_cast<int>(periods_without_breakpoints) * points_per_piece : points_per_piece;
     const double step = (end - t) / points;
     std::vector<double> before;
     // Counted: beside a late corner a step may be too short to move the time at all.

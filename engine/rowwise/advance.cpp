@@ -29,7 +29,7 @@
 #include "engine/diagram/index.h"
 #include "engine/diagram/stop.h"
 #include "engine/events/sampling.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/rowwise/advance_graph.h"
 #include "engine/rowwise/advance_plan.h"
 #include "engine/rowwise/advance_points.h"
@@ -178,8 +178,8 @@ void Advance::Content::advance_points(const Run& start, std::span<const double> 
   Run& run = state.run;
   const bool jumps = plan.sources_jump(run);
   Points points(*plan.program, run, rows_between(instants, series), plan.delays_of(run));
-  std::optional<Corners> corners;
-  if (plan.has_corners()) corners.emplace(*plan.program, run, instants.front());
+  std::optional<Breakpoints> breakpoints;
+  if (plan.has_breakpoints()) breakpoints.emplace(*plan.program, run, instants.front());
   std::size_t next = 0;
   const auto due = [&](double t) { return next < instants.size() && instants[next] <= t; };
   const auto record = [&](double t) {
@@ -190,9 +190,9 @@ void Advance::Content::advance_points(const Run& start, std::span<const double> 
   const auto branch_behind = [&](double t, double step) {
     double until = points.next();
     if (points.at_end()) until = std::min(until, next_sample(series, t + same_row * step));
-    if (corners) {
-      corners->pass(t);
-      until = std::min(until, corners->next());
+    if (breakpoints) {
+      breakpoints->pass(t);
+      until = std::min(until, breakpoints->next());
     }
     return std::isfinite(until) ? 0.5 * (t + until) : t + 0.5 * step;
   };
@@ -208,7 +208,7 @@ void Advance::Content::advance_points(const Run& start, std::span<const double> 
     const double h = t - before, branch = before + 0.5 * h;
     for (int i = 1; i <= substeps; ++i) state.step(i == substeps ? t : before + h * i / substeps, h / substeps, branch);
     const double behind = branch_behind(t, h);
-    if (jumps || points.is_echo()) state.jump(t, behind);
+    if (jumps || points.is_delayed()) state.jump(t, behind);
     const double reached = t + same_row * h;
     const bool instant = !points.due().empty();
     if (!plan.momentary.empty() && (instant || due(reached))) {

@@ -179,7 +179,7 @@ class Builder {
     graph_.jumps = jumping(false);
     const auto later = jumping(true);
     for (int b = 0; b < static_cast<int>(program_.blocks.size()); ++b)
-      graph_.echoes.push_back(block(b).history_index >= 0 && reads_jumps(b, later));
+      graph_.delayed.push_back(block(b).history_index >= 0 && reads_jumps(b, later));
   }
 
   /// Between sampled blocks stands what jumps with one and is read by another at the same instant.

@@ -26,7 +26,7 @@ struct AdvanceGraph {
   std::vector<std::vector<int>> loops{};  ///< blocks of each feedback loop with nonlinear blocks
   std::vector<int> depth{};               ///< per block: nonlinear blocks in a row before it, see advance.cpp
   std::vector<bool> jumps{};              ///< per signal: may jump at a sampling instant
-  std::vector<bool> echoes{};      ///< per block: a dead time whose input may jump, at an instant or behind another one
+  std::vector<bool> delayed{};     ///< per block: a dead time whose input may jump, at an instant or behind another one
   std::vector<Step> hit_steps{};   ///< of Program::hit_values: sampled blocks and what stands between them
   std::vector<int> hit_signals{};  ///< what these steps read
 };

@@ -71,7 +71,7 @@ void AdvancePlan::build_levels() {
         has_histories = has_histories || block(b).history_index >= 0;
         has_own_rest = has_own_rest || (has_states(b) && !is_rate_independent(b));
         integrates = integrates || has_states(b);
-        if (!graph.echoes[at(b)]) break;
+        if (!graph.delayed[at(b)]) break;
         delays.push_back(b);
         add_signals(b, series_signals);
         series_turn = series_turn || turns[at(b)];
@@ -239,7 +239,8 @@ void AdvancePlan::find_behind() {
 }
 
 bool AdvancePlan::is_plain(const Run& run) const {
-  return program->sampled_blocks.empty() && !has_corners() && !(sources_jump(run) && (has_histories || series_turn));
+  return program->sampled_blocks.empty() && !has_breakpoints() &&
+         !(sources_jump(run) && (has_histories || series_turn));
 }
 
 bool AdvancePlan::sources_jump(const Run& run) const {
@@ -262,8 +263,8 @@ std::vector<double> AdvancePlan::delays_of(const Run& run) const {
   return list;
 }
 
-bool AdvancePlan::has_corners() const {
-  return std::any_of(momentary.begin(), momentary.end(), [&](int b) { return block(b).kernel->next_corner; });
+bool AdvancePlan::has_breakpoints() const {
+  return std::any_of(momentary.begin(), momentary.end(), [&](int b) { return block(b).kernel->next_breakpoint; });
 }
 
 }  // namespace hysteron

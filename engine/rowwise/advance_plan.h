@@ -72,7 +72,7 @@ struct AdvancePlan {
   double lateness(const Run& run, int b) const;
   std::vector<double> delays_of(const Run& run) const;
   /// Functions of time with corners of their own.
-  bool has_corners() const;
+  bool has_breakpoints() const;
 
  private:
   void find_needed();

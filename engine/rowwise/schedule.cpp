@@ -85,7 +85,7 @@ SeriesPointer later(const Series& series, double by, double start) {
 
 double next_sample(std::span<const SeriesPointer> series, double t) {
   double next = std::numeric_limits<double>::infinity();
-  for (const auto& s : series) next = std::min(next, s->next_corner(t));
+  for (const auto& s : series) next = std::min(next, s->next_breakpoint(t));
   return next;
 }
 

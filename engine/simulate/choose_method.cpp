@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/diagram/index.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/simulate/jacobian.h"
 
 namespace hysteron {
@@ -61,7 +61,7 @@ bool reaches_states(const Program& program, int from) {
 double fastest_eigenvalue(const Program& program, const Run& run, double begin) {
   Run at_start = run;
   at_start.t = begin;
-  at_start.branch = Corners(program, run, begin).branch();
+  at_start.branch = Breakpoints(program, run, begin).branch();
   Jacobian jacobian(program);
   const auto& pattern = jacobian.pattern();
   std::vector<double> entries(pattern.row.size());

@@ -15,7 +15,7 @@
 #include "engine/program/nominal.h"
 #include "engine/simulate/choose_method.h"
 #include "engine/simulate/divergence.h"
-#include "engine/simulate/folded.h"
+#include "engine/simulate/linear_row_kernel.h"
 #include "engine/simulate/simulate_parts.h"
 
 namespace hysteron {
@@ -216,7 +216,7 @@ class FixedSteps {
   Run run_;
   const SimulateOptions& options_;
   Work work_;
-  FoldedDerivative derivative_;
+  LinearRowKernel derivative_;
   LookUp look_up_;
   HowFar how_far_;
   std::vector<Step> recording_;

@@ -24,7 +24,7 @@
 #include "engine/events/reversals.h"
 #include "engine/events/zero_crossings.h"
 #include "engine/integrators/integrator.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "engine/program/histories.h"
 #include "engine/program/loop_plan.h"
 #include "engine/program/loops.h"
@@ -33,10 +33,10 @@
 #include "engine/simulate/choose_method.h"
 #include "engine/simulate/divergence.h"
 #include "engine/simulate/fixed_step.h"
-#include "engine/simulate/folded.h"
+#include "engine/simulate/forward_sensitivities.h"
 #include "engine/simulate/jacobian.h"
+#include "engine/simulate/linear_row_kernel.h"
 #include "engine/simulate/simulate_parts.h"
-#include "engine/simulate/twins.h"
 
 namespace hysteron {
 namespace {
@@ -96,7 +96,7 @@ class Simulation {
   void indicate(double t, const double* x, double* g);
   void record(double t, const double* x, bool inside = false);
   void record_inside(double from, double to);
-  void make_twins();
+  void make_sensitivities();
   void restart() {
     crossings_.choose_sides(run_, work_, t_, x_);
     crossings_.forget();
@@ -134,7 +134,7 @@ class Simulation {
   Run run_;
   const SimulateOptions& options_;
   Work work_;
-  FoldedDerivative derivative_;
+  LinearRowKernel derivative_;
   LookUp look_up_;
   HowFar how_far_;
   std::vector<Step> recording_;
@@ -145,9 +145,9 @@ class Simulation {
   Reversals reversals_;
   ZeroCrossings crossings_;
   Histories histories_;
-  std::unique_ptr<Jacobian> jacobian_;  // before the solver, which calls it
-  std::unique_ptr<Twins> twins_;        // as well; null if no slopes are asked for
-  std::vector<double> s_, s_inside_;    // dx/dp by columns
+  std::unique_ptr<Jacobian> jacobian_;                      // before the solver, which calls it
+  std::unique_ptr<ForwardSensitivities> sensitivities_of_;  // as well; null if no slopes are asked for
+  std::vector<double> s_, s_inside_;                        // dx/dp by columns
   std::vector<std::vector<double>> slopes_now_;
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
@@ -196,24 +196,24 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   traces_.t = std::move(instants);
   traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
   traces_.signals = std::move(signals);
-  if (!options.slopes_for.empty()) make_twins();
+  if (!options.slopes_for.empty()) make_sensitivities();
   solver_ = make_solver();
 }
 
-void Simulation::make_twins() {
-  twins_ = std::make_unique<Twins>(program_, run_, options_.slopes_for);
-  s_ = twins_->start(run_, [&](Run& run) {
+void Simulation::make_sensitivities() {
+  sensitivities_of_ = std::make_unique<ForwardSensitivities>(program_, run_, options_.slopes_for);
+  s_ = sensitivities_of_->start(run_, [&](Run& run) {
     if (options_.at_rest) settle_at_rest(program_, run, options_.begin);
   });
-  if (s_.empty()) s_.assign(static_cast<std::size_t>(twins_->count()), 0.0);  // of the dummy state
+  if (s_.empty()) s_.assign(static_cast<std::size_t>(sensitivities_of_->count()), 0.0);  // of the dummy state
   s_inside_ = s_;
   traces_.slopes.assign(
-      static_cast<std::size_t>(twins_->count()),
+      static_cast<std::size_t>(sensitivities_of_->count()),
       std::vector<std::vector<double>>(traces_.signals.size(), std::vector<double>(traces_.t.size())));
   events_.on_change = [this](std::span<const ModeChange> changes) {
     const double step = 1e-3 * (solver_->t() - solver_->previous_t());
     const double least = 1e-10 * (until_ - options_.begin);
-    twins_->change_modes(events_, run_, t_, x_, s_, changes, std::max(step, least));
+    sensitivities_of_->change_modes(events_, run_, t_, x_, s_, changes, std::max(step, least));
   };
 }
 
@@ -231,11 +231,11 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
     system.pattern = jacobian_->pattern();
     system.jacobian = [this](double t, const double* x, double* entries) { return (*jacobian_)(run_, t, x, entries); };
   }
-  if (twins_ != nullptr) {
-    system.parameters = twins_->count();
-    system.parameter_sizes = twins_->parameter_sizes();
+  if (sensitivities_of_ != nullptr) {
+    system.parameters = sensitivities_of_->count();
+    system.parameter_sizes = sensitivities_of_->parameter_sizes();
     system.sensitivity_derivative = [this](double t, const double* x, const double* const* s, double* const* ds) {
-      return twins_->derivative(run_, t, x, s, ds);
+      return sensitivities_of_->derivative(run_, t, x, s, ds);
     };
   }
   IntegratorOptions options;
@@ -282,12 +282,12 @@ void Simulation::record(double t, const double* x, bool inside) {
     if (!std::isfinite(value)) not_finite(program_, run_, work_, t, x);
     traces_.values[s][next_instant_] = value;
   }
-  if (twins_ != nullptr) record_slopes(t, x, inside ? s_inside_ : s_);
+  if (sensitivities_of_ != nullptr) record_slopes(t, x, inside ? s_inside_ : s_);
   ++next_instant_;
 }
 
 void Simulation::record_slopes(double t, const double* x, std::span<const double> s) {
-  twins_->outputs(run_, t, {x, static_cast<std::size_t>(program_.n_x)}, s, traces_.signals, slopes_now_);
+  sensitivities_of_->outputs(run_, t, {x, static_cast<std::size_t>(program_.n_x)}, s, traces_.signals, slopes_now_);
   for (std::size_t k = 0; k < slopes_now_.size(); ++k)
     for (std::size_t i = 0; i < slopes_now_[k].size(); ++i) traces_.slopes[k][i][next_instant_] = slopes_now_[k][i];
 }
@@ -298,7 +298,8 @@ void Simulation::record_inside(double from, double to) {
   const Stopwatch watch(traces_.statistics.phases.output);
   for (; next_instant_ < instants.size() && instants[next_instant_] < to - same_instant(to);) {
     solver_->interpolate(std::max(instants[next_instant_], from), interpolated_);
-    if (twins_ != nullptr) solver_->interpolate_sensitivities(std::max(instants[next_instant_], from), s_inside_);
+    if (sensitivities_of_ != nullptr)
+      solver_->interpolate_sensitivities(std::max(instants[next_instant_], from), s_inside_);
     record(instants[next_instant_], interpolated_.data(), true);
   }
 }
@@ -314,8 +315,8 @@ void Simulation::record_due() {
 }
 
 void Simulation::commit() {
-  if (program_.remembers() && twins_ != nullptr)
-    twins_->accept(run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+  if (program_.remembers() && sensitivities_of_ != nullptr)
+    sensitivities_of_->accept(run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
   if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
   run_.t = t_;
 }
@@ -333,13 +334,14 @@ void Simulation::pass_instant() {
   crossings_.forget();
   if (states) derivative(t_, x_.data(), before_.data());
   events_.take(t_, run_);
-  if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+  if (sensitivities_of_ != nullptr)
+    sensitivities_of_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
   bool moved = events_.pass(run_, work_, t_, x_);
   commit();
   moved = crossings_.choose_sides(run_, work_, t_, x_) || moved;
   if (reversals_.count() > 0) follow_directions();
   if (!states || solver_->counters().steps == 0) return;
-  if (!moved && twins_ == nullptr) {
+  if (!moved && sensitivities_of_ == nullptr) {
     derivative(t_, x_.data(), after_.data());
     const double step = solver_->next_step();
     for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * step;
@@ -521,12 +523,13 @@ void Simulation::take_step(double stop) {
   if (crossing) {
     const Stopwatch watch(traces_.statistics.phases.events);
     solver_->interpolate(t_, x_);
-    if (twins_ != nullptr) solver_->interpolate_sensitivities(t_, s_);
+    if (sensitivities_of_ != nullptr) solver_->interpolate_sensitivities(t_, s_);
     return pass_crossing(*crossing);
   }
   std::copy(solver_->x().begin(), solver_->x().end(), x_.begin());
   growth_.see(t_, x_);
-  if (twins_ != nullptr) std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
+  if (sensitivities_of_ != nullptr)
+    std::copy(solver_->sensitivities().begin(), solver_->sensitivities().end(), s_.begin());
   if (outcome == Integrator::Outcome::root) {
     const Stopwatch watch(traces_.statistics.phases.events);
     return pass_root();
@@ -542,7 +545,8 @@ void Simulation::walk() {
     events_.take(t_, run_);
     events_.begin(run_, work_, t_, x_);
     events_.starting(true);
-    if (twins_ != nullptr) twins_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+    if (sensitivities_of_ != nullptr)
+      sensitivities_of_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
     events_.starting(false);
     commit();
     if (reversals_.count() > 0) follow_directions();

@@ -7,9 +7,9 @@
 #include "engine/rowwise/advance.h"
 #include "engine/rowwise/advance_graph.h"
 #include "engine/simulate/divergence.h"
+#include "engine/simulate/forward_sensitivities.h"
 #include "engine/simulate/simulate.h"
 #include "engine/simulate/simulate_parts.h"
-#include "engine/simulate/twins.h"
 
 namespace hysteron {
 namespace {
@@ -166,7 +166,7 @@ namespace {
 void add_slopes(const Program& program, const Run& run, const std::vector<int>& parameters, Advance& advance,
                 const Advance::Instants& rows, const AdvanceOptions& how, Traces& traces) {
   if (parameters.empty()) return;
-  const auto pairs = Twins(program, run, parameters).pairs(run);
+  const auto pairs = ForwardSensitivities(program, run, parameters).pairs(run);
   std::vector<const Run*> runs;
   for (const auto& pair : pairs) runs.insert(runs.end(), {&pair.up, &pair.down});
   std::vector<std::vector<std::vector<double>>> values;

@@ -45,10 +45,10 @@ class HowFar {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr unsigned every = 16;  // steps: looking at the clock each time would be felt
-  static constexpr std::chrono::milliseconds pace{50};
+  static constexpr std::chrono::milliseconds shortest_period{50};
   void tell(double t) {
     const auto now = Clock::now();
-    if (now - last_ < pace) return;
+    if (now - last_ < shortest_period) return;
     last_ = now;
     told_(std::clamp((t - begin_) / span_, 0.0, 1.0));
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/block/widest.h"
+#include "engine/block/simd_dispatch.h"
 
 namespace hysteron {
 namespace {
@@ -224,7 +224,7 @@ int Reducers::piece_of(const TraceFeature& f) {
 }
 
 void Reducers::row(long k, const double* signals) {
-  static const auto add = Widest<AddRow>::on_this_processor();
+  static const auto add = SimdDispatch<AddRow>::on_this_processor();
   for (auto& p : pieces_) {
     if (k < p.of.first || k >= p.of.last) continue;
     if (p.before >= 0 && k != p.of.first && k != p.before && k != p.after) continue;  // of at: needs no others

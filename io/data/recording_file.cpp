@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "engine/diagram/error.h"
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 #include "io/data/csv.h"
 #include "io/json/value_text.h"
 

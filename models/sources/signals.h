@@ -17,16 +17,18 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Largest j with corner(j) <= time. `guess` may be off by rounding; the corners as computed decide, so that the piece
 /// at a corner is always the one behind it.
-template <class Corner>
-double piece_at(double time, double guess, Corner corner) {
+template <class Breakpoint>
+double piece_at(double time, double guess, Breakpoint breakpoint) {
   double j = std::floor(guess);
-  for (int step = 0; step < 3 && corner(j + 1) <= time; ++step) ++j;
-  for (int step = 0; step < 3 && corner(j) > time; ++step) --j;
+  for (int step = 0; step < 3 && breakpoint(j + 1) <= time; ++step) ++j;
+  for (int step = 0; step < 3 && breakpoint(j) > time; ++step) --j;
   return j;
 }
 
 /// `corner`, or the next number behind `time` where rounding has eaten the distance.
-inline double strictly_behind(double time, double corner) { return std::max(corner, std::nextafter(time, never)); }
+inline double strictly_behind(double time, double breakpoint) {
+  return std::max(breakpoint, std::nextafter(time, never));
+}
 
 /// sin(2 pi f t + phase): t [s], f [Hz], phase [rad].
 template <class T>
@@ -36,12 +38,12 @@ T sine(const T& t, const T& frequency, const T& phase) {
 }
 
 // Triangle between -1 and 1 with the zeros and extremes of sine(): rises on pieces with even number, falls on odd ones.
-inline double triangle_corner(double frequency, double phase, double j) {
+inline double triangle_breakpoint(double frequency, double phase, double j) {
   return (j / 2 - phase / (2 * pi) - 0.25) / frequency;
 }
 inline double triangle_piece(double frequency, double phase, double time) {
   const double guess = 2 * (frequency * time + phase / (2 * pi) + 0.25);
-  return piece_at(time, guess, [&](double j) { return triangle_corner(frequency, phase, j); });
+  return piece_at(time, guess, [&](double j) { return triangle_breakpoint(frequency, phase, j); });
 }
 template <class T>
 T triangle(const T& t, const T& frequency, const T& phase, double piece) {
@@ -54,7 +56,7 @@ inline double staircase_piece(double duration, double levels, double time) {
   const double k = piece_at(time, time / duration, [&](double j) { return j * duration; });
   return std::clamp(k, 0.0, levels - 1);
 }
-inline double staircase_next_corner(double duration, double levels, double time) {
+inline double staircase_next_breakpoint(double duration, double levels, double time) {
   const double next = std::max(piece_at(time, time / duration, [&](double j) { return j * duration; }) + 1, 1.0);
   return next > levels - 1 ? never : strictly_behind(time, next * duration);
 }

@@ -80,9 +80,9 @@ Canvas canvas_of(const PreparedFigure& f) {
     const double margin = air * (c.y.range.high - c.y.range.low);
     c.y.range = {c.y.range.low - margin, c.y.range.high + margin};
   }
-  double widest = 0;
-  for (const auto& tick : c.y.ticks(6).list) widest = std::max(widest, text_width(tick.label));
-  c.left = std::max(c.left, widest + 36);
+  double simd_dispatch = 0;
+  for (const auto& tick : c.y.ticks(6).list) simd_dispatch = std::max(simd_dispatch, text_width(tick.label));
+  c.left = std::max(c.left, simd_dispatch + 36);
   c.x.from = c.left;
   c.x.to = c.width - c.right;
   return c;

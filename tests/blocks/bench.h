@@ -157,8 +157,8 @@ class Bench {
     if (kernel.initial_memory == nullptr) return Numbers(static_cast<std::size_t>(sizes.memory), 0);
     return call(kernel.initial_memory, view<double>(p, {}, {}, {}, 0, 0), sizes.memory);
   }
-  double next_corner(double t) const { return kernel.next_corner(view<double>(p, {}, {}, {}, t, t)); }
-  double pace() const { return kernel.pace(view<double>(p, {}, {}, {}, 0, 0)); }
+  double next_breakpoint(double t) const { return kernel.next_breakpoint(view<double>(p, {}, {}, {}, t, t)); }
+  double shortest_period() const { return kernel.shortest_period(view<double>(p, {}, {}, {}, 0, 0)); }
 
   /// Output of a run by explicit Euler steps, memory committed after each, sampled blocks at every step: the response
   /// to inputs u[k] per wire.

@@ -104,12 +104,12 @@ TEST_P(Variations, KeepEveryParameterAndNameTheNeutralValueOfEachThatMattersMore
     EXPECT_EQ(p.minimum, q.minimum) << p.name;
     EXPECT_EQ(p.maximum, q.maximum) << p.name;
   }
-  const auto& neutral = GetParam().variation.neutral;
-  EXPECT_FALSE(neutral.empty());
+  const auto& null_value = GetParam().variation.null_value;
+  EXPECT_FALSE(null_value.empty());
   const auto is_neutral = [&](const std::string& name) {
-    return std::any_of(neutral.begin(), neutral.end(), [&](const auto& n) { return n.parameter == name; });
+    return std::any_of(null_value.begin(), null_value.end(), [&](const auto& n) { return n.parameter == name; });
   };
-  for (const auto& n : neutral) {
+  for (const auto& n : null_value) {
     const int i = other().parameter_index(n.parameter);
     ASSERT_GE(i, 0) << n.parameter;
     const auto& q = other().parameters[static_cast<std::size_t>(i)];
@@ -130,7 +130,7 @@ TEST_P(Variations, WithNeutralValuesGiveTheSameTracesToRounding) {
   const auto example = examples().find(GetParam().type);
   ASSERT_NE(example, examples().end()) << "add an example for " << GetParam().type;
   auto varied = example->second.parameters;
-  for (const auto& n : GetParam().variation.neutral) varied.emplace_back(n.parameter, n.value);
+  for (const auto& n : GetParam().variation.null_value) varied.emplace_back(n.parameter, n.value);
   auto d = diagram({{"u", block("sine", {{"amplitude", "3 " + example->second.unit}, {"frequency", "3 Hz"}})},
                     {"old", block(GetParam().type, example->second.parameters, {"u"})},
                     {"new", block(GetParam().variation.type, varied, {"u"})}},

@@ -49,9 +49,9 @@ TEST(SlurmScript, TheArrayHoldsTheTasksWithAShardToCompute) {
 }
 
 /// The folder of a study whose program is `program`, a script of bash that finds its words in "$*".
-struct Bench {
+struct DemoRig {
   Folder folder;
-  Bench(const std::string& program, int shards, int tasks) {
+  DemoRig(const std::string& program, int shards, int tasks) {
     SlurmStudy study = study_of(shards, tasks, {1});
     study.folder = folder.path();
     study.shard_words = {folder.path() + "/the program", "study", "a job.json"};
@@ -71,46 +71,46 @@ struct Bench {
 };
 
 TEST(SlurmScript, ATaskComputesItsShardsOneAfterTheOther) {
-  const Bench bench("", 7, 3);
-  EXPECT_EQ(bench.task(1).code, 0);
-  EXPECT_EQ(bench.folder.read("called"),
+  const DemoRig demo_rig("", 7, 3);
+  EXPECT_EQ(demo_rig.task(1).code, 0);
+  EXPECT_EQ(demo_rig.folder.read("called"),
             "4: study a job.json --shard 1/7\n4: study a job.json --shard 4/7\n"
             "4: study a job.json --shard 7/7\n");
-  EXPECT_FALSE(bench.folder.has("scontrol_called"));
+  EXPECT_FALSE(demo_rig.folder.has("scontrol_called"));
 }
 
 TEST(SlurmScript, AShardThatIsKilledIsRequeuedAndOnlyIt) {
-  const Bench bench("kill -KILL $$\n", 4, 4);
-  const Outcome outcome = bench.task(3);
+  const DemoRig demo_rig("kill -KILL $$\n", 4, 4);
+  const Outcome outcome = demo_rig.task(3);
   EXPECT_EQ(outcome.code, 137) << outcome.out;  // ended by the requeue
-  EXPECT_EQ(bench.folder.read("scontrol_called"), "requeue 70_3\n");
+  EXPECT_EQ(demo_rig.folder.read("scontrol_called"), "requeue 70_3\n");
   EXPECT_NE(outcome.out.find("shard 3 was killed (signal 9)"), std::string::npos) << outcome.out;
 }
 
 TEST(SlurmScript, ATaskThatIsKilledAgainAndAgainEndsAndNamesTheMemory) {
-  const Bench bench("kill -KILL $$\n", 4, 4);
-  const Outcome outcome = bench.task(3, most_restarts);
+  const DemoRig demo_rig("kill -KILL $$\n", 4, 4);
+  const Outcome outcome = demo_rig.task(3, most_restarts);
   EXPECT_EQ(outcome.code, 137);
-  EXPECT_FALSE(bench.folder.has("scontrol_called"));
+  EXPECT_FALSE(demo_rig.folder.has("scontrol_called"));
   EXPECT_NE(outcome.out.find("--mem"), std::string::npos) << outcome.out;
 }
 
 TEST(SlurmScript, WhatWouldFailAgainAndWhatWasStoppedIsNotRequeued) {
   // 2 wrong input, 3 numerics, 130 stopped by scancel or Ctrl-C (the program's own answer to both)
   for (const int code : {2, 3, 130}) {
-    const Bench bench("exit " + std::to_string(code) + "\n", 6, 3);
-    EXPECT_EQ(bench.task(1).code, code);
-    EXPECT_FALSE(bench.folder.has("scontrol_called")) << code;
-    EXPECT_EQ(bench.folder.read("called"), "4: study a job.json --shard 1/6\n");
+    const DemoRig demo_rig("exit " + std::to_string(code) + "\n", 6, 3);
+    EXPECT_EQ(demo_rig.task(1).code, code);
+    EXPECT_FALSE(demo_rig.folder.has("scontrol_called")) << code;
+    EXPECT_EQ(demo_rig.folder.read("called"), "4: study a job.json --shard 1/6\n");
   }
 }
 
 TEST(SlurmScript, AMergeThatFailsSaysWhereToLookAndKeepsItsCode) {
-  const Bench bench("exit 2\n", 4, 4);
-  const Outcome outcome = shell(bench.folder.path(), "bash merge.sh");
+  const DemoRig demo_rig("exit 2\n", 4, 4);
+  const Outcome outcome = shell(demo_rig.folder.path(), "bash merge.sh");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.out.find("task-*.log"), std::string::npos) << outcome.out;
-  EXPECT_EQ(bench.folder.read("called"), "3: study a job.json --merge\n");
+  EXPECT_EQ(demo_rig.folder.read("called"), "3: study a job.json --merge\n");
 }
 
 TEST(SlurmScript, WordsForSbatchStandLastAndThoseThatHysteronDecidesAreRefused) {

@@ -27,7 +27,7 @@ TEST(Sources, DefaultsAreAnOffsetAndAPhaseOfZero) {
   const Bench sine("sine", {{"amplitude", {2}}, {"frequency", {1}}});
   EXPECT_EQ(sine.output(0)[0], 0);
   EXPECT_NEAR(sine.output(0.25)[0], 2, 1e-15);
-  EXPECT_DOUBLE_EQ(sine.pace(), 1);
+  EXPECT_DOUBLE_EQ(sine.shortest_period(), 1);
 }
 
 TEST(Sources, AConstantIsNoFunctionOfTime) {

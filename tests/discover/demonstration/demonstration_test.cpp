@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "blocks/register_all.h"
-#include "discover/demonstration/bench.h"
+#include "discover/demonstration/demo_rig.h"
 #include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 
@@ -61,10 +61,10 @@ TEST_F(Demonstrations, ShowWhatTheEffectIsKnownBy) {
 TEST_F(Demonstrations, KnowTheValuesWithWhichNothingChanges) {
   const auto text = [](const Demonstration& d) {
     std::string all;
-    for (const auto& v : d.neutral) all += (all.empty() ? "" : ", ") + v.parameter + " " + v.value;
+    for (const auto& v : d.null_value) all += (all.empty() ? "" : ", ") + v.parameter + " " + v.value;
     return all;
   };
-  for (const auto& [id, neutral] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& [id, null_value] : std::vector<std::pair<std::string, std::string>>{
            {"calibration", "gain 1, offset 0"},
            {"creep", "per_decade 0"},
            {"amplifier_lag", "times towards 0"},  // 0 itself is no time constant
@@ -73,7 +73,7 @@ TEST_F(Demonstrations, KnowTheValuesWithWhichNothingChanges) {
            {"structural_resonance", "positions 0, velocities 0"},  // the picture shows a mode without velocities
            {"sensor_nonlinearity", "coefficients[2] 0, coefficients[3] 0"},
            {"pyro_charge_drift", "coefficient 0"}})
-    EXPECT_EQ(text(of(id)), neutral) << id;
+    EXPECT_EQ(text(of(id)), null_value) << id;
 }
 
 TEST_F(Demonstrations, OfATemperatureGainFollowTheTemperatureTimesTheSignal) {
@@ -98,7 +98,7 @@ TEST_F(Demonstrations, OfEffectsOfAUserDifferFromTheBypass) {
 
 TEST_F(Demonstrations, OfAnEffectThatDoesNothingAreRefused) {
   Effect idle = effects.get("calibration");
-  idle.laws = [gain = idle.laws](const Circumstances& at) {
+  idle.laws = [gain = idle.laws](const Excitation& at) {
     auto laws = gain(at);
     laws.front().free.clear();  // its start values are those of the bypass
     return laws;

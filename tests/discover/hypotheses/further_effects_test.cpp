@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 class FurtherEffects : public Discoveries {
  protected:
-  std::string refusal(const Effect& e, Circumstances at) {
+  std::string refusal(const Effect& e, Excitation at) {
     at.from_data = true;
     return e.unseen(at);
   }
@@ -304,7 +304,7 @@ TEST_F(FurtherEffects, ARectifiedPartIsNamedAndAOneSidedDriveCannotShowIt) {
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "rectification") << tried(d);
   EXPECT_NEAR(value(d, "mix"), 0.2, 1e-3);  // 0.6 = 1 - 2 mix; noise of 1e-3 over 700 negative rows of 0.5
-  Circumstances above;
+  Excitation above;
   EXPECT_NE(refusal(effects.get("rectification"), above), "") << "0 .. 1 has one sign";
 }
 
@@ -384,7 +384,7 @@ TEST_F(FurtherEffects, ADamperThatFlowsBeforeItYieldsTakesTheRicherLawOfFriction
 }
 
 TEST_F(FurtherEffects, FrictionNeedsAMassOrASpeed) {
-  Circumstances volts;
+  Excitation volts;
   volts.unit = parse_unit("V");
   EXPECT_NE(refusal(effects.get("friction"), volts).find("speed"), std::string::npos);
   volts.unit = parse_unit("mm/s");
@@ -409,7 +409,7 @@ TEST_F(FurtherEffects, AnActuatorThatGivesWayToAForceIsNamedWithItsCompliance) {
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "load_dependence") << tried(d);
   EXPECT_NEAR(value(d, "compliance"), 0.01, 1e-4);  // m/N: noise of 1e-3 over 1400 rows of 3 N
-  Circumstances still;
+  Excitation still;
   still.side_lowest = still.side_highest = 3;
   EXPECT_NE(refusal(effects.get("load_dependence"), still).find("does not move"), std::string::npos);
 }
@@ -428,7 +428,7 @@ TEST_F(FurtherEffects, AReadingThatRunsAwayIsADriftInTenMinutesAndNotInOne) {
   const Discovery d = diagnosed(plain_gain(), data_set(list, 1e-3, 0.01));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "sensor_drift") << tried(d);
-  Circumstances brief;
+  Excitation brief;
   brief.longest_recording = 60;
   EXPECT_NE(refusal(effects.get("sensor_drift"), brief).find("10 min"), std::string::npos);
 }

@@ -270,7 +270,7 @@ TEST_F(HysteresisLaws, AMassOnNoSpringHasNoneThatRemembers) {
 }
 
 TEST_F(HysteresisLaws, ASpringHasATravelWhereNobodyLookedHowFarItMoves) {
-  Circumstances at;
+  Excitation at;
   at.by = "mass_on_hysteretic_spring";
   for (const Law& law : effects.get("hysteresis").laws(at)) {
     Diagram d = mass_on_spring();
@@ -286,7 +286,7 @@ TEST_F(HysteresisLaws, ASpringHasATravelWhereNobodyLookedHowFarItMoves) {
 TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {
   const Effect& hysteresis = effects.get("hysteresis");
   const auto bends = [&](double lowest, double highest) {
-    Circumstances at;
+    Excitation at;
     at.lowest = lowest;
     at.highest = highest;
     const auto laws = hysteresis.laws(at);
@@ -300,7 +300,7 @@ TEST_F(HysteresisLaws, ADriveIsBentWhereItLiesToOneSideOfZero) {
 
 TEST_F(HysteresisLaws, ALoopWithinATenthOfTheStrokeIsLostMotion) {
   const Effect& hysteresis = effects.get("hysteresis");
-  Circumstances at;
+  Excitation at;
   at.lowest = 0;
   at.highest = 1;
   at.unit = parse_unit("V");
@@ -314,7 +314,7 @@ TEST_F(HysteresisLaws, ALoopWithinATenthOfTheStrokeIsLostMotion) {
 
 TEST_F(HysteresisLaws, WithoutALoopOnlyAGainOrAStiffnessIsLeftOfIt) {
   const Effect& hysteresis = effects.get("hysteresis");
-  Circumstances at;
+  Excitation at;
   at.lowest = 0;
   at.highest = 1;
   at.unit = parse_unit("V");

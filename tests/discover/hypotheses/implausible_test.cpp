@@ -14,7 +14,7 @@ class Implausible : public Discoveries {
     const Effect& e = effects.get(id);
     return e.implausible(e.laws(at).at(law), values, at);
   }
-  Circumstances at;
+  Excitation at;
 };
 
 TEST_F(Implausible, APlayWithoutLostMotionIsOnlyAZero) {

@@ -124,7 +124,7 @@ TEST_F(MoreEffects, AGainMayBendWithTheTemperature) {
 
 TEST_F(MoreEffects, AGainThatTurnsBackWithinTheTemperaturesIsImplausible) {
   const Effect& e = effects.get("temperature_gain");
-  Circumstances at;
+  Excitation at;
   at.from_data = true;
   at.side_lowest = 290;
   at.side_highest = 300;
@@ -279,7 +279,7 @@ TEST_F(MoreEffects, WhatOnlyShiftsThePhaseIsNoResonance) {
 
 TEST_F(MoreEffects, WhatNeverStopsRingingIsNoResonance) {
   const Effect& e = effects.get("structural_resonance");
-  const Circumstances at;
+  const Excitation at;
   const Law law = e.laws(at).front();
   EXPECT_NE(e.implausible(law, {40, 5e-4, 0.1, 0}, at).find("never stop"), std::string::npos);
   EXPECT_EQ(e.implausible(law, {40, 2e-3, 0.1, 0}, at), "") << "a flexure of titanium";
@@ -513,7 +513,7 @@ TEST_F(MoreEffects, AnExcessIsSoughtAtSpeedsThatTheRecordingsHave) {
   EXPECT_NEAR(value(fast, "contact_time"), 5.8e-3, 3e-4);
   // An excess below all speeds is none, and fits better than a wrong one to begin with: no search begins there, nor
   // before the contact is known, for which it would stand.
-  Circumstances at;
+  Excitation at;
   at.by = "mass_with_presliding";
   at.travel_highest = 1e-3;
   at.quickest = 10;

@@ -171,7 +171,7 @@ TEST_F(OwnEffects, ASignalInAnotherUnitOrWithoutWhatItNeedsIsRefusedWithTheReaso
   std::string text = own_lag;
   text.replace(text.find("\"in\": {}"), 8, "\"in\": {\"unit\": \"N\"}");
   const Effect force = read(text);
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("V");
   EXPECT_NE(force.unseen(at).find("V, the effect acts on a signal in N"), std::string::npos) << force.unseen(at);
   text = own_lag;
@@ -239,7 +239,7 @@ TEST_F(OwnEffects, AnIdThatIsTakenAndALookAlikeThatIsNoneAreRefused) {
 }
 
 TEST(EffectQuantity, FollowsTheWire) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("um");
   at.lowest = -1e-6;
   at.highest = 3e-6;

@@ -170,7 +170,7 @@ TEST_F(AddedEffect, IsTakenOutWithoutATrace) {
   const Diagram before = stage();
   for (const auto& effect : effects.list()) {
     for (const auto& place : places_of(effect, before, registry)) {
-      Circumstances at;
+      Excitation at;
       at.unit = parse_unit("V");
       const Added a = add_effect(before, registry, effect, effect.laws(at).front(), place);
       EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, a.name)), diagram_text(before))

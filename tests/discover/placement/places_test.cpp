@@ -51,7 +51,7 @@ class Places : public ::testing::Test {
   }
   /// The diagram with an effect at a wire that reads `side` beside it; `unit` of the wire.
   Added with_beside(const Diagram& d, const char* effect, const char* at, const char* side, const char* unit) {
-    Circumstances c;
+    Excitation c;
     c.unit = c.side_unit = parse_unit(unit);
     const auto& e = effects.get(effect);
     Place place = place_at(d, registry, at);
@@ -92,7 +92,7 @@ TEST_F(Places, ThatOnlyLinearBlocksSeparateCannotBeToldApartByALag) {
 }
 
 TEST_F(Places, OfTheCommandStayBeforeAnEffectOfTheCoreThatWasFoundFirst) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("V");
   const auto& h = effects.get("hysteresis");
   const Added a =
@@ -103,7 +103,7 @@ TEST_F(Places, OfTheCommandStayBeforeAnEffectOfTheCoreThatWasFoundFirst) {
 }
 
 TEST_F(Places, OfTheDeviceStayBeforeWhatTheSensorDoesWhicheverWasFoundFirst) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("um");
   for (const char* first : {"sensor_nonlinearity", "rectification"}) {
     const auto& sensor = effects.get(first);
@@ -126,7 +126,7 @@ TEST_F(Places, OfTheDeviceStayBeforeWhatTheSensorDoesWhicheverWasFoundFirst) {
 }
 
 TEST_F(Places, WhatTheCableOfASensorPicksUpStaysBehindEverything) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("um");
   const auto& mains = effects.get("mains_interference");
   const Added a = add_effect(linear_stage(), registry, mains, mains.laws(at).front(),
@@ -147,7 +147,7 @@ TEST_F(Places, ABlockThatWasGivenAnotherLawIsStillTheCoreOfItsAxis) {
   const auto& late = effects.get("rate_dependence");
   const auto at = places_of(late, d, registry);
   ASSERT_EQ(at.size(), 2u);
-  Circumstances c;
+  Excitation c;
   c.unit = parse_unit("um");
   const Added found = add_effect(d, registry, late, late.laws(c).front(), at.front());
   for (const char* effect :
@@ -158,7 +158,7 @@ TEST_F(Places, ABlockThatWasGivenAnotherLawIsStillTheCoreOfItsAxis) {
 TEST_F(Places, WhatWasFoundDoesNotMoveWhereElseSomethingMayEnter) {
   // Both bring a memory; the model had none, so that its core is the whole way from the drive to what is measured.
   const auto with = [&](const char* effect, const char* at) {
-    Circumstances c;
+    Excitation c;
     c.unit = parse_unit(std::string(at) == "u" ? "V" : "um");
     const auto& e = effects.get(effect);
     return add_effect(linear_stage(), registry, e, e.laws(c).front(), place_at(linear_stage(), registry, at)).diagram;
@@ -180,7 +180,7 @@ TEST_F(Places, BesideAnEffectThatReadsASecondSignalStayThoseOfTheSignalItself) {
 }
 
 TEST_F(Places, BeforeAnEffectThatReadsASecondSignalAreNamedByItsPort) {
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("V");
   Diagram d = linear_stage();
   d.inputs["cycles_before"] = {"", "", 0};

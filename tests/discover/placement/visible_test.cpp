@@ -66,7 +66,7 @@ TEST_F(VisibleEffects, WhatStandsStillCannotBeSeenAtAll) {
 
 TEST_F(VisibleEffects, StepsNoCoarserThanTheNoiseAreUnsure) {
   const Effect& e = effects.get("quantization");
-  Circumstances at;
+  Excitation at;
   at.from_data = true;
   at.roughness = 1e-3;
   at.resolution = 1.3e-3;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/search/books.h"
 #include "engine/program/program.h"
 #include "tests/discover/discoveries.h"
@@ -234,10 +234,10 @@ struct ClaimedOnAxes {
     t.effect = &effects.get(id);
     for (const auto& place : places_of(*t.effect, books.current.diagram, books.registry, &data))
       if (outputs_moved(books, books.current, place.wire) == std::vector<std::string>{output}) t.place = place;
-    t.circumstances = circumstances_on(books, books.current, {t.place}).front();
-    t.laws = t.effect->laws(t.circumstances);
+    t.excitation = circumstances_on(books, books.current, {t.place}).front();
+    t.laws = t.effect->laws(t.excitation);
     t.contender =
-        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.circumstances, Effort::full);
+        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
     t.admitted = true;
     FoundStep found;
     if (!tied.empty()) found.ties.emplace_back().effect = tied;

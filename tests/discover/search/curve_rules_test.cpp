@@ -106,7 +106,7 @@ TEST_F(Curves, FarFromZeroIsAboutTheMiddleOfWhatWasMeasured) {
 }
 
 TEST_F(Curves, OfASignalThatDoesNotMoveHasNumbersAllTheSame) {
-  Circumstances still;
+  Excitation still;
   still.lowest = still.highest = 5;
   for (const auto& law : effects.get("asymmetry").laws(still)) {
     for (const char* limit : {"lower", "upper"}) {

@@ -32,7 +32,7 @@ ModelError error(double train_slow, double train_fast, double validate_slow, dou
   }
   e.evidence_train = e.chi2_train;
   e.evidence_validate = e.chi2_validate;
-  e.witnesses = 4 * rows;
+  e.effective_sample_size = 4 * rows;
   return e;
 }
 

@@ -21,7 +21,7 @@ Contender leaves(double chi2, int parameters) {
   c.ok = true;
   c.parameters = parameters;
   c.error_of.evidence_validate = chi2;
-  c.error_of.witnesses = std::exp(5.0);
+  c.error_of.effective_sample_size = std::exp(5.0);
   return c;
 }
 

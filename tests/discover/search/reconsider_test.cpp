@@ -75,7 +75,7 @@ class Sets : public ::testing::Test {
     const auto law = std::find_if(t.laws.begin(), t.laws.end(), is);
     if (law == t.laws.end()) return false;
     t.law = static_cast<std::size_t>(law - t.laws.begin());
-    t.contender = with_effect(books.shop, books.current, *t.effect, *law, t.place, t.circumstances, Effort::full);
+    t.contender = with_effect(books.shop, books.current, *t.effect, *law, t.place, t.excitation, Effort::full);
     return t.contender.ok && tell_again(books, t.contender) && books.d.steps.front().winner.effect == effect;
   }
   /// Hysteresis by its law that could hold a curve.
@@ -317,7 +317,7 @@ TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
   ASSERT_FALSE(delays.empty());
   Tried& delay = delays.front();
   delay.contender = with_effect(books.shop, books.current, *delay.effect, delay.laws.front(), delay.place,
-                                delay.circumstances, Effort::screen);
+                                delay.excitation, Effort::screen);
   ASSERT_TRUE(delay.contender.ok);
   ASSERT_NEAR(delay.contender.error_of.evidence(), before, 8) << "a screening ends a few of chi2 early";
   take(books, 2, delay, {});

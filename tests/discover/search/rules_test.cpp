@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "discover/models/own_resonances.h"
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 #include "discover/search/books.h"
 #include "engine/program/program.h"
 #include "tests/discover/discoveries.h"
@@ -95,7 +95,7 @@ TEST_F(Rules, AModeAtTheModelsOwnResonanceIsNoFurtherOne) {
   EXPECT_NEAR(own[0].frequency, 20 / (2 * pi), 1e-9);
   EXPECT_NEAR(own[0].damping, 2 / (2 * 20.0), 1e-9);
   const Effect& mode = *effects.find("structural_resonance");
-  Circumstances at;
+  Excitation at;
   const auto law = mode.laws(at).front();
   const std::vector<double> near{3.3, 0.03, 0.01, 0}, far{3.8, 0.03, 0.01, 0};  // half widths: 0.25 Hz together
   EXPECT_EQ(mode.implausible(law, near, at), "") << "a first effect may stand anywhere";

@@ -75,7 +75,7 @@ TEST_F(TanksAndCharges, LevelsFinerThanTheNoiseAreNoEffect) {
   const Discovery fine = diagnosed(plain_gain(), counted(1e-3, 4e-3));
   EXPECT_EQ(fine.verdict, Verdict::adequate) << tried(fine);
   const Effect& e = effects.get("quantization");
-  Circumstances at;
+  Excitation at;
   at.from_data = true;
   EXPECT_NE(e.unseen(at), "") << "no levels";
   at.resolution = 1e-7;

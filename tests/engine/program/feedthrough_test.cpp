@@ -56,10 +56,10 @@ TEST(Feedthrough, OneThatIsNotZeroDoes) {
 
 TEST(Feedthrough, EntriesOfAMatrixGainTellTheWay) {
   // Twice through one matrix, by different elements: y0 = 2 r, y1 = 3 y0.
-  const auto with = [](double corner) {
+  const auto with = [](double breakpoint) {
     auto d = diagram({{"r", block("sine", {{"amplitude", "1"}, {"frequency", "1 Hz"}})},
                       {"u", block("mux", {}, {"r", "y[0]"})},
-                      {"y", block("matrix_gain", {{"matrix", rows({{2, corner}, {0, 3}})}}, {"u"})}},
+                      {"y", block("matrix_gain", {{"matrix", rows({{2, breakpoint}, {0, 3}})}}, {"u"})}},
                      {"y"});
     d.simulate.loops = "error";
     d.simulate.until = Number{0.25, "s"};

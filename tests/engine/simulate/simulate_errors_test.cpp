@@ -194,7 +194,7 @@ struct Stuck {
   static Out<T> output(const Nothing&, const Time<T>& time) {
     return {time.t};
   }
-  static double next_corner(const Nothing&, double) { return 0.25; }
+  static double next_breakpoint(const Nothing&, double) { return 0.25; }
 };
 
 TEST(SimulateErrors, ASourceWhoseNextCornerIsNotAheadIsNamedInsteadOfAskedForEver) {

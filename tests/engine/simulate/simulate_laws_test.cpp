@@ -304,7 +304,7 @@ struct CosineSeven {
     using std::cos;
     return {cos(T{7.0} * time.t)};
   }
-  static double pace(const Params<double>&) { return 2 * pi / 7; }
+  static double shortest_period(const Params<double>&) { return 2 * pi / 7; }
 };
 
 /// Smooth everywhere: rises with sin^2, rests at exactly 1 between t = 1 and 2, then goes on up or back down.
@@ -331,10 +331,10 @@ struct RiseAndRest {
     const T s = sin(T{pi / 2} * (time.t - T{2.0}));
     return {T{1.0} + T{double{Direction}} * s * s};
   }
-  static double next_corner(const Params<double>&, double t) {
+  static double next_breakpoint(const Params<double>&, double t) {
     return t < 1 ? 1 : t < 2 ? 2 : std::numeric_limits<double>::infinity();
   }
-  static double pace(const Params<double>&) { return 1; }
+  static double shortest_period(const Params<double>&) { return 1; }
 };
 
 const Registry& with_test_sources() {

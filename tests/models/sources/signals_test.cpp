@@ -49,12 +49,13 @@ TEST(SignalsModel, TriangleTurnsAtEveryCornerAndNowhereElse) {
     double t = 0;
     for (int k = 0; k < 20000; ++k) {
       const double piece = triangle_piece(f, phase, t);
-      const double corner = triangle_corner(f, phase, piece + 1);
-      ASSERT_GT(corner, t);
-      ASSERT_EQ(triangle_piece(f, phase, corner), piece + 1);
-      ASSERT_EQ(triangle_piece(f, phase, std::nextafter(corner, 0)), piece);
-      ASSERT_NEAR(std::fabs(triangle(corner, f, phase, piece)), 1, 1e-9);  // 1e-16 of the phase of 20000 half periods
-      t = corner;
+      const double breakpoint = triangle_breakpoint(f, phase, piece + 1);
+      ASSERT_GT(breakpoint, t);
+      ASSERT_EQ(triangle_piece(f, phase, breakpoint), piece + 1);
+      ASSERT_EQ(triangle_piece(f, phase, std::nextafter(breakpoint, 0)), piece);
+      ASSERT_NEAR(std::fabs(triangle(breakpoint, f, phase, piece)), 1,
+                  1e-9);  // 1e-16 of the phase of 20000 half periods
+      t = breakpoint;
     }
   }
 }
@@ -63,18 +64,18 @@ TEST(SignalsModel, StaircaseHoldsItsFirstAndLastLevel) {
   EXPECT_EQ(staircase_piece(0.1, 5, -3), 0);
   EXPECT_EQ(staircase_piece(0.1, 5, 0.05), 0);
   EXPECT_EQ(staircase_piece(0.1, 5, 99), 4);
-  EXPECT_EQ(staircase_next_corner(0.1, 5, -3), 0.1);
-  EXPECT_EQ(staircase_next_corner(0.1, 5, 0.4), never);
-  EXPECT_EQ(staircase_next_corner(0.1, 1, 0), never);
+  EXPECT_EQ(staircase_next_breakpoint(0.1, 5, -3), 0.1);
+  EXPECT_EQ(staircase_next_breakpoint(0.1, 5, 0.4), never);
+  EXPECT_EQ(staircase_next_breakpoint(0.1, 1, 0), never);
 }
 
 TEST(SignalsModel, StaircaseCornersAndLevelsAgreeForDurationsThatAreNoBinaryFraction) {
   double t = 0;
   for (double k = 0; k < 999; ++k) {
     ASSERT_EQ(staircase_piece(0.1, 1000, t), k);
-    t = staircase_next_corner(0.1, 1000, t);
+    t = staircase_next_breakpoint(0.1, 1000, t);
   }
-  EXPECT_EQ(staircase_next_corner(0.1, 1000, t), never);
+  EXPECT_EQ(staircase_next_breakpoint(0.1, 1000, t), never);
 }
 
 TEST(SignalsModel, ChirpRunsThroughTheGivenFrequencies) {

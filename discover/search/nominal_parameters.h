@@ -28,9 +28,9 @@ bool are_numbers_in_place_of_an_effect(Books& books);
 /// nothing to try.
 std::map<std::string, double> numbers_to_try(const Books& books);
 
-/// The fewest of them with which `let_go`, that search, explains most of what `held`, the one before, leaves; empty =
-/// it does not.
-std::map<std::string, double> numbers_that_help(const Books& let_go, const Books& held);
+/// The fewest of them with which `free_nominal_parameters`, that search, explains most of what `held`, the one before,
+/// leaves; empty = it does not.
+std::map<std::string, double> numbers_that_help(const Books& free_nominal_parameters, const Books& held);
 
 /// Those that are not what is written, in the last model, with what it says of them.
 void tell_other_numbers(Books& books);

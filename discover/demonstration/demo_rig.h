@@ -26,7 +26,7 @@ enum class Nature {
 Nature nature_of(const Effect& effect, const Registry& registry);
 
 /// A diagram from "in" to "out" with the place for an effect, which brings in the side signal that it reads.
-struct Bench {
+struct DemoRig {
   Diagram diagram;
   Place place;
   std::string device;  ///< type of the block between, "" = none
@@ -37,7 +37,7 @@ struct Bench {
   double side_from = 0, side_to = 0;  ///< [SI]
 };
 /// The benches on which an effect may be shown, the most usual one first.
-std::vector<Bench> benches(const Effect& effect, const Effects& library, const Registry& registry);
+std::vector<DemoRig> demo_rigs(const Effect& effect, const Effects& library, const Registry& registry);
 
 enum class Waveform { shrinking, shrinking_about_zero, step, levels, sine, sine_about_zero, waves };
 
@@ -51,9 +51,9 @@ struct Stimulus {
 };
 /// In the order in which they are tried for an effect of this nature.
 std::vector<Waveform> waveforms_for(Nature nature);
-Stimulus stimulus(Waveform waveform, const Bench& bench, double length);
+Stimulus stimulus(Waveform waveform, const DemoRig& demo_rig, double length);
 
 /// The stimulus as a recording of the bench, read with so many levels: the device itself is recorded nowhere.
-DataSet recorded(const Stimulus& stimulus, const Bench& bench);
+DataSet recorded(const Stimulus& stimulus, const DemoRig& demo_rig);
 
 }  // namespace hysteron

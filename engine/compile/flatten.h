@@ -3,7 +3,8 @@
 //
 //   wire_diagram   choices, nested diagrams, names: which port reads which
 //   infer_lengths  how many elements every port carries
-//   take_apart     one scalar signal per element: elementwise blocks become one block per element, rewirings become
+//   scalarize_vectors     one scalar signal per element: elementwise blocks become one block per element, rewirings
+//   become
 //                  one pass per element, so that an element depends on what it is made of and on nothing else
 #pragma once
 
@@ -66,7 +67,7 @@ struct WiredDiagram {
   }
 };
 
-/// wired.cpp. Throws all problems of names, types, values and wires.
+/// flatten.cpp. Throws all problems of names, types, values and wires.
 WiredDiagram wire_diagram(const Diagram& diagram, const Registry& registry);
 
 /// unused.cpp: what nobody reads. `used`: (scope, name) of what somebody read in passing.
@@ -80,8 +81,8 @@ void check_unused(const std::vector<ScopeOfNames>& scopes, Problems& problems);
 /// lengths.cpp. Throws "wrong_length", "bad_index", "bad_value" naming both ends, both lengths and what fixed them.
 void infer_lengths(WiredDiagram& diagram);
 
-/// take_apart.cpp.
-Graph take_apart(const WiredDiagram& diagram, const Registry& registry);
+/// scalarize_vectors.cpp.
+Graph scalarize_vectors(const WiredDiagram& diagram, const Registry& registry);
 
 /// The name of a block or input at the head of a wire: "stage" of "stage.y[1]", "stage/play".
 std::string head_of_wire(const std::string& wire);

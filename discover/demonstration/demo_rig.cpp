@@ -1,5 +1,5 @@
-// Decides on what and with which signals an effect is shown. See bench.h.
-#include "discover/demonstration/bench.h"
+// Decides on what and with which signals an effect is shown. See demo_rig.h.
+#include "discover/demonstration/demo_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ Node usual_device(const Declaration& d, const Effects& library) {
   if (d.type == "mass_spring_damper")
     return node(d.type, {{"mass", "1 kg"}, {"stiffness", "4 N/m"}, {"damping", "0.4 N*s/m"}});
   if (d.type == "tank") return node(d.type, {{"area", "0.5 m^2"}, {"outlet", "0.1 m^3/s"}, {"reference", "1 m"}});
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("V");
   at.highest = 100;
   for (const auto& effect : library.list())
@@ -53,26 +53,26 @@ Node usual_device(const Declaration& d, const Effects& library) {
   return n;
 }
 
-void put_device(Bench& bench, const Declaration& d, Node device) {
-  bench.device = d.type;
+void put_device(DemoRig& demo_rig, const Declaration& d, Node device) {
+  demo_rig.device = d.type;
   device.in = {{"", "in"}};
-  bench.diagram.blocks["device"] = std::move(device);
-  bench.diagram.outputs["out"] = d.outputs.size() > 1 ? "device." + d.outputs.front().name : "device";
-  bench.place.at = "device";
-  bench.place.wire = "in";
+  demo_rig.diagram.blocks["device"] = std::move(device);
+  demo_rig.diagram.outputs["out"] = d.outputs.size() > 1 ? "device." + d.outputs.front().name : "device";
+  demo_rig.place.at = "device";
+  demo_rig.place.wire = "in";
 }
 
-Bench wire_in(const Unit& unit, double top) {
-  Bench bench;
-  bench.unit = unit;
-  bench.top = top;
-  bench.diagram.inputs["in"].unit = effects::unit_text(unit);
-  return bench;
+DemoRig wire_in(const Unit& unit, double top) {
+  DemoRig demo_rig;
+  demo_rig.unit = unit;
+  demo_rig.top = top;
+  demo_rig.diagram.inputs["in"].unit = effects::unit_text(unit);
+  return demo_rig;
 }
 
 /// Devices of the registry that offer the variation, or have the parameter, by which the effect enters.
-std::vector<Bench> device_benches(const Effect& effect, const Effects& library, const Registry& registry) {
-  std::vector<Bench> list;
+std::vector<DemoRig> device_rigs(const Effect& effect, const Effects& library, const Registry& registry) {
+  std::vector<DemoRig> list;
   for (const auto& type : registry.types()) {
     const Declaration& d = registry.find(type)->declaration;
     if (d.inputs.empty() || d.group == "internal") continue;
@@ -84,15 +84,15 @@ std::vector<Bench> device_benches(const Effect& effect, const Effects& library, 
                                  [&](const ParameterDeclaration& p) { return p.name == effect.parameter; });
     if (by.empty() && !(effect.variation.empty() && has)) continue;
     // A force of 4 N on a spring of 4 N/m moves it by a metre; 0.1 m^3/s fill the tank to a metre.
-    Bench bench = type == "mass_spring_damper" ? wire_in(parse_unit("N"), 4)
-                  : type == "tank"             ? wire_in(parse_unit("m^3/s"), 0.1)
-                                               : wire_in(parse_unit("V"), 100);
-    put_device(bench, d, usual_device(d, library));
-    bench.place.by = by;
-    list.push_back(std::move(bench));
+    DemoRig demo_rig = type == "mass_spring_damper" ? wire_in(parse_unit("N"), 4)
+                       : type == "tank"             ? wire_in(parse_unit("m^3/s"), 0.1)
+                                                    : wire_in(parse_unit("V"), 100);
+    put_device(demo_rig, d, usual_device(d, library));
+    demo_rig.place.by = by;
+    list.push_back(std::move(demo_rig));
   }
   // Devices that an effect of the library makes are better known than any other.
-  std::stable_partition(list.begin(), list.end(), [&](const Bench& b) {
+  std::stable_partition(list.begin(), list.end(), [&](const DemoRig& b) {
     return std::any_of(library.list().begin(), library.list().end(),
                        [&](const Effect& e) { return e.way == Way::insert && e.block_type == b.device; });
   });
@@ -100,38 +100,38 @@ std::vector<Bench> device_benches(const Effect& effect, const Effects& library, 
 }
 
 /// The second signal of an effect, with a name and a size that are usual for it.
-void put_side(Bench& bench, const Effect& effect, const Law& law) {
+void put_side(DemoRig& demo_rig, const Effect& effect, const Law& law) {
   switch (effect.side) {
     case Side::none:
       return;
     case Side::temperature:
-      bench.side = "temperature";
-      bench.side_unit = parse_unit("degC");
-      bench.side_from = bench.side_unit.to_si(20);
-      bench.side_to = bench.side_unit.to_si(40);
+      demo_rig.side = "temperature";
+      demo_rig.side_unit = parse_unit("degC");
+      demo_rig.side_from = demo_rig.side_unit.to_si(20);
+      demo_rig.side_to = demo_rig.side_unit.to_si(40);
       break;
     case Side::force:
-      bench.side = "force";
-      bench.side_unit = parse_unit("N");
-      bench.side_to = 100;
+      demo_rig.side = "force";
+      demo_rig.side_unit = parse_unit("N");
+      demo_rig.side_to = 100;
       break;
     case Side::use:
-      bench.side = column_of_cycles;
-      bench.side_to = 1e6;
+      demo_rig.side = column_of_cycles;
+      demo_rig.side_to = 1e6;
       break;
     case Side::other_axis:
-      bench.side = "other_axis";
-      bench.side_unit = bench.unit;
-      bench.side_to = bench.top;
+      demo_rig.side = "other_axis";
+      demo_rig.side_unit = demo_rig.unit;
+      demo_rig.side_to = demo_rig.top;
       break;
   }
   if (law.block.nested) {
     const auto& inputs = law.block.nested->inputs;
     if (const auto& unit = (inputs.end() - 1)->second.unit; !unit.empty() && effect.side != Side::temperature)
-      bench.side_unit = parse_unit(unit);
+      demo_rig.side_unit = parse_unit(unit);
   }
-  bench.place.side = bench.side;
-  bench.place.side_unit = bench.side_unit;
+  demo_rig.place.side = demo_rig.side;
+  demo_rig.place.side_unit = demo_rig.side_unit;
 }
 
 Series sampled(double length, int rows, const std::function<double(double)>& f) {
@@ -171,7 +171,7 @@ Series shrinking(double top, double foot, double length) {
 Nature nature_of(const Effect& effect, const Registry& registry) {
   if (effect.side != Side::none) return Nature::beside;
   if (effect.is_memory) return Nature::memory;
-  Circumstances at;
+  Excitation at;
   at.unit = parse_unit("V");
   const Node block = effect.laws(at).front().block;
   const auto is_delay = [](const Kernel& k) { return k.reach_back != nullptr; };
@@ -181,9 +181,9 @@ Nature nature_of(const Effect& effect, const Registry& registry) {
   return effect.way == Way::insert ? Nature::settling : Nature::dynamic;
 }
 
-std::vector<Bench> benches(const Effect& effect, const Effects& library, const Registry& registry) {
-  if (effect.way != Way::insert) return device_benches(effect, library, registry);
-  Circumstances at;
+std::vector<DemoRig> demo_rigs(const Effect& effect, const Effects& library, const Registry& registry) {
+  if (effect.way != Way::insert) return device_rigs(effect, library, registry);
+  Excitation at;
   at.unit = parse_unit("V");
   const Law law = effect.laws(at).front();
   std::vector<std::string> units{"V", "um", "mm/s", "N"};
@@ -192,15 +192,15 @@ std::vector<Bench> benches(const Effect& effect, const Effects& library, const R
   if (law.block.nested)
     if (const auto* in = law.block.nested->inputs.find("in"); in != nullptr && !in->unit.empty())
       units.insert(units.begin(), in->unit);
-  std::vector<Bench> list;
+  std::vector<DemoRig> list;
   for (const auto& text : units) {
     const Unit unit = parse_unit(text);
-    Bench bench = wire_in(unit, unit.to_si(100));
-    bench.diagram.blocks["wire"].type = "pass";  // no diagram is without blocks
-    bench.diagram.blocks["wire"].in = {{"", "in"}};
-    bench.diagram.outputs["out"] = bench.place.at = bench.place.wire = "wire";
-    put_side(bench, effect, law);
-    list.push_back(std::move(bench));
+    DemoRig demo_rig = wire_in(unit, unit.to_si(100));
+    demo_rig.diagram.blocks["wire"].type = "pass";  // no diagram is without blocks
+    demo_rig.diagram.blocks["wire"].in = {{"", "in"}};
+    demo_rig.diagram.outputs["out"] = demo_rig.place.at = demo_rig.place.wire = "wire";
+    put_side(demo_rig, effect, law);
+    list.push_back(std::move(demo_rig));
   }
   return list;
 }
@@ -232,13 +232,13 @@ std::vector<Waveform> waveforms_for(Nature nature) {
   return list;
 }
 
-Stimulus stimulus(Waveform waveform, const Bench& bench, double length) {
+Stimulus stimulus(Waveform waveform, const DemoRig& demo_rig, double length) {
   using std::numbers::pi;
   Stimulus s;
 
   s.length = length;
   s.row = length / rows_per_stimulus;
-  const double top = bench.top;
+  const double top = demo_rig.top;
   switch (waveform) {
     case Waveform::shrinking:
     case Waveform::shrinking_about_zero:
@@ -264,29 +264,30 @@ Stimulus stimulus(Waveform waveform, const Bench& bench, double length) {
       s.in = sampled(length, 2000, [&](double part) { return top * std::sin(4 * pi * part); });
       break;
     case Waveform::waves:
-      s.text = bench.side.empty() ? "waves" : "waves, while " + bench.side + " rises in the middle third";
+      s.text = demo_rig.side.empty() ? "waves" : "waves, while " + demo_rig.side + " rises in the middle third";
       s.in = sampled(length, 2400, [&](double part) { return top / 2 * (1 - std::cos(24 * pi * part)); });
       break;
   }
-  if (!bench.side.empty())
-    s.side = {{0, length / 3, 2 * length / 3}, {bench.side_from, bench.side_from, bench.side_to}, Between::linear};
+  if (!demo_rig.side.empty())
+    s.side = {
+        {0, length / 3, 2 * length / 3}, {demo_rig.side_from, demo_rig.side_from, demo_rig.side_to}, Between::linear};
   return s;
 }
 
-DataSet recorded(const Stimulus& stimulus, const Bench& bench) {
+DataSet recorded(const Stimulus& stimulus, const DemoRig& demo_rig) {
   Recording r;
   r.name = r.file = "standard signal";
-  const double step = bench.top / levels_of_reading;
+  const double step = demo_rig.top / levels_of_reading;
   for (int k = 0; k <= rows_per_stimulus; ++k) {
     const double t = stimulus.row * k;
     r.t.push_back(t);
     r.columns["in"].push_back(stimulus.in.value(t, t));
     r.columns["out"].push_back(step * std::round(r.columns["in"].back() / step));
-    if (!bench.side.empty()) r.columns[bench.side].push_back(stimulus.side.value(t, t));
+    if (!demo_rig.side.empty()) r.columns[demo_rig.side].push_back(stimulus.side.value(t, t));
   }
   r.last = r.t.size();
-  r.units = {{"in", bench.unit}, {"out", bench.unit}};
-  if (!bench.side.empty()) r.units[bench.side] = bench.side_unit;
+  r.units = {{"in", demo_rig.unit}, {"out", demo_rig.unit}};
+  if (!demo_rig.side.empty()) r.units[demo_rig.side] = demo_rig.side_unit;
   DataSet data;
   for (const auto& [name, unit] : r.units) data.notes[name].to = name;
   data.recordings.push_back(std::move(r));

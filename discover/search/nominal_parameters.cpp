@@ -1,4 +1,4 @@
-#include "discover/search/own_numbers.h"
+#include "discover/search/nominal_parameters.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ bool is_measured(const Books& books, int block) {
   });
 }
 
-double spread(double written) { return known_to * std::abs(written) / 2; }  // 95 % are two of these
+double spread(double written) { return nominal_uncertainty * std::abs(written) / 2; }  // 95 % are two of these
 
 /// What a number costs that the data tell from what is written, in parts of one: one that they leave where it was costs
 /// nothing (MacKay, Neural Computation 4 (1992) 415: the number of well-determined parameters).
@@ -86,7 +86,7 @@ std::map<std::string, double> may_be_let_go(const Books& books) {
 Contender with_numbers(const Books& books, const Contender& model, const std::map<std::string, double>& numbers,
                        Effort effort) {
   Workshop shop = books.shop;
-  shop.let_go(numbers);
+  shop.free_nominal_parameters(numbers);
   return refit(shop, model, effort);
 }
 
@@ -101,7 +101,7 @@ std::optional<Contender> explaining_better(const Books& books, const Contender& 
     c = with_numbers(books, c, numbers, effort);
     if (!c.ok || !enough(c)) return {};
     const Cost cost = cost_of(c, numbers);
-    const double each = std::log(std::max(c.error_of.witnesses, 2.0));
+    const double each = std::log(std::max(c.error_of.effective_sample_size, 2.0));
     double score = c.score();
     if (!free_of_charge) score += rules::tie + cost.moved + (effort == Effort::final ? cost.numbers * each : 0);
     if (!cost.plausible || score > other.score()) return {};
@@ -125,8 +125,8 @@ std::map<std::string, double> fewest(const Books& books, const Contender& model,
       others.emplace_back(-moved / std::abs(n->second), e.path);
   }
   std::sort(others.begin(), others.end());
-  const auto worth = [](const Contender& c, const std::map<std::string, double>& let_go) {
-    return c.score() + cost_of(c, let_go).moved;
+  const auto worth = [](const Contender& c, const std::map<std::string, double>& free_nominal_parameters) {
+    return c.score() + cost_of(c, free_nominal_parameters).moved;
   };
   const double reached = worth(all, numbers) + rules::tie;
   for (std::size_t next = 0; few.size() < numbers.size(); ++next) {
@@ -230,13 +230,13 @@ std::map<std::string, double> numbers_to_try(const Books& books) {
   return tell ? numbers : std::map<std::string, double>{};
 }
 
-std::map<std::string, double> numbers_that_help(const Books& let_go, const Books& held) {
-  const auto& numbers = let_go.shop.roughly;
-  const Contender& now = let_go.current;
+std::map<std::string, double> numbers_that_help(const Books& free_nominal_parameters, const Books& held) {
+  const auto& numbers = free_nominal_parameters.shop.roughly;
+  const Contender& now = free_nominal_parameters.current;
   Contender was = held.current;
-  was.error_of = let_go.evidence->error(was.prediction);
+  was.error_of = free_nominal_parameters.evidence->error(was.prediction);
   const Cost cost = cost_of(now, numbers);
-  const double each = std::log(std::max(now.error_of.witnesses, 2.0));
+  const double each = std::log(std::max(now.error_of.effective_sample_size, 2.0));
   const double score = now.score() + cost.moved + cost.numbers * each + rules::tie;
   const bool most = now.error_of.excess_validate() < (1 - rules::share_of_rest) * was.error_of.excess_validate();
   if (!most || !cost.plausible || score > was.score()) return {};

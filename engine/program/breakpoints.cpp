@@ -1,4 +1,4 @@
-#include "engine/program/corners.h"
+#include "engine/program/breakpoints.h"
 
 #include <fmt/format.h>
 
@@ -20,64 +20,65 @@ double reach_back(const Program& program, const Run& run, int block) {
 
 }  // namespace
 
-Corners::Corners(const Program& program, const Run& run, double begin) : program_(program), run_(run), t_(begin) {
+Breakpoints::Breakpoints(const Program& program, const Run& run, double begin)
+    : program_(program), run_(run), t_(begin) {
   for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
     const auto& block = program.blocks[static_cast<std::size_t>(b)];
-    if (block.kernel->next_corner != nullptr) sources_.push_back({b, corner_behind(program, run, b, begin)});
+    if (block.kernel->next_breakpoint != nullptr) sources_.push_back({b, breakpoint_behind(program, run, b, begin)});
     if (block.history_index >= 0) delays_.push_back(reach_back(program, run, b));
   }
-  add_echoes(begin, 0);
+  add_delayed(begin, 0);
 }
 
-double corner_behind(const Program& program, const Run& run, int block, double t) {
+double breakpoint_behind(const Program& program, const Run& run, int block, double t) {
   auto view = view_of(program, run, block);
   const auto* kernel = program.blocks[static_cast<std::size_t>(block)].kernel;
   // A source that rounds its corner to just above t would stop us there for ever: ask again from a little further on.
   for (double from = t, nudge = same_instant(t);; from = t + nudge, nudge *= 2) {
     view.t = view.branch = from;
-    const double corner = kernel->next_corner(view);
-    if (corner > t + same_instant(t)) return corner;
+    const double breakpoint = kernel->next_breakpoint(view);
+    if (breakpoint > t + same_instant(t)) return breakpoint;
     if (nudge != 0 && nudge <= 1e-9 * std::max(1.0, std::abs(t))) continue;
     const auto& b = program.blocks[static_cast<std::size_t>(block)];
     fail("bad_value", b.path,
-         fmt::format("{} \"{}\" names {} s as its next corner behind {} s", b.kernel->declaration.type, b.path, corner,
-                     t),
+         fmt::format("{} \"{}\" names {} s as its next corner behind {} s", b.kernel->declaration.type, b.path,
+                     breakpoint, t),
          "check its times: they do not go on");
   }
 }
 
-void Corners::add_echoes(double t, int generation) {
+void Breakpoints::add_delayed(double t, int generation) {
   if (generation >= static_cast<int>(delays_.size())) return;
   for (const double delay : delays_)
-    if (delay > 0) echoes_.emplace(t + delay, generation + 1);
+    if (delay > 0) delayed_.emplace(t + delay, generation + 1);
 }
 
-double Corners::next() const {
-  double first = echoes_.empty() ? infinity : echoes_.top().first;
+double Breakpoints::next() const {
+  double first = delayed_.empty() ? infinity : delayed_.top().first;
   for (const auto& source : sources_) first = std::min(first, source.next);
   return first;
 }
 
-double Corners::branch() const {
-  const double corner = next();
-  return corner < infinity ? t_ + (corner - t_) / 2 : t_ + 1;
+double Breakpoints::branch() const {
+  const double breakpoint = next();
+  return breakpoint < infinity ? t_ + (breakpoint - t_) / 2 : t_ + 1;
 }
 
-void Corners::pass(double t) {
+void Breakpoints::pass(double t) {
   t_ = t;
   const double reached = t + same_instant(t);
-  bool corner = false;
+  bool breakpoint = false;
   for (auto& source : sources_) {
     if (source.next > reached) continue;
-    source.next = corner_behind(program_, run_, source.block, t);
-    corner = true;
+    source.next = breakpoint_behind(program_, run_, source.block, t);
+    breakpoint = true;
   }
-  int generation = corner ? 0 : std::numeric_limits<int>::max();
-  while (!echoes_.empty() && echoes_.top().first <= reached) {
-    generation = std::min(generation, echoes_.top().second);
-    echoes_.pop();
+  int generation = breakpoint ? 0 : std::numeric_limits<int>::max();
+  while (!delayed_.empty() && delayed_.top().first <= reached) {
+    generation = std::min(generation, delayed_.top().second);
+    delayed_.pop();
   }
-  add_echoes(t, generation);
+  add_delayed(t, generation);
 }
 
 namespace {
@@ -93,7 +94,8 @@ constexpr double harmonics = 3;
 double highest_input(const Program& program, const BlockInstance& block, const std::vector<double>& frequency) {
   double highest = 0;
   for (const int s : block.source)
-    highest = std::max(highest, frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)]);
+    highest =
+        std::max(highest, frequency[static_cast<std::size_t>(program.signals[static_cast<std::size_t>(s)].block)]);
   return highest;
 }
 
@@ -106,9 +108,9 @@ std::vector<double> driving_frequencies(const Program& program, const Run& run) 
     const auto& info = program.blocks[static_cast<std::size_t>(b)];
     if (info.n_u > 0 && !info.kernel->is_sampled()) others.push_back(b);
     // A series is monotone between its samples, and those are stops already.
-    if (info.n_u > 0 || info.kernel->pace == nullptr || info.series_index >= 0) continue;
-    const double pace = info.kernel->pace(view_of(program, run, b));
-    if (pace > 0) frequency[static_cast<std::size_t>(b)] = 1 / pace;
+    if (info.n_u > 0 || info.kernel->shortest_period == nullptr || info.series_index >= 0) continue;
+    const double shortest_period = info.kernel->shortest_period(view_of(program, run, b));
+    if (shortest_period > 0) frequency[static_cast<std::size_t>(b)] = 1 / shortest_period;
   }
   for (bool rises = true; rises;) {  // at most once along the longest way
     rises = false;

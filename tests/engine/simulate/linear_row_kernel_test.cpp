@@ -1,5 +1,5 @@
 // dx/dt by weighted sums against dx/dt block by block.
-#include "engine/simulate/folded.h"
+#include "engine/simulate/linear_row_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST_P(Folded, GivesTheDerivativesOfTheBlocksToRounding) {
   const auto program = compiled(diagram_of(GetParam()));
   auto run = start(*program);
   Work work(*program), other(*program);
-  FoldedDerivative folded(*program, run, work);
+  LinearRowKernel folded(*program, run, work);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   const auto nominal = nominal_states(*program, run);
@@ -101,7 +101,7 @@ TEST_P(Folded, TakesNothingFromTheHeap) {
   const auto program = compiled(diagram_of(GetParam()));
   const auto run = start(*program);
   Work work(*program);
-  FoldedDerivative folded(*program, run, work);
+  LinearRowKernel folded(*program, run, work);
   folded(run, 0, run.x.data());
   const auto before = allocations();
   for (int i = 0; i < 100; ++i) folded(run, 1e-3 * i, run.x.data());
@@ -130,30 +130,30 @@ TEST(NeededSteps, OfASignalAreThoseOnWhichItDependsAndGiveItsValue) {
   EXPECT_EQ(steps_for(*program, {program->signal("controller")}).size(), 4U);
 }
 
-TEST(FoldedDerivative, OfALinearChainIsOneRowPerState) {
+TEST(LinearRowKernel, OfALinearChainIsOneRowPerState) {
   const auto program = compiled(chain(12));
   const auto run = start(*program);
   Work work(*program);
-  const FoldedDerivative folded(*program, run, work);
+  const LinearRowKernel folded(*program, run, work);
   EXPECT_EQ(folded.rows(), 12);
   EXPECT_EQ(folded.terms(), 36);  // itself, the one before (or the drive), the next
   EXPECT_EQ(folded.calls(), 1);   // the sine
 }
 
-TEST(FoldedDerivative, CallsFewerFunctionsThanThereAreSteps) {
+TEST(LinearRowKernel, CallsFewerFunctionsThanThereAreSteps) {
   const auto program = compiled(bouc_wen_loop());
   const auto run = start(*program);
   Work work(*program);
-  const FoldedDerivative folded(*program, run, work);
+  const LinearRowKernel folded(*program, run, work);
   EXPECT_EQ(folded.calls(), 3);  // the sine, and the hysteresis' output and derivative
   EXPECT_LT(folded.calls() + folded.rows(), static_cast<int>(program->derivative_steps.size()) + 1);
 }
 
-TEST(FoldedDerivative, AsksSourcesOnceAtAnInstantAndSeesTheNextOne) {
+TEST(LinearRowKernel, AsksSourcesOnceAtAnInstantAndSeesTheNextOne) {
   const auto program = compiled(chain(3));
   auto run = start(*program);
   Work work(*program), other(*program);
-  FoldedDerivative folded(*program, run, work);
+  LinearRowKernel folded(*program, run, work);
   const std::vector<double> x{0.1, 0.2, 0.3};
   const auto expect_right = [&](double t) {
     folded(run, t, x.data());
@@ -166,19 +166,19 @@ TEST(FoldedDerivative, AsksSourcesOnceAtAnInstantAndSeesTheNextOne) {
   }
 }
 
-TEST(FoldedDerivative, OfARunWithOtherParametersIsThatOfThoseParameters) {
+TEST(LinearRowKernel, OfARunWithOtherParametersIsThatOfThoseParameters) {
   const auto program = compiled(chain(5));
   auto run = start(*program);
   set_parameter(*program, run, "back1.gain", -2);
   Work work(*program), other(*program);
-  FoldedDerivative folded(*program, run, work);
+  LinearRowKernel folded(*program, run, work);
   const std::vector<double> x{1, 2, 3, 4, 5};
   folded(run, 0, x.data());
   evaluate_derivatives(*program, run, other, 0, x.data());
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(work.dx[i], other.dx[i], 1e-13 * std::abs(other.dx[i]));
 }
 
-TEST(FoldedDerivative, IsNotANumberWhereALoopHasNoSolution) {
+TEST(LinearRowKernel, IsNotANumberWhereALoopHasNoSolution) {
   auto d = diagram({{"error", block("sum", {{"signs", "++"}}, {"u", "back"})},  // e = u + e
                     {"back", block("gain", {{"gain", 1.0}}, {"error"})},
                     {"y", block("lag", {{"times", list({0.1}, "s")}}, {"error"})}},
@@ -187,7 +187,7 @@ TEST(FoldedDerivative, IsNotANumberWhereALoopHasNoSolution) {
   auto run = start(*program);
   bind_input(*program, run, "u", series({0}, {1}));
   Work work(*program);
-  FoldedDerivative folded(*program, run, work);
+  LinearRowKernel folded(*program, run, work);
   folded(run, 0, run.x.data());
   EXPECT_TRUE(std::isnan(work.dx[0]));
   EXPECT_EQ(work.unsolved, 0);

@@ -15,10 +15,10 @@
 
 namespace hysteron {
 
-class FoldedDerivative {
+class LinearRowKernel {
  public:
   /// Keeps references to the program and to `work`, which must stay where it is, its arrays too.
-  FoldedDerivative(const Program& program, const Run& run, Work& work);
+  LinearRowKernel(const Program& program, const Run& run, Work& work);
 
   /// Sets work.dx, and work.unsolved as evaluate_derivatives() does. `run` has the parameters and series of the
   /// construction.

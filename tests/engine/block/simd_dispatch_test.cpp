@@ -1,6 +1,6 @@
 // All versions of a loop over lanes give the same bits. Compiled as the program is (CMakeLists.txt): without
 // optimization there is one version only.
-#include "engine/block/widest.h"
+#include "engine/block/simd_dispatch.h"
 
 #include <gtest/gtest.h>
 
@@ -24,12 +24,12 @@ std::vector<double> drawn(std::size_t n, std::uint64_t stream, double scale) {
 }
 
 /// A law of an actuator, with tanh, quotients and a choice by sign.
-TEST(Widest, VersionsOfALawGiveTheSameBits) {
+TEST(SimdDispatch, VersionsOfALawGiveTheSameBits) {
   using Loop = block_detail::OverLanes<block_detail::DerivativeOfLanes<blocks::JilesAtherton>>;
   const auto p = drawn(7 * lanes, 1, 1), x = drawn(lanes, 2, 3), u = drawn(lanes, 3, 5), du = drawn(lanes, 4, 1);
   const double *in = u.data(), *rate = du.data();
   std::vector<std::vector<double>> results;
-  for (const auto version : Widest<Loop>::versions()) {
+  for (const auto version : SimdDispatch<Loop>::versions()) {
     results.emplace_back(lanes);
     LanesView v;
     v.lanes = lanes;
@@ -56,11 +56,11 @@ struct Functions {
   }
 };
 
-TEST(Widest, VersionsOfTheFunctionsGiveTheSameBits) {
+TEST(SimdDispatch, VersionsOfTheFunctionsGiveTheSameBits) {
   for (const double scale : {1e-3, 1.0, 100.0}) {
     const auto x = drawn(lanes, 5, scale);
     std::vector<std::vector<double>> results;
-    for (const auto version : Widest<Functions>::versions()) {
+    for (const auto version : SimdDispatch<Functions>::versions()) {
       results.emplace_back(lanes);
       version({x.data(), results.back().data()});
       EXPECT_EQ(std::memcmp(results.back().data(), results.front().data(), lanes * sizeof(double)), 0);
@@ -68,11 +68,12 @@ TEST(Widest, VersionsOfTheFunctionsGiveTheSameBits) {
   }
 }
 
-TEST(Widest, ThisTestSeesMoreThanOneVersionWhereTheProcessorHasThem) {
+TEST(SimdDispatch, ThisTestSeesMoreThanOneVersionWhereTheProcessorHasThem) {
 #if defined(__x86_64__)
-  EXPECT_EQ(Widest<Functions>::versions().size() > 1, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+  EXPECT_EQ(SimdDispatch<Functions>::versions().size() > 1,
+            __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
 #else
-  EXPECT_EQ(Widest<Functions>::versions().size(), 1U);
+  EXPECT_EQ(SimdDispatch<Functions>::versions().size(), 1U);
 #endif
 }
 

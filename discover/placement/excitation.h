@@ -12,12 +12,12 @@ namespace hysteron {
 /// Drives the diagram with the recordings and looks at the wires of `places`, one simulation per recording.
 /// `free_paths`: parameters that are free beside those that the diagram declares free ("stage.gain").
 /// Throws where the diagram does not compile or run.
-std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
-                                            const std::vector<Place>& places,
-                                            const std::vector<std::string>& free_paths = {});
+std::vector<Excitation> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                                         const std::vector<Place>& places,
+                                         const std::vector<std::string>& free_paths = {});
 
 /// The same at one place.
-Circumstances circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
-                               const Place& place, const std::vector<std::string>& free_paths = {});
+Excitation circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data, const Place& place,
+                            const std::vector<std::string>& free_paths = {});
 
 }  // namespace hysteron

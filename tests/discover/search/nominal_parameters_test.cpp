@@ -1,6 +1,6 @@
 // A number of the user's model that is a few per cent off is told as that, and not sold as an effect that makes up for
 // it.
-#include "discover/search/own_numbers.h"
+#include "discover/search/nominal_parameters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/simulate/twins.h"
+#include "engine/simulate/forward_sensitivities.h"
 
 #include <fmt/format.h>
 
@@ -11,16 +11,16 @@ namespace hysteron {
 namespace {
 
 // Of the parameter: the error of the difference is the square of it, rounding the inverse.
-constexpr double share = 1e-5;
+constexpr double relative_step = 1e-5;
 
 /// Largest difference between corners and between sampling instants that the two runs would have.
 bool shifts_instants(const Program& program, const Run& up, const Run& down) {
   for (int b = 0; b < static_cast<int>(program.blocks.size()); ++b) {
     const auto& block = program.blocks[at(b)];
-    if (block.kernel->next_corner != nullptr && block.series_index < 0) {
+    if (block.kernel->next_breakpoint != nullptr && block.series_index < 0) {
       auto one = view_of(program, up, b), other = view_of(program, down, b);
       one.t = other.t = one.branch = other.branch = up.t;
-      const double a = block.kernel->next_corner(one), c = block.kernel->next_corner(other);
+      const double a = block.kernel->next_breakpoint(one), c = block.kernel->next_breakpoint(other);
       if (a != c && !(std::isinf(a) && std::isinf(c))) return true;
     }
     if (block.hit_index < 0) continue;
@@ -35,12 +35,14 @@ bool shifts_instants(const Program& program, const Run& up, const Run& down) {
 
 }  // namespace
 
-Twins::Twins(const Program& program, const Run& run, std::vector<int> parameters) : program_(program) {
+ForwardSensitivities::ForwardSensitivities(const Program& program, const Run& run, std::vector<int> parameters)
+    : program_(program) {
   for (const int index : parameters) {
     const ParameterInfo& info = program.parameters[at(index)];
     const double value = run.p[at(info.slots.front())];
     const double unit = std::abs(info.unit.difference_to_si(1));
-    Twin twin{index, share * (value != 0 ? std::abs(value) : unit), {run, nullptr, run.x}, {run, nullptr, run.x}};
+    PerturbedRun twin{
+        index, relative_step * (value != 0 ? std::abs(value) : unit), {run, nullptr, run.x}, {run, nullptr, run.x}};
     set_parameter(program, twin.up.run, info, value + twin.h);
     set_parameter(program, twin.down.run, info, value - twin.h);
     twin.up.work = std::make_unique<Work>(program);
@@ -51,26 +53,26 @@ Twins::Twins(const Program& program, const Run& run, std::vector<int> parameters
                        "with respect to it",
                        info.path),
            "leave it out, or find it by trying values (a scan)");
-    twins_.push_back(std::move(twin));
+    sensitivities_of_.push_back(std::move(twin));
   }
 }
 
-std::vector<double> Twins::parameter_sizes() const {
+std::vector<double> ForwardSensitivities::parameter_sizes() const {
   std::vector<double> sizes;
-  for (const auto& twin : twins_) sizes.push_back(twin.h / share);
+  for (const auto& twin : sensitivities_of_) sizes.push_back(twin.h / relative_step);
   return sizes;
 }
 
-std::vector<Twins::Pair> Twins::pairs(const Run& run) {
+std::vector<ForwardSensitivities::Pair> ForwardSensitivities::pairs(const Run& run) {
   start(run, [](Run&) {});
   std::vector<Pair> list;
-  for (const auto& twin : twins_) list.push_back({twin.up.run, twin.down.run, twin.h});
+  for (const auto& twin : sensitivities_of_) list.push_back({twin.up.run, twin.down.run, twin.h});
   return list;
 }
 
-std::vector<double> Twins::start(const Run& run, const std::function<void(Run&)>& settle) {
+std::vector<double> ForwardSensitivities::start(const Run& run, const std::function<void(Run&)>& settle) {
   std::vector<double> s;
-  for (auto& twin : twins_) {
+  for (auto& twin : sensitivities_of_) {
     for (Side* side : {&twin.up, &twin.down}) {
       // The declared start of the changed parameter, in place of the declared start that the run had.
       Run declared = run, moved = side->run;
@@ -88,24 +90,25 @@ std::vector<double> Twins::start(const Run& run, const std::function<void(Run&)>
 }
 
 /// What a twin shares with the run at any time.
-void Twins::follow(const Run& run, Side& side) {
+void ForwardSensitivities::follow(const Run& run, Side& side) {
   side.run.branch = run.branch;
   std::copy(run.mode.begin(), run.mode.end(), side.run.mode.begin());
   side.run.sides = run.sides;
 }
 
-void Twins::place(Twin& twin, std::span<const double> x, std::span<const double> s) {
+void ForwardSensitivities::place(PerturbedRun& twin, std::span<const double> x, std::span<const double> s) {
   for (std::size_t i = 0; i < twin.up.x.size(); ++i) {
     twin.up.x[i] = x[i] + twin.h * s[i];
     twin.down.x[i] = x[i] - twin.h * s[i];
   }
 }
 
-bool Twins::derivative(const Run& run, double t, const double* x, const double* const* s, double* const* ds) {
+bool ForwardSensitivities::derivative(const Run& run, double t, const double* x, const double* const* s,
+                                      double* const* ds) {
   const auto n = at(program_.n_x);
   double sum = 0;  // of zeros: not zero if one of them is not finite
-  for (std::size_t k = 0; k < twins_.size(); ++k) {
-    Twin& twin = twins_[k];
+  for (std::size_t k = 0; k < sensitivities_of_.size(); ++k) {
+    PerturbedRun& twin = sensitivities_of_[k];
     if (n == 0) {
       ds[k][0] = 0;
       continue;
@@ -121,23 +124,23 @@ bool Twins::derivative(const Run& run, double t, const double* x, const double* 
   return sum == 0;
 }
 
-void Twins::accept(const Run& run, double t, std::span<const double> x, std::span<const double> s) {
+void ForwardSensitivities::accept(const Run& run, double t, std::span<const double> x, std::span<const double> s) {
   const auto n = at(program_.n_x);
-  for (std::size_t k = 0; k < twins_.size(); ++k) {
-    place(twins_[k], x, s.subspan(k * n, n));
-    for (Side* side : {&twins_[k].up, &twins_[k].down}) {
+  for (std::size_t k = 0; k < sensitivities_of_.size(); ++k) {
+    place(sensitivities_of_[k], x, s.subspan(k * n, n));
+    for (Side* side : {&sensitivities_of_[k].up, &sensitivities_of_[k].down}) {
       follow(run, *side);
       hysteron::accept(program_, side->run, *side->work, t, side->x.data());
     }
   }
 }
 
-void Twins::outputs(const Run& run, double t, std::span<const double> x, std::span<const double> s,
-                    std::span<const int> signals, std::vector<std::vector<double>>& out) {
+void ForwardSensitivities::outputs(const Run& run, double t, std::span<const double> x, std::span<const double> s,
+                                   std::span<const int> signals, std::vector<std::vector<double>>& out) {
   const auto n = at(program_.n_x);
-  out.resize(twins_.size());
-  for (std::size_t k = 0; k < twins_.size(); ++k) {
-    Twin& twin = twins_[k];
+  out.resize(sensitivities_of_.size());
+  for (std::size_t k = 0; k < sensitivities_of_.size(); ++k) {
+    PerturbedRun& twin = sensitivities_of_[k];
     place(twin, x, s.subspan(k * n, n));
     for (Side* side : {&twin.up, &twin.down}) {
       follow(run, *side);
@@ -149,10 +152,11 @@ void Twins::outputs(const Run& run, double t, std::span<const double> x, std::sp
   }
 }
 
-void Twins::cross(Events& events, const Run& run, double t, std::span<const double> x, std::span<double> s) {
+void ForwardSensitivities::cross(Events& events, const Run& run, double t, std::span<const double> x,
+                                 std::span<double> s) {
   const auto n = at(program_.n_x);
-  for (std::size_t k = 0; k < twins_.size(); ++k) {
-    Twin& twin = twins_[k];
+  for (std::size_t k = 0; k < sensitivities_of_.size(); ++k) {
+    PerturbedRun& twin = sensitivities_of_[k];
     place(twin, x, s.subspan(k * n, n));
     bool moved = false;
     for (Side* side : {&twin.up, &twin.down}) {
@@ -165,13 +169,13 @@ void Twins::cross(Events& events, const Run& run, double t, std::span<const doub
   }
 }
 
-void Twins::change_modes(Events& events, const Run& run, double t, std::span<const double> x, std::span<double> s,
-                         std::span<const ModeChange> changes, double step) {
+void ForwardSensitivities::change_modes(Events& events, const Run& run, double t, std::span<const double> x,
+                                        std::span<double> s, std::span<const ModeChange> changes, double step) {
   const auto n = at(program_.n_x);
   const int guard = changes.front().modal;
   std::vector<double> flow(n), there(n);
-  for (std::size_t k = 0; k < twins_.size(); ++k) {
-    Twin& twin = twins_[k];
+  for (std::size_t k = 0; k < sensitivities_of_.size(); ++k) {
+    PerturbedRun& twin = sensitivities_of_[k];
     place(twin, x, s.subspan(k * n, n));
     double along_parameter = 0, along_time = 0;
     std::fill(flow.begin(), flow.end(), 0.0);

@@ -1,6 +1,6 @@
 // Decides what a diagram is made of once choices are taken and nested diagrams are put in place: leaf blocks and wires.
 // Does not look at lengths (lengths.cpp), units (unit_check.cpp) nor the order of evaluation (order.cpp).
-#include "engine/compile/wired.h"
+#include "engine/compile/flatten.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "engine/simulate/folded.h"
+#include "engine/simulate/linear_row_kernel.h"
 
 #include <algorithm>
 #include <limits>
@@ -199,7 +199,7 @@ class Folding {
 
 }  // namespace
 
-FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work& work)
+LinearRowKernel::LinearRowKernel(const Program& program, const Run& run, Work& work)
     : program_(program),
       work_(work),
       x_(at(program.n_x)),
@@ -245,12 +245,12 @@ FoldedDerivative::FoldedDerivative(const Program& program, const Run& run, Work&
   close();
 }
 
-int FoldedDerivative::calls() const {
+int LinearRowKernel::calls() const {
   return static_cast<int>(
       std::count_if(stretches_.begin(), stretches_.end(), [](const auto& s) { return s.has_step; }));
 }
 
-void FoldedDerivative::operator()(const Run& run, double t, const double* x) {
+void LinearRowKernel::operator()(const Run& run, double t, const double* x) {
   steps::begin(program_, run, work_, t);
   const bool same_instant = t == kept_t_ && run.branch == kept_branch_;
   kept_t_ = t;

@@ -4,7 +4,7 @@
 // is no loop through the others.
 #include <fmt/format.h>
 
-#include "engine/compile/wired.h"
+#include "engine/compile/flatten.h"
 #include "engine/diagram/index.h"
 
 namespace hysteron {
@@ -163,6 +163,8 @@ class Apart {
 
 }  // namespace
 
-Graph take_apart(const WiredDiagram& diagram, const Registry& registry) { return Apart(diagram, registry).run(); }
+Graph scalarize_vectors(const WiredDiagram& diagram, const Registry& registry) {
+  return Apart(diagram, registry).run();
+}
 
 }  // namespace hysteron

@@ -8,7 +8,7 @@ namespace hysteron {
 
 /// Body: `Arguments` and `static void run(const Arguments&)`, all of it inline.
 template <class Body>
-struct Widest {
+struct SimdDispatch {
   using Call = void (*)(const typename Body::Arguments&);
 
   static Call on_this_processor() { return versions().back(); }

@@ -1,5 +1,5 @@
 // Decides what the recordings show at a place: range, reversals, holds, pace of the signal on the wire.
-#include "discover/placement/circumstances.h"
+#include "discover/placement/excitation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ class InSeries {
       free_.push_back(&program.parameters[static_cast<std::size_t>(f.parameter)]);
   }
 
-  void look(int signal, Circumstances& c) const {
+  void look(int signal, Excitation& c) const {
     for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = behind(s, c);
     for (int s = signal, depth = 0; s >= 0 && depth < 64; ++depth) s = before(s, c);
   }
@@ -79,7 +79,7 @@ class InSeries {
   /// Of several branches that move, the gain of one is in series with nothing; its zero is one.
   enum class Where { before, behind, branch };
 
-  void note(int block, Circumstances& c, Where where) const {
+  void note(int block, Excitation& c, Where where) const {
     const bool constant = program_.blocks[static_cast<std::size_t>(block)].n_u == 0;
     if (program_.blocks[static_cast<std::size_t>(block)].kernel->uses_time) return;  // a line of the mains is no zero
     for (const auto& p : program_.parameters) {
@@ -92,7 +92,7 @@ class InSeries {
       }
     }
   }
-  int behind(int signal, Circumstances& c) const {
+  int behind(int signal, Excitation& c) const {
     int reader = -1;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b)
       for (const int s : program_.blocks[b].source)
@@ -108,7 +108,7 @@ class InSeries {
       if (s != signal) note(program_.signals[static_cast<std::size_t>(s)].block, c, Where::behind);
     return block.y_begin;
   }
-  int before(int signal, Circumstances& c) const {
+  int before(int signal, Excitation& c) const {
     const auto& block = block_of(signal);
     if (block.n_u == 0 || !is_linear(block)) return -1;
     note(program_.signals[static_cast<std::size_t>(signal)].block, c, Where::before);
@@ -190,7 +190,7 @@ Swings told(const std::vector<Swing>& swings, double range) {
           slowest > 0 ? fastest / slowest : 1};
 }
 
-void look_at_row_times(const DataSet& data, Circumstances& c) {
+void look_at_row_times(const DataSet& data, Excitation& c) {
   c.shortest_step = std::numeric_limits<double>::infinity();
   c.longest_step = c.longest_recording = 0;
   for (const auto& r : data.recordings) {
@@ -219,9 +219,9 @@ class Observer {
     }
   }
 
-  std::vector<Circumstances> operator()(const std::vector<std::string>& free_paths) const {
+  std::vector<Excitation> operator()(const std::vector<std::string>& free_paths) const {
     const InSeries in_series(*program_, free_paths);
-    std::vector<Circumstances> result(places_.size(), common());
+    std::vector<Excitation> result(places_.size(), common());
     for (std::size_t i = 0; i < places_.size(); ++i) {
       auto& c = result[i];
       const int signal = signals_[i];
@@ -281,8 +281,8 @@ class Observer {
   }
 
   /// What all places share.
-  Circumstances common() const {
-    Circumstances c;
+  Excitation common() const {
+    Excitation c;
     c.from_data = true;
     look_at_row_times(data_, c);
     c.drive_cycles = drive_cycles();
@@ -333,7 +333,7 @@ class Observer {
     return most;
   }
 
-  void look_at_moves(std::size_t place, Circumstances& c) const {
+  void look_at_moves(std::size_t place, Excitation& c) const {
     std::vector<Swing> swings;
     for (const auto& seen : trains_) {
       const auto& v = seen.rows[place];
@@ -357,7 +357,7 @@ class Observer {
     return std::span(found->second).first(seen.recording->last);
   }
 
-  void look_at_side(std::size_t place, Circumstances& c) const {
+  void look_at_side(std::size_t place, Excitation& c) const {
     c.side_unit = places_[place].side_unit;
     if (const int row = side_signal_[place]; row >= 0)
       c.side_unit = program_->signals[static_cast<std::size_t>(signals_[static_cast<std::size_t>(row)])].unit;
@@ -380,7 +380,7 @@ class Observer {
   }
 
   /// Holds are those of the drive: the signal behind a slow plant never stands still.
-  void look_at_holds(Circumstances& c) const {
+  void look_at_holds(Excitation& c) const {
     for (std::size_t s = drives_; s < signals_.size(); ++s) {
       double low = 0, high = 0;
       range_of(s, low, high);
@@ -413,14 +413,13 @@ class Observer {
 
 }  // namespace
 
-std::vector<Circumstances> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
-                                            const std::vector<Place>& places,
-                                            const std::vector<std::string>& free_paths) {
+std::vector<Excitation> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
+                                         const std::vector<Place>& places, const std::vector<std::string>& free_paths) {
   return Observer(diagram, registry, data, places)(free_paths);
 }
 
-Circumstances circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
-                               const Place& place, const std::vector<std::string>& free_paths) {
+Excitation circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data, const Place& place,
+                            const std::vector<std::string>& free_paths) {
   return circumstances_at(diagram, registry, data, std::vector<Place>{place}, free_paths).front();
 }
 

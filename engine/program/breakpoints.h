@@ -17,33 +17,33 @@ inline double same_instant(double t) { return 4 * std::numeric_limits<double>::e
 
 /// The next corner of a source behind `t` [s], or infinity. Throws Error "bad_value", naming the block, if its corners
 /// do not go on.
-double corner_behind(const Program& program, const Run& run, int block, double t);
+double breakpoint_behind(const Program& program, const Run& run, int block, double t);
 
 /// Walks along the corners. A corner at c comes again at c + delay behind each dead time, as often as there are dead
 /// times.
-class Corners {
+class Breakpoints {
  public:
-  Corners(const Program& program, const Run& run, double begin);
+  Breakpoints(const Program& program, const Run& run, double begin);
 
   double next() const;    ///< first corner behind the present time [s], or infinity
   double branch() const;  ///< a time inside the present smooth piece of every source [s]
   void pass(double t);    ///< the present time is now t; corners up to t (and within rounding) are behind
-  void jumped(double t) { add_echoes(t, 0); }  ///< something else jumped at t: its echoes are corners, too
+  void jumped(double t) { add_delayed(t, 0); }  ///< something else jumped at t: its echoes are corners, too
 
  private:
-  using Echo = std::pair<double, int>;  // time, how many dead times it has passed
+  using DelayedBreakpoint = std::pair<double, int>;  // time, how many dead times it has passed
   struct Source {
     int block;
     double next;
   };
-  void add_echoes(double t, int generation);
+  void add_delayed(double t, int generation);
 
   const Program& program_;
   const Run& run_;
   double t_;
   std::vector<Source> sources_;
   std::vector<double> delays_;
-  std::priority_queue<Echo, std::vector<Echo>, std::greater<>> echoes_;
+  std::priority_queue<DelayedBreakpoint, std::vector<DelayedBreakpoint>, std::greater<>> delayed_;
 };
 
 /// The longest step that memory and switches admit [s]: a quarter of the shortest period of what drives a block with
