@@ -66,6 +66,9 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
       "The law holds while alpha (A - p) d is below (1 - c) k, and alpha R below 1. A strong alpha with a small k ends "
       "there, and the run with it; published sets of magnets then usually mean \"anhysteretic\": \"langevin\".");
   spec.remark(
+      "\"upright\": \"passed\" takes the printed formula on behind that, in steps that jump over the pole: no physics, "
+      "but what searches over random parameters did that were published.");
+  spec.remark(
       "The normalised model of the thesis (Eq. 4.4): scale is the measured stroke over that of the law, found by "
       "linear "
       "least squares; a fit of p_s, a, alpha, k, c then cares for the shape alone.");
@@ -76,6 +79,7 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
   law_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$b", "polarisation at the start").optional("0").difference();
   scale_parameter(spec).linear();
+  spec.text("upright", {"ends", "passed"}, "where the curve turns upright: the run ends, or the formula is taken on");
 }
 std::string JilesAtherton::check(const Params<double>& p) {
   if (!(std::fabs(p.initial) <= p.p_s))

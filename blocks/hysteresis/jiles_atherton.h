@@ -12,15 +12,17 @@ namespace hysteron::blocks {
 /// The law behind the parameters of a block, its curve by the place among the choices of "anhysteretic".
 template <class P>
 auto jiles_atherton_law(const P& p) {
-  return jiles_atherton::Params<decltype(p.p_s)>{
+  jiles_atherton::Params<decltype(p.p_s)> law{
       p.p_s, p.a, p.alpha,
       p.k,   p.c, value_of(p.anhysteretic) == 0 ? jiles_atherton::Curve::tanh : jiles_atherton::Curve::langevin};
+  if constexpr (requires { p.upright; }) law.past_upright = value_of(p.upright) != 0;
+  return law;
 }
 
 struct JilesAtherton {
   template <class T>
   struct Params {
-    T p_s, a, alpha, k, c, anhysteretic, initial, scale;
+    T p_s, a, alpha, k, c, anhysteretic, initial, scale, upright;
   };
   template <class T>
   struct In {

@@ -25,6 +25,7 @@ struct Params {
   T k{1};      ///< [V]    pinning: width of the loop
   T c{0};      ///< [-]    reversible share, 0 <= c < 1
   Curve curve{Curve::tanh};
+  bool past_upright{false};  ///< the formula is taken as it stands where it is no law any more, too
 };
 
 /// A curve at x: its value and its slope.
@@ -83,7 +84,8 @@ T anhysteretic(const Params<T>& p, const T& field, const T& polarisation) {
 template <class T>
 struct Slope {
   T over, under;
-  bool holds;  ///< G d is positive; or the set is refused anyway (reversible_margin), and taken as the formula stands
+  bool holds;  ///< G d is positive; or the formula is taken as it stands: past_upright, or the set is refused anyway
+               ///< (reversible_margin)
 };
 template <class T>
 Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisation,
@@ -95,7 +97,7 @@ Slope<T> slope_fraction(const Params<T>& p, const T& field, const T& polarisatio
   const T g = direction * held * p.k - p.alpha * q, left = p.a - p.alpha * s;
   const double steepest = p.curve == Curve::langevin ? 1.0 / 3 : 1.0;  // slope of the curve at zero
   const bool refused = !(plain(p.a) > plain(p.alpha) * plain(p.c) * plain(p.p_s) * steepest);
-  return {held * p.a * q + s * g, g * left, refused || plain(g) * plain(direction) > 0};
+  return {held * p.a * q + s * g, g * left, refused || p.past_upright || plain(g) * plain(direction) > 0};
 }
 template <class T>
 T slope(const Params<T>& p, const T& field, const T& polarisation, const std::type_identity_t<T>& direction) {
@@ -147,7 +149,7 @@ T field_after(const Params<T>& p, const T& field, const T& from, const T& to, do
 /// Source: thesis Eqs. 4.4 and 4.5 as corrected (normalised model), s = wanted stroke over the stroke of p.
 template <class T>
 Params<T> scaled(const Params<T>& p, const T& scale) {
-  return {scale * p.p_s, p.a, p.alpha / scale, p.k, p.c, p.curve};
+  return {scale * p.p_s, p.a, p.alpha / scale, p.k, p.c, p.curve, p.past_upright};
 }
 
 /// 1 - alpha c P_s A'(0)/a: must be positive, else the reversible part runs away by itself at zero field. A'(0) = 1 of

@@ -133,6 +133,16 @@ TEST(JilesAthertonModel, WhereTheLawEndsTheAnswerIsNoNumber) {
   EXPECT_TRUE(std::isnan(polarisation_after(p, 0.0, 0.0, 10.0)));
 }
 
+TEST(JilesAthertonModel, BehindWhereTheCurveIsUprightTheFormulaIsTakenOnWhereThatIsAsked) {
+  // alpha q = 0.249 is more than (1-c) k = 0.009: the virgin curve is upright before 1 V.
+  Params<double> p{.p_s = 50, .a = 10, .alpha = 0.05, .k = 0.01, .c = 0.1};
+  EXPECT_TRUE(std::isnan(jiles_atherton::polarisation_rate(p, 0.0, 1.0, 2.0)));
+  p.past_upright = true;
+  const double h = std::tanh(0.1), q = 50 * h, r = 0.1 * 50 / 10 * (1 - h * h);
+  const double slope = (q / (0.01 - 0.05 / 0.9 * q) + r) / (1 - 0.05 * r);
+  EXPECT_NEAR(jiles_atherton::polarisation_rate(p, 0.0, 1.0, 2.0), 2 * slope, 1e-12 * std::abs(slope));  // rounding
+}
+
 TEST(JilesAthertonModel, DualCarriesTheExactDerivativeAlongAMove) {
   const Params<Dual> p{table.p_s, table.a, table.alpha, table.k, {table.c, 1}};
   const auto at = [&](double h) {
