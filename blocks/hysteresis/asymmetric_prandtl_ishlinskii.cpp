@@ -6,9 +6,10 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr char source[] = "thesis Eq. 5.15 at one temperature; operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
+constexpr char asymmetric_prandtl_ishlinskii_source[] =
+    "thesis Eq. 5.15 at one temperature; operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
 
-void law_parameters(Declaration& d) {
+void asymmetric_prandtl_ishlinskii_parameters(Declaration& d) {
   d.list("thresholds", "$a", "threshold of each operator; the first is 0, the linear part")
       .increasing()
       .not_negative()
@@ -39,12 +40,12 @@ void AsymmetricPrandtlIshlinskii::describe(Declaration& d) {
       .in_group("hysteresis")
       .at("core");
   d.law("y = weights[0] saturation tanh(u/bend) + sum weights[i] w_i, w_i = max(u - thresholds[i], min(u, w_i before))")
-      .from(source);
+      .from(asymmetric_prandtl_ishlinskii_source);
   d.remark("The block tapi at one temperature: saturation = p_s (1 - T/t_c)^beta, bend = a T.");
   d.remembers("u", "the output w_i of each operator");
   d.input("u", "$a", "drive");
   d.output("y", "$b", "displacement");
-  law_parameters(d);
+  asymmetric_prandtl_ishlinskii_parameters(d);
   d.parameters[weights].linear();
 }
 
@@ -62,13 +63,14 @@ void SampledAsymmetricInverse::describe(Declaration& d) {
          "drive that makes an asymmetric_prandtl_ishlinskii actuator follow the wanted displacement, sample by sample")
       .in_group("sampled")
       .at("command");
-  d.law("u_k solves weights[0] saturation tanh(u_k/bend) + sum weights[i] w_i(u_k) = y_k").from(source);
+  d.law("u_k solves weights[0] saturation tanh(u_k/bend) + sum weights[i] w_i(u_k) = y_k")
+      .from(asymmetric_prandtl_ishlinskii_source);
   d.remark("Takes the parameters of the block that it compensates, its memory included.");
   d.remark("The iteration of the thesis converges for saturation < bend only; solved (iterations 0) it always does.");
   d.input("y", "$b", "wanted displacement");
   d.output("u", "$a", "command");
   d.state("w", "$a", "operators of the actuator");
-  law_parameters(d);
+  asymmetric_prandtl_ishlinskii_parameters(d);
   d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
       .optional("0")
       .not_negative();

@@ -9,9 +9,9 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr char source[] = "thesis Eqs. 5.26 to 5.31; each branch as block tapi";
+constexpr char coupled_tapi_source[] = "thesis Eqs. 5.26 to 5.31; each branch as block tapi";
 
-void law_parameters(Declaration& d) {
+void coupled_tapi_parameters(Declaration& d) {
   d.list("thresholds", "$a", "threshold of each operator, the same for all branches; the first is 0, the linear part")
       .increasing()
       .not_negative()
@@ -54,7 +54,7 @@ void CoupledTapi::describe(Declaration& d) {
   d.law(
        "y_j = sum_i [p_s_ji (1 - T/t_c)^beta_ji tanh(u_i/(a_ji T)) + sum_k weights_ji,k w_i,k], w_i,k = max(u_i - "
        "thresholds[k], min(u_i, w_i,k before))")
-      .from(source);
+      .from(coupled_tapi_source);
   d.remark(
       "Here p_s is in the unit of the output; in the block tapi, which multiplies it by its first weight, of the "
       "input.");
@@ -63,7 +63,7 @@ void CoupledTapi::describe(Declaration& d) {
   d.input("u", "$a", "drive of each axis").vector();
   d.input("temperature", "K", "temperature of the material");
   d.output("y", "$b", "displacement of each axis").vector();
-  law_parameters(d);
+  coupled_tapi_parameters(d);
 }
 
 Sizes CoupledTapi::sizes(const Shape& shape) {
@@ -84,7 +84,7 @@ std::string CoupledTapi::check_memory(const View<double>& v) {
 void SampledCoupledTapiInverse::describe(Declaration& d) {
   d.name("sampled_coupled_tapi_inverse", "drives that make coupled TAPI axes follow the wanted displacements")
       .in_group("sampled");
-  d.law("u_k solves y_j = sum_i y_j(u_i, T_k) of block coupled_tapi for all axes j").from(source);
+  d.law("u_k solves y_j = sum_i y_j(u_i, T_k) of block coupled_tapi for all axes j").from(coupled_tapi_source);
   d.remark("Takes the parameters of the block coupled_tapi that it compensates.");
   d.remark(
       "Axis after axis is solved with the newest of the others until nothing moves. It needs every output to hang on "
@@ -95,7 +95,7 @@ void SampledCoupledTapiInverse::describe(Declaration& d) {
   d.input("temperature", "K", "temperature of the material");
   d.output("u", "$a", "command of each axis").vector();
   d.state("w", "$a", "operators of the axes");
-  law_parameters(d);
+  coupled_tapi_parameters(d);
   d.text("axes", {"coupled", "single"}, "whether the branches between axes are taken away");
   d.sampled();
 }

@@ -8,7 +8,7 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr char source[] =
+constexpr char jiles_atherton_source[] =
     "thesis Eqs. 2.23 to 2.35, the reversible term by the chain rule; Jiles, Atherton, J. Magn. Magn. Mater. 61 (1986) "
     "48-60; Smith, Ounaies, J. Intell. Mater. Syst. Struct. 11 (2000) 62-79";
 constexpr char slope_text[] =
@@ -17,7 +17,7 @@ constexpr char slope_text[] =
 
 /// The parameters that the law and its inverse share, in the order of every Params above.
 template <class B>
-void law_parameters(BlockSpec<B>& spec) {
+void jiles_atherton_parameters(BlockSpec<B>& spec) {
   using P = typename B::template Params<double>;
   spec.param(&P::p_s, "p_s", "$b", "saturation").positive().difference();
   spec.param(&P::a, "a", "$a", "input over which the curve without pinning bends").positive().difference();
@@ -59,7 +59,7 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
       .elementwise()
       .rate_independent()
       .at("core");
-  spec.law(std::string("y = scale p, dp/dt = F(u, p, sign u') u', ") + slope_text).from(source);
+  spec.law(std::string("y = scale p, dp/dt = F(u, p, sign u') u', ") + slope_text).from(jiles_atherton_source);
   spec.remark("The input must have a rate: noise needs a filter in between. A jump is followed as a fast ramp.");
   spec.remark("The irreversible part is not cut off where it is negative: published piezo parameters hold so.");
   spec.remark(
@@ -76,7 +76,7 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
   spec.input(&In<double>::u, "u", "$a", "drive: field or voltage");
   spec.state(&State<double>::p, "p", "$b", "polarisation");
   spec.output(&Out<double>::y, "y", "$b", "polarisation or displacement");
-  law_parameters(spec);
+  jiles_atherton_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$b", "polarisation at the start").optional("0").difference();
   scale_parameter(spec).linear();
   spec.text("upright", {"ends", "passed"}, "where the curve turns upright: the run ends, or the formula is taken on");
@@ -94,7 +94,8 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
       .elementwise()
       .rate_independent()
       .at("command");
-  spec.law(std::string("du/dt = (y'/scale)/F(u, (y + origin)/scale, sign y'), ") + slope_text).from(source);
+  spec.law(std::string("du/dt = (y'/scale)/F(u, (y + origin)/scale, sign y'), ") + slope_text)
+      .from(jiles_atherton_source);
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
       "The input must have a rate: noise needs a filter in between. Where it is sampled, "
@@ -106,7 +107,7 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
   spec.input(&In<double>::y, "y", "$b", "wanted displacement");
   spec.state(&State<double>::u, "u", "$a", "command");
   spec.output(&Out<double>::u, "u", "$a", "command");
-  law_parameters(spec);
+  jiles_atherton_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$a", "command at the start").optional("0").difference();
   spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
       .optional("0")
@@ -122,7 +123,7 @@ void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse
       .at("command");
   spec.law(std::string("u_k = u_(k-1) + integral from p_(k-1) to p_k of dp/F(u, p, d), p = (y + origin)/scale, ") +
            slope_text)
-      .from(std::string(source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
+      .from(std::string(jiles_atherton_source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
       "Each sample is integrated with controlled error (1e-10 of its way), however large the step. Before the first "
@@ -131,7 +132,7 @@ void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse
   spec.state(&State<double>::u, "u", "$a", "last command");
   spec.state(&State<double>::y, "y", "$b", "last wanted displacement");
   spec.output(&Out<double>::u, "u", "$a", "command");
-  law_parameters(spec);
+  jiles_atherton_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$a", "command before the first instant").optional("0").difference();
   spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
       .optional("0")

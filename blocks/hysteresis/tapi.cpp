@@ -9,12 +9,12 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr char source[] =
+constexpr char tapi_source[] =
     "thesis Eqs. 5.14, 5.15; P_s(T) of a second-order transition: Strukov, Levanyuk, Ferroelectric Phenomena in "
     "Crystals "
     "(1998); operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
 
-void law_parameters(Declaration& d) {
+void tapi_parameters(Declaration& d) {
   d.list("thresholds", "$a", "threshold of each operator; the first is 0, the linear part")
       .increasing()
       .not_negative()
@@ -55,7 +55,7 @@ void Tapi::describe(Declaration& d) {
   d.law(
        "y = weights[0] P + sum weights[i] w_i, P = p_s (1 - T/t_c)^beta tanh(u/(a T)), w_i = max(u - thresholds[i], "
        "min(u, w_i before))")
-      .from(source);
+      .from(tapi_source);
   d.remark("The temperature is absolute: a column in degC is converted, a plain number is in K.");
   d.remark("The loop keeps its area at every temperature: what the temperature changes has no memory.");
   d.remark(
@@ -66,7 +66,7 @@ void Tapi::describe(Declaration& d) {
   d.input("u", "$a", "drive");
   d.input("temperature", "K", "temperature of the material");
   d.output("y", "$b", "displacement");
-  law_parameters(d);
+  tapi_parameters(d);
   d.parameters[weights].linear();
 }
 
@@ -82,7 +82,7 @@ void SampledTapiInverse::describe(Declaration& d) {
       .in_group("sampled")
       .at("command");
   d.law("u_k solves weights[0] P(u_k, T_k) + sum weights[i] w_i(u_k) = y_k, as block tapi")
-      .from(std::string(source) + "; solved by bracketed Newton steps in place of thesis Fig. 5.8");
+      .from(std::string(tapi_source) + "; solved by bracketed Newton steps in place of thesis Fig. 5.8");
   d.remark("Takes the parameters of the block tapi that it compensates, its memory included.");
   d.remark(
       "The iteration of the thesis converges for p_s(T) < a T only; this one always does, as long as the weights add "
@@ -92,7 +92,7 @@ void SampledTapiInverse::describe(Declaration& d) {
   d.input("temperature", "K", "temperature of the material");
   d.output("u", "$a", "command");
   d.state("w", "$a", "operators of the actuator");
-  law_parameters(d);
+  tapi_parameters(d);
   d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
       .optional("0")
       .not_negative();
