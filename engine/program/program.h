@@ -203,13 +203,6 @@ struct PathPoint {
   const unsigned char* rate_independent = nullptr;  ///< per block: its states move along the path
 };
 
-/// A signal that moves along a direction beside what it does itself (linearize.h).
-struct Injection {
-  int signal = 0;
-  int value_direction = -1, rate_direction = -1;  ///< of a Jet, or -1
-  bool instead = false;                           ///< of what it does itself
-};
-
 struct LoopSolver;
 
 /// Scratch of an evaluation, one per thread. Reused, so that evaluation allocates nothing. T = double, or Jet for
@@ -233,7 +226,6 @@ struct WorkOf {
   void refresh(const Run& run) requires(!std::is_same_v<T, double>);
 
   const PathPoint* path = nullptr;     ///< set while a jump is followed
-  std::vector<Injection> injections;   ///< of Jets only: empty but for linearize()
   const unsigned char* due = nullptr;  ///< set at a sampling instant: per sampled block, does it run now
   /// The first loop that the last evaluation could not solve; -1 if there is none. What was to be computed is then NaN.
   int unsolved = -1;

@@ -253,17 +253,6 @@ void rate(const Program& program, WorkOf<T>& work, int block, const T* x) {
     for (int i = 0; i < v.n_y; ++i) work.y[at(call.y_begin + i)] = work.dual_out[at(i)].value;
 }
 
-/// Signals of the block that are moved from outside, their values or their rates.
-inline void inject(const BlockInstance& b, Order order, JetWork& work) {
-  for (const Injection& i : work.injections) {
-    if (i.signal < b.y_begin || i.signal >= b.y_begin + b.sizes.outputs) continue;
-    Jet& moved = order == Order::value ? work.y[at(i.signal)] : work.rate[at(i.signal)];
-    if (i.instead) moved = Jet(moved.value);
-    const int direction = order == Order::value ? i.value_direction : i.rate_direction;
-    if (direction >= 0) moved.slope[direction] += 1;
-  }
-}
-
 template <class T>
 void run(const std::vector<Step>& steps, const Program& program, WorkOf<T>& work, const T* x) {
   for (const Step& step : steps) {
@@ -281,9 +270,6 @@ void run(const std::vector<Step>& steps, const Program& program, WorkOf<T>& work
         solve_loop(program, work, step.block, x);
         break;
     }
-    if constexpr (std::is_same_v<T, Jet>)
-      if (!work.injections.empty() && (step.order == Order::value || step.order == Order::rate))
-        inject(program.blocks[at(step.block)], step.order, work);
   }
 }
 

@@ -37,23 +37,17 @@
 #include "engine/simulate/jacobian.h"
 #include "engine/simulate/linear_row_kernel.h"
 #include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/step_defects.h"
 
 namespace hysteron {
 namespace {
 
-// A jump of dx/dt that moves the states by more than this share of the tolerance in one step restarts the integrator;
-// its error control deals with smaller ones.
-constexpr double noticed_jump = 0.1;
-// Backward differences start again at order one, which costs about as much accuracy as a jump of so many tolerances
-// that the control of the error has found (a rounded chirp behind a lag: 30 tolerances off without cuts, less than 10
-// with).
-constexpr double jump_for_bdf = 30;
-// A slope of dx/dt that changes by so much times the inverse of the step changes the Newton matrix as much as its
-// identity does.
-constexpr double noticed_slope = 0.5;
 // So many steps on end that together advance less than this share of the span: it would never come to an end.
 constexpr long crawl_steps = 200'000;
 constexpr double crawl_share = 1e-4;
+// Of a step that is taken again this is left for the step that meets the reversal: what that makes of it wrongly is
+// less by as much, and if it still shows it is taken again likewise.
+constexpr double rest_before_reversal = 1.0 / 64;
 constexpr double rounding = 1e-15;  // of the span: no time in which anything moves
 
 // The integrators hold the error of each step, and errors of many steps add up. Measured by benchmarks/accuracy.cpp on
@@ -67,8 +61,7 @@ constexpr double least_tolerance = 1e-290;  // [SI] absolute; one over it is a n
 
 /// Something in it switches, turns, bends, is sampled or comes late: the integrator starts again and again.
 bool restarts(const Program& program) {
-  return program.remembers() || !program.modal_blocks.empty() || !program.kinked_blocks.empty() ||
-         !program.sampled_blocks.empty() || program.n_histories > 0;
+  return program.n_m > 0 || !program.modal_blocks.empty() || !program.kinked_blocks.empty() || program.n_histories > 0;
 }
 
 /// The options as the integrators get them; the absolute tolerance is a multiple of the relative one.
@@ -106,14 +99,6 @@ class Simulation {
   void take_step(double stop);
   void pass_instant();
   std::optional<ZeroCrossings::Found> find_crossing();
-  bool notice_missed(double seen, bool remembered);
-  bool notice_passed(double before, double behind, double to);
-  bool bends(double before, double behind, double to);
-  bool bends_newton(double before, double behind, double to);
-  void slope_at(double t, std::vector<double>& dx) {
-    solver_->interpolate(t, interpolated_);
-    derivative(t, interpolated_.data(), dx.data());
-  }
   bool begin_anew(const ZeroCrossings::Found& crossing);
   void pass_look() {
     if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
@@ -151,7 +136,7 @@ class Simulation {
   std::vector<std::vector<double>> slopes_now_;
   std::unique_ptr<Integrator> solver_;
   Traces traces_;
-  std::vector<double> slopes_before_, slopes_after_;       // of dx/dt, as jacobian_ gives them
+  std::optional<StepDefects> defects_;                     // of the solver's steps
   std::vector<double> x_, before_, after_, interpolated_;  // x_ has one dummy state where the program has none
   std::size_t next_instant_ = 0;
   std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
@@ -190,14 +175,18 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   x_ = run_.x;
   if (x_.empty()) x_.push_back(0.0);
   before_ = after_ = interpolated_ = bad_x_ = x_;
-  noticed_.missed = [this](double seen, bool remembered) { return notice_missed(seen, remembered); };
-  noticed_.passed = [this](double before, double behind, double to) { return notice_passed(before, behind, to); };
+  noticed_.missed = [this](double seen, bool remembered) { return remembered || defects_->jumps(t_, seen); };
+  noticed_.passed = [this](double before, double behind, double to) { return defects_->bends(t_, before, behind, to); };
   states_inside_ = [this](double t, std::vector<double>& x) { solver_->interpolate(t, x); };
   traces_.t = std::move(instants);
   traces_.values.assign(signals.size(), std::vector<double>(traces_.t.size()));
   traces_.signals = std::move(signals);
   if (!options.slopes_for.empty()) make_sensitivities();
   solver_ = make_solver();
+  defects_.emplace(
+      *solver_, formula_of(options_.method), program_.n_x,
+      [this](double t, const double* x, double* dx) { return derivative(t, x, dx); }, jacobian_.get(), run_,
+      tolerance_);
 }
 
 void Simulation::make_sensitivities() {
@@ -378,68 +367,6 @@ std::optional<ZeroCrossings::Found> Simulation::find_crossing() {
   return crossings_.first(run_, work_, {t_, solver_->t(), states_inside_, true}, noticed_);
 }
 
-/// What was seen inside of the step only: would dx/dt there, all through the step, move the states.
-bool Simulation::notice_missed(double seen, bool remembered) {
-  if (remembered) return true;
-  if (program_.n_x == 0) return false;
-  slope_at(t_, before_);
-  slope_at(seen, after_);
-  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * (seen - t_);
-  return !(solver_->weighted_norm(after_) <= noticed_jump);
-}
-
-/// What both ends of a step have seen the control of its error has seen too. For bends that suffices backward
-/// differences; the others want a jump or a bend of dx/dt that moves the states to be the end of a step (40 dead zones
-/// behind sines, largest error with and without: 4e-9 and 1.9e-4 Runge-Kutta, 1.7e-6 and 2.2e-5 Adams, 8.9e-6
-/// and 5.9e-6 bdf).
-bool Simulation::notice_passed(double before, double behind, double to) {
-  return bends(before, behind, to) || (formula_of(options_.method) == Formula::bdf && bends_newton(before, behind, to));
-}
-
-/// Does dx/dt jump, or its slope in time, by so much that the states at the end of the step are others.
-bool Simulation::bends(double before, double behind, double to) {
-  const double h = to - t_, near = h / 16;
-  const double left = std::min(near, before - t_), right = std::min(near, to - behind);
-  const bool bdf = formula_of(options_.method) == Formula::bdf;
-  if (program_.n_x == 0) return false;
-  if (bdf) {
-    slope_at(before, before_);
-    slope_at(behind, after_);
-    for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = (after_[i] - before_[i]) * h;
-    return !(solver_->weighted_norm(after_) <= jump_for_bdf);
-  }
-  if (left < 1e-3 * h || right < 1e-3 * h) return false;
-  std::vector<double> f[4];  // kinks are rare
-  const double times[] = {before - left, before, behind, behind + right};
-  for (int i = 0; i < 4; ++i) slope_at(times[i], f[i] = before_);
-  for (std::size_t i = 0; i < after_.size(); ++i) {
-    after_[i] = (f[2][i] - f[1][i]) * h;
-    before_[i] = ((f[3][i] - f[2][i]) / right - (f[1][i] - f[0][i]) / left) * h * h / 2;
-  }
-  return !(solver_->weighted_norm(after_) <= noticed_jump && solver_->weighted_norm(before_) <= noticed_jump);
-}
-
-/// Newton's iteration with the slopes of one side may not go where the other side leads, and yet seem to converge.
-bool Simulation::bends_newton(double before, double behind, double to) {
-  if (jacobian_ == nullptr) return false;
-  const auto& pattern = jacobian_->pattern();
-  const auto slopes = [&](double t, std::vector<double>& entries) {
-    solver_->interpolate(t, interpolated_);
-    entries.resize(pattern.row.size());
-    (*jacobian_)(run_, t, interpolated_.data(), entries.data());
-  };
-  slopes(before, slopes_before_);
-  slopes(behind, slopes_after_);
-  for (std::size_t j = 0; j + 1 < pattern.column_begin.size(); ++j)
-    for (auto k = static_cast<std::size_t>(pattern.column_begin[j]);
-         k < static_cast<std::size_t>(pattern.column_begin[j + 1]); ++k) {
-      const double share = tolerance_[j] / tolerance_[static_cast<std::size_t>(pattern.row[k])];
-      const double change = std::abs(slopes_after_[k] - slopes_before_[k]) * (to - t_) * share;
-      if (!(change <= noticed_slope)) return true;
-    }
-  return false;
-}
-
 /// A Runge-Kutta step evaluates dx/dt inside of itself, and the polynomial of Adams' formulas is of a high order: where
 /// dx/dt bends neither is anything. True if the step is taken again, up to the kink.
 bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
@@ -453,22 +380,15 @@ bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
   return true;
 }
 
-/// The step in which an input of memory was found to turn went on behind that as if it had not turned, and memory said
-/// there what it had said at its beginning, whatever it said between. What leads to the reversal is true if dx/dt is
-/// there what the step has made of it, to the error that a step may have; else it is taken again, up to just before.
+/// What leads to a reversal is taken again, up to just before, where the step did not foresee it.
 bool Simulation::begin_anew_before_reversal() {
-  const double h = solver_->t() - t_, piece = h / 16;
-  if (program_.n_x == 0 || h <= 2 * root_width(t_, solver_->t())) return false;
+  const double h = solver_->t() - t_;
+  if (h <= 2 * root_width(t_, solver_->t())) return false;
   bool turns = false;
   for (int i = 0; i < reversals(); ++i) turns = turns || solver_->fired(i);
-  if (!turns) return false;
-  slope_at(solver_->t() - piece / 2, before_);
-  solver_->interpolate(solver_->t() - piece, interpolated_);
-  const auto end = solver_->x();
-  for (std::size_t i = 0; i < after_.size(); ++i) after_[i] = ((end[i] - interpolated_[i]) / piece - before_[i]) * h;
-  if (solver_->weighted_norm(after_) <= 1) return false;
+  if (!turns || defects_->leads_to_its_end(t_)) return false;
   if (look_at_ < then_at_) then_at_ = look_at_;
-  look_at_ = solver_->t() - h / 64;
+  look_at_ = solver_->t() - h * rest_before_reversal;
   crossings_.forget();
   solver_->start(t_, x_, s_);
   return true;
