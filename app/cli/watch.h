@@ -1,5 +1,5 @@
 // Decides how a verb speaks with whoever waits for it: how far it is, what must be known at once, and whether it shall
-// end. Does not decide how that is shown (progress.h).
+// end. Does not decide how that is shown (progress_line.h).
 #pragma once
 
 #include <chrono>

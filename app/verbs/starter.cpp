@@ -20,7 +20,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double train_share = 0.6;  // of the time, as for a single recording (DESIGN 4.2)
+constexpr double train_share = 0.6;  // of the time, as for a single recording
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });

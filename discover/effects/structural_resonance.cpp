@@ -10,7 +10,7 @@
 namespace hysteron::effects {
 namespace {
 
-// Ratios. Flexures have 0.002 .. 0.05 (EFFECTS, structural_resonance): with twice that it is a phase shifter with four
+// Ratios. Flexures have 0.002 .. 0.05: with twice that it is a phase shifter with four
 // parameters, and what never dies out is a line of the drive.
 constexpr double least_damping = 5e-4, most_damping = 0.1, searched_damping = 0.2;
 

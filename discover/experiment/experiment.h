@@ -1,4 +1,4 @@
-// Decides which experiment would separate fitted models of one device: the menu of EFFECTS 5, simulated with all of
+// Decides which experiment would separate fitted models of one device: the menu (menu.h), simulated with all of
 // them. Does not fit.
 #pragma once
 
@@ -18,7 +18,7 @@ struct Rivals;
 
 /// An experiment with its numbers for the device at hand.
 struct Experiment {
-  std::string word;       ///< of EFFECTS 5: "multisine", "step_hold" ...
+  std::string word;       ///< of the menu: "multisine", "step_hold" ...
   std::string text;       ///< what to do, with amplitude, frequency, duration and sampling in units
   double separation = 0;  ///< rms difference of two models over the noise: the least of those that it tells apart
   double rows = 0;        ///< in which they were compared: chi2 between them is separation^2 * rows
@@ -36,7 +36,7 @@ struct Rival {
   /// nothing to the sensor.
   ProgramPointer motion{};
   SideRead side{};                       ///< that it reads
-  std::vector<LookAlike> look_alikes{};  ///< which experiment is to tell it from whom (EFFECTS 6)
+  std::vector<LookAlike> look_alikes{};  ///< which experiment is to tell it from whom
   std::vector<std::string> inputs{};     ///< on the way to what it moves; empty = any
   bool hidden = false;                   ///< no recording so far could show it
 };

@@ -1,4 +1,4 @@
-// Decides which experiments there are for a device (EFFECTS 5): the signals of each, with numbers for the device at
+// Decides which experiments there are for a device: the signals of each, with numbers for the device at
 // hand. Does not simulate. What moves a drive alone is in drive_protocols.cpp, the others in side_protocols.cpp.
 #pragma once
 

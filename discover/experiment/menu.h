@@ -9,7 +9,7 @@ namespace hysteron {
 
 /// An experiment of the menu as it was simulated with all rivals.
 struct MenuItem {
-  std::string word;             ///< of EFFECTS 5: "multisine", "step_hold" ...
+  std::string word;             ///< as effects name it: "multisine", "step_hold" ...
   std::string drive{};          ///< the input that moves
   double slower = 1, part = 1;  ///< as Variant: times the usual time, of the range
   double faster_rows = 1;       ///< sampled so many times as fast as the recordings

@@ -14,7 +14,7 @@
 
 namespace hysteron {
 
-/// How an effect enters (DESIGN 5).
+/// How an effect enters.
 enum class Way {
   insert,  ///< a block with one signal in and the same signal out, put on a wire
   vary,    ///< a block of the diagram gets a parameter that it did not have
@@ -131,10 +131,10 @@ struct EffectParameter {
   std::string range;  ///< plausibility limits with their source
 };
 
-/// An effect that can be taken for this one, and what separates them (EFFECTS 5 and 6).
+/// An effect that can be taken for this one, and what separates them.
 struct LookAlike {
   std::string effect;
-  std::string experiment;  ///< a word of EFFECTS 5
+  std::string experiment;  ///< a word of the menu of experiments
   std::string deciding;    ///< the feature that decides
 };
 

@@ -22,7 +22,7 @@ namespace {
 
 const std::vector<std::string> kinds{"command", "core", "force", "motion", "measured"};
 
-/// The words of EFFECTS 5.
+/// The words of the menu of experiments.
 const std::vector<std::string> experiments{"zero_run",
                                            "precycle",
                                            "triangle",

@@ -347,7 +347,7 @@ double Evidence::plain_over_floor(const ModelError& error) const {
 }
 
 double Evidence::noisy_variance(int output) const {
-  constexpr double much = 0.5;  // rms of 1/f over white noise: few sensors have more (DISCOVERY 1 takes 0.3)
+  constexpr double much = 0.5;  // rms of 1/f over white noise: few sensors have more
   const double white = noise().outputs[static_cast<std::size_t>(output)].white;
   return white * white * (1 + much * much);
 }

@@ -83,7 +83,7 @@ std::string seen_from(const Diagram& diagram, const std::string& file) {
   return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).generic_string();
 }
 
-/// Axes that couple into each other pass on each their own motion (x_j += c_ij*x_i, EFFECTS 3): the same effect on
+/// Axes that couple into each other pass on each their own motion (x_j += c_ij*x_i): the same effect on
 /// another wire, which has this one beside it, goes on reading it without what comes back.
 bool passes_on_its_own(const Wiring& w, const Reader& reader, const Effect& effect) {
   return reader.index > 0 && w.is_inserted(reader.block) && w.diagram().blocks.find(reader.block)->effect == effect.id;

@@ -1,4 +1,4 @@
-// Decides where in a diagram an effect may enter. Order of kinds along the signal: command, core, measured (EFFECTS 1).
+// Decides where in a diagram an effect may enter. Order of kinds along the signal: command, core, measured.
 #include "discover/placement/places.h"
 
 #include <fmt/format.h>

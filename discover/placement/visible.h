@@ -1,5 +1,5 @@
 // Decides which effects a data set can show in a diagram, and why the others cannot be seen and what would show them.
-// Tries none of them: "cannot be seen in this data" is not "absent" (EFFECTS 7.6).
+// Tries none of them: "cannot be seen in this data" is not "absent".
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ namespace hysteron {
 /// the curve of a sensor.
 Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire);
 /// The signal before constant offsets and what a cable picks up: a gain-like effect must not act on the zero of a
-/// sensor (DESIGN 5), and nothing in the device delays the mains.
+/// sensor, and nothing in the device delays the mains.
 std::string before_offset(const Wiring& w, const std::string& signal);
 /// A signal that is the end of a chain of effects, told as the wire on which they stand: "u" rather than
 /// "u_hysteresis".

@@ -1,5 +1,5 @@
-// Decides what the user is told: which effect is missing, on what evidence, what is left, and what cannot be told
-// (DISCOVERY, DESIGN 7). Does not read files nor draw: it takes values and returns a value in which every decision can
+// Decides what the user is told: which effect is missing, on what evidence, what is left, and what cannot be told.
+// Does not read files nor draw: it takes values and returns a value in which every decision can
 // be traced.
 #pragma once
 

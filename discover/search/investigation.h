@@ -37,7 +37,7 @@ struct Tried {
   std::string reason;
 };
 
-/// Rules of a claim (DISCOVERY 1, steps 6 and 8).
+/// Rules of a claim.
 namespace rules {
 constexpr double claim_fall =
     10;  ///< validation evidence must fall by this: nothing-hidden cases reached 1.8, true ones start at 14.5

@@ -1,5 +1,4 @@
-// Decides which candidate may be claimed: chance, share of what is left, an excitation of its own (DISCOVERY 1, steps 6
-// and 8).
+// Decides which candidate may be claimed: chance, share of what is left, an excitation of its own.
 #include <fmt/format.h>
 
 #include <algorithm>

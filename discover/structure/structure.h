@@ -1,6 +1,6 @@
 // Decides which generic structure stands out in a residual: a line in time, a line in level, a kink at a level, jumps,
 // bursts.
-// Names no physical effect: a structure is what `unexplained` shows to people (DISCOVERY 1, step 7).
+// Names no physical effect: a structure is what `unexplained` shows to people.
 #pragma once
 
 #include <optional>

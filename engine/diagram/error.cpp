@@ -8,7 +8,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t problems_in_full = 20;  // DESIGN 4.1
+constexpr std::size_t problems_in_full = 20;  // more than anybody reads at once
 constexpr std::size_t names_in_full = 12;     // more of them nobody reads
 constexpr std::size_t nearest = 3;
 

@@ -13,9 +13,9 @@
 namespace hysteron {
 namespace {
 
-constexpr int most_rounds = 100;       // of changes of mode at one instant, ENGINE 5
+constexpr int most_rounds = 100;       // of changes of mode at one instant
 constexpr std::size_t chatter = 1000;  // so many changes of mode ...
-constexpr double chatter_span = 1e-6;  // ... within this share of the span are no motion, ENGINE 5
+constexpr double chatter_span = 1e-6;  // ... within this share of the span are no motion
 // At this pace the run would take ten million changes of mode, a minute and more.
 constexpr long endless = 100'000;
 constexpr double endless_span = 1e-2;

@@ -5,7 +5,7 @@
 
 namespace hysteron {
 namespace {
-constexpr double shift = 1e-6;  // of the nominal rate, ENGINE 4
+constexpr double shift = 1e-6;  // of the nominal rate
 }
 
 Reversals::Reversals(const Program& program, const NominalSizes& sizes, double tolerance) {

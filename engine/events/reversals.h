@@ -1,4 +1,4 @@
-// Decides when the input of a memory block turns back, as falling roots of a signed and shifted indicator (ENGINE 4).
+// Decides when the input of a memory block turns back, as falling roots of a signed and shifted indicator.
 // Does not commit memory: the loop in simulate.cpp does, wherever one of these fires.
 #pragma once
 

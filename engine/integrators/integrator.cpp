@@ -18,7 +18,7 @@ namespace {
 
 // Steps that do not advance the time beyond rounding before we give up: the solution has no continuation there.
 constexpr int standing_steps_allowed = 20;
-constexpr std::size_t states_in_a_message = 10;  // ENGINE 14
+constexpr std::size_t states_in_a_message = 10;  // those of the largest error
 
 }  // namespace
 

@@ -22,7 +22,7 @@ namespace {
 // Behind a corner of an input the first step may be ten thousand times too long, and each failure divides it by ten at
 // most.
 // Up to ten states the dense solver's own loops are faster than KLU (a tenth of a chain of ten lags); for chains of 11
-// to 30 they are equal, and KLU wins behind. With more than a third of the matrix filled it does not (ENGINE 11).
+// to 30 they are equal, and KLU wins behind. With more than a third of the matrix filled it does not.
 constexpr int smallest_sparse = 11;
 constexpr double largest_filling = 1.0 / 3;
 

@@ -14,7 +14,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double share_of_tolerance = 1e-3;  // ENGINE 7: well below what the integrator notices
+constexpr double share_of_tolerance = 1e-3;  // well below what the integrator notices
 constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
 constexpr int newton_steps_allowed = 60;
 constexpr int halvings_allowed = 30;

@@ -1,5 +1,5 @@
 // Decides what memory is at the start of a run where it is not virgin: given number by number, or left behind by a past
-// of the input, a sequence of values that is walked from one to the next before the start (ENGINE 4). Time plays no
+// of the input, a sequence of values that is walked from one to the next before the start. Time plays no
 // part: memory and rate-independent laws see the way only.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Decides how a diagram of static blocks, memory, linear time-invariant parts and nonlinear states outside of feedback
-// loops, driven by recordings or by sampled blocks, is advanced row by row, exactly (DESIGN 6.6). Linear parts use
+// loops, driven by recordings or by sampled blocks, is advanced row by row, exactly. Linear parts use
 // cached matrix exponentials with first-order hold; behind a nonlinear block, and for nonlinear states, rows are split
 // into substeps until the result no longer changes. Does not handle nonlinear blocks inside a feedback loop.
 #pragma once

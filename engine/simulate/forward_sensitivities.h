@@ -6,7 +6,7 @@
 //   dS/dt = (f(x + h S, p + h) - f(x - h S, p - h)) / (2 h) = J S + df/dp,
 // one difference along one direction, exact but for h^2 (Hindmarsh, Serban, CVODES user guide, section 2.7). What a run
 // accepts, its twins accept; a jump is walked by all three. So memory carries its own slopes, without which those of a
-// hysteretic actuator have the wrong sign (ENGINE 12). ForwardSensitivities never see an event of their own: they
+// hysteretic actuator have the wrong sign. ForwardSensitivities never see an event of their own: they
 // change modes when the run does, with the correction for the shift of its time,
 //   tau = dt/dp = -(dg/dp) / (dg/dt),  S+ = R_x (S + f- tau) + R_p - f+ tau,
 // for a guard g and a reset R (Rozenvasser, Autom. Remote Control 28 (1967) 394-400).

@@ -1,4 +1,4 @@
-// The loop of ENGINE 5. At every accepted point, in this order:
+// The loop in time. At every accepted point, in this order:
 //   0. the step is cut where something inside of it switches that neither of its ends shows (zero_crossings.h);
 //   1. outputs are taken on [t_old, t_new) from the step's own interpolation, with the memory as it was during the
 //   step;

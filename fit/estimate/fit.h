@@ -160,7 +160,7 @@ struct FitOrigin {
   std::uint64_t seed = 1;
 };
 
-/// A parameter set as JSON text (ENGINE 10): path -> value with unit, standard deviation, and the interval in words;
+/// A parameter set as JSON text: path -> value with unit, standard deviation, and the interval in words;
 /// what the data do not determine is left out. Where all parameters belong to one block, the names are the block's own
 /// and the block can name the file as its "parameters".
 /// Where the numbers come from stands under "fit"; parameters of single recordings too.

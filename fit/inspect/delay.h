@@ -1,5 +1,5 @@
 // Decides whether a measured column comes late (or early) by something that its note does not say.
-// Reported, never applied silently (DESIGN 4.2): the same number of samples at different sample rates is a fact of the
+// Reported, never applied silently: the same number of samples at different sample rates is a fact of the
 // data, the same number of seconds a dead time of the device; with one rate it is a tie.
 #pragma once
 

@@ -21,7 +21,7 @@ std::string to_text(NoiseSource source);
 
 struct NoiseOfOutput {
   double white = 0;         ///< rms [SI], resolution included
-  double one_over_f = 0.3;  ///< rms of the 1/f part over the white rms; 0.3 where nobody says (DISCOVERY 1)
+  double one_over_f = 0.3;  ///< rms of the 1/f part over the white rms; 0.3 where nobody says
   double resolution = 0;    ///< [SI]; 0 = unknown
   NoiseSource source = NoiseSource::guessed;
   bool share_is_stated = false;  ///< by the data set
@@ -45,7 +45,7 @@ struct NoiseModel {
 /// What can be said before any fit: notes of the data set, else a guess from the high band of the measured rows.
 NoiseModel noise_before_fit(const DataModel& model);
 
-/// Corrected by the residual of the best model (DISCOVERY 1, step 2): s2 = median over recordings of median(w^2) /
+/// Corrected by the residual of the best model: s2 = median over recordings of median(w^2) /
 /// 0.455 in the upper half band of the whitened residual; 0.455 is the median of chi-square with one degree of freedom.
 /// Clipped to 0.7 .. 1.35 where a data sheet exists, free where none does (but never below resolution^2 / 12).
 /// Where a data sheet states the white noise and not the share of 1/f, that share is the most likely one for the slow

@@ -2,7 +2,7 @@
 // Does not know where the noise figures come from (noise.h).
 //
 // Orthonormal DCT-II of the rows; coefficient k is divided by s sqrt(1 + A / (k + 1/2)), A = share^2 N / 7.9, and k = 0
-// by s sqrt(1 + 4 A) (DISCOVERY 1, step 2; sum over k of 1/(k+1/2) is about 7.9 for some thousand rows, so that the 1/f
+// by s sqrt(1 + 4 A) (sum over k of 1/(k+1/2) is about 7.9 for some thousand rows, so that the 1/f
 // part has the rms share * s). Predictions and columns pass the same filter, so 1/f noise cannot buy creep or drift. A
 // constant stands in coefficient 0 alone: dropping it is exactly the estimation of one zero per recording. Rows are
 // taken by their index: where time is not uniform, "frequency" means per row, not per second.

@@ -17,7 +17,7 @@ namespace hysteron {
 namespace {
 
 constexpr hsize_t rows_at_once = 1024;           // of a column: 8 kB, so that a small study is a small file
-constexpr unsigned truncate = 2, read_only = 0;  // as hdf5.h has them, without the calls that it hides in their names
+constexpr unsigned truncate = 2, read_only = 0;  // as HDF5 has them, without the calls that it hides in their names
 constexpr char names_fact[] = "columns";
 constexpr std::size_t largest_fact = 1 << 26;  // more is damage: a fact is kept in memory
 

@@ -66,7 +66,7 @@ struct DataSet {
   std::vector<std::string> remarks;  ///< what the user must be told (e.g. how a single recording was cut)
 };
 
-/// Reads a data set file (JSON) or a single CSV. Paths must stay inside the project (DESIGN 4) or in `allowed` folders.
+/// Reads a data set file (JSON) or a single CSV. Paths must stay inside the project or in `allowed` folders.
 /// A single CSV, and a data set that lists one recording with role train or none, is cut at 60 % of its time. skip and
 /// until count from the first row. Rows at which a delayed column would show a time before the recording are not
 /// judged. Throws Error: "missing_column", "decreasing_time", "bad_number", "empty_file", "unknown_key" ... naming

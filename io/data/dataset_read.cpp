@@ -1,4 +1,4 @@
-// Decides how a data set file, or a single CSV, becomes a DataSet (DESIGN 4.2): columns bound by name, roles, what is
+// Decides how a data set file, or a single CSV, becomes a DataSet: columns bound by name, roles, what is
 // judged. Does not know the diagram: dataset_bind.cpp compares both.
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double train_share = 0.6;     // DESIGN 4.2: of the time of a single recording
+constexpr double train_share = 0.6;     // of the time of a single recording
 constexpr std::size_t fewest_rows = 3;  // judged rows of a recording: a standard deviation of two is chance
 
 /// What the file says of one column. Noise is converted once the column's unit is known.

@@ -1,4 +1,4 @@
-// Decides how a diagram stands in a JSON file (DESIGN 4.1) and how it is written back so that a diff shows only what
+// Decides how a diagram stands in a JSON file and how it is written back so that a diff shows only what
 // changed.
 #pragma once
 
@@ -20,7 +20,7 @@ Diagram read_diagram(const std::string& file, const std::vector<std::string>& al
 /// by its keys: what is in them may be wrong. False where it is no JSON.
 bool is_diagram_file(const std::string& file);
 
-/// The text of a diagram file: keys in the order of DESIGN 4.1, one block per line where it fits.
+/// The text of a diagram file: keys in the order of docs/diagrams.md, one block per line where it fits.
 std::string diagram_text(const Diagram& diagram);
 
 /// The diagram as it stands at another place: `$schema` and relative paths seen from the folder of `file`.

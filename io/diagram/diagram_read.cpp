@@ -1,4 +1,4 @@
-// Decides how the text of a diagram file becomes a Diagram (DESIGN 4.1), with all that it names: nested diagrams,
+// Decides how the text of a diagram file becomes a Diagram, with all that it names: nested diagrams,
 // parameter sets, recorded inputs. Does not judge block types, their parameters, wires or units: the engine does.
 #include <fmt/format.h>
 
@@ -276,7 +276,7 @@ class DiagramReader {
     });
   }
 
-  /// A parameter set: a flat map of values, each perhaps with what a fit knows of it (ENGINE 10).
+  /// A parameter set: a flat map of values, each perhaps with what a fit knows of it.
   void parameter_set(Node& node, const JsonPlace& place) {
     const auto written = place.text();
     if (!written) return;

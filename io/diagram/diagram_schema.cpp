@@ -1,4 +1,4 @@
-// Decides the JSON Schema of diagrams: what DESIGN 4.1 allows, with every block type and parameter from its
+// Decides the JSON Schema of diagrams: what docs/diagrams.md allows, with every block type and parameter from its
 // declaration. An editor completes and checks by it; the reader and the engine say more (units, wires, references).
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Decides how a Diagram stands as text: the keys in the order of DESIGN 4.1, one block per line where it fits, so that
-// a diff shows only what changed. Does not read.
+// Decides how a Diagram stands as text: the keys in the order of docs/diagrams.md, one block per line where it fits, so
+// that a diff shows only what changed. Does not read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -153,7 +153,7 @@ class DiagramWriter {
     m.emplace_back("from", one_line(candidates));
     const std::string line = one_line(m);
     if (used + line.size() <= line_width) return line;
-    // As in DESIGN 4.1: what is chosen on the first line, the candidates below, one each.
+    // What is chosen on the first line, the candidates below, one each.
     m.pop_back();
     std::string out = one_line(m);
     out.pop_back();

@@ -1,4 +1,4 @@
-// Decides which files a file may name: those inside its project, or in a folder that the user allowed (DESIGN 4).
+// Decides which files a file may name: those inside its project, or in a folder that the user allowed.
 // Does not open anything.
 #pragma once
 

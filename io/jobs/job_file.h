@@ -1,4 +1,4 @@
-// Decides how a job stands in a JSON file (DESIGN 4.3): what to do with a diagram and its data. Reads it; does not know
+// Decides how a job stands in a JSON file: what to do with a diagram and its data. Reads it; does not know
 // which parameters the diagram has, nor their units (fit/thesis/problem.h).
 #pragma once
 

@@ -1,6 +1,6 @@
 // Decides how runs of diagrams, their figures and the claims that they settle stand in a job ("do": "runs",
 // docs/reproduce.md). Reads it and checks the names that the job itself gives; does not know the diagrams' signals and
-// units (app/runs.h).
+// units (app/jobs/job_runs.h).
 #pragma once
 
 #include <optional>

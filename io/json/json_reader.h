@@ -93,7 +93,7 @@ void check_format(const JsonPlace& root, const std::string& kind);
 
 /// Names of inputs and outputs may hold capital letters: they are those of measured columns (T, F1).
 enum class Capitals { none, allowed };
-/// Names of blocks, parameters, runs ... match [a-z][a-z0-9_]* (DESIGN 4.1); notes "bad_name".
+/// Names of blocks, parameters, runs ... match [a-z][a-z0-9_]*; notes "bad_name".
 bool check_name(const JsonPlace& place, const std::string& name, const std::string& kind,
                 Capitals capitals = Capitals::none);
 

@@ -1,4 +1,4 @@
-// Decides the JSON Schemas of data sets (DESIGN 4.2) and of result.json. That of diagrams is in diagram_schema.cpp.
+// Decides the JSON Schemas of data sets and of result.json. That of diagrams is in diagram_schema.cpp.
 #include "io/diagram/diagram_file.h"
 #include "io/json/schema_parts.h"
 

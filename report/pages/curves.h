@@ -54,7 +54,7 @@ Table metrics_table(const DataModel& model, const Comparison& comparison);
 Facts metrics_facts(const DataModel& model, const Comparison& comparison);
 Facts split_facts(const DataModel& model, const Comparison& comparison);
 
-/// Recordings of train and validate, in the order of the data set; test recordings are left alone (DESIGN 4.2).
+/// Recordings of train and validate, in the order of the data set; test recordings are left alone.
 std::vector<int> judged_recordings(const DataModel& model);
 
 }  // namespace hysteron

@@ -90,7 +90,7 @@ void for_each_source(const Action& action) {
       if (is_source(entry.path())) action(room, entry.path(), text_of(entry.path()));
 }
 
-/// "simulate" of "engine/simulate/events.h", "" of "engine/block.h".
+/// "simulate" of "engine/simulate/simulate.h", "" of a source beside the rooms.
 std::string room_of(const std::string& folder, const std::string& path) {
   const std::string inside = path.substr(folder.size() + 1);
   const auto slash = inside.find('/');

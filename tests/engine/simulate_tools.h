@@ -144,7 +144,7 @@ inline Diagram bouc_wen_loop() {
                  {"stage", "controller"});
 }
 
-/// Ten play operators in front of a stage of two states, position feedback (ENGINE 17, first row).
+/// Ten play operators in front of a stage of two states, position feedback.
 inline Diagram play_loop() {
   return diagram(
       {{"reference", thesis_wave("sine", "3 um")},

@@ -1,6 +1,6 @@
 // Errata of chapter 2 of the thesis that concern a computation: the printed form fails, the corrected one holds. E-04
-// stands in fit/thesis/slopes_method_test.cpp, E-07 in prandtl_ishlinskii_inverse_test.cpp, E-18 with the margins of
-// the loops (app/chapter2_loops_test.cpp).
+// stands in tests/fit/thesis/slopes_method_test.cpp, E-07 in prandtl_ishlinskii_inverse_test.cpp, E-18 with the margins
+// of the loops (tests/app/chapter2_loops_test.cpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Errata of chapter 4 of the thesis that concern a computation: the printed form fails, the corrected one holds. Those
-// of the swarms (E-25, E-26) stand in fit/estimate/global_test.cpp.
+// of the swarms (E-25, E-26) stand in tests/fit/estimate/global_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

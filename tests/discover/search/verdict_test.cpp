@@ -103,7 +103,7 @@ TEST_F(Verdicts, AnotherLawOfHysteresisIsNamedAndTheErrorFallsToTheNoise) {
   const Discovery d = found(plain_gain(), data_set(list, 3e-3));
   EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
   ASSERT_EQ(names(d), std::vector<std::string>{"hysteresis"});
-  // Six plays leave about a quarter of the loop (DISCOVERY 3), more of them less.
+  // Six plays leave about a quarter of the loop, more of them less.
   EXPECT_LT(d.final_error.rms_validate, 2 * 3e-3);
   EXPECT_LT(d.final_error.rms_validate, 0.2 * d.base.rms_validate);
   ASSERT_EQ(effects_in(d.final_diagram).size(), 1u);

@@ -172,7 +172,7 @@ TEST(Compile, AllProblemsOfAStageAreReportedTogether) {
 }
 
 TEST(Compile, AFeedbackLoopThroughAStateIsNoLoopEvenWhereAnotherBlockWantsItsRate) {
-  // ENGINE section 3: the hysteresis is driven by the stage's position, whose rate is known from the stage's states.
+  // The hysteresis is driven by the stage's position, whose rate is known from the stage's states.
   Diagram d;
   d.blocks["drive"] = node("sine", {}, {{"amplitude", "1 V"}, {"frequency", "5 Hz"}});
   d.blocks["error"] = node("sum", {"drive", "sensor"}, {{"signs", "+-"}});

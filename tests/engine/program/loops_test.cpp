@@ -110,7 +110,7 @@ TEST(Statistics, PhasesAreNotNegativeAndDoNotExceedTheWhole) {
 }
 
 /// The operators of the thesis behind their own inverse: u_c = (r - sum w_i P_i(u_c)) / w_0 with
-/// w_0 = ratio * sum of the others (ENGINE 17).
+/// w_0 = ratio * sum of the others.
 Diagram inverse_compensator(double ratio) {
   const double rest = std::accumulate(thesis_weights.begin() + 1, thesis_weights.end(), 0.0);
   return diagram({{"lack", block("sum", {{"signs", "+-"}}, {"u", "curved"})},

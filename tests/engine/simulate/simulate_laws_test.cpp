@@ -1,4 +1,4 @@
-// Laws of the integration that hold for every diagram (STYLE 3.5), and how the error follows the tolerance.
+// Laws of the integration that hold for every diagram, and how the error follows the tolerance.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -79,7 +79,7 @@ TEST(Slopes, OfParametersThatBlocksPrepareAreThere) {
 }
 
 TEST(Slopes, OfAHystereticLoopCountWhatMemoryRemembers) {
-  // ENGINE 12: with memory taken as constant the slope of the gain has the wrong sign.
+  // With memory taken as constant the slope of the gain has the wrong sign.
   expect_slopes_as_by_differences(play_loop(), {"amplifier.gain", "hysteresis.weights[3]", "hysteresis.thresholds[2]"},
                                   {.until = 0.45, .every = 0.003, .method = Method::bdf, .relative_tolerance = 1e-8},
                                   2e-3);  // reversals and kinks are found within the tolerance, slopes jump there

@@ -48,7 +48,7 @@ double log_law_misfit(const std::vector<double>& times, double gamma) {
 }
 
 TEST(CreepModel, OneElementPerDecadeFollowsTheLogarithmicLaw) {
-  // EFFECTS creep, computed there independently for about 1.5 % per decade: four elements at 0.3 ... 300 s leave at
+  // Computed independently for about 1.5 % per decade: four elements at 0.3 ... 300 s leave at
   // most 0.12 % of the step, three at 1, 10, 100 s leave 0.5 %.
   EXPECT_LT(log_law_misfit({0.3, 3, 30, 300}, 0.015), 0.0012);
   EXPECT_LT(log_law_misfit({1, 10, 100}, 0.015), 0.005);
