@@ -323,19 +323,21 @@ TEST(ZeroCrossings, AReversalAtAKinkIsOne) {
 }
 
 TEST(ZeroCrossings, ALawThatMovesBetweenTheEndsOfAStepOnlyIsIntegrated) {
-  // Behind the dead time the input falls from 0 to -1 and rises again, within a sixth of the run. The backlash is met
-  // at -0.6 and left at the trough: its output goes to -0.4 and stays. The integral is that of the way down, int
-  // -(sin(w s) - 0.6) ds over the sines between 0.6 and 1, and -0.4 times what is left.
-  const auto d =
-      tools::diagram({{"u", block("sine", {{"amplitude", 1.0}, {"frequency", "1 Hz"}, {"phase", "180 deg"}})},
-                      {"d", block("dead_time", {{"delay", "2 s"}}, {"u"})},
-                      {"b", block("backlash", {{"gap", 1.2}}, {"d"})},
-                      {"i", block("integrator", {}, {"b"})}},
-                     {"i"});
-  const double w = 2 * M_PI, met = std::asin(0.6) / w;
-  const double way = -(std::cos(w * met) / w - 0.6 * (0.25 - met));
+  // Behind the dead time the input falls from where it rested into the backlash, to its trough, and rises again. A step
+  // over both ends sees a law that rests. Its output follows from where the backlash is met to the trough, stays until
+  // the other side is met at 0.694 s, and its integral is that of the sine in between.
+  constexpr double o = 0.1489, a = 0.3264, f = 2.327, delay = 0.5523, g = 0.2891 / 2;
+  constexpr double w = 2 * M_PI * f, phase = -125.4 * M_PI / 180;
+  const auto d = tools::diagram({{"u", sine(a, f, phase, o)},
+                                 {"d", block("dead_time", {{"delay", number(delay, "s")}}, {"u"})},
+                                 {"b", block("backlash", {{"gap", 2 * g}}, {"d"})},
+                                 {"i", block("integrator", {}, {"b"})}},
+                                {"i"});
+  const double met = (-M_PI - std::asin((-g - o) / a) - phase) / w, trough = (-M_PI / 2 - phase) / w;
+  const double way = (o + g) * (trough - met) - a / w * (std::cos(w * trough + phase) - std::cos(w * met + phase));
+  const double rest = (o - a + g) * (0.68 - delay - trough);
   for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta})
-    EXPECT_NEAR(simulated(d, 2.5, method).values[0].back(), way - 0.4 * 0.25, 1e-5) << method_name(method);
+    EXPECT_NEAR(simulated(d, 2, method, 0.02).values[0][34], way + rest, 1e-6) << method_name(method);
 }
 
 TEST(ZeroCrossings, AJumpOfABlockWithoutModesSwitchesThoseBehindItAtOnce) {
