@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/number_text.h"
+
 namespace hysteron::effects {
 
 void give(Node& block, const std::string& parameter, Value value) { block.parameters[parameter] = std::move(value); }
