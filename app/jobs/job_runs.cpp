@@ -11,7 +11,7 @@
 #include "engine/diagram/error.h"
 #include "engine/simulate/simulate.h"
 #include "fit/model/model.h"
-#include "io/data/csv.h"
+#include "io/data/table_file.h"
 #include "io/diagram/diagram_file.h"
 
 namespace hysteron {
@@ -290,7 +290,7 @@ RunResult JobRunner::traced(const Program& program, Run start_of, SimulateOption
 }
 
 RunResult JobRunner::table(const RunWish& run) const {
-  const CsvTable csv = read_csv(run.file);
+  const CsvTable csv = read_table(run.file);
   RunResult r;
   for (const auto& column : csv.columns) {
     RunColumn c{column.name, column.name, column.unit, column.values};

@@ -23,7 +23,7 @@ namespace {
 constexpr char compare_help[] =
     "Answers: how far is the model from the measurement, and WHERE does it fail - when, at which level,\n"
     "on which branch, at which rate. Evaluated at exactly the measured instants; nothing is fitted.\n"
-    "Of two CSV files: where do their traces differ by more than a tolerance (docs/compare.md).\n\n"
+    "Of two files of traces: where do their traces differ by more than a tolerance (docs/compare.md).\n\n"
     "Examples:\n"
     "  hysteron compare stage.json --data lab.csv\n"
     "  hysteron compare stage.json --data dataset.json --set gain=\"11.9 um/V\"\n"
@@ -171,7 +171,7 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
 bool names_two_files(const Arguments& arguments) {
   const auto is = [](const std::string& file, const char* type) { return file.ends_with(type); };
   const std::string first = arguments.text("diagram"), second = arguments.text("other");
-  if (second.empty() && is(first, ".csv"))
+  if (second.empty() && (is(first, ".csv") || is(first, ".f64")))
     fail("bad_command_line", "compare", fmt::format("only one file is named: {}", first),
          "name a second file of traces, or a diagram and its recordings: hysteron compare stage.json --data lab.csv");
   if (!second.empty() && (is(first, ".json") || is(second, ".json")))
@@ -182,7 +182,7 @@ bool names_two_files(const Arguments& arguments) {
     fail("bad_command_line", "compare", "--data is required where a diagram is named", "see hysteron compare --help");
   for (const char* option : {"--over", "--pair"})
     if (arguments.has(option))
-      fail("bad_command_line", option, "it is for two files of traces", "leave it out, or name two CSV files");
+      fail("bad_command_line", option, "it is for two files of traces", "leave it out, or name two files of traces");
   return false;
 }
 
@@ -277,8 +277,8 @@ Verb compare_verb() {
       "compare",
       "how far is the model from the measurement, and where does it fail",
       compare_help,
-      {{"diagram", "FILE", "diagram file (JSON), or traces (CSV)", true, false},
-       {"other", "FILE", "traces (CSV) to hold against those of the first file", false, false},
+      {{"diagram", "FILE", "diagram file (JSON), or traces (CSV, f64)", true, false},
+       {"other", "FILE", "traces (CSV, f64) to hold against those of the first file", false, false},
        options::data(false),
        {"--tolerance", "LIMIT",
         "exit with 1 if NRMSE (5%) or RMS (\"0.2 um\") is larger; of traces \"y: 2 nm + 0.1 %, 0.1 ms\"", false, true},

@@ -6,6 +6,7 @@
 #include "app/cli/load.h"
 #include "engine/diagram/error.h"
 #include "fit/compare/trace_files.h"
+#include "io/data/table_file.h"
 #include "report/pages/curves.h"
 #include "report/pages/facts.h"
 #include "report/pages/numbers.h"
@@ -246,7 +247,7 @@ Answer compare_traces(const Arguments& arguments) {
            "leave it out, or name a diagram and its recordings: hysteron compare stage.json --data lab.csv");
   const TraceWishes wishes = wishes_of(arguments);
   const TraceComparison comparison =
-      compare_trace_files(read_csv(arguments.text("diagram")), read_csv(arguments.text("other")), wishes);
+      compare_trace_files(read_table(arguments.text("diagram")), read_table(arguments.text("other")), wishes);
   Answer answer;
   if (!arguments.quiet()) answer.text = plot_of_where(comparison);
   answer.folder = result_folder(arguments, "compare");

@@ -14,6 +14,7 @@
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "io/data/recording_file.h"
+#include "io/data/table_file.h"
 #include "io/files/atomic_file.h"
 
 namespace hysteron {
@@ -62,7 +63,7 @@ std::vector<WrittenFile> files_of(const fs::path& folder, const Starter& starter
 Answer make_new(const Arguments& arguments, const Watch&) {
   const fs::path from = arguments.text("--from");
   const fs::path folder = arguments.text("-o");
-  const CsvTable table = read_csv(from.string());
+  const CsvTable table = read_table(from.string());
   check_sizes(table);
   StarterRoles given;
   given.inputs = arguments.list("--input");

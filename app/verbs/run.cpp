@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
@@ -25,7 +26,8 @@ constexpr char run_help[] =
     "  hysteron run stage.json --until \"1 s\" --every \"0.1 ms\"\n"
     "  hysteron run stage.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n"
     "  hysteron run stage.json --data lab.csv     the diagram's inputs move as in the recording\n\n"
-    "Writes into the folder: result.json, traces/*.csv, report.html. Says where the time went.\n"
+    "Writes into the folder: result.json, traces/*.csv, report.html. Says where the time went. With --traces f64\n"
+    "the traces are traces/*.f64, for millions of rows: numbers as memory holds them (docs/programs.md).\n"
     "Exit codes: 0 done, 2 the diagram or the data are wrong, 3 the simulation failed.";
 
 constexpr double most_numbers = 1e8;  // recorded at once: 800 MB
@@ -36,6 +38,15 @@ std::vector<int> signals_to_record(const Program& program) {
   std::vector<int> all(program.signals.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return all;
+}
+
+/// The form of the files in traces/.
+std::string trace_type(const Arguments& arguments) {
+  const std::string form = arguments.text("--traces", "csv");
+  if (form != "csv" && form != "f64")
+    fail("bad_command_line", "--traces", fmt::format("traces cannot be written as \"{}\"", form),
+         "write csv (text), or f64 (numbers as memory holds them, for millions of rows)");
+  return "." + form;
 }
 
 /// A time of the command line, above zero; `otherwise` where it is not given.
@@ -72,7 +83,7 @@ std::function<void(double)> shown(const Watch& watch, std::size_t which, std::si
 }
 
 void run_own_time(const Arguments& arguments, const Watch& watch, const Diagram& diagram, const Program& program,
-                  Document& document, RunFacts& facts) {
+                  const std::string& type, Document& document, RunFacts& facts) {
   if (!program.input_names.empty())
     fail("unbound_input", "/inputs/" + program.input_names.front(),
          fmt::format("the diagram takes its {} from outside, and nothing drives it", program.input_names.front()),
@@ -80,15 +91,15 @@ void run_own_time(const Arguments& arguments, const Watch& watch, const Diagram&
   with_lines_of(diagram, [&] {
     SimulateOptions settings = own_time_options(arguments, diagram, program);
     settings.progress = shown(watch, 0, 1, fmt::format("of {} s", number_text(settings.until, 6)));
-    const Traces traces = simulate(program, start(program), settings);
+    Traces traces = simulate(program, start(program), settings);
     document.headline = fmt::format("{}: simulated {} s, {} recorded", document.title, number_text(settings.until, 6),
                                     count_text(static_cast<long>(settings.signals.size()), "signal"));
-    add_traces(document, facts, program, traces, "signals");
+    add_traces(document, facts, program, std::move(traces), "signals", type);
   });
 }
 
 void run_recordings(const Arguments& arguments, const Watch& watch, const Diagram& diagram, const Program& program,
-                    Document& document, RunFacts& facts) {
+                    const std::string& type, Document& document, RunFacts& facts) {
   const DataSet data = load_data(arguments, program);
   document.warnings = data.remarks;
   std::string seen;
@@ -105,8 +116,8 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
       settings.signals = signals_to_record(program);
       settings.at_rest = recording.at_rest || recording.initial_per_recording;
       settings.progress = shown(watch, index, count, recording.name);
-      const Traces traces = simulate(program, start_recording(program, data, recording), settings);
-      add_traces(document, facts, program, traces, recording.name);
+      Traces traces = simulate(program, start_recording(program, data, recording), settings);
+      add_traces(document, facts, program, std::move(traces), recording.name, type);
     });
   }
   document.headline = fmt::format("{}: simulated along {}", document.title,
@@ -115,6 +126,7 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
 
 Answer run(const Arguments& arguments, const Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::string type = trace_type(arguments);
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const double loading = seconds_since(begin);
@@ -126,9 +138,9 @@ Answer run(const Arguments& arguments, const Watch& watch) {
   RunFacts facts;
   const StopScope until_stopped(watch.stop);
   if (arguments.has("--data"))
-    run_recordings(arguments, watch, diagram, *program, document, facts);
+    run_recordings(arguments, watch, diagram, *program, type, document, facts);
   else
-    run_own_time(arguments, watch, diagram, *program, document, facts);
+    run_own_time(arguments, watch, diagram, *program, type, document, facts);
   document.facts = to_json(Facts::object(
       {{"diagram", arguments.text("diagram")}, {"traces", facts.traces}, {"statistics", facts.statistics}}));
   answer.asides = {times_text(loading, facts)};
@@ -157,6 +169,7 @@ Verb run_verb() {
           {options::diagram(),
            options::data(false),
            {"--until", "TIME", "until when, e.g. \"1 s\"; default: as the diagram says", false, false},
+           {"--traces", "FORM", "csv (default) or f64, for millions of rows", false, false},
            {"--every", "TIME", "record every so often, e.g. \"0.1 ms\"", false, false},
            options::output_folder(),
            options::set(),

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/program/feedthrough.h"
 #include "report/pages/numbers.h"
@@ -19,13 +20,14 @@ std::string signal_name(const Program& program, int signal) {
   return program.signals[static_cast<std::size_t>(signal)].path;
 }
 
-CsvTable table_of(const Program& program, const Traces& traces, const std::string& file) {
+/// Takes the rows out of `traces`.
+CsvTable table_of(const Program& program, Traces& traces, const std::string& file) {
   CsvTable table;
   table.file = file;
-  table.columns.push_back({"t", parse_unit("s"), traces.t});
+  table.columns.push_back({"t", parse_unit("s"), std::move(traces.t)});
   for (std::size_t i = 0; i < traces.signals.size(); ++i) {
     const Unit& unit = program.signals[static_cast<std::size_t>(traces.signals[i])].unit;
-    CsvColumn column{signal_name(program, traces.signals[i]), unit, traces.values[i]};
+    CsvColumn column{signal_name(program, traces.signals[i]), unit, std::move(traces.values[i])};
     for (auto& value : column.values) value = unit.from_si(value);
     table.columns.push_back(std::move(column));
   }
@@ -142,9 +144,9 @@ std::string times_text(double loading, const RunFacts& facts) {
   return fmt::format("time: {}", fmt::join(parts, ", "));
 }
 
-void add_traces(Document& document, RunFacts& facts, const Program& program, const Traces& traces,
-                const std::string& name) {
-  document.traces.push_back(table_of(program, traces, trace_file(name, document.traces)));
+void add_traces(Document& document, RunFacts& facts, const Program& program, Traces traces, const std::string& name,
+                const std::string& type) {
+  document.traces.push_back(table_of(program, traces, trace_file(name, document.traces, type)));
   const auto& table = document.traces.back();
   Section section;
   section.title = name == "signals" ? "Signals over time" : name;
@@ -152,7 +154,7 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, con
   facts.traces.set(table.file, add_ranges(section, table));
   const auto& s = traces.statistics;
   section.text.push_back(fmt::format(
-      "{}; method {}, {}, {} rejected, {} evaluations, {}.", count_text(static_cast<long>(traces.t.size()), "row"),
+      "{}; method {}, {}, {} rejected, {} evaluations, {}.", count_text(static_cast<long>(table.rows()), "row"),
       s.method, count_text(s.steps, "step"), s.rejected, s.evaluations, count_text(s.reversals, "reversal")));
   document.warnings.insert(document.warnings.end(), s.warnings.begin(), s.warnings.end());
   if (!s.why.empty()) section.text.push_back(fmt::format("Method {}: {}.", s.method, s.why));

@@ -16,9 +16,10 @@ struct RunFacts {
   double seconds = 0;
 };
 
-/// Adds one simulation to the document and to the facts; `name`: of its trace.
-void add_traces(Document& document, RunFacts& facts, const Program& program, const Traces& traces,
-                const std::string& name);
+/// Adds one simulation to the document and to the facts; `name`: of its trace, `type`: of the file that it goes into.
+/// Takes the rows out of `traces`, which may be most of the memory.
+void add_traces(Document& document, RunFacts& facts, const Program& program, Traces traces, const std::string& name,
+                const std::string& type);
 
 /// "time: load and compile 3.1 ms, set up 0.2 ms, steps 10 ms, events 0.5 ms, output 1.2 ms"
 std::string times_text(double loading, const RunFacts& facts);

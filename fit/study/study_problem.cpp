@@ -11,7 +11,7 @@
 #include "fit/model/model.h"
 #include "fit/signals/features.h"
 #include "fit/study/unit_algebra.h"
-#include "io/data/csv.h"
+#include "io/data/table_file.h"
 
 namespace hysteron {
 namespace {
@@ -152,7 +152,7 @@ class Builder {
   }
 
   static std::vector<double> column_of(const DrawnParameterWish& wish, const Unit& unit, const ParameterInfo& info) {
-    const CsvTable table = read_csv(wish.file);
+    const CsvTable table = read_table(wish.file);
     const CsvColumn& column = csv_column(table, wish.column);
     need_dimension(column.unit, unit, wish.column.pointer, info.path);
     std::vector<double> values = column.values;
@@ -314,7 +314,7 @@ class Builder {
 
   /// The column of a recording at the rows of the study.
   std::vector<double> subtracted(const FeatureWish& wish, const Unit& unit, const TraceFeature& f) const {
-    const CsvTable table = read_csv(wish.minus_file);
+    const CsvTable table = read_table(wish.minus_file);
     const CsvColumn& column = csv_column(table, wish.minus_column);
     const CsvColumn& time = table.find("t") != nullptr ? *table.find("t") : table.columns.front();
     const std::string& pointer = wish.minus_column.pointer;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "engine/diagram/error.h"
+#include "io/data/binary_table.h"
 #include "io/data/dataset.h"
 #include "io/data/recording_file.h"
 #include "io/data/same_rows.h"
@@ -367,6 +368,7 @@ DataSet from_single_file(const std::string& file) {
 
 bool is_json(const std::string& file) {
   if (std::filesystem::path(file).extension() == ".json") return true;
+  if (is_binary_table(file)) return false;  // which begins with a line of JSON
   const std::string text = read_file(file);
   const auto begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   return begin != text.npos && text[begin] == '{';

@@ -8,7 +8,7 @@
 
 #include "engine/diagram/error.h"
 #include "engine/program/breakpoints.h"
-#include "io/data/csv.h"
+#include "io/data/table_file.h"
 #include "io/json/value_text.h"
 
 namespace hysteron {
@@ -96,7 +96,7 @@ RecordingFile read_recording_file(const std::string& file, std::size_t fewest_ro
   if (std::filesystem::path(file).extension() == ".mat")
     fail_in(file, 0, "unknown_file_type", file, "MAT files are not read yet",
             "export the columns as CSV with a header t [s],u [V],y [um]");
-  const CsvTable table = read_csv(file);
+  const CsvTable table = read_table(file);
   check_sizes(table);
   const CsvColumn& time = time_column(table);
   check_times(table, time);

@@ -25,8 +25,8 @@ std::string bracket_hint(const std::string& name, const std::vector<std::string>
 /// Throws Error "bad_number" for values beyond 1e100, which no instrument gives and whose squares are no numbers.
 void check_sizes(const CsvTable& table);
 
-/// Reads a recording: CSV with a column t and at least `fewest_rows` rows. Throws Error "missing_column", "wrong_unit",
-/// "decreasing_time", "too_few_rows", "unknown_file_type" and what read_csv throws.
+/// Reads a recording: a table (table_file.h) with a column t and at least `fewest_rows` rows. Throws Error
+/// "missing_column", "wrong_unit", "decreasing_time", "too_few_rows", "unknown_file_type" and what read_table throws.
 RecordingFile read_recording_file(const std::string& file, std::size_t fewest_rows);
 
 }  // namespace hysteron

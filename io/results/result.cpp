@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagram/error.h"
+#include "io/data/table_file.h"
 #include "io/files/atomic_file.h"
 
 namespace hysteron {
@@ -222,7 +223,7 @@ Document read_result(const std::string& folder) {
     d.facts = std::make_shared<nlohmann::json>(j.value("facts", Json::object()));
     read_all(j, "sections", d.sections);
     for (const auto& name : j.value("traces", std::vector<std::string>{})) {
-      d.traces.push_back(read_csv((root / "traces" / name).string()));
+      d.traces.push_back(read_table((root / "traces" / name).string()));
       d.traces.back().file = name;
     }
     for (const auto& name : j.value("files", std::vector<std::string>{}))

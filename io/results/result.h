@@ -1,4 +1,4 @@
-// Decides what a verb leaves behind: result.json for programs, traces as CSV, and the sections that report/ draws.
+// Decides what a verb leaves behind: result.json for programs, traces as tables, and the sections that report/ draws.
 // A folder of results is written whole or not at all (staged_results.h).
 #pragma once
 
@@ -68,7 +68,7 @@ struct Document {
   std::vector<std::string> sentences;  ///< what matters, most important first
   std::vector<std::string> warnings;   ///< what the reader must not overlook
   std::vector<Section> sections;
-  std::vector<CsvTable> traces;  ///< file = name in traces/ ("01.csv")
+  std::vector<CsvTable> traces;  ///< file = name in traces/ ("01.csv", "01.f64")
   /// Further files of the folder: name, content ("step1.json").
   std::vector<std::pair<std::string, std::string>> files;
   /// Files that were too large to be held here, and are written before the document: "study.h5".
@@ -85,9 +85,10 @@ Document read_result(const std::string& folder);  ///< from result.json and trac
 std::string trace_file_name(const std::string& name);
 
 /// A file name for a trace, from whatever a recording is called: "02.csv (2)" becomes "02-2.csv". Unique among `taken`.
-std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken);
+/// `type` decides the form in which it is written (io/data/table_file.h).
+std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken, const std::string& type = ".csv");
 
-/// Writes the folder: result.json with its schema, traces/*.csv, further files, and report.html (made by the caller
+/// Writes the folder: result.json with its schema, traces/, further files, and report.html (made by the caller
 /// from the document); all of them or none. A folder that is there stays: what an earlier run of the same verb wrote is
 /// replaced, and what others put there is not touched. Two at once take turns; `waiting` is told of the other. Throws
 /// Error "cannot_write", "folder_in_use"; Stopped (engine/diagram/stop.h) before anything is replaced.

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/diagram/error.h"
+#include "io/data/binary_table.h"
+#include "io/data/table_file.h"
 #include "io/diagram/diagram_file.h"
 #include "io/files/atomic_file.h"
 #include "io/results/result.h"
@@ -89,7 +91,7 @@ void write_files(StagedResults& staged, const Document& document, const std::str
   std::vector<std::string> places;  // all of them before anything is written: a name that is taken is told at once
   for (const auto& name : names) places.push_back(staged.place(name));
   auto place = places.begin();
-  for (const auto& trace : document.traces) write_csv(*place++, trace);
+  for (const auto& trace : document.traces) write_table(*place++, trace);
   for (const auto& [name, content] : document.files) write_file(*place++, content);
   if (!report_html.empty()) write_file(*place++, report_html);
   write_file(*place++, result_schema());
@@ -154,9 +156,10 @@ void write_result(const std::string& folder, const Document& document, const std
   });
 }
 
-std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken) {
+std::string trace_file(const std::string& name, const std::vector<CsvTable>& taken, const std::string& type) {
   std::string stem = name;
-  if (const auto dot = stem.rfind(".csv"); dot != std::string::npos) stem.erase(dot, 4);
+  for (const char* other : {".csv", binary_table_type})
+    if (const auto dot = stem.rfind(other); dot != std::string::npos) stem.erase(dot, 4);
   std::string clean;
   for (const char c : stem) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
@@ -171,8 +174,8 @@ std::string trace_file(const std::string& name, const std::vector<CsvTable>& tak
   const auto is_taken = [&](const std::string& file) {
     return std::any_of(taken.begin(), taken.end(), [&](const CsvTable& t) { return t.file == file; });
   };
-  std::string file = clean + ".csv";
-  for (int i = 2; is_taken(file); ++i) file = fmt::format("{}-{}.csv", clean, i);
+  std::string file = clean + type;
+  for (int i = 2; is_taken(file); ++i) file = fmt::format("{}-{}{}", clean, i, type);
   return file;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "engine/diagram/error.h"
+#include "io/data/binary_table.h"
 #include "io/data/csv.h"
 #include "io/data/dataset.h"
 #include "io/diagram/diagram_file.h"
@@ -100,6 +101,13 @@ TEST(DamagedFiles, DataSetsAreReadOrRefused) {
 }
 TEST(DamagedFiles, RecordingsAreReadOrRefused) {
   EXPECT_GT(refusals(csv, "x.csv", [](const std::string& file) { read_dataset(file); }), 100);
+}
+TEST(DamagedFiles, BinaryTablesAreReadOrRefused) {
+  const TemporaryFolder folder;
+  write_binary_table(folder.path("x.f64"), read_csv(folder.write("a.csv", csv)));
+  EXPECT_GT(refusals(TemporaryFolder::read(folder.path("x.f64")), "x.f64",
+                     [](const std::string& file) { read_dataset(file); }),
+            400);
 }
 TEST(DamagedFiles, JobsAndClaimsAreReadOrRefused) {
   EXPECT_GT(refusals(job, "j.json", [](const std::string& file) { read_runs_job(file); }), 250);

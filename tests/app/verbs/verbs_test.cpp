@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagram/units.h"
+#include "io/results/result.h"
 #include "tests/app/hysteron_process.h"
 #include "tests/app/lab.h"
 #include "tests/app/lab_test.h"
@@ -144,6 +145,52 @@ TEST_F(Verbs, RunRecordsSignalsInTheirUnitsAtExactlyTheInstantsAskedFor) {
   EXPECT_NEAR(signals["drive"]["largest"].get<double>(), 1, 1e-12);
   EXPECT_NEAR(signals["double"]["largest"].get<double>(), 2, 1e-12);
   EXPECT_EQ(signals["double"]["unit"], "V");
+}
+
+TEST_F(Verbs, RunWritesTracesAsNumbersThatAreThoseOfTheText) {
+  folder_.write("sine.json", sine);
+  for (const char* form : {"csv", "f64"}) {
+    const Outcome outcome = hysteron(folder_.path(), {"run", "sine.json", "--traces", form, "-o", form});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(schema::refuses("result", folder_.read(std::string(form) + "/result.json")), "");
+  }
+  const CsvTable text = read_result(folder_.path() + "/csv").traces.at(0);
+  const CsvTable numbers = read_result(folder_.path() + "/f64").traces.at(0);
+  EXPECT_EQ(numbers.file, "signals.f64");
+  EXPECT_FALSE(folder_.has("f64/traces/signals.csv"));
+  ASSERT_EQ(numbers.columns.size(), text.columns.size());
+  ASSERT_EQ(numbers.rows(), 21U);
+  for (std::size_t c = 0; c < text.columns.size(); ++c) {
+    EXPECT_EQ(numbers.columns[c].name, text.columns[c].name);
+    EXPECT_EQ(numbers.columns[c].unit.text, text.columns[c].unit.text);
+    EXPECT_EQ(numbers.columns[c].values, text.columns[c].values) << "the text holds every bit, too";
+  }
+}
+
+TEST_F(Verbs, TracesAsNumbersAreReadWhereverTextIs) {
+  folder_.write("source.json", R"({
+    "format": 1, "title": "Source",
+    "blocks": {"u": {"type": "sine", "amplitude": "3 V", "frequency": "5 Hz"},
+               "y": {"type": "gain", "gain": "2 um/V", "in": "u"}},
+    "record": ["u", "y"], "simulate": {"until": "0.2 s", "every": "1 ms"}})");
+  ASSERT_EQ(hysteron(folder_.path(), {"run", "source.json", "-o", "text"}).code, 0);
+  ASSERT_EQ(hysteron(folder_.path(), {"run", "source.json", "--traces", "f64", "-o", "out"}).code, 0);
+  const std::vector<std::vector<std::string>> commands{
+      {"compare", "text/traces/signals.csv", "out/traces/signals.f64", "--tolerance", "1e-300 um"},
+      {"check", "diagram.json", "--data", "out/traces/signals.f64"},
+      {"run", "diagram.json", "--data", "out/traces/signals.f64"},
+      {"new", "--from", "out/traces/signals.f64", "-o", "started"},
+      {"compare", "started/diagram.json", "--data", "started/dataset.json"}};
+  for (const auto& words : commands) {
+    const Outcome outcome = hysteron(folder_.path(), words);
+    EXPECT_EQ(outcome.code, 0) << words[0] << ": " << outcome.out << outcome.err;
+  }
+}
+
+TEST_F(Verbs, RunRefusesAFormOfTracesThatThereIsNot) {
+  const Outcome outcome = hysteron(folder_.path(), {"run", "diagram.json", "--data", "a.csv", "--traces", "float"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("write csv (text), or f64"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Verbs, RunDrivesADiagramWithTheInputsOfRecordings) {
