@@ -11,6 +11,7 @@
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
+#include "engine/compile/draft.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/settings.h"
 #include "fit/inspect/inspection.h"
@@ -73,17 +74,34 @@ void tell_other_names(Error& error) {
 
 }  // namespace
 
-ProgramPointer compile_file(const Diagram& diagram) {
+namespace {
+
+ProgramPointer compile_by(const Diagram& diagram, ProgramPointer (*compile_it)(const Diagram&)) {
   ProgramPointer program;
   with_lines_of(diagram, [&] {
     try {
-      program = compile(diagram, registry());
+      program = compile_it(diagram);
     } catch (Error& error) {
       tell_other_names(error);
       throw Error(error.fault, error.problems);
     }
   });
   return program;
+}
+
+}  // namespace
+
+ProgramPointer compile_file(const Diagram& diagram) {
+  return compile_by(diagram, [](const Diagram& d) { return compile(d, registry()); });
+}
+
+ProgramPointer compile_telling_all(const Diagram& diagram) {
+  return compile_by(diagram, [](const Diagram& d) {
+    DraftProgram draft = compile_draft(d, registry());
+    draft.problems.insert(draft.problems.end(), draft.warnings.begin(), draft.warnings.end());
+    if (!draft.problems.empty()) throw Error(Fault::input, draft.problems);
+    return draft.program;
+  });
 }
 
 DataSet load_data(const Arguments& arguments, const Program& program) {

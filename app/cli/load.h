@@ -26,6 +26,8 @@ void with_lines_of(const Diagram& diagram, const std::function<void()>& action);
 
 /// Compiles; problems get the file and line of the diagram.
 ProgramPointer compile_file(const Diagram& diagram);
+/// The same; what is thrown are the problems of all stages, not of the first that fails.
+ProgramPointer compile_telling_all(const Diagram& diagram);
 
 /// The data set of the arguments, bound to the program.
 DataSet load_data(const Arguments& arguments, const Program& program);

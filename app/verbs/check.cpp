@@ -1,4 +1,4 @@
-// The verb check: is the file right. All problems of the first stage that fails are told together.
+// The verb check: is the file right. All problems of all stages are told together.
 // Does not simulate.
 #include <fmt/format.h>
 
@@ -19,8 +19,8 @@ constexpr char check_help[] =
     "  hysteron check stage.json\n"
     "  hysteron check stage.json --data lab.csv\n"
     "  hysteron check stage.json --choose compensator=none\n\n"
-    "Prints one line with counts if all is well, else every problem of the first stage that fails:\n"
-    "file, line, place, what is wrong and the cure.\n"
+    "Prints one line with counts if all is well, else every problem: file, line, place, what is wrong and\n"
+    "the cure. Where names or units are wrong, the rest is looked at without these blocks.\n"
     "Exit codes: 0 the file is right, 2 it is not.";
 
 Facts diagram_facts(const Program& program, long free) {
@@ -35,7 +35,7 @@ Facts diagram_facts(const Program& program, long free) {
 
 Answer check(const Arguments& arguments, const Watch& watch) {
   const Diagram diagram = load_diagram(arguments, watch);
-  const ProgramPointer program = compile_file(diagram);
+  const ProgramPointer program = compile_telling_all(diagram);
   const auto free =
       std::count_if(program->parameters.begin(), program->parameters.end(), [](const auto& p) { return p.free; });
   Answer answer;

@@ -207,21 +207,30 @@ class ParameterTable {
     return info.difference ? unit.difference_to_si(bound.value) : unit.to_si(bound.value);
   }
 
+  static void apply_bounds(ParameterInfo& info, const DiagramParameter& given, const ParameterDeclaration& p) {
+    info.free = given.free.value_or(false);
+    if (given.lower) info.lower = std::max(info.lower, in_si(info, given, p, *given.lower));
+    if (given.upper) info.upper = std::min(info.upper, in_si(info, given, p, *given.upper));
+    if (!(info.lower <= info.value && info.value <= info.upper))
+      fail(
+          "bad_value", "/parameters/" + info.path,
+          fmt::format("\"{}\" is {} (SI), outside its bounds {} ... {}", info.path, info.value, info.lower, info.upper),
+          "move the value or the bounds");
+  }
+
   void apply_bounds() {
+    Problems problems;
     for (const auto& parameter : graph_.parameters)
       for (std::size_t i = 0; i < program_.parameters.size(); ++i) {
         auto& info = program_.parameters[i];
         if (info.path != parameter.path && info.path.rfind(parameter.path + "[", 0) != 0) continue;
-        const DiagramParameter& given = *parameter.given;
-        info.free = given.free.value_or(false);
-        if (given.lower) info.lower = std::max(info.lower, in_si(info, given, *declared_[i], *given.lower));
-        if (given.upper) info.upper = std::min(info.upper, in_si(info, given, *declared_[i], *given.upper));
-        if (!(info.lower <= info.value && info.value <= info.upper))
-          fail("bad_value", "/parameters/" + info.path,
-               fmt::format("\"{}\" is {} (SI), outside its bounds {} ... {}", info.path, info.value, info.lower,
-                           info.upper),
-               "move the value or the bounds");
+        try {
+          apply_bounds(info, *parameter.given, *declared_[i]);
+        } catch (const Error& e) {
+          for (const auto& p : e.problems) problems.add(p.code, p.path, p.what, p.cure);
+        }
       }
+    problems.throw_if_any();
   }
 
   const Graph& graph_;
@@ -266,7 +275,10 @@ std::string place_of_guess(const std::string& signal) {
 }
 
 ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
-  Graph graph = build_graph(diagram, registry);
+  return compile_graph(build_graph(diagram, registry), diagram);
+}
+
+ProgramPointer compile_graph(Graph graph, const Diagram& diagram) {
   check_units(graph);
   auto program = std::make_shared<Program>();
   program->signals = graph.signals;
@@ -278,6 +290,11 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
     program->input_names.push_back(graph.inputs[i].first);
     program->input_signals.push_back(graph.inputs[i].second);
     program->input_units.push_back(graph.input_units[i]);
+  }
+  for (const auto& [name, signal] : graph.open) {
+    program->input_names.push_back(name);
+    program->input_signals.push_back(signal);
+    program->input_units.push_back(graph.signals[static_cast<std::size_t>(signal)].unit);
   }
   for (const auto& [name, signal] : graph.outputs) {
     program->output_names.push_back(name);

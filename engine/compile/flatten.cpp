@@ -31,22 +31,54 @@ struct BuildScope {
 
 class Builder {
  public:
-  Builder(const Diagram& diagram, const Registry& registry) : registry_(registry) {
+  /// `gaps`: of a draft, else null.
+  Builder(const Diagram& diagram, const Registry& registry, Gaps* gaps) : registry_(registry), gaps_(gaps) {
     add_scope(diagram, "", -1, nullptr, "");
   }
 
   WiredDiagram build() {
     check_wire_names();
     collect(0);
-    problems_.throw_if_any();  // names and types first: wires of unknown blocks would only repeat the message
+    stop_if_wrong();  // names and types first: wires of unknown blocks would only repeat the message
     wire_all();
     name_outputs();
     find_unused();
-    problems_.throw_if_any();
+    stop_if_wrong();
     return std::move(wired_);
   }
 
+  const Problems& problems() const { return problems_; }
+
  private:
+  void stop_if_wrong() const {
+    if (gaps_ == nullptr) problems_.throw_if_any();
+  }
+
+  // --- drafts -------------------------------------------------------------------------------------------------------
+
+  bool is_left_out(const std::string& origin) const { return gaps_ != nullptr && gaps_->left_out.contains(origin); }
+
+  /// The end in place of one that is missing; of a finished diagram there is none.
+  PortEnd open_end(const std::string& name) {
+    if (gaps_ == nullptr) return {};
+    gaps_->open.insert(name);
+    const auto found = inputs_.find(name);
+    return found == inputs_.end() ? PortEnd{} : PortEnd{found->second, 0, -1, name, {}};
+  }
+
+  void add_open_ends() {
+    const Kernel* kernel = registry_.find("input");
+    if (gaps_ == nullptr || kernel == nullptr) return;
+    static const Node empty;
+    for (const auto& name : gaps_->open) {
+      if (inputs_.contains(name)) continue;  // an input of the diagram whose unit is not known
+      inputs_[name] = add_leaf(0, name, *kernel, empty, "");
+      wired_.open.emplace_back(name, inputs_[name]);
+    }
+  }
+
+  // --- scopes -------------------------------------------------------------------------------------------------------
+
   int add_scope(const Diagram& diagram, const std::string& prefix, int parent, const Node* node,
                 const std::string& origin) {
     BuildScope s;
@@ -61,7 +93,10 @@ class Builder {
 
   void collect(int index) {
     const Diagram& diagram = *scopes_[static_cast<std::size_t>(index)].scope.diagram;
-    if (index == 0) add_inputs(diagram);
+    if (index == 0) {
+      add_inputs(diagram);
+      add_open_ends();
+    }
     for (const auto& [name, node] : diagram.blocks) {
       Entry entry;
       entry.node = &node;
@@ -88,7 +123,6 @@ class Builder {
       static const Node empty;
       Entry entry{&empty, &empty, -1, -1, "/inputs/" + name};
       entry.leaf = add_leaf(0, name, *kernel, empty, entry.origin);
-      wired_.inputs.emplace_back(name, entry.leaf);
       WiredBlock& block = wired_.blocks.back();
       block.stated_length = input.length;
       if (input.length < 0)
@@ -99,7 +133,10 @@ class Builder {
         block.unit = parse_unit(input.unit, entry.origin + "/unit");
       } catch (const Error& e) {
         for (const auto& p : e.problems) problems_.add(p.code, p.path, p.what, p.cure);
+        if (gaps_ != nullptr) gaps_->open.insert(name);
       }
+      const bool unit_is_open = gaps_ != nullptr && gaps_->open.contains(name);
+      (unit_is_open ? wired_.open : wired_.inputs).emplace_back(name, entry.leaf);
       inputs_[name] = entry.leaf;
     }
   }
@@ -142,15 +179,17 @@ class Builder {
                     did_you_mean(body.type, types));
       return;
     }
-    entry.leaf = add_leaf(index, name, *kernel, body, origin);
+    if (!is_left_out(origin)) entry.leaf = add_leaf(index, name, *kernel, body, origin);
   }
 
+  /// -1 in a draft where its parameters are wrong.
   int add_leaf(int index, const std::string& name, const Kernel& kernel, const Node& body, const std::string& origin) {
     const Scope& scope = scopes_[static_cast<std::size_t>(index)].scope;
     WiredBlock b;
     b.path = scope.prefix + name;
     b.origin = origin;
     b.kernel = &kernel;
+    const std::size_t problems_before = problems_.list().size();
     b.parameters = resolve_parameters(scope, body, kernel.declaration, origin, wired_.parameters, problems_);
     b.shape = shape_of(kernel.declaration, b.parameters);
     if (const Value* samples = body.parameters.find("samples"))
@@ -159,10 +198,13 @@ class Builder {
       problems_.add("missing_parameter", origin, fmt::format("\"{}\" has no recorded samples", b.path),
                     "name them: \"file\": \"x.csv\", \"column\": \"u\"");
     if (const Value* unit = kernel.declaration.is_series ? body.parameters.find("unit") : nullptr)
-      if (const auto* text = std::get_if<std::string>(&unit->content)) {
-        b.unit = parse_unit(*text, unit->origin);
-        b.unit_known = true;
-      }
+      if (const auto* text = std::get_if<std::string>(&unit->content)) try {
+          b.unit = parse_unit(*text, unit->origin);
+          b.unit_known = true;
+        } catch (const Error& e) {
+          for (const auto& p : e.problems) problems_.add(p.code, p.path, p.what, p.cure);
+        }
+    if (gaps_ != nullptr && problems_.list().size() > problems_before) return -1;
     wired_.blocks.push_back(std::move(b));
     return static_cast<int>(wired_.blocks.size()) - 1;
   }
@@ -237,6 +279,7 @@ class Builder {
       const auto found = scope.entries.find(head);
       if (found != scope.entries.end() && found->second.scope >= 0)
         return resolve(found->second.scope, name.substr(slash + 1), place, depth + 1);
+      if (found != scope.entries.end() && found->second.leaf < 0) return {};
       problems_.add("unknown_signal", place, fmt::format("there is no nested diagram \"{}\" in \"{}\"", head, name),
                     did_you_mean(head, known_names(index)));
       return {};
@@ -254,7 +297,7 @@ class Builder {
     }
     const Entry& entry = found->second;
     if (entry.scope >= 0) return resolve_nested(entry, block, port, place, depth);
-    if (entry.leaf < 0) return {};
+    if (entry.leaf < 0) return {};  // a problem of the block itself
     return resolve_leaf(entry.leaf, block, port, place);
   }
 
@@ -341,6 +384,11 @@ class Builder {
             entry.body == nullptr || !entry.body->in.empty() ? (entry.body ? *entry.body : *entry.node) : *entry.node;
         if (entry.leaf >= 0) wire_leaf(static_cast<int>(s), entry, wires);
         if (entry.scope >= 0) check_nested_wires(static_cast<int>(s), entry, wires);
+        if (entry.leaf < 0 && entry.scope < 0) {
+          wired_.left_out.push_back(scopes_[s].scope.prefix + name);
+          // The wires of a block that is not there may be wrong, too.
+          for (const Wire& wire : wires.in) resolve(static_cast<int>(s), wire.from, entry.origin + "/in");
+        }
       }
   }
 
@@ -354,6 +402,7 @@ class Builder {
     std::size_t next = 0;
     for (const Wire& wire : wires.in) {
       PortEnd end = resolve(index, wire.from, place);
+      if (end.block < 0) end = open_end(scopes_[static_cast<std::size_t>(index)].scope.prefix + wire.from);
       std::size_t port = ports.size();
       if (wire.port.empty()) {
         port = std::min(next, ports.empty() ? std::size_t{0} : ports.size());
@@ -381,11 +430,16 @@ class Builder {
       sources[port].push_back(std::move(end));
     }
     for (std::size_t i = 0; i < ports.size(); ++i) {
-      if (sources[i].empty())
+      if (sources[i].empty()) {
         problems_.add("missing_connection", place,
                       fmt::format("input \"{}\" of {} \"{}\" is not connected", ports[i].name,
                                   b.kernel->declaration.type, b.path),
                       fmt::format("say where it comes from: \"in\": \"...\"; {}", ports[i].meaning));
+        if (!ports[i].variadic)
+          sources[i].push_back(open_end(b.path + "." + ports[i].name));
+        else if (gaps_ != nullptr)  // nothing says how many
+          gaps_->left_out.insert(b.origin);
+      }
       for (auto& end : sources[i]) {
         b.wires.push_back(std::move(end));
         b.port.push_back(static_cast<int>(i));
@@ -411,7 +465,7 @@ class Builder {
       else if (!seen.insert(port).second)
         problems_.add("double_connection", place,
                       fmt::format("input \"{}\" of the nested diagram is connected twice", port), "keep one wire");
-      else if (const int length = inner.scope.diagram->inputs.find(port)->length; length > 0)
+      else if (const int length = inner.scope.diagram->inputs.find(port)->length; length > 0 && end.block >= 0)
         wired_.stated.push_back({std::move(end), length, inner.scope.prefix + port});
     }
     for (const auto& name : names)
@@ -424,15 +478,18 @@ class Builder {
   void name_outputs() {
     const Diagram& top = *scopes_[0].scope.diagram;
     for (const auto& [name, signal] : top.outputs)
-      wired_.outputs.emplace_back(name, resolve(0, signal, "/outputs/" + name));
+      if (PortEnd end = resolve(0, signal, "/outputs/" + name); end.block >= 0)
+        wired_.outputs.emplace_back(name, std::move(end));
     for (std::size_t i = 0; i < top.record.size(); ++i)
-      wired_.record.push_back(resolve_recorded(top, top.record[i], fmt::format("/record/{}", i)));
+      if (PortEnd end = resolve_recorded(top, top.record[i], fmt::format("/record/{}", i)); end.block >= 0)
+        wired_.record.push_back(std::move(end));
     for (const auto& [kind, wires] : top.places)
       for (const auto& wire : wires) {
         const auto dot = wire.find('.');
         // A place may name an input port ("stage.in"): then the block itself must exist.
         if (dot != std::string::npos && (wire.substr(dot + 1) == "in" || is_input_port(wire))) continue;
-        wired_.places_read.push_back(resolve(0, wire, "/places/" + kind));
+        if (PortEnd end = resolve(0, wire, "/places/" + kind); end.block >= 0)
+          wired_.places_read.push_back(std::move(end));
       }
   }
 
@@ -468,6 +525,7 @@ class Builder {
   }
 
   const Registry& registry_;
+  Gaps* gaps_;
   std::deque<BuildScope> scopes_;  // a deque: scopes point at their parents
   std::vector<int> parents_;
   std::map<std::string, int> inputs_;
@@ -479,7 +537,14 @@ class Builder {
 }  // namespace
 
 WiredDiagram wire_diagram(const Diagram& diagram, const Registry& registry) {
-  return Builder(diagram, registry).build();
+  return Builder(diagram, registry, nullptr).build();
+}
+
+WiredDiagram wire_draft(const Diagram& diagram, const Registry& registry, Gaps& gaps, Problems& problems) {
+  Builder builder(diagram, registry, &gaps);
+  WiredDiagram wired = builder.build();
+  for (const auto& p : builder.problems().list()) problems.add(p.code, p.path, p.what, p.cure);
+  return wired;
 }
 
 }  // namespace hysteron

@@ -8,6 +8,7 @@
 //                  one pass per element, so that an element depends on what it is made of and on nothing else
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,8 @@ struct StatedLength {
 struct WiredDiagram {
   std::vector<WiredBlock> blocks;
   std::vector<std::pair<std::string, int>> inputs;  ///< name, block
+  std::vector<std::pair<std::string, int>> open;    ///< the same of the ends that a draft leaves open
+  std::vector<std::string> left_out;                ///< of a draft: paths of blocks
   std::vector<std::pair<std::string, PortEnd>> outputs;
   std::vector<PortEnd> record, places_read;
   std::vector<StatedLength> stated;
@@ -69,6 +72,17 @@ struct WiredDiagram {
 
 /// flatten.cpp. Throws all problems of names, types, values and wires.
 WiredDiagram wire_diagram(const Diagram& diagram, const Registry& registry);
+
+/// What a draft lacks (draft.h).
+struct Gaps {
+  std::set<std::string> left_out;  ///< places of blocks (JSON pointers) that are not compiled
+  std::set<std::string> open;  ///< ends that nothing is wired to, or a block that is left out: inputs of the program
+  std::size_t size() const { return left_out.size() + open.size(); }
+};
+
+/// flatten.cpp. Wires what can be wired; what it finds to be missing beyond that goes into `gaps`, and then is only
+/// whole when it is called again. Problems go into `problems`.
+WiredDiagram wire_draft(const Diagram& diagram, const Registry& registry, Gaps& gaps, Problems& problems);
 
 /// unused.cpp: what nobody reads. `used`: (scope, name) of what somebody read in passing.
 struct ScopeOfNames {

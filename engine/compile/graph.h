@@ -67,6 +67,7 @@ struct Graph {
   std::vector<GraphBlock> blocks;
   std::vector<SignalInfo> signals;
   std::vector<std::pair<std::string, int>> inputs, outputs;  ///< name, signal
+  std::vector<std::pair<std::string, int>> open;  ///< the same of inputs whose units are those of what reads them
   std::vector<int> record;
   std::vector<Unit> input_units;
   std::vector<GraphParameter> parameters;
@@ -80,6 +81,9 @@ std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node
 
 /// graph.cpp: choices, nested diagrams, wires (flatten.h), lengths, and every vector taken apart into numbers.
 Graph build_graph(const Diagram& diagram, const Registry& registry);
+
+/// compile.cpp: the later stages, from units to a program that can start.
+ProgramPointer compile_graph(Graph graph, const Diagram& diagram);
 
 /// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.
 void check_units(Graph& graph);

@@ -22,12 +22,10 @@ class Apart {
     for (std::size_t b = 0; b < d_.blocks.size(); ++b) add_signals(static_cast<int>(b));
     for (std::size_t b = 0; b < d_.blocks.size(); ++b) wire(static_cast<int>(b));
     for (const auto& [name, b] : d_.inputs) {
-      const auto& own = d_.blocks[at(b)];
-      for (int k = 0; k < own.lengths[0]; ++k) {
-        graph_.inputs.emplace_back(indexed(name, own.lengths[0], k), signal(b, 0, k));
-        graph_.input_units.push_back(own.unit);
-      }
+      name_elements(name, b, graph_.inputs);
+      graph_.input_units.resize(graph_.inputs.size(), d_.blocks[at(b)].unit);
     }
+    for (const auto& [name, b] : d_.open) name_elements(name, b, graph_.open);
     for (const auto& [name, end] : d_.outputs)
       for (int k = 0; k < d_.length(end); ++k)
         graph_.outputs.emplace_back(indexed(name, d_.length(end), k), element(end, k));
@@ -39,6 +37,10 @@ class Apart {
   }
 
  private:
+  void name_elements(const std::string& name, int input, std::vector<std::pair<std::string, int>>& list) const {
+    const int n = d_.blocks[at(input)].lengths[0];
+    for (int k = 0; k < n; ++k) list.emplace_back(indexed(name, n, k), signal(input, 0, k));
+  }
   int signal(int block, int port, int element) const { return first_[at(block)][at(port)][at(element)]; }
   int element(const PortEnd& end, int k) const {
     return signal(end.block, end.port, end.element >= 0 ? end.element : k);

@@ -41,6 +41,26 @@ TEST_F(Verbs, CheckPrintsOneLineWithCountsAndWritesNothing) {
   EXPECT_EQ(folder_.entries(), before);
 }
 
+TEST_F(Verbs, CheckTellsTheProblemsOfAllStages) {
+  folder_.write("draft.json", R"({
+    "format": 1, "title": "Draft", "inputs": {"u": {"unit": "V"}},
+    "blocks": {
+      "stage": {"type": "gian", "gain": 2, "in": "u"},
+      "stop": {"type": "saturation", "lower": "-5 um", "upper": "5 um", "in": "stage"},
+      "sum": {"type": "sum", "in": ["stop", "u"]},
+      "open": {"type": "lag", "times": "1 ms"}
+    },
+    "outputs": {"y": "sum", "z": "open"}})");
+  const Outcome outcome = hysteron(folder_.path(), {"check", "draft.json", "--json"});
+  EXPECT_EQ(outcome.code, 2);
+  std::vector<std::string> told;
+  const json failure = json::parse(outcome.err);
+  for (const auto& p : failure.at("problems"))
+    told.push_back(p.at("code").get<std::string>() + " in line " + std::to_string(p.at("line").get<int>()));
+  EXPECT_EQ(told, (std::vector<std::string>{"unknown_block in line 4", "wrong_unit in line 6",
+                                            "missing_connection in line 7"}));
+}
+
 TEST_F(Verbs, LinearizeWritesTheUnitOfAGainSoThatItCanBeReadBack) {
   // From V/um to um: um/(V/um) = um^2/V; without brackets it would read as 1/V.
   folder_.write("gain.json", R"({

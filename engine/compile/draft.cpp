@@ -1,0 +1,126 @@
+#include "engine/compile/draft.h"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <string_view>
+
+#include "engine/compile/flatten.h"
+
+namespace hysteron {
+namespace {
+
+/// What somebody who goes on writing will see to.
+bool is_unfinished(const Problem& p) {
+  return p.code == "missing_connection" || p.code == "empty_diagram" || p.code.starts_with("unused_");
+}
+
+/// "/blocks/a/gain" speaks of "/blocks/a", and not of "/blocks/ab".
+bool speaks_of(const std::string& path, const std::string& place) {
+  return path.starts_with(place) && (path.size() == place.size() || path[place.size()] == '/');
+}
+
+class Draft {
+ public:
+  Draft(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
+
+  DraftProgram compile() {
+    while (!compiled() && repaired_) repaired_ = false;
+    for (const auto& p : problems_.list()) (is_unfinished(p) ? result_.warnings : result_.problems).push_back(p);
+    return std::move(result_);
+  }
+
+ private:
+  /// One attempt; false where something was wrong: what it was is then left out of the next one.
+  bool compiled() {
+    const std::size_t before = gaps_.size();
+    WiredDiagram wired = wire_draft(diagram_, registry_, gaps_, problems_);
+    result_.left_out = wired.left_out;
+    repaired_ = gaps_.size() > before;
+    if (repaired_ || wired.blocks.empty()) return false;
+    places_.clear();
+    for (const auto& block : wired.blocks)
+      if (!block.origin.empty()) places_.push_back(block.origin);
+    take_out_bounds(wired.parameters);
+    try {
+      infer_lengths(wired);
+      result_.program = compile_graph(scalarize_vectors(wired, registry_), diagram_);
+      return true;
+    } catch (const Error& error) {
+      for (const auto& p : error.problems) take(p);
+      return false;
+    }
+  }
+
+  void take(const Problem& p) {
+    if (!comes_of_gaps(p)) problems_.add(p.code, p.path, p.what, p.cure);
+    if (speaks_of(p.path, "/simulate"))
+      leave_out_setting(p.path);
+    else if (constexpr std::string_view of_parameter = "/parameters/"; p.path.starts_with(of_parameter))
+      repaired_ = wrong_bounds_.insert(p.path.substr(of_parameter.size())).second || repaired_;
+    else
+      leave_out_block(p.path);
+  }
+
+  /// "/simulate/guess/a", where block "a" is left out, or perhaps the loop that "a" would stand in.
+  bool comes_of_gaps(const Problem& p) const {
+    if (!speaks_of(p.path, "/simulate")) return false;
+    if (p.code == "unused_guess") return !gaps_.left_out.empty();
+    const auto& blocks = result_.left_out;
+    return std::any_of(blocks.begin(), blocks.end(), [&](const std::string& block) {
+      return head_of_wire(p.path.substr(p.path.rfind('/') + 1)) == head_of_wire(block);
+    });
+  }
+
+  void leave_out_setting(const std::string& path) {
+    const auto leave_out = [&](const char* name, auto& setting) {
+      if (!speaks_of(path, std::string("/simulate/") + name)) return;
+      repaired_ = wrong_settings_.insert(name).second || repaired_;
+      setting = {};
+    };
+    leave_out("loops", diagram_.simulate.loops);
+    leave_out("guess", diagram_.simulate.guess);
+    leave_out("past", diagram_.simulate.past);
+    leave_out("memory", diagram_.simulate.memory);
+  }
+
+  void take_out_bounds(std::vector<GraphParameter>& parameters) {
+    for (auto& parameter : parameters) {
+      const auto is_meant = [&](const std::string& wrong) {  // "kp", "kp/bounds", "weights[2]"
+        return wrong.starts_with(parameter.path) && wrong.substr(parameter.path.size()).find_first_not_of("/[") != 0;
+      };
+      if (std::none_of(wrong_bounds_.begin(), wrong_bounds_.end(), is_meant)) continue;
+      DiagramParameter& without = boundless_.emplace_back(*parameter.given);
+      without.lower.reset();
+      without.upper.reset();
+      parameter.given = &without;
+    }
+  }
+
+  /// The innermost block that stands there.
+  void leave_out_block(const std::string& path) {
+    const std::string* innermost = nullptr;
+    for (const auto& place : places_)
+      if (speaks_of(path, place) && (innermost == nullptr || place.size() > innermost->size())) innermost = &place;
+    if (innermost != nullptr && gaps_.left_out.insert(*innermost).second) repaired_ = true;
+  }
+
+  Diagram diagram_;  // without settings that are wrong
+  const Registry& registry_;
+  Gaps gaps_{};
+  Problems problems_{};
+  std::vector<std::string> places_{};  // of the blocks of the attempt
+  std::set<std::string> wrong_settings_{};
+  std::set<std::string> wrong_bounds_{};  // of these parameters
+  std::deque<DiagramParameter> boundless_{};
+  bool repaired_ = false;
+  DraftProgram result_{};
+};
+
+}  // namespace
+
+DraftProgram compile_draft(const Diagram& diagram, const Registry& registry) {
+  return Draft(diagram, registry).compile();
+}
+
+}  // namespace hysteron
