@@ -132,9 +132,12 @@ Facts metrics() {
 }
 
 Facts splits() {
+  const Facts spans = object("in one recording", {{"recording", text("its name")},
+                                                  {"seconds", list("spans of time", numbers("from, to [s]"))}});
   const Facts part = object("a part", {{"label", text("which")},
                                        {"share_of_squared_error", number("that lies in it")},
-                                       {"share_of_rows", number("that lie in it")}});
+                                       {"share_of_rows", number("that lie in it")},
+                                       {"spans", list("when; of a frequency none", spans)}});
   return list("of the squared error", object("by one variable", {{"output", text("its name")},
                                                                  {"by", text("level, branch, rate, time ...")},
                                                                  {"sentence", text("the same in words; may be empty")},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/compare/spans.h"
 #include "fit/model/model.h"
 #include "fit/model/score.h"
 
@@ -34,6 +35,7 @@ struct SplitPart {
   double error = 0;   ///< share of the squared error; the shares of a split add up to 1
   double rows = 0;    ///< share of the rows
   double rms = 0;     ///< of the residual in this part [SI]; of a frequency band what it adds to the whole's
+  std::vector<SpansInRecording> spans{};  ///< when; recordings without such rows, and frequencies, have none
 };
 
 struct Split {

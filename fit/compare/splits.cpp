@@ -19,6 +19,7 @@ struct Draft {
   std::vector<std::string> labels, phrases;
   std::vector<std::vector<int>> part;   ///< [recording][row]
   std::string counted = "of the rows";  ///< what its parts are shares of, beside the error
+  bool has_times = true;                ///< its parts are rows
 };
 
 std::string number(const Unit& unit, double si) {
@@ -34,6 +35,14 @@ constexpr double tells_nothing = 0.05;
 
 std::string share_text(double share) {
   return share > 0 && share < 0.005 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
+void add_spans(Split& s, const Draft& d, const std::vector<SplitInput>& recordings) {
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    auto spans = spans_of(*recordings[r].t, d.part[r], s.parts.size());
+    for (std::size_t p = 0; p < s.parts.size(); ++p)
+      if (!spans[p].empty()) s.parts[p].spans.push_back({recordings[r].name, std::move(spans[p])});
+  }
 }
 
 Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
@@ -63,6 +72,7 @@ Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
     if (s.parts[p].error - s.parts[p].rows > s.parts[top].error - s.parts[top].rows) top = p;
   }
   if (n == 0) return s;
+  if (d.has_times) add_spans(s, d, recordings);
   const SplitPart& most = s.parts[top];
   s.tells = most.error - most.rows >= tells_nothing;
   s.sentence = s.tells ? fmt::format("{:.0f} % of the squared error lies {}, which holds {} {}", 100 * most.error,
@@ -387,6 +397,7 @@ void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>
 Split by_frequency(const std::vector<SplitInput>& recordings) {
   Draft d{"frequency", "by frequency of the residual", {}, {}, {}};
   d.counted = "of the spectrum";
+  d.has_times = false;
   std::vector<Rows> cosines;
   std::vector<double> grid;  // [Hz] between cosines
   double highest = 0;

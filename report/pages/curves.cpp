@@ -280,14 +280,30 @@ Facts metrics_facts(const DataModel& model, const Comparison& comparison) {
   return list;
 }
 
+namespace {
+
+Facts span_facts(const SplitPart& part) {
+  Facts::List list;
+  for (const auto& in_recording : part.spans) {
+    Facts::List spans;
+    for (const auto& span : in_recording.spans) spans.push_back(std::vector<double>{span.from, span.to});
+    list.push_back(Facts::object({{"recording", in_recording.recording}, {"seconds", spans}}));
+  }
+  return list;
+}
+
+}  // namespace
+
 Facts split_facts(const DataModel& model, const Comparison& comparison) {
   Facts::List list;
   for (const auto& of_output : comparison.splits)
     for (const auto& split : of_output.splits) {
       Facts::List parts;
       for (const auto& part : split.parts)
-        parts.push_back(Facts::object(
-            {{"label", part.label}, {"share_of_squared_error", part.error}, {"share_of_rows", part.rows}}));
+        parts.push_back(Facts::object({{"label", part.label},
+                                       {"share_of_squared_error", part.error},
+                                       {"share_of_rows", part.rows},
+                                       {"spans", span_facts(part)}}));
       list.push_back(Facts::object({{"output", model.outputs()[at(of_output.output)]},
                                     {"by", split.variable},
                                     {"sentence", split.sentence},

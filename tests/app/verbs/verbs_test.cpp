@@ -278,6 +278,7 @@ TEST_F(Verbs, SharesOfEverySplitAddUpToAHundredPercent) {
     for (const auto& part : split["parts"]) {
       error += part["share_of_squared_error"].get<double>();
       rows += part["share_of_rows"].get<double>();
+      EXPECT_EQ(part["spans"].empty(), split["by"] == "frequency" || part["share_of_rows"] == 0) << part;
     }
     EXPECT_NEAR(error, 1, 1e-9) << split;
     EXPECT_NEAR(rows, 1, 1e-9) << split;

@@ -57,6 +57,74 @@ TEST(Splits, SharesOfErrorAndOfRowsAddUpToOneInEverySplit) {
   }
 }
 
+using Spans = std::vector<std::pair<double, double>>;
+
+Spans spans_in(const SplitPart& part, const std::string& recording) {
+  Spans list;
+  for (const auto& in_recording : part.spans)
+    if (in_recording.recording == recording)
+      for (const auto& span : in_recording.spans) list.emplace_back(span.from, span.to);
+  return list;
+}
+
+TEST(Splits, SpansAreWhenTheRowsOfAPartAre) {
+  Case up_and_down, up;  // one row per second, 0 .. 99 V
+  for (int i = 0; i < 200; ++i) {
+    up_and_down.t.push_back(i);
+    up_and_down.u.push_back(i < 100 ? i : 199 - i);
+    up_and_down.residual.push_back(1);
+  }
+  for (int i = 0; i < 100; ++i) {
+    up.t.push_back(1000 + i);
+    up.u.push_back(i);
+    up.residual.push_back(1);
+  }
+  const auto splits =
+      splits_of({{&up_and_down.t, &up_and_down.u, &up_and_down.residual, "a"}, {&up.t, &up.u, &up.residual, "b"}}, "u",
+                parse_unit("V"));
+  // Fifths of 0 .. 99 V end at 19.8, 39.6, 59.4 and 79.2 V.
+  const auto& level = split(splits, "level").parts;
+  EXPECT_EQ(spans_in(level[0], "a"), (Spans{{0, 19}, {180, 199}}));
+  EXPECT_EQ(spans_in(level[1], "a"), (Spans{{20, 39}, {160, 179}}));
+  EXPECT_EQ(spans_in(level[4], "a"), (Spans{{80, 119}}));
+  EXPECT_EQ(spans_in(level[4], "b"), (Spans{{1080, 1099}}));
+  // Fifths of 199 s end at 39.8, 79.6, 119.4 and 159.2 s.
+  EXPECT_EQ(spans_in(split(splits, "time").parts[3], "a"), (Spans{{120, 159}}));
+  const auto& recording = split(splits, "recording").parts;
+  EXPECT_EQ(spans_in(recording[1], "b"), (Spans{{1000, 1099}}));
+  EXPECT_TRUE(spans_in(recording[1], "a").empty());
+  for (const auto& part : split(splits, "frequency").parts) EXPECT_TRUE(part.spans.empty());
+}
+
+TEST(Splits, EveryRowLiesInASpanOfExactlyOnePartOfEachSplit) {
+  const auto c = triangle_case();
+  for (const auto& s : splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"))) {
+    if (s.variable == "frequency") continue;
+    for (const double t : c.t) {
+      int holding = 0;
+      for (const auto& part : s.parts)
+        for (const auto& [from, to] : spans_in(part, "a")) holding += from <= t && t <= to ? 1 : 0;
+      ASSERT_EQ(holding, 1) << s.variable << " at " << t;
+    }
+  }
+}
+
+TEST(Splits, OfMoreSpansThanCanBeReadTheWidestGapsStay) {
+  Rows t;
+  std::vector<int> part;
+  for (int i = 0; i < 300; ++i) {
+    t.push_back(i + (i >= 100 ? 1000 : 0) + (i >= 200 ? 500 : 0));
+    part.push_back(i % 2);
+  }
+  const auto spans = spans_of(t, part, 2)[0];
+  ASSERT_EQ(spans.size(), most_spans);
+  EXPECT_EQ(spans.front().from, 0);
+  EXPECT_EQ(spans.back().to, 298 + 1500);
+  int wide = 0;
+  for (std::size_t i = 1; i < spans.size(); ++i) wide += spans[i].from - spans[i - 1].to > 100 ? 1 : 0;
+  EXPECT_EQ(wide, 2);
+}
+
 TEST(Splits, ByFrequencyPutsASineIntoItsDecade) {
   Case c;
   for (int i = 0; i < 4000; ++i) {
