@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same = 1e-6;  ///< of the span: above the integrators' own error, below what a figure shows
+constexpr double alike = 1e-6;  ///< of the span: above the integrators' own error, below what a figure shows
 
 /// Last of all that is kept: a folder without it is none.
 void write_outcomes(const fs::path& folder, const std::map<std::string, std::string>& outcomes) {
@@ -58,7 +58,7 @@ std::string difference(const CsvTable& before, const CsvTable& now) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
     const double span = std::max(features::stroke(a), features::largest_size(a) * 1e-6);
-    if (most > same * span)
+    if (most > alike * span)
       return fmt::format("{}: {} differs by up to {:.3g} {} ({:.2g} of its span)", now.file, now.columns[k].name, most,
                          now.columns[k].unit.text, most / span);
   }

@@ -79,9 +79,10 @@ void add_history(RunResult& r, int seed, const GlobalResult& found, const Global
   for (long runs = settings.particles; runs <= settings.max_runs; runs += settings.particles) {
     const double cost = found.cost_after(runs);
     if (!std::isfinite(cost)) continue;
+    const long generation = runs / settings.particles - 1;
     const std::array<double, 5> row{
         static_cast<double>(seed) * static_cast<double>(settings.max_runs + 1) + static_cast<double>(runs),
-        static_cast<double>(seed), static_cast<double>(runs / settings.particles - 1), static_cast<double>(runs), cost};
+        static_cast<double>(seed), static_cast<double>(generation), static_cast<double>(runs), cost};
     for (std::size_t i = 0; i < row.size(); ++i) r.columns[i].values.push_back(row[i]);
   }
 }

@@ -92,9 +92,9 @@ JobRunner::JobRunner(JobPool& pool, RunsJob job) : pool_(&pool), job_(std::move(
 
 std::unique_ptr<JobRunner> JobRunner::with_result(const std::string& run, RunResult result) {
   auto other = std::make_unique<JobRunner>(*pool_, job_);
+  const auto given = std::make_shared<const RunResult>(std::move(result));
   for (const auto& r : job_.runs)
-    other->slots_.at(r.name).result =
-        r.name == run ? std::make_shared<const RunResult>(std::move(result)) : shared_result({r.name, r.pointer});
+    other->slots_.at(r.name).result = r.name == run ? given : shared_result({r.name, r.pointer});
   return other;
 }
 

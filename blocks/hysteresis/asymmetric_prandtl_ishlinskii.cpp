@@ -1,5 +1,6 @@
 #include "blocks/hysteresis/asymmetric_prandtl_ishlinskii.h"
 
+#include "blocks/hysteresis/one_sided_plays.h"
 #include "blocks/hysteresis/prandtl_ishlinskii.h"
 
 namespace hysteron::blocks {
@@ -21,18 +22,6 @@ void asymmetric_prandtl_ishlinskii_parameters(Declaration& d) {
   d.parameter("before", "$a", "an input that was visited before the start").optional("0");
 }
 
-Sizes one_per_threshold(const Shape& shape, int Sizes::*where) {
-  Sizes s;
-  s.*where = shape.length("thresholds");
-  if (s.*where < 1 || s.*where != shape.length("weights"))
-    s.error = "\"thresholds\" and \"weights\" must be lists of one length; give one weight per threshold";
-  return s;
-}
-
-void start(const View<double>& v, std::span<const double> thresholds, double before) {
-  for (std::size_t i = 0; i < thresholds.size(); ++i) v.out[i] = play::follow_one_sided(thresholds[i], 0.0, before);
-}
-
 }  // namespace
 
 void AsymmetricPrandtlIshlinskii::describe(Declaration& d) {
@@ -49,10 +38,10 @@ void AsymmetricPrandtlIshlinskii::describe(Declaration& d) {
   d.parameters[weights].linear();
 }
 
-Sizes AsymmetricPrandtlIshlinskii::sizes(const Shape& shape) { return one_per_threshold(shape, &Sizes::memory); }
+Sizes AsymmetricPrandtlIshlinskii::sizes(const Shape& shape) { return one_play_per_threshold(shape, &Sizes::memory); }
 std::string AsymmetricPrandtlIshlinskii::check(const View<double>& v) { return begins_at_zero(v.list(thresholds)[0]); }
 void AsymmetricPrandtlIshlinskii::initial_memory(const View<double>& v) {
-  start(v, v.list(thresholds), v.parameter(before));
+  start_one_sided_plays(v, v.list(thresholds), v.parameter(before));
 }
 std::string AsymmetricPrandtlIshlinskii::check_memory(const View<double>& v) {
   return check_nested(play::Sides::one, v.list(thresholds), v.memory());
@@ -77,12 +66,14 @@ void SampledAsymmetricInverse::describe(Declaration& d) {
   d.sampled();
 }
 
-Sizes SampledAsymmetricInverse::sizes(const Shape& shape) { return one_per_threshold(shape, &Sizes::sampled_states); }
+Sizes SampledAsymmetricInverse::sizes(const Shape& shape) {
+  return one_play_per_threshold(shape, &Sizes::sampled_states);
+}
 std::string SampledAsymmetricInverse::check(const View<double>& v) {
   return check_invertible(v.list(thresholds), v.list(weights));
 }
 void SampledAsymmetricInverse::initial_states(const View<double>& v) {
-  start(v, v.list(thresholds), v.parameter(before));
+  start_one_sided_plays(v, v.list(thresholds), v.parameter(before));
 }
 
 Kernel asymmetric_prandtl_ishlinskii_block() { return kernel<AsymmetricPrandtlIshlinskii>(); }

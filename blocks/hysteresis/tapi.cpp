@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "blocks/hysteresis/one_sided_plays.h"
 #include "blocks/hysteresis/prandtl_ishlinskii.h"
 #include "models/compensators/prandtl_ishlinskii_inverse.h"
 
@@ -28,25 +29,7 @@ void tapi_parameters(Declaration& d) {
   d.parameter("before", "$a", "an input that was visited before the start").optional("0");
 }
 
-Sizes one_operator_per_threshold(const Shape& shape, int Sizes::*where) {
-  Sizes s;
-  s.*where = shape.length("thresholds");
-  if (s.*where < 1 || s.*where != shape.length("weights"))
-    s.error = "\"thresholds\" and \"weights\" must be lists of one length; give one weight per threshold";
-  return s;
-}
-
-void start(const View<double>& v, std::span<const double> thresholds, double before) {
-  for (std::size_t i = 0; i < thresholds.size(); ++i) v.out[i] = play::follow_one_sided(thresholds[i], 0.0, before);
-}
-
 }  // namespace
-
-std::string begins_at_zero(double first) {
-  if (first != 0)
-    return fmt::format("the first threshold is {:.4g} [SI]; begin with 0, the linear part, which bends", first);
-  return "";
-}
 
 void Tapi::describe(Declaration& d) {
   d.name("tapi", "Prandtl-Ishlinskii hysteresis, asymmetric and dependent on temperature (TAPI)")
@@ -70,9 +53,9 @@ void Tapi::describe(Declaration& d) {
   d.parameters[weights].linear();
 }
 
-Sizes Tapi::sizes(const Shape& shape) { return one_operator_per_threshold(shape, &Sizes::memory); }
+Sizes Tapi::sizes(const Shape& shape) { return one_play_per_threshold(shape, &Sizes::memory); }
 std::string Tapi::check(const View<double>& v) { return begins_at_zero(v.list(thresholds)[0]); }
-void Tapi::initial_memory(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }
+void Tapi::initial_memory(const View<double>& v) { start_one_sided_plays(v, v.list(thresholds), v.parameter(before)); }
 std::string Tapi::check_memory(const View<double>& v) {
   return check_nested(play::Sides::one, v.list(thresholds), v.memory());
 }
@@ -99,9 +82,7 @@ void SampledTapiInverse::describe(Declaration& d) {
   d.sampled();
 }
 
-Sizes SampledTapiInverse::sizes(const Shape& shape) {
-  return one_operator_per_threshold(shape, &Sizes::sampled_states);
-}
+Sizes SampledTapiInverse::sizes(const Shape& shape) { return one_play_per_threshold(shape, &Sizes::sampled_states); }
 
 std::string check_invertible(std::span<const double> thresholds, std::span<const double> weights) {
   if (auto text = begins_at_zero(thresholds[0]); !text.empty()) return text;
@@ -118,7 +99,9 @@ std::string SampledTapiInverse::check(const View<double>& v) {
   return check_invertible(v.list(thresholds), v.list(weights));
 }
 
-void SampledTapiInverse::initial_states(const View<double>& v) { start(v, v.list(thresholds), v.parameter(before)); }
+void SampledTapiInverse::initial_states(const View<double>& v) {
+  start_one_sided_plays(v, v.list(thresholds), v.parameter(before));
+}
 
 Kernel tapi_block() { return kernel<Tapi>(); }
 Kernel sampled_tapi_inverse_block() { return kernel<SampledTapiInverse>(); }

@@ -78,8 +78,6 @@ struct SampledTapiInverse {
 
 /// "" or why these weights are those of no actuator that can be inverted by a drive, and the cure.
 std::string check_invertible(std::span<const double> thresholds, std::span<const double> weights);
-/// "" or what is wrong with the first threshold.
-std::string begins_at_zero(double first);
 
 Kernel tapi_block();
 Kernel sampled_tapi_inverse_block();
