@@ -13,8 +13,10 @@
 #include "app/cli/load.h"
 #include "discover/placement/add.h"
 #include "discover/search/check.h"
+#include "discover/selection/select.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
+#include "io/json/value_text.h"
 #include "io/data/same_rows.h"
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_page.h"
@@ -90,6 +92,7 @@ struct Wish {
   Diagram diagram{};
   DataSet given{};
   bool is_check = false;
+  bool by_models = false;                  ///< --search models
   std::chrono::duration<double> within{};  ///< the time that --within leaves
 };
 
@@ -104,6 +107,10 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   wish.diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(wish.diagram);
   wish.is_check = arguments.has("--check");
+  const std::string how = arguments.has("--search") ? arguments.text("--search") : "steps";
+  if (how != "steps" && how != "models")
+    fail("bad_command_line", "--search", json_quoted(how) + " is no way to search", "\"steps\" or \"models\"");
+  wish.by_models = how == "models";
   wish.given = load_data(arguments, *program);
   need_moving_outputs(wish.given, *program);
   wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
@@ -137,8 +144,9 @@ Looked search(const std::string& verb, Wish& wish, const DataSet& data, const Wa
         looked.check = check(wish.diagram, data, registry(), wish.effects, settings);
         looked.found = looked.check->discovery;
       } else {
-        looked.found = verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
-                                          : diagnose(wish.diagram, data, registry(), wish.effects, settings);
+        looked.found = wish.by_models       ? select_model(wish.diagram, data, registry(), wish.effects, settings)
+                       : verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
+                                            : diagnose(wish.diagram, data, registry(), wish.effects, settings);
       }
     });
   } catch (const Stopped&) {
@@ -204,6 +212,11 @@ std::vector<OptionSpec> look_options() {
           options::data(true),
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
+          {"--search",
+           "HOW",
+           "\"steps\" (default): one effect after the other, by rules; \"models\": whole models by one score",
+           false,
+           {}},
           {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
            false},
           options::effects(),

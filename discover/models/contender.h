@@ -63,6 +63,12 @@ struct Contender {
 /// further away than that - a device's data sheet and its maker's drawing, not another device.
 constexpr double nominal_uncertainty = 0.03, at_most_off = 0.15;
 
+/// How well numbers of the model are known that are let go, as factors of what is written.
+struct KnownTo {
+  double width = nominal_uncertainty;  ///< 95 % are nearer to one than this
+  double least = 1 - at_most_off, most = 1 + at_most_off;
+};
+
 /// What every fit of a discovery shares.
 struct Workshop {
   const Registry* registry = nullptr;
@@ -70,6 +76,9 @@ struct Workshop {
   std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
   /// Of these, numbers that the model holds: known roughly as they are written [SI].
   std::map<std::string, double> roughly{};
+  KnownTo known_to{};
+  /// By which outputs are weighed in a fit, as Evidence::model().outputs(); none: by the noise of the evidence.
+  std::optional<NoiseModel> weights{};
   void free_nominal_parameters(const std::map<std::string, double>& numbers);
   const Evidence* evidence = nullptr;
   /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer

@@ -47,10 +47,11 @@ bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, 
 void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f) {
   const auto n = shop.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
   if (n == shop.roughly.end()) return;
-  const double width = nominal_uncertainty * std::abs(n->second), most = at_most_off * std::abs(n->second);
-  f.prior = {n->second - width, n->second + width};
-  f.lower = std::max(f.lower, n->second - most);
-  f.upper = std::min(f.upper, n->second + most);
+  const double written = n->second, width = shop.known_to.width * std::abs(written);
+  const auto [low, high] = std::minmax({shop.known_to.least * written, shop.known_to.most * written});
+  f.prior = {written - width, written + width};
+  f.lower = std::max(f.lower, low);
+  f.upper = std::min(f.upper, high);
   f.start = std::clamp(f.start, f.lower, f.upper);
 }
 
@@ -378,11 +379,11 @@ std::vector<int> train_and_validate(const DataSet& data) {
 NoiseModel noise_of(const Workshop& shop, const DataModel& model) {
   if (shop.evidence == nullptr) return noise_before_fit(model);
   const auto& all = shop.evidence->model().outputs();
+  const NoiseModel& of_all = shop.weights ? *shop.weights : shop.evidence->noise();
   NoiseModel some;
   for (const auto& name : model.outputs())
     some.outputs.push_back(
-        shop.evidence->noise()
-            .outputs[static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin())]);
+        of_all.outputs[static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin())]);
   return some;
 }
 

@@ -66,6 +66,11 @@ double bend_of(const DataSet& data, const std::string& input) {
 
 DataSet as_found(DataSet data, const Discovery& found) {
   for (const auto& s : found.smooth_inputs) set_way(data, s.input, Between::smooth);
+  for (auto& r : data.recordings)
+    if (std::find(found.found_starts.begin(), found.found_starts.end(), r.name) != found.found_starts.end()) {
+      r.at_rest = false;
+      r.initial_per_recording = true;
+    }
   return data;
 }
 

@@ -54,7 +54,8 @@ struct Books {
   std::vector<Resonance> own_resonances;  ///< of the base
   std::vector<Tried> hidden;              ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction;           ///< of the model before the present step; empty = the base
-  bool closing = false;                   ///< what was found is looked at for the last time
+  bool by_score = false;  ///< effects were claimed by a score of whole models: no structure outdoes them
+  bool closing = false;   ///< what was found is looked at for the last time
   Discovery d;
 
  private:
@@ -163,6 +164,8 @@ void refine(const Books& books, const Workshop& shop, Tried& t);
 /// rival: that it was refused says nothing against it.
 void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as);
 
+/// With spare numbers `t` is the winner itself: who explains no more is no rival of what it can imitate.
+bool is_the_winner_and_more(const Books& books, const Tried& t, const Effect& winner);
 /// Candidates that explain the recordings as well as the winner, best first.
 std::vector<int> ties_of(Books& books, const std::vector<Tried>& tried, std::size_t winner);
 /// Axes are built alike: of those that explain as much the one that stands on another axis already is taken, and the

@@ -254,13 +254,13 @@ void conclude(Books& books) {
   books.d.base = books.evidence->error(books.base.prediction);
   books.d.broken_off = books.stopped();
   books.closing = true;
-  if (books.d.broken_off) {
+  if (books.d.broken_off && !books.by_score) {
     unless_it_fails(books, [&] { return exchange_for_what_they_hold(books, 0.97), true; });
     unless_it_fails(books, [&] { return leave_out_idle(books), true; });
   }
   const double floor = books.current.error_of.over_floor();
   const Left left = left_by_base(books);
-  const OfBase of_base = structure_of_base(books, left);
+  const OfBase of_base = books.by_score && !books.d.steps.empty() ? OfBase{} : structure_of_base(books, left);
   books.d.structure = of_base.told;
   if (of_base.in_place_of_effects) {
     books.d.verdict = Verdict::unexplained;
@@ -284,7 +284,7 @@ void conclude(Books& books) {
   add_zeros(*books.base_model, books.evidence->judge(), books.d.final_prediction);
   books.unless_stopped([&] { test_recordings(books); });
   books.unless_stopped([&] { tell_other_ways(books); });
-  tell_other_numbers(books);
+  if (!books.by_score) tell_other_numbers(books);
   tell_noise(books);
   tell_wandering(books);
   tell_final_values(books);

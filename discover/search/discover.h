@@ -148,6 +148,7 @@ struct Discovery {
   std::vector<std::string> asked_for;      ///< DiscoverOptions::only
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   std::vector<OtherNumber> other_numbers;  ///< the furthest from what is written first; all figures are with these
+  std::vector<std::string> found_starts;  ///< recordings that do not begin at rest, by name; all figures are with these
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
@@ -179,7 +180,8 @@ struct DiscoverOptions {
 Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                    const DiscoverOptions& options = {});
 
-/// The data set that the figures of a discovery hold for: as given, but for how inputs move between samples.
+/// The data set that the figures of a discovery hold for: as given, but for how inputs move between samples and where
+/// recordings begin.
 DataSet as_found(DataSet data, const Discovery& found);
 
 /// WHICH effect is missing: the first step of discover alone.

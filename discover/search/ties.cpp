@@ -26,14 +26,13 @@ double tie_score(Books& books, const Tried& t, bool few) {
   return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
 }
 
-/// With spare numbers `t` is the winner itself: who explains no more is no rival of what it can imitate.
+}  // namespace
+
 bool is_the_winner_and_more(const Books& books, const Tried& t, const Effect& winner) {
   const auto& contained = t.effect->contains;
   return std::find(contained.begin(), contained.end(), winner.id) != contained.end() ||
          could_hold(books, t.laws[t.law], winner);
 }
-
-}  // namespace
 
 void sharpen(Books& books, Tried& t) {
   if (t.sharp || books.stopped()) return;

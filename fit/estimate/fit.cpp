@@ -436,7 +436,7 @@ void Fitting::refine_starts() {
       if (best_ && projection_->n_nonlinear() > 0) search_from(best_->z);
     });
     if (!best_) best_ = before;
-    if (result_.stopped || before->chi2 - best_->chi2 <= settled * before->chi2) return;
+    if (result_.stopped || before->chi2 - best_->chi2 <= std::max(settled * before->chi2, options_.matters)) return;
   }
 }
 

@@ -74,6 +74,9 @@ struct DataModel::Content {
   void find_outputs();
   void bind(int r);
   void find_free_states();
+  bool settles(int r) const;
+  Run begun_at_start(int r, std::span<const ParameterValue> values) const;
+  std::vector<std::vector<Rows>> rows_of_each(BoundRecording& b, std::vector<Run> begun);
   Run in_equilibrium(int r, std::span<const ParameterValue> values) const;
   Run prepared(int r, std::span<const ParameterValue> values) const;
   void set_start(const Recording& recording, Run& run, double t) const;

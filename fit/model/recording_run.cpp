@@ -184,18 +184,27 @@ std::vector<Rows> DataModel::Content::rows_of(const BoundRecording& b,
 
 std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue> values, int substeps, bool cvode) {
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
-  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   ++runs;
+  simulate_into(b, begun_at_start(r, values), settles(r), substeps, cvode);
+  return rows_of(b, b.values);
+}
+
+/// It settles where its inputs hold it, and no start of its own was found.
+bool DataModel::Content::settles(int r) const {
+  return bound[static_cast<std::size_t>(r)].start.empty() && from_rest(data->recordings[static_cast<std::size_t>(r)]);
+}
+
+Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> values) const {
+  const BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   if (from_rest(recording) && !b.start.empty()) {
     Run run = in_equilibrium(r, values);
     for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
-    simulate_into(b, std::move(run), false, substeps, cvode);
-    return rows_of(b, b.values);
+    return run;
   }
   Run run = prepared(r, values);
   set_start(recording, run, b.instants.front());
-  simulate_into(b, std::move(run), from_rest(recording), substeps, cvode);
-  return rows_of(b, b.values);
+  return run;
 }
 
 Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> values) const {
@@ -215,22 +224,44 @@ void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> 
   Run begun = in_equilibrium(r, values);
   for (std::size_t i = 0; i < b.start.size(); ++i) begun.x[free_state_index[i]] += b.start[i];
   const auto sizes = nominal_states(*program, begun);
-  const auto response = [&](std::size_t state, double step) {
-    ++runs;
-    Run run = begun;
-    run.x[state] += step;
-    simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
-    return rows_of(b, b.values);
-  };
-  const auto zero = response(0, 0.0);
+  std::vector<double> steps;
+  std::vector<Run> runs_begun{begun};
   for (std::size_t n = 0; n < free_state_index.size(); ++n) {
     const std::size_t state = free_state_index[n];
-    const double step = free_state_is_linear[n] ? 1.0 : step_of_a_start * sizes[state];
-    auto rows = response(state, step);
-    for (std::size_t o = 0; o < rows.size(); ++o)
-      for (std::size_t i = 0; i < rows[o].size(); ++i) rows[o][i] = (rows[o][i] - zero[o][i]) / step;
-    prediction.initial[k].push_back(std::move(rows));
+    steps.push_back(free_state_is_linear[n] ? 1.0 : step_of_a_start * sizes[state]);
+    runs_begun.emplace_back(begun).x[state] += steps.back();
   }
+  auto rows = rows_of_each(b, std::move(runs_begun));
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    auto& moved = rows[n + 1];
+    for (std::size_t o = 0; o < moved.size(); ++o)
+      for (std::size_t i = 0; i < moved[o].size(); ++i) moved[o][i] = (moved[o][i] - rows[0][o][i]) / steps[n];
+    prediction.initial[k].push_back(std::move(moved));
+  }
+}
+
+/// Side by side where the advance is exact; throws where one of them fails.
+std::vector<std::vector<Rows>> DataModel::Content::rows_of_each(BoundRecording& b, std::vector<Run> begun) {
+  std::vector<std::vector<Rows>> rows;
+  runs += static_cast<long>(begun.size());
+  if (b.advance && not_exact.empty() && !options.force_cvode) {
+    std::vector<const Run*> list;
+    for (const auto& run : begun) list.push_back(&run);
+    const AdvanceOptions how{.substeps = b.substeps, .at_rest = false};
+    const auto why = b.advance->each(list, b.rows, how, b.many_values);
+    if (std::all_of(why.begin(), why.end(), [](const std::string& text) { return text.empty(); })) {
+      for (std::size_t i = 0; i < begun.size(); ++i) {
+        b.keep_instants(b.many_values[i]);
+        rows.push_back(rows_of(b, b.many_values[i]));
+      }
+      return rows;
+    }
+  }
+  for (auto& run : begun) {
+    simulate_into(b, std::move(run), false, b.substeps, options.force_cvode);
+    rows.push_back(rows_of(b, b.values));
+  }
+  return rows;
 }
 
 /// As `one`, with finer and finer substeps where nonlinear states run away: values far from those for which the
@@ -267,7 +298,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
   const auto k = static_cast<std::size_t>(r);
   BoundRecording& b = bound[k];
   std::vector<std::string> errors(trials.size());
-  if (!b.advance || !not_exact.empty() || !b.start.empty()) {
+  if (!b.advance || !not_exact.empty()) {
     for (std::size_t i = 0; i < trials.size(); ++i) predict_one(r, trials[i], false, predictions[i], errors[i]);
     return errors;
   }
@@ -282,9 +313,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
   for (std::size_t i = 0; i < trials.size(); ++i) {
     ++runs;
     try {
-      Run run = prepared(r, trials[i]);
-      set_start(recording, run, b.instants.front());
-      started.push_back(std::move(run));
+      started.push_back(begun_at_start(r, trials[i]));
       trial_of.push_back(i);
     } catch (const std::exception& e) {
       say(i, e.what());
@@ -292,7 +321,7 @@ std::vector<std::string> DataModel::Content::predict_trials(int r, std::span<con
   }
   std::vector<const Run*> list;
   for (const auto& run : started) list.push_back(&run);
-  const AdvanceOptions how{.substeps = b.substeps, .at_rest = from_rest(recording)};
+  const AdvanceOptions how{.substeps = b.substeps, .at_rest = settles(r)};
   const auto why = b.advance->each(list, b.rows, how, b.many_values);
   for (std::size_t i = 0; i < why.size(); ++i) {
     if (!why[i].empty()) {

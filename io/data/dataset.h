@@ -46,7 +46,8 @@ struct Recording {
   std::map<std::string, std::vector<double>>
       columns;                                   ///< by ColumnNote::to (or file name of the column), one value per row
   std::map<std::string, Unit> units;             ///< of the columns, as in the file
-  bool at_rest = true;                           ///< "initial": "rest"
+  bool at_rest = true;                           ///< "initial": "rest", or nothing is said
+  bool start_is_stated = false;                  ///< "initial" is given
   bool initial_per_recording = false;            ///< "initial": "per_recording"
   std::map<std::string, double> initial_values;  ///< "initial": {"stage.x": "1 um"}
   std::optional<double> start_hours;             ///< [h]

@@ -232,6 +232,7 @@ class DataSetReader {
 
   void read_initial(const JsonPlace& place, Recording& recording) {
     recording.at_rest = false;
+    recording.start_is_stated = true;
     if (place.is_object()) {
       for (const auto& [path, value] : place.members())
         if (const auto si = read_si_with_unit(value)) recording.initial_values[path] = *si;

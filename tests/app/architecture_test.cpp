@@ -41,7 +41,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"fit", {"numerics", "signals", "model", "estimate", "inspect", "compare", "study", "thesis"}},
     {"discover",
      {"wiring", "hypotheses", "effects", "placement", "demonstration", "experiment", "models", "structure", "search",
-      "narrate"}},
+      "selection", "narrate"}},
     {"report", {"page", "pages"}},
     {"draw", {""}},
     {"app", {"cli", "jobs", "cluster", "study", "verbs", ""}},

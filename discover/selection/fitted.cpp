@@ -1,0 +1,218 @@
+#include "discover/selection/fitted.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "discover/models/fit_contender.h"
+#include "discover/search/nominal_parameters.h"
+
+namespace hysteron {
+namespace {
+
+constexpr int most_renewals = 12;
+constexpr double settled = 0.05;                 // of V
+constexpr double two_sided = 1.959963984540054;  // 95 % of a normal distribution
+
+int numbers_of(const Contender& c, std::size_t recordings) {
+  int n = 0;
+  for (const auto& s : c.standing) {
+    for (const auto& p : s.law.free) n += p.per_recording ? static_cast<int>(recordings) : 1;
+    n += static_cast<int>(s.zeros.size() + s.weights.size());
+  }
+  return n;
+}
+
+bool alike(const NoiseModel& a, const NoiseModel& b) {
+  for (std::size_t o = 0; o < a.outputs.size(); ++o) {
+    const double ratio = a.outputs[o].white / b.outputs[o].white;
+    if (std::abs(ratio * ratio - 1) > settled) return false;
+  }
+  return true;
+}
+
+/// Derivatives that another fit has found were weighed by other weights.
+Contender refit_afresh(Workshop shop, const Contender& c, Effort effort) {
+  const auto notes = shop.notes;
+  shop.notes = std::make_shared<Notebook>();
+  Contender next = refit(shop, c, effort);
+  notes->count(shop.notes->runs());
+  return next;
+}
+
+double chi2_of(const NoiseModel& weights, const DataModel& model, const LeftSums& left) {
+  double chi2 = 0;
+  for (const auto& l : left)
+    if (model.recording(l.recording).role == Role::train)
+      chi2 += l.all() / std::pow(weights.outputs[static_cast<std::size_t>(l.output)].white, 2);
+  return chi2;
+}
+
+}  // namespace
+
+double score_of(const BlockScore& score, const Fitted& f) {
+  return score.fit_of(f.left) - score.price(f.parameters) - f.tried - 0.5 * f.moved;
+}
+
+double tie_score_of(const BlockScore& score, const Fitted& f) {
+  return score.fit_of(f.left) - f.parameters - f.tried - 0.5 * f.moved;
+}
+
+Fitted measured(const FitSetting& setting, Contender model, Numbers numbers, double tried) {
+  Fitted f;
+  f.numbers = numbers;
+  f.tried = tried;
+  f.model = std::move(model);
+  if (!f.model.ok) return f;
+  const Evidence& evidence = *setting.books.evidence;
+  f.left = left_sums(left_rows(evidence, f.model.prediction));
+  f.parameters = numbers_of(f.model, evidence.recordings().size());
+  for (const auto& e : f.model.fit.estimates)
+    if (const auto n = setting.numbers.find(e.path); n != setting.numbers.end())
+      f.moved += std::pow((e.used - n->second) / (known_to * n->second), 2);
+  return f;
+}
+
+NoiseModel weights_of(const FitSetting& setting, const Contender& model) {
+  return weights_by(*setting.books.evidence, left_rows(*setting.books.evidence, model.prediction));
+}
+
+Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers) {
+  Workshop own = shop;
+  own.weights = weights;
+  if (numbers == Numbers::written) return own;
+  own.known_to = {two_sided * known_to, 0.5, 2};
+  own.free_nominal_parameters(setting.numbers);
+  return own;
+}
+
+Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers) {
+  Contender c = from.model;
+  std::optional<NoiseModel> before;
+  for (int i = 0; i < most_renewals; ++i) {
+    const NoiseModel weights = weights_of(setting, c);
+    if (before && alike(weights, *before)) break;
+    Contender next = refit_afresh(workshop_for(setting, shop, weights, numbers), c, Effort::full);
+    if (!next.ok) break;
+    before = weights;
+    c = std::move(next);
+  }
+  return before ? measured(setting, std::move(c), numbers, from.tried) : Fitted{};
+}
+
+Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const Choice& choice,
+                 double tried, Effort effort) {
+  const NoiseModel weights = weights_of(setting, from.model);
+  const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
+  Fitted f =
+      measured(setting, with_effect(own, from.model, *choice.effect, choice.law, choice.place, choice.at, effort),
+               from.numbers, from.tried + tried);
+  if (!f.ok()) return f;
+  // A law that is off is the model without it: a search that ends above that has not found where it begins.
+  const DataModel& model = setting.books.evidence->model();
+  if (chi2_of(weights, model, f.left) > chi2_of(weights, model, from.left)) f.left = from.left;
+  return f;
+}
+
+namespace {
+
+/// A number that was let go.
+struct LetGo {
+  std::string path;
+  double off, sigma;  ///< from what is written
+  int place;          ///< among those that are correlated
+  bool at_bound;
+};
+
+std::vector<LetGo> all_let_go(const FitResult& fit, const std::map<std::string, double>& numbers) {
+  std::vector<LetGo> all;
+  const double s2 = fit.s2 > 0 ? fit.s2 : 1;  // intervals are scaled by it, and weights count witnesses already
+  for (const auto& e : fit.estimates) {
+    const auto n = numbers.find(e.path);
+    if (n == numbers.end()) continue;
+    LetGo one{e.path, e.used - n->second, 0, -1, e.at_lower || e.at_upper};
+    for (std::size_t k = 0; k < fit.correlated.size(); ++k)
+      if (&fit.estimates[static_cast<std::size_t>(fit.correlated[k])] == &e) one.place = static_cast<int>(k);
+    if (e.sigma) one.sigma = *e.sigma / std::sqrt(s2);
+    if (one.at_bound || (one.place >= 0 && one.sigma > 0)) all.push_back(one);
+  }
+  return all;
+}
+
+/// About the minimum the cost is J + d' C^-1 d; holding the numbers A at what is written, all others at their best,
+/// adds d_A' (C_AA)^-1 d_A.
+double cost_of_holding(const FitResult& fit, const std::vector<LetGo>& held) {
+  const auto n = static_cast<Eigen::Index>(held.size());
+  const auto width = fit.correlated.size();
+  Eigen::MatrixXd correlation(n, n);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LetGo& a = held[static_cast<std::size_t>(i)];
+    d(i) = a.off / a.sigma;
+    for (Eigen::Index k = 0; k < n; ++k)
+      correlation(i, k) = fit.correlation[static_cast<std::size_t>(a.place) * width +
+                                          static_cast<std::size_t>(held[static_cast<std::size_t>(k)].place)];
+  }
+  return d.dot(correlation.completeOrthogonalDecomposition().solve(d));
+}
+
+/// Of the numbers that were let go those that bring more than `worth` each; one that is held back by the widest that is
+/// believed is certainly not what is written.
+std::map<std::string, double> worth_it(const FitResult& fit, const std::map<std::string, double>& numbers,
+                                       double worth) {
+  std::map<std::string, double> kept;
+  std::vector<LetGo> free = all_let_go(fit, numbers), held;
+  for (const auto& one : free)
+    if (one.at_bound) kept[one.path] = numbers.at(one.path);
+  std::erase_if(free, [](const LetGo& one) { return one.at_bound; });
+  double now = 0;
+  while (!free.empty()) {
+    std::size_t least = 0;
+    double least_cost = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      auto with = held;
+      with.push_back(free[i]);
+      if (const double then = cost_of_holding(fit, with); then < least_cost) least_cost = then, least = i;
+    }
+    if (least_cost - now > worth) break;
+    now = least_cost;
+    held.push_back(free[least]);
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  for (const auto& one : free) kept[one.path] = numbers.at(one.path);
+  return kept;
+}
+
+}  // namespace
+
+Fitted with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+                           const Fitted& let_go, std::map<std::string, double>& kept) {
+  constexpr int most_rounds = 4;
+  const double worth = 6 + std::log(std::max(score.n_eff(), 2.0));
+  Fitted now = let_go;
+  kept = setting.numbers;
+  for (int round = 0; round < most_rounds && !kept.empty(); ++round) {
+    const FitSetting these{setting.books, kept};
+    const Workshop own = workshop_for(these, shop, weights_of(these, now.model), Numbers::let_go);
+    const Contender c = refit_afresh(own, now.model, Effort::final);
+    if (!c.ok) break;
+    const auto few = worth_it(c.fit, kept, worth);
+    if (few.size() == kept.size()) break;
+    Trial written;
+    for (const auto& [path, value] : kept)
+      if (!few.contains(path)) written.push_back({parameter_index(*c.program, path), value, -1});
+    Fitted start = now;
+    start.model = c;
+    start.model.diagram = with_parameters(c.diagram, *c.program, written);
+    std::erase_if(start.model.fit.estimates,
+                  [&](const ParameterEstimate& e) { return kept.contains(e.path) && !few.contains(e.path); });
+    Fitted next = refitted({setting.books, few}, shop, start, few.empty() ? Numbers::written : Numbers::let_go);
+    if (!next.ok()) break;
+    kept = few;
+    now = std::move(next);
+  }
+  return now;
+}
+
+}  // namespace hysteron

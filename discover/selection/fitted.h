@@ -1,0 +1,62 @@
+// Decides what a row of the model table is: one model, fitted, and what it leaves. And how a model is fitted for it:
+// weights renewed until they follow what the model leaves, numbers of the user as written or let go.
+// Internal to discover.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discover/search/books.h"
+#include "discover/selection/block_score.h"
+
+namespace hysteron {
+
+/// Numbers of the user's model, as written or let go.
+enum class Numbers { written, let_go };
+
+struct Fitted {
+  Contender model;
+  Numbers numbers = Numbers::written;
+  LeftSums left;
+  int parameters = 0;  ///< all free numbers of the laws
+  double tried = 0;    ///< ln(places times laws tried) of its effects
+  double moved = 0;    ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
+  bool ok() const { return model.ok; }
+};
+
+/// What all fits of one selection share.
+struct FitSetting {
+  const Books& books;
+  std::map<std::string, double> numbers;  ///< that may be let go, as written [SI]
+};
+
+/// One standard deviation of the logarithm of what a user writes, where nothing is said of it: 10 %.
+inline constexpr double known_to = 0.1;
+
+double score_of(const BlockScore& score, const Fitted& fitted);
+/// The same of a model whose numbers cost no more than what chance takes with them: one each. For ties.
+double tie_score_of(const BlockScore& score, const Fitted& fitted);
+
+/// What is left, and what it cost, of a model that was fitted.
+Fitted measured(const FitSetting& setting, Contender model, Numbers numbers, double tried);
+
+/// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
+Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers);
+NoiseModel weights_of(const FitSetting& setting, const Contender& model);
+
+/// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
+/// truth all weights are wrong, and the user's numbers are held too firmly by what is written.
+Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers);
+
+/// `from` with one more effect. The user's numbers stay as `from` has them.
+Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const Choice& choice,
+                 double tried, Effort effort);
+
+/// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and
+/// fits again with the others. `kept`: the others, as written.
+Fitted with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+                           const Fitted& let_go, std::map<std::string, double>& kept);
+
+}  // namespace hysteron

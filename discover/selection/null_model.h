@@ -1,0 +1,32 @@
+// Decides what the user's model is with everything that nobody knows exactly: where recordings begin, and numbers that
+// are known to some per cent. Internal to discover.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discover/selection/fitted.h"
+
+namespace hysteron {
+
+/// The user's model as written and with its numbers let go; both compete with every effect.
+struct Nulls {
+  Fitted written, let_go;  ///< let_go is not ok where no number may be let go
+  const Fitted& better(const BlockScore& score) const;
+  /// The one that leaves less: by it the score is made.
+  const Fitted& best() const;
+};
+
+/// Fits both. `books.base` is the user's model.
+Nulls fit_nulls(const FitSetting& setting);
+
+/// Recordings of which nobody says where they begin, and that begin elsewhere than at rest: with a free start each
+/// explains more than its states cost. By name.
+std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& data, const Registry& registry,
+                                         const Effects& effects, const DiscoverOptions& options);
+
+/// Numbers of the user's model that may be let go, as written [SI]; empty where they are exact.
+std::map<std::string, double> numbers_not_exact(const Books& books);
+
+}  // namespace hysteron

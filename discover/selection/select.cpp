@@ -1,0 +1,204 @@
+#include "discover/selection/select.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discover/narrate/words.h"
+#include "discover/selection/selection.h"
+#include "engine/diagram/stop.h"
+
+namespace hysteron {
+namespace {
+
+/// The model that is told: with the fewest of the user's numbers let go, with intervals, and what it is without its
+/// last terms.
+struct Told {
+  std::map<std::string, double> kept;  ///< numbers that are not what is written, as written [SI]
+  Workshop shop;
+  std::vector<Contender> chain;  ///< [k]: with the first k terms; the last is the whole model
+};
+
+/// Intervals count rows where the residual is white.
+NoiseModel plain_weights(const FitSetting& setting, const Contender& model) {
+  const auto left = left_rows(*setting.books.evidence, model.prediction);
+  NoiseModel weights = weights_by(*setting.books.evidence, left);
+  std::vector<double> squares(weights.outputs.size()), rows(squares);
+  for (const auto& l : left) {
+    for (const double v : l.rows) squares[static_cast<std::size_t>(l.output)] += v * v;
+    rows[static_cast<std::size_t>(l.output)] += static_cast<double>(l.rows.size());
+  }
+  for (std::size_t o = 0; o < weights.outputs.size(); ++o)
+    if (rows[o] > 0)
+      weights.outputs[o].white = std::min(weights.outputs[o].white, std::max(std::sqrt(squares[o] / rows[o]), 1e-300));
+  return weights;
+}
+
+Told to_be_told(Books& books, const Selection& selection) {
+  Told told;
+  const FitSetting& setting = selection.setting();
+  Fitted best = selection.best();
+  if (best.numbers == Numbers::let_go)
+    books.unless_stopped([&] { best = with_fewest_numbers(setting, books.shop, selection.score(), best, told.kept); });
+  const FitSetting few{books, told.kept};
+  told.shop = workshop_for(few, books.shop, plain_weights(few, best.model),
+                           told.kept.empty() ? Numbers::written : Numbers::let_go);
+  Contender whole = best.model;
+  books.unless_stopped([&] {
+    Contender final = refit(told.shop, whole, Effort::final);
+    if (final.ok) whole = std::move(final);
+  });
+  told.chain.assign(whole.standing.size() + 1, whole);
+  for (std::size_t k = whole.standing.size(); k-- > 0;) {
+    told.chain[k] = refit(told.shop, before_last(told.shop, told.chain[k + 1]), Effort::full);
+    if (!told.chain[k].ok) told.chain[k] = k == 0 ? books.base : told.chain[k + 1];
+  }
+  return told;
+}
+
+/// Of the candidates of all rounds the one that stands as this term.
+Tried tried_as(const Selection& selection, const Standing& s) {
+  for (auto round = selection.rounds().rbegin(); round != selection.rounds().rend(); ++round)
+    for (const auto& r : round->rivals)
+      if (r.tried.effect == s.effect && r.tried.place.where() == s.place.where()) {
+        Tried t = r.tried;
+        for (std::size_t l = 0; l < t.laws.size(); ++l)
+          if (t.laws[l].name == s.law.name) t.law = l;
+        return t;
+      }
+  Tried t;
+  t.effect = s.effect;
+  t.place = s.place;
+  t.laws = {s.law};
+  return t;
+}
+
+/// Rivals that explain as much as the winner by other effects, each effect once.
+std::vector<Addition> tied(const Books& books, const Selection& selection, const Fitted& winner, const Effect& effect,
+                           std::vector<Addition> rivals) {
+  std::vector<Addition> list;
+  const double reach = tie_score_of(selection.score(), winner) - rules::tie;
+  for (auto& r : rivals) {
+    if (!r.fitted.ok() || r.tried.effect == &effect || tie_score_of(selection.score(), r.fitted) < reach) continue;
+    if (is_the_winner_and_more(books, r.tried, effect)) continue;
+    if (!why_implausible(*r.tried.effect, r.tried.laws[r.tried.law], r.fitted.model, r.tried.excitation).empty())
+      continue;
+    if (std::any_of(list.begin(), list.end(), [&](const Addition& a) { return a.tried.effect == r.tried.effect; }))
+      continue;
+    list.push_back(std::move(r));
+  }
+  return list;
+}
+
+std::string how_much_more(const Selection& selection, const Fitted& f, const Fitted& before) {
+  return fmt::format("its score is {:.1f} above that of the model without it; {:.0f} are asked",
+                     selection.score_of(f) - selection.score_of(before), rules::by_score);
+}
+
+void tell_step(Books& books, Selection& selection, const Told& told, std::size_t k) {
+  FoundStep found;
+  Tried w = tried_as(selection, told.chain.back().standing[k]);
+  const ModelError before = books.evidence->error(told.chain[k].prediction);
+  w.contender = told.chain[k + 1];
+  w.contender.error_of = books.evidence->error(w.contender.prediction);
+  w.fall_train = before.evidence_train - w.contender.error_of.evidence_train;
+  w.fall_validate = before.evidence_validate - w.contender.error_of.evidence_validate;
+  const double excess = before.excess_validate();
+  w.share = excess > 0 ? std::clamp(1 - w.contender.error_of.excess_validate() / excess, 0.0, 1.0) : 0;
+  w.fall_by_recording = fall_by_recording(before, w.contender.error_of);
+  w.admitted = true;
+  w.reason = what_it_takes(w);
+  const bool alone = told.chain.size() == 2;
+  const int step = static_cast<int>(k) + 1;
+  books.current = told.chain[k];
+  books.unless_stopped([&] {
+    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(k);
+    const Effect& effect = *told.chain.back().standing[k].effect;
+    for (const auto& r : tied(books, selection, selection.best(), effect, rivals)) {
+      Tried rival = r.tried;
+      rival.contender = r.fitted.model;
+      rival.contender.error_of = books.evidence->error(rival.contender.prediction);
+      rival.admitted = true;
+      rival.reason = "explains the recordings as well as the one that was taken";
+      add_tie(books, step, found, w, rival);
+    }
+  });
+  found.before = before;
+  found.after = w.contender.error_of;
+  found.winner = candidate_of(w, step);
+  found.winner.claimed = true;
+  found.change = w.contender.change;
+  found.change.diagram = w.contender.diagram;
+  books.d.steps.push_back(std::move(found));
+}
+
+void tell_candidates(Books& books, const Selection& selection, const Told& told) {
+  int step = 0;
+  for (const auto& round : selection.rounds()) {
+    ++step;
+    const Fitted& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
+    for (const auto& r : round.rivals) {
+      Tried t = r.tried;
+      t.contender = r.fitted.model;
+      if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
+      t.reason =
+          !r.fitted.ok() ? "could not be fitted: " + r.fitted.model.error : how_much_more(selection, r.fitted, before);
+      Candidate c = candidate_of(t, step);
+      for (const auto& s : told.chain.back().standing)
+        c.claimed = c.claimed || (s.effect->id == c.effect && s.place.where() == c.place);
+      books.d.candidates.push_back(std::move(c));
+    }
+  }
+}
+
+void tell_numbers(Books& books, const Told& told) {
+  for (const auto& e : told.chain.back().fit.estimates)
+    if (const auto n = told.kept.find(e.path); n != told.kept.end())
+      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, e.sigma.value_or(0)});
+  std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
+  });
+}
+
+void tell_starts(Books& books, const std::vector<std::string>& moving) {
+  books.d.found_starts = moving;
+  if (moving.empty()) return;
+  books.d.warnings.push_back(fmt::format(
+      "{} {} not begin at rest: where {} was found with everything else. Say so in the data set: "
+      "\"initial\": \"per_recording\"",
+      fmt::join(moving, ", "), moving.size() == 1 ? "does" : "do", moving.size() == 1 ? "it begins" : "they begin"));
+}
+
+}  // namespace
+
+Discovery select_model(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                       const DiscoverOptions& options) {
+  const std::vector<std::string> moving = begin_in_motion(diagram, data, registry, effects, options);
+  Discovery facts;
+  facts.found_starts = moving;
+  Books books(diagram, as_found(data, facts), registry, effects, options);
+  books.by_score = true;
+  books.d.asked_for = options.only;
+  fit_base(books);
+  Selection selection(books, numbers_not_exact(books));
+  books.unless_stopped([&] { selection.run(); });
+  if (selection.best().ok()) {
+    const Told told = to_be_told(books, selection);
+    books.base = told.chain.front();
+    books.current = told.chain.back();
+    books.settle(books.current);
+    for (std::size_t k = 0; k + 1 < told.chain.size(); ++k) tell_step(books, selection, told, k);
+    books.current = told.chain.back();
+    books.settle(books.current);
+    books.d.base_diagram = books.base.diagram;
+    tell_candidates(books, selection, told);
+    tell_numbers(books, told);
+  }
+  tell_starts(books, moving);
+  conclude(books);
+  books.d.model_runs = books.shop.notes->runs();
+  return std::move(books.d);
+}
+
+}  // namespace hysteron

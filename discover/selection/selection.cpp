@@ -1,0 +1,236 @@
+#include "discover/selection/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace hysteron {
+namespace {
+
+constexpr std::size_t together = 8;  // of the best further effects, fitted with all that stands
+constexpr std::size_t enriched_names = 4;
+
+/// How many ways of saying one effect were tried: among more of them chance finds more.
+double ln_tried(const std::vector<Addition>& rivals, const Effect& effect) {
+  double n = 0;
+  for (const auto& r : rivals)
+    if (r.tried.effect == &effect) n += static_cast<double>(std::max<std::size_t>(r.tried.laws.size(), 1));
+  return std::log(std::max(n, 1.0));
+}
+
+Choice choice_of(const Tried& t, std::size_t law) { return {t.effect, t.laws[law], t.place, t.excitation}; }
+
+/// Dry models do not keep what nobody asks for again.
+void take_up(Addition& rival, Fitted fitted, std::size_t law, const BlockScore& score) {
+  if (!fitted.ok()) {
+    if (!rival.fitted.ok()) rival.fitted.model.error = fitted.model.error;
+    return;
+  }
+  if (rival.fitted.ok() && score_of(score, rival.fitted) >= score_of(score, fitted)) return;
+  rival.fitted = std::move(fitted);
+  rival.tried.law = law;
+}
+
+}  // namespace
+
+Selection::Selection(Books& books, std::map<std::string, double> numbers)
+    : books_(books), setting_{books, std::move(numbers)} {}
+
+void Selection::measure_by(const Fitted& best) {
+  score_.emplace(*books_.evidence, left_rows(*books_.evidence, best.model.prediction));
+}
+
+void Selection::sort(std::vector<Addition>& rivals) const {
+  std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
+    if (a.fitted.ok() != b.fitted.ok()) return a.fitted.ok();
+    return a.fitted.ok() && score_of(a.fitted) > score_of(b.fitted);
+  });
+}
+
+std::vector<Addition> Selection::list(int step) {
+  std::vector<Addition> rivals;
+  books_.current = best_.model;
+  for (auto& t : list_candidates(books_, step)) {
+    Addition rival;
+    rival.tried = std::move(t);
+    rivals.push_back(std::move(rival));
+  }
+  return rivals;
+}
+
+void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
+  // Each answer of its own: the score that orders them is that of all.
+  std::vector<std::vector<Fitted>> answers(rivals.size());
+  books_.side_by_side(rivals.size(), [&](std::size_t i, const Workshop& shop) {
+    const Tried& t = rivals[i].tried;
+    books_.progress(
+        fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
+        (step - 1 + 0.6 * static_cast<double>(i) / static_cast<double>(rivals.size())) / books_.options.max_steps);
+    const double tried = ln_tried(rivals, *t.effect);
+    const Choice choice = choice_of(t, 0);
+    if (step > 1) {
+      answers[i].push_back(with_term(setting_, shop, best_, choice, tried, Effort::screen));
+    } else {
+      answers[i].push_back(with_term(setting_, shop, nulls_.written, choice, tried, Effort::full));
+      if (nulls_.let_go.ok())
+        answers[i].push_back(with_term(setting_, shop, nulls_.let_go, choice, tried, Effort::full));
+    }
+    return false;
+  });
+  for (std::size_t i = 0; i < rivals.size(); ++i)
+    for (auto& f : answers[i]) take_up(rivals[i], std::move(f), 0, *score_);
+}
+
+/// The best of them together with all that stands and with the user's numbers.
+void Selection::fit_with_numbers(std::vector<Addition>& rivals, std::size_t most) {
+  sort(rivals);
+  const std::size_t n = std::min(most, rivals.size());
+  std::vector<Fitted> answers(n);
+  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
+  books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
+    if (rivals[i].fitted.ok()) answers[i] = refitted(setting_, shop, rivals[i].fitted, numbers);
+    return false;
+  });
+  for (std::size_t i = 0; i < n; ++i) take_up(rivals[i], std::move(answers[i]), rivals[i].tried.law, *score_);
+  sort(rivals);
+}
+
+/// Of the best names the other laws, from where the first one's model stands.
+void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
+  std::set<std::string> names;
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    if (!rivals[i].fitted.ok()) continue;
+    if (names.size() >= enriched_names && !names.contains(rivals[i].tried.effect->id)) break;
+    if (!names.insert(rivals[i].tried.effect->id).second) continue;  // at its best place
+    for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l) jobs.emplace_back(i, l);
+  }
+  std::vector<Fitted> answers(jobs.size());
+  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
+  books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
+    const auto [i, law] = jobs[j];
+    const Tried& t = rivals[i].tried;
+    // With the numbers of the simple law's model: those of the null bear what the effect does.
+    Fitted bare = rivals[i].fitted;
+    bare.model = without(shop, bare.model, bare.model.standing.size() - 1);
+    if (!bare.ok()) return false;
+    bare.model = refit(shop, bare.model, Effort::full);  // simulated, with what is free
+    if (!bare.ok()) return false;
+    bare = measured(setting_, std::move(bare.model), bare.numbers, best_.tried);
+    Fitted f = with_term(setting_, shop, bare, choice_of(t, law), ln_tried(rivals, *t.effect), Effort::full);
+    if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers);
+    return false;
+  });
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    take_up(rivals[jobs[j].first], std::move(answers[j]), jobs[j].second, *score_);
+  sort(rivals);
+}
+
+bool Selection::is_itself(const Addition& rival) const {
+  return why_implausible(*rival.tried.effect, rival.tried.laws[rival.tried.law], rival.fitted.model,
+                         rival.tried.excitation)
+      .empty();
+}
+
+bool Selection::add_one(int step) {
+  auto rivals = list(step);
+  if (rivals.empty()) return false;
+  fit_first_laws(rivals, step);
+  fit_with_numbers(rivals, step == 1 ? rivals.size() : together);
+  fit_richer_laws(rivals);
+  if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
+  sort(rivals);
+  for (auto& r : rivals) r.tried.contender = r.fitted.model;
+  rounds_.push_back({best_, std::move(rivals)});
+  const Round& round = rounds_.back();
+  const Fitted& before = step == 1 ? nulls_.better(*score_) : best_;
+  const double needed = score_of(before) + rules::by_score;
+  for (const auto& r : round.rivals) {
+    if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
+    if (!is_itself(r)) continue;
+    best_ = r.fitted;
+    return true;
+  }
+  measure_by(before);
+  best_ = before;
+  return false;
+}
+
+/// A term that its model does not need: the rest, fitted from where it stands with the term, explains as much. Of a
+/// single term the rest is the user's own model from other numbers than it had been searched from.
+bool Selection::leave_out() {
+  for (std::size_t i = 0; i < best_.model.standing.size(); ++i) {
+    Fitted rest = best_;
+    rest.model = without(books_.shop, best_.model, i);
+    if (!rest.ok()) continue;
+    rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
+    if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
+    if (!rest.ok()) continue;
+    if (rest.model.standing.empty() && score_of(rest) > score_of(nulls_.better(*score_)))
+      (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
+    if (score_of(rest) + rules::by_score < score_of(best_)) continue;
+    best_ = std::move(rest);
+    return true;
+  }
+  return false;
+}
+
+std::vector<Addition> Selection::in_place_of(std::size_t i) {
+  std::vector<Addition> rivals;
+  const Standing& leaving = best_.model.standing[i];
+  Fitted rest = best_;
+  rest.model = without(books_.shop, best_.model, i);
+  if (!rest.ok()) return rivals;
+  rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
+  if (!rest.ok()) return rivals;
+  const Contender was = std::exchange(books_.current, rest.model);
+  for (auto& t : list_candidates(books_, 2)) {
+    if (t.effect == leaving.effect && t.place.at == leaving.place.at) continue;
+    if (!look_alike(*t.effect, *leaving.effect) && t.effect != leaving.effect) continue;
+    Addition rival;
+    rival.tried = std::move(t);
+    rivals.push_back(std::move(rival));
+  }
+  books_.current = was;
+  std::vector<Fitted> answers(rivals.size());
+  books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
+    const Fitted f = with_term(setting_, shop, rest, choice_of(rivals[k].tried, 0),
+                               ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
+    if (f.ok()) answers[k] = refitted(setting_, shop, f, best_.numbers);
+    return false;
+  });
+  for (std::size_t k = 0; k < rivals.size(); ++k) {
+    take_up(rivals[k], std::move(answers[k]), 0, *score_);
+    rivals[k].tried.contender = rivals[k].fitted.model;
+  }
+  sort(rivals);
+  return rivals;
+}
+
+/// A look-alike that explains more in the place of a term.
+bool Selection::exchange() {
+  if (best_.model.standing.size() < 2) return false;
+  for (std::size_t i = 0; i + 1 < best_.model.standing.size(); ++i)
+    for (const auto& r : in_place_of(i))
+      if (r.fitted.ok() && is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
+        best_ = r.fitted;
+        return true;
+      }
+  return false;
+}
+
+void Selection::run() {
+  nulls_ = fit_nulls(setting_);
+  measure_by(nulls_.best());
+  best_ = nulls_.better(*score_);
+  for (int step = 1; step <= books_.options.max_steps && !books_.stopped(); ++step) {
+    if (!add_one(step)) break;
+    while (!books_.stopped() && leave_out()) continue;
+    if (best_.model.standing.empty()) break;
+    if (!books_.stopped()) exchange();
+  }
+}
+
+}  // namespace hysteron

@@ -1,0 +1,66 @@
+// Decides how the loop of a selection goes: the null, all first effects, further ones, what can be left out or
+// exchanged. Internal to discover.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discover/selection/fitted.h"
+#include "discover/selection/null_model.h"
+
+namespace hysteron {
+
+namespace rules {
+constexpr double by_score = 10;  ///< a model claims what it adds where its score is so much higher
+}  // namespace rules
+
+/// A rival: one effect more than the model it stands on.
+struct Addition {
+  Tried tried;    ///< effect, place, laws; `contender` is that of `fitted`
+  Fitted fitted;  ///< with its best law
+};
+
+/// What was asked on top of one model.
+struct Round {
+  Fitted on;                     ///< the model that all of them stand on
+  std::vector<Addition> rivals;  ///< best score first
+};
+
+class Selection {
+ public:
+  Selection(Books& books, std::map<std::string, double> numbers);
+  /// Finds the model. False where it was broken off before the null was fitted.
+  void run();
+
+  const Nulls& nulls() const { return nulls_; }
+  const Fitted& best() const { return best_; }
+  const std::vector<Round>& rounds() const { return rounds_; }
+  const BlockScore& score() const { return *score_; }
+  const FitSetting& setting() const { return setting_; }
+  double score_of(const Fitted& f) const { return hysteron::score_of(*score_, f); }
+  /// Others in the place of term `i` of the best model, fitted with the rest, best first.
+  std::vector<Addition> in_place_of(std::size_t i);
+
+ private:
+  bool add_one(int step);
+  void fit_first_laws(std::vector<Addition>& rivals, int step);
+  void fit_richer_laws(std::vector<Addition>& rivals);
+  void fit_with_numbers(std::vector<Addition>& rivals, std::size_t most);
+  void sort(std::vector<Addition>& rivals) const;
+  bool leave_out();
+  bool exchange();
+  void measure_by(const Fitted& best);
+  std::vector<Addition> list(int step);
+  bool is_itself(const Addition& rival) const;
+
+  Books& books_;
+  FitSetting setting_;
+  Nulls nulls_;
+  Fitted best_;
+  std::optional<BlockScore> score_;
+  std::vector<Round> rounds_;
+};
+
+}  // namespace hysteron
