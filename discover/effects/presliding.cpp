@@ -56,14 +56,16 @@ Law presliding(const Excitation& at) {
   k.lower = 1e-5 * force / range;
   k.upper = 1e4 * force / range;
   k.log_scale = true;
-  for (const double f : {0.1, 1.0, 10.0}) k.scan.push_back(f * force / range);
+  // Forces of 1, 5, 25 % of the largest after ways of 0.01, 0.1, 1 % of the stroke, and what lies between: from a start
+  // that holds far more, or slides far later, a search ends where it is worse than without it.
+  for (const double f : {1.0, 5.0, 25.0, 125.0, 625.0, 2500.0}) k.scan.push_back(f * force / range);
   LawParameter d;
   d.path = element("slip_distance", 0);
   d.start = 0.02 * range;
   d.lower = 1e-4 * range;
   d.upper = 10 * range;
   d.log_scale = true;
-  for (const double f : {0.003, 0.02, 0.1}) d.scan.push_back(f * range);
+  for (const double f : {1e-4, 1e-3, 1e-2}) d.scan.push_back(f * range);
   d.plausible_upper = 50e-6;
   law.free = {k, d};
   return law;

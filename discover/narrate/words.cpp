@@ -19,6 +19,7 @@ std::string effect_words(const Effect& effect, const std::vector<std::string>& s
 }
 
 std::string place_text(const Candidate& c) {
+  if (!c.also_at.empty()) return fmt::format("at {} and {}", c.place, fmt::join(c.also_at, " and "));
   if (c.same_places.empty()) return "at " + c.place;
   std::vector<std::string> all{c.place};
   for (const auto& p : c.same_places)

@@ -252,7 +252,7 @@ void conclude(Books& books) {
   books.progress("what is left", 0.97);
   books.settle(books.current);
   books.d.base = books.evidence->error(books.base.prediction);
-  books.d.broken_off = books.stopped();
+  books.d.broken_off = books.d.broken_off || books.stopped();
   books.closing = true;
   if (books.d.broken_off && !books.by_score) {
     unless_it_fails(books, [&] { return exchange_for_what_they_hold(books, 0.97), true; });

@@ -52,6 +52,7 @@ struct TriedLaw {
 /// found before.
 struct Candidate {
   std::string effect, title, law, place;  ///< place as for --at
+  std::vector<std::string> also_at{};     ///< like places where it acts, too
   std::vector<std::string> same_places;   ///< further places that no experiment can tell from this one
   std::vector<std::string>
       same_effects;    ///< further effects that are the same there ("sensor_lag" for "amplifier_lag")

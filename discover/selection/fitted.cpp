@@ -11,7 +11,6 @@
 namespace hysteron {
 namespace {
 
-constexpr int most_renewals = 12;
 constexpr double settled = 0.05;                 // of V
 constexpr double two_sided = 1.959963984540054;  // 95 % of a normal distribution
 
@@ -87,10 +86,10 @@ Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const Noi
   return own;
 }
 
-Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers) {
+Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers, int renewals) {
   Contender c = from.model;
   std::optional<NoiseModel> before;
-  for (int i = 0; i < most_renewals; ++i) {
+  for (int i = 0; i < renewals; ++i) {
     const NoiseModel weights = weights_of(setting, c);
     if (before && alike(weights, *before)) break;
     Contender next = refit_afresh(workshop_for(setting, shop, weights, numbers), c, Effort::full);
@@ -101,13 +100,16 @@ Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& f
   return before ? measured(setting, std::move(c), numbers, from.tried) : Fitted{};
 }
 
-Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const Choice& choice,
+Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const std::vector<Choice>& term,
                  double tried, Effort effort) {
   const NoiseModel weights = weights_of(setting, from.model);
   const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
-  Fitted f =
-      measured(setting, with_effect(own, from.model, *choice.effect, choice.law, choice.place, choice.at, effort),
-               from.numbers, from.tried + tried);
+  Contender c = from.model;
+  for (const auto& choice : term) {
+    c = with_effect(own, c, *choice.effect, choice.law, choice.place, choice.at, effort);
+    if (!c.ok) break;
+  }
+  Fitted f = measured(setting, std::move(c), from.numbers, from.tried + tried);
   if (!f.ok()) return f;
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
   const DataModel& model = setting.books.evidence->model();

@@ -35,6 +35,9 @@ struct FitSetting {
 /// One standard deviation of the logarithm of what a user writes, where nothing is said of it: 10 %.
 inline constexpr double known_to = 0.1;
 
+/// Weights of one model are renewed at most so often: each time from where it came to.
+inline constexpr int most_renewals = 12;
+
 double score_of(const BlockScore& score, const Fitted& fitted);
 /// The same of a model whose numbers cost no more than what chance takes with them: one each. For ties.
 double tie_score_of(const BlockScore& score, const Fitted& fitted);
@@ -47,11 +50,13 @@ Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const Noi
 NoiseModel weights_of(const FitSetting& setting, const Contender& model);
 
 /// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
-/// truth all weights are wrong, and the user's numbers are held too firmly by what is written.
-Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers);
+/// truth all weights are wrong, and the user's numbers are held too firmly by what is written. At most `renewals`
+/// times.
+Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers,
+                int renewals = most_renewals);
 
-/// `from` with one more effect. The user's numbers stay as `from` has them.
-Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const Choice& choice,
+/// `from` with one more effect, at one place or at several like ones. The user's numbers stay as `from` has them.
+Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const std::vector<Choice>& term,
                  double tried, Effort effort);
 
 /// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and

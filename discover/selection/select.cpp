@@ -17,7 +17,8 @@ namespace {
 struct Told {
   std::map<std::string, double> kept;  ///< numbers that are not what is written, as written [SI]
   Workshop shop;
-  std::vector<Contender> chain;  ///< [k]: with the first k terms; the last is the whole model
+  std::vector<Contender> chain;                 ///< [k]: with the first k terms; the last is the whole model
+  std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
 };
 
 /// Intervals count rows where the residual is white.
@@ -49,9 +50,15 @@ Told to_be_told(Books& books, const Selection& selection) {
     Contender final = refit(told.shop, whole, Effort::final);
     if (final.ok) whole = std::move(final);
   });
-  told.chain.assign(whole.standing.size() + 1, whole);
-  for (std::size_t k = whole.standing.size(); k-- > 0;) {
-    told.chain[k] = refit(told.shop, before_last(told.shop, told.chain[k + 1]), Effort::full);
+  told.terms = terms_of(whole);
+  told.chain.assign(told.terms.size() + 1, whole);
+  for (std::size_t k = told.terms.size(); k-- > 0;) {
+    Contender before = told.chain[k + 1];
+    // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
+    for (std::size_t i = before.standing.size(); i-- > 0 && before.ok;)
+      if (before.standing[i].effect == whole.standing[told.terms[k].front()].effect)
+        before = without(told.shop, before, i);
+    told.chain[k] = before.ok ? refit(told.shop, before, Effort::full) : before;
     if (!told.chain[k].ok) told.chain[k] = k == 0 ? books.base : told.chain[k + 1];
   }
   return told;
@@ -98,7 +105,9 @@ std::string how_much_more(const Selection& selection, const Fitted& f, const Fit
 
 void tell_step(Books& books, Selection& selection, const Told& told, std::size_t k) {
   FoundStep found;
-  Tried w = tried_as(selection, told.chain.back().standing[k]);
+  const auto& term = told.terms[k];
+  const Contender& whole = told.chain.back();
+  Tried w = tried_as(selection, whole.standing[term.front()]);
   const ModelError before = books.evidence->error(told.chain[k].prediction);
   w.contender = told.chain[k + 1];
   w.contender.error_of = books.evidence->error(w.contender.prediction);
@@ -113,8 +122,8 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   const int step = static_cast<int>(k) + 1;
   books.current = told.chain[k];
   books.unless_stopped([&] {
-    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(k);
-    const Effect& effect = *told.chain.back().standing[k].effect;
+    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
+    const Effect& effect = *whole.standing[term.front()].effect;
     for (const auto& r : tied(books, selection, selection.best(), effect, rivals)) {
       Tried rival = r.tried;
       rival.contender = r.fitted.model;
@@ -128,6 +137,7 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   found.after = w.contender.error_of;
   found.winner = candidate_of(w, step);
   found.winner.claimed = true;
+  for (std::size_t i = 1; i < term.size(); ++i) found.winner.also_at.push_back(whole.standing[term[i]].place.where());
   found.change = w.contender.change;
   found.change.diagram = w.contender.diagram;
   books.d.steps.push_back(std::move(found));
@@ -183,6 +193,8 @@ Discovery select_model(const Diagram& diagram, const DataSet& data, const Regist
   fit_base(books);
   Selection selection(books, numbers_not_exact(books));
   books.unless_stopped([&] { selection.run(); });
+  books.d.broken_off = books.stopped();
+  books.closing = true;  // what was found is told in full
   if (selection.best().ok()) {
     const Told told = to_be_told(books, selection);
     books.base = told.chain.front();

@@ -6,10 +6,14 @@
 #include <cmath>
 #include <set>
 
+#include "discover/wiring/wiring.h"
+
 namespace hysteron {
 namespace {
 
-constexpr std::size_t together = 8;  // of the best further effects, fitted with all that stands
+constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
+constexpr double near_noise = 1.1;  // rms over the noise: nothing is left that another effect could take away
+constexpr int few_renewals = 3;     // of weights, for rivals that may not win
 constexpr std::size_t enriched_names = 4;
 
 /// How many ways of saying one effect were tried: among more of them chance finds more.
@@ -20,7 +24,34 @@ double ln_tried(const std::vector<Addition>& rivals, const Effect& effect) {
   return std::log(std::max(n, 1.0));
 }
 
-Choice choice_of(const Tried& t, std::size_t law) { return {t.effect, t.laws[law], t.place, t.excitation}; }
+std::vector<Choice> term_of(const Addition& rival, std::size_t law) {
+  std::vector<Choice> term{{rival.tried.effect, rival.tried.laws[law], rival.tried.place, rival.tried.excitation}};
+  for (const auto& t : rival.also)
+    term.push_back({t.effect, t.laws[std::min(law, t.laws.size() - 1)], t.place, t.excitation});
+  return term;
+}
+
+/// Type of the block that the effect varies there; "" where it stands on a wire.
+std::string varied_type(const Books& books, const Tried& t) {
+  if (t.effect->way != Way::vary && t.place.by.empty()) return "";
+  const Node* body = Wiring(books.current.diagram, books.registry).body(t.place.at);
+  return body == nullptr ? "" : body->type;
+}
+
+/// What acts in one of several like blocks acts in all of them: both tanks of a row have a hole for an outlet.
+std::vector<Addition> at_like_places(const Books& books, const std::vector<Addition>& alone) {
+  std::map<std::pair<std::string, std::string>, Addition> groups;  // effect, type
+  for (const auto& a : alone) {
+    const std::string type = varied_type(books, a.tried);
+    if (type.empty()) continue;
+    const auto [group, is_new] = groups.try_emplace({a.tried.effect->id, type}, a);
+    if (!is_new) group->second.also.push_back(a.tried);
+  }
+  std::vector<Addition> at_all;
+  for (auto& [key, group] : groups)
+    if (!group.also.empty()) at_all.push_back(std::move(group));
+  return at_all;
+}
 
 /// Dry models do not keep what nobody asks for again.
 void take_up(Addition& rival, Fitted fitted, std::size_t law, const BlockScore& score) {
@@ -33,7 +64,26 @@ void take_up(Addition& rival, Fitted fitted, std::size_t law, const BlockScore& 
   rival.tried.law = law;
 }
 
+Fitted without_term(const Workshop& shop, Fitted f, const std::vector<std::size_t>& term) {
+  for (auto i = term.rbegin(); i != term.rend() && f.ok(); ++i) f.model = without(shop, f.model, *i);
+  return f;
+}
+
 }  // namespace
+
+std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
+  std::vector<std::vector<std::size_t>> terms;
+  for (std::size_t i = 0; i < model.standing.size(); ++i) {
+    const auto same = std::find_if(terms.begin(), terms.end(), [&](const auto& term) {
+      return model.standing[term.front()].effect == model.standing[i].effect;
+    });
+    if (same == terms.end())
+      terms.push_back({i});
+    else
+      same->push_back(i);
+  }
+  return terms;
+}
 
 Selection::Selection(Books& books, std::map<std::string, double> numbers)
     : books_(books), setting_{books, std::move(numbers)} {}
@@ -57,6 +107,7 @@ std::vector<Addition> Selection::list(int step) {
     rival.tried = std::move(t);
     rivals.push_back(std::move(rival));
   }
+  for (auto& a : at_like_places(books_, rivals)) rivals.push_back(std::move(a));
   return rivals;
 }
 
@@ -69,7 +120,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
         fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
         (step - 1 + 0.6 * static_cast<double>(i) / static_cast<double>(rivals.size())) / books_.options.max_steps);
     const double tried = ln_tried(rivals, *t.effect);
-    const Choice choice = choice_of(t, 0);
+    const auto choice = term_of(rivals[i], 0);
     if (step > 1) {
       answers[i].push_back(with_term(setting_, shop, best_, choice, tried, Effort::screen));
     } else {
@@ -83,14 +134,36 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
     for (auto& f : answers[i]) take_up(rivals[i], std::move(f), 0, *score_);
 }
 
-/// The best of them together with all that stands and with the user's numbers.
-void Selection::fit_with_numbers(std::vector<Addition>& rivals, std::size_t most) {
+/// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left.
+void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
   sort(rivals);
-  const std::size_t n = std::min(most, rivals.size());
-  std::vector<Fitted> answers(n);
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
+  for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
+    const std::size_t n = std::min(at_once, rivals.size() - first);
+    std::vector<Fitted> answers(n);
+    books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
+      const Addition& rival = rivals[first + i];
+      if (rival.fitted.ok()) answers[i] = refitted(setting_, shop, rival.fitted, numbers, few_renewals);
+      return false;
+    });
+    double least = score_->over_noise(best_.left);
+    for (std::size_t i = 0; i < n; ++i) {
+      auto& rival = rivals[first + i];
+      take_up(rival, std::move(answers[i]), rival.tried.law, *score_);
+      if (rival.fitted.ok()) least = std::min(least, score_->over_noise(rival.fitted.left));
+    }
+    if (least < near_noise) break;
+  }
+  sort(rivals);
+}
+
+/// Who may win is fitted until its weights are those of what it leaves.
+void Selection::settle_best(std::vector<Addition>& rivals) {
+  const std::size_t n = std::min<std::size_t>(3, rivals.size());
+  std::vector<Fitted> answers(n);
   books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
-    if (rivals[i].fitted.ok()) answers[i] = refitted(setting_, shop, rivals[i].fitted, numbers);
+    const Fitted& f = rivals[i].fitted;
+    if (f.ok() && f.numbers == Numbers::let_go) answers[i] = refitted(setting_, shop, f, f.numbers);
     return false;
   });
   for (std::size_t i = 0; i < n; ++i) take_up(rivals[i], std::move(answers[i]), rivals[i].tried.law, *score_);
@@ -114,13 +187,14 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     const Tried& t = rivals[i].tried;
     // With the numbers of the simple law's model: those of the null bear what the effect does.
     Fitted bare = rivals[i].fitted;
-    bare.model = without(shop, bare.model, bare.model.standing.size() - 1);
+    for (std::size_t k = 0; k <= rivals[i].also.size() && bare.ok(); ++k)
+      bare.model = without(shop, bare.model, bare.model.standing.size() - 1);
     if (!bare.ok()) return false;
     bare.model = refit(shop, bare.model, Effort::full);  // simulated, with what is free
     if (!bare.ok()) return false;
     bare = measured(setting_, std::move(bare.model), bare.numbers, best_.tried);
-    Fitted f = with_term(setting_, shop, bare, choice_of(t, law), ln_tried(rivals, *t.effect), Effort::full);
-    if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers);
+    Fitted f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
+    if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers, few_renewals);
     return false;
   });
   for (std::size_t j = 0; j < jobs.size(); ++j)
@@ -138,8 +212,9 @@ bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
   fit_first_laws(rivals, step);
-  fit_with_numbers(rivals, step == 1 ? rivals.size() : together);
+  fit_with_numbers(rivals);
   fit_richer_laws(rivals);
+  settle_best(rivals);
   if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
   sort(rivals);
   for (auto& r : rivals) r.tried.contender = r.fitted.model;
@@ -161,9 +236,8 @@ bool Selection::add_one(int step) {
 /// A term that its model does not need: the rest, fitted from where it stands with the term, explains as much. Of a
 /// single term the rest is the user's own model from other numbers than it had been searched from.
 bool Selection::leave_out() {
-  for (std::size_t i = 0; i < best_.model.standing.size(); ++i) {
-    Fitted rest = best_;
-    rest.model = without(books_.shop, best_.model, i);
+  for (const auto& term : terms_of(best_.model)) {
+    Fitted rest = without_term(books_.shop, best_, term);
     if (!rest.ok()) continue;
     rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
     if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
@@ -177,11 +251,10 @@ bool Selection::leave_out() {
   return false;
 }
 
-std::vector<Addition> Selection::in_place_of(std::size_t i) {
+std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
   std::vector<Addition> rivals;
-  const Standing& leaving = best_.model.standing[i];
-  Fitted rest = best_;
-  rest.model = without(books_.shop, best_.model, i);
+  const Standing& leaving = best_.model.standing[term.front()];
+  Fitted rest = without_term(books_.shop, best_, term);
   if (!rest.ok()) return rivals;
   rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
   if (!rest.ok()) return rivals;
@@ -196,8 +269,8 @@ std::vector<Addition> Selection::in_place_of(std::size_t i) {
   books_.current = was;
   std::vector<Fitted> answers(rivals.size());
   books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
-    const Fitted f = with_term(setting_, shop, rest, choice_of(rivals[k].tried, 0),
-                               ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
+    const Fitted f =
+        with_term(setting_, shop, rest, term_of(rivals[k], 0), ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
     if (f.ok()) answers[k] = refitted(setting_, shop, f, best_.numbers);
     return false;
   });
@@ -211,9 +284,9 @@ std::vector<Addition> Selection::in_place_of(std::size_t i) {
 
 /// A look-alike that explains more in the place of a term.
 bool Selection::exchange() {
-  if (best_.model.standing.size() < 2) return false;
-  for (std::size_t i = 0; i + 1 < best_.model.standing.size(); ++i)
-    for (const auto& r : in_place_of(i))
+  const auto terms = terms_of(best_.model);
+  for (std::size_t i = 0; i + 1 < terms.size(); ++i)
+    for (const auto& r : in_place_of(terms[i]))
       if (r.fitted.ok() && is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
         best_ = r.fitted;
         return true;

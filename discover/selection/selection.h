@@ -18,8 +18,9 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 
 /// A rival: one effect more than the model it stands on.
 struct Addition {
-  Tried tried;    ///< effect, place, laws; `contender` is that of `fitted`
-  Fitted fitted;  ///< with its best law
+  Tried tried;              ///< effect, place, laws; `contender` is that of `fitted`
+  std::vector<Tried> also;  ///< the same effect at like places, where it enters all of them at once
+  Fitted fitted;            ///< with its best law
 };
 
 /// What was asked on top of one model.
@@ -27,6 +28,9 @@ struct Round {
   Fitted on;                     ///< the model that all of them stand on
   std::vector<Addition> rivals;  ///< best score first
 };
+
+/// Indices of a model's standing effects, those of one name together: what enters like places at once is one term.
+std::vector<std::vector<std::size_t>> terms_of(const Contender& model);
 
 class Selection {
  public:
@@ -40,14 +44,15 @@ class Selection {
   const BlockScore& score() const { return *score_; }
   const FitSetting& setting() const { return setting_; }
   double score_of(const Fitted& f) const { return hysteron::score_of(*score_, f); }
-  /// Others in the place of term `i` of the best model, fitted with the rest, best first.
-  std::vector<Addition> in_place_of(std::size_t i);
+  /// Others in the place of one term of the best model (see terms_of), fitted with the rest, best first.
+  std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
 
  private:
   bool add_one(int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
   void fit_richer_laws(std::vector<Addition>& rivals);
-  void fit_with_numbers(std::vector<Addition>& rivals, std::size_t most);
+  void fit_with_numbers(std::vector<Addition>& rivals);
+  void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
   bool leave_out();
   bool exchange();

@@ -131,6 +131,7 @@ Facts facts_of(const Candidate& c) {
                         {"effect", c.effect},
                         {"law", c.law},
                         {"place", c.place},
+                        {"also_at", c.also_at},
                         {"same_places", c.same_places},
                         {"same_effects", c.same_effects},
                         {"parameters", c.parameters},
