@@ -64,6 +64,28 @@ void take_up(Addition& rival, Fitted fitted, std::size_t law, const BlockScore& 
   rival.tried.law = law;
 }
 
+/// Does what the place moves come back to it?
+bool is_in_a_loop(const Wiring& w, const std::string& signal) {
+  std::set<std::string> seen;
+  std::vector<std::string> next{w.signal(signal)};
+  while (!next.empty()) {
+    const std::string now = next.back();
+    next.pop_back();
+    for (const auto& reader : w.readers(now))
+      for (const auto& out : reader.block.empty() ? std::vector<std::string>{} : w.outputs_of(reader.block)) {
+        if (out == w.signal(signal)) return true;
+        if (seen.insert(out).second) next.push_back(out);
+      }
+  }
+  return false;
+}
+
+bool is_slow(const Books& books, const Tried& t) {
+  const bool remembers = t.effect->is_memory || t.effect->id == "dead_time" || t.effect->id == "backlash";
+  const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
+  return remembers && !nested && is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire);
+}
+
 Fitted without_term(const Workshop& shop, Fitted f, const std::vector<std::size_t>& term) {
   for (auto i = term.rbegin(); i != term.rend() && f.ok(); ++i) f.model = without(shop, f.model, *i);
   return f;
@@ -108,6 +130,7 @@ std::vector<Addition> Selection::list(int step) {
     rivals.push_back(std::move(rival));
   }
   for (auto& a : at_like_places(books_, rivals)) rivals.push_back(std::move(a));
+  for (auto& r : rivals) r.slow = is_slow(books_, r.tried);
   return rivals;
 }
 
@@ -121,7 +144,10 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
         (step - 1 + 0.6 * static_cast<double>(i) / static_cast<double>(rivals.size())) / books_.options.max_steps);
     const double tried = ln_tried(rivals, *t.effect);
     const auto choice = term_of(rivals[i], 0);
-    if (step > 1) {
+    if (step == 1 && rivals[i].slow) {
+      const Fitted& from = nulls_.let_go.ok() ? nulls_.let_go : nulls_.written;
+      answers[i].push_back(with_term(setting_, shop, from, choice, tried, Effort::screen));
+    } else if (step > 1) {
       answers[i].push_back(with_term(setting_, shop, best_, choice, tried, Effort::screen));
     } else {
       answers[i].push_back(with_term(setting_, shop, nulls_.written, choice, tried, Effort::full));
@@ -208,13 +234,30 @@ bool Selection::is_itself(const Addition& rival) const {
       .empty();
 }
 
+/// Those that are quick first; the others where these leave more than noise.
+void Selection::fit(std::vector<Addition>& rivals, int step) {
+  const auto middle = std::stable_partition(rivals.begin(), rivals.end(), [](const Addition& r) { return !r.slow; });
+  std::vector<Addition> slow(std::make_move_iterator(middle), std::make_move_iterator(rivals.end()));
+  rivals.erase(middle, rivals.end());
+  fit_first_laws(rivals, step);
+  fit_with_numbers(rivals);
+  const auto only_noise_left = [&] {
+    return !rivals.empty() && rivals.front().fitted.ok() && score_->over_noise(rivals.front().fitted.left) < near_noise;
+  };
+  if (!slow.empty() && !only_noise_left() && !books_.stopped()) {
+    fit_first_laws(slow, step);
+    fit_with_numbers(slow);
+  }
+  rivals.insert(rivals.end(), std::make_move_iterator(slow.begin()), std::make_move_iterator(slow.end()));
+  sort(rivals);
+  fit_richer_laws(rivals);
+  settle_best(rivals);
+}
+
 bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
-  fit_first_laws(rivals, step);
-  fit_with_numbers(rivals);
-  fit_richer_laws(rivals);
-  settle_best(rivals);
+  fit(rivals, step);
   if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
   sort(rivals);
   for (auto& r : rivals) r.tried.contender = r.fitted.model;

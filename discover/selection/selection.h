@@ -20,6 +20,7 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 struct Addition {
   Tried tried;              ///< effect, place, laws; `contender` is that of `fitted`
   std::vector<Tried> also;  ///< the same effect at like places, where it enters all of them at once
+  bool slow = false;        ///< memory or a delay inside a loop: each row is solved point by point
   Fitted fitted;            ///< with its best law
 };
 
@@ -49,6 +50,7 @@ class Selection {
 
  private:
   bool add_one(int step);
+  void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
   void fit_richer_laws(std::vector<Addition>& rivals);
   void fit_with_numbers(std::vector<Addition>& rivals);
