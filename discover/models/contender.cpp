@@ -37,6 +37,7 @@ Prediction predicted_with(const Workshop& shop, const Contender& c, Effort effor
   for (const auto& v : c.of_recordings)
     trial.push_back({parameter_index(*c.program, v.path), silent(v) ? 0 : v.value, v.recording});
   DataModel model(c.program, shop.data, accuracy(shop, effort));
+  begin_as_found(c, model);
   if (shop.evidence != nullptr) model.choose_substeps(trial, noise_of(shop, model).white());
   return model.predict(trial, train_and_validate(*shop.data));
 }
@@ -111,6 +112,7 @@ Contender with_effect(const Workshop& shop, const Contender& before, const Effec
   Contender c;
   c.standing = before.standing;
   c.of_recordings = before.of_recordings;
+  c.starts = before.starts;
   c.fit.estimates = before.fit.estimates;
   c.cuts = before.cuts;
   try {
@@ -149,6 +151,7 @@ Contender refit(const Workshop& shop, const Contender& contender, Effort effort)
   c.diagram = contender.diagram;
   c.standing = contender.standing;
   c.of_recordings = contender.of_recordings;
+  c.starts = contender.starts;
   c.change = contender.change;
   c.zero_held = contender.zero_held;
   c.fit.estimates = contender.fit.estimates;  // of what is held
@@ -170,6 +173,7 @@ Contender without(const Workshop& shop, const Contender& contender, std::size_t 
   c.standing = contender.standing;
   c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(standing));
   c.of_recordings = contender.of_recordings;
+  c.starts = contender.starts;
   c.fit.estimates = contender.fit.estimates;
   // Others may stand in the same block.
   std::erase_if(c.fit.estimates, [&](const ParameterEstimate& e) {

@@ -44,8 +44,10 @@ struct Contender {
   /// Of the rows of the last fit that saw these outputs: what stands needs them beside whatever is added.
   std::map<std::vector<std::string>, std::shared_ptr<const Cuts>> cuts;
   std::vector<RecordingValue> of_recordings;  ///< which no diagram can hold
-  Prediction prediction;                      ///< train and validate recordings
-  ModelError error_of;                        ///< filled in by whoever holds the evidence
+  /// Where the recordings begin, as DataModel::start_of(), by the state: [recording]. A further effect begins there.
+  std::vector<std::map<std::string, double>> starts;
+  Prediction prediction;  ///< train and validate recordings
+  ModelError error_of;    ///< filled in by whoever holds the evidence
   /// Where rows of some recordings are too coarse for the line of the last effect: the same without that line, where
   /// they are fine enough. What it takes away there proves it (see `proved`).
   std::optional<Prediction> without_line;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "discover/models/fit_cost.h"
 #include "discover/models/parts.h"
@@ -117,12 +118,23 @@ void keep_of_recordings(Contender& c, const Trial& held) {
 // the one that is claimed.
 constexpr double full_matters = 0.2, screen_matters = 0.5;
 
+void keep_starts(Contender& c, const DataModel& model, const Judge& judge) {
+  const auto starts = starts_of(model, judge, c.prediction);
+  const auto& states = model.free_initial_states();
+  c.starts.assign(starts.size(), {});
+  for (std::size_t r = 0; r < starts.size(); ++r)
+    for (std::size_t k = 0; k < starts[r].size(); ++k) c.starts[r][states[k]] = starts[r][k];
+}
+
 void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
   const long before = model.runs();
-  if (model.starts_are_searched())
-    improve_starts(model, Judge(model, noise_of(shop, model)), values, model.recordings(judged));
+  const bool free_starts = !model.free_initial_states().empty();
+  std::optional<Judge> judge;
+  if (free_starts) judge.emplace(model, noise_of(shop, model));
+  if (model.starts_are_searched()) improve_starts(model, *judge, values, model.recordings(judged));
   c.prediction = model.predict(values, model.recordings(judged));
+  if (free_starts && c.prediction.ok) keep_starts(c, model, *judge);
   c.runs += model.runs() - before;
   c.ok = c.prediction.ok;
   c.error = c.prediction.error;
@@ -131,7 +143,9 @@ void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& 
 DataModel model_of(const Workshop& shop, const Contender& c, const ProgramPointer& program, Effort effort) {
   DataModelOptions options = accuracy(shop, effort);
   if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
-  return {program, shop.data, options};
+  DataModel model(program, shop.data, options);
+  begin_as_found(c, model);
+  return model;
 }
 
 /// Not those of the last fit, which is finer than a search needs.
@@ -326,6 +340,21 @@ void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
 }
 
 }  // namespace
+
+void begin_as_found(const Contender& c, DataModel& model) {
+  if (!model.starts_are_searched() || c.starts.empty()) return;
+  for (int r = 0; r < model.n_recordings(); ++r) {
+    const auto& found = c.starts[static_cast<std::size_t>(r)];
+    if (found.empty() || !model.recording(r).initial_per_recording || !model.recording(r).initial_values.empty())
+      continue;
+    std::vector<double> start;
+    for (const auto& state : model.free_initial_states()) {
+      const auto here = found.find(state);
+      start.push_back(here == found.end() ? 0 : here->second);
+    }
+    model.begin_at(r, std::move(start));
+  }
+}
 
 std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
                                        const std::vector<int>& recordings) {

@@ -19,6 +19,9 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
 /// Does it look for a line: is one of its parameters the frequency of one.
 bool has_line(const Law& law);
 
+/// Recordings whose start is searched for begin where the model was last found to begin.
+void begin_as_found(const Contender& c, DataModel& model);
+
 /// How finely candidates are simulated.
 DataModelOptions accuracy(const Workshop& shop, Effort effort);
 std::vector<int> train_and_validate(const DataSet& data);

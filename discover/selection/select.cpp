@@ -120,18 +120,26 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   w.reason = what_it_takes(w);
   const bool alone = told.chain.size() == 2;
   const int step = static_cast<int>(k) + 1;
-  books.current = told.chain[k];
-  books.unless_stopped([&] {
-    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
+  unless_it_fails(books, [&] {
     const Effect& effect = *whole.standing[term.front()].effect;
-    for (const auto& r : tied(books, selection, selection.best(), effect, rivals)) {
+    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
+    // Where others stand, too, it is compared as the last of them, as its rivals are.
+    Tried last = w;
+    Fitted winner = selection.best();
+    if (!alone && !rivals.empty() && rivals.front().tried.effect == &effect && rivals.front().fitted.ok()) {
+      winner = rivals.front().fitted;
+      last = rivals.front().tried;
+      last.contender = winner.model;
+    }
+    for (const auto& r : tied(books, selection, winner, effect, rivals)) {
       Tried rival = r.tried;
       rival.contender = r.fitted.model;
       rival.contender.error_of = books.evidence->error(rival.contender.prediction);
       rival.admitted = true;
       rival.reason = "explains the recordings as well as the one that was taken";
-      add_tie(books, step, found, w, rival);
+      add_tie(books, step, found, last, rival);
     }
+    return true;
   });
   found.before = before;
   found.after = w.contender.error_of;

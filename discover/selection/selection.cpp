@@ -303,11 +303,11 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
   if (!rest.ok()) return rivals;
   const Contender was = std::exchange(books_.current, rest.model);
   for (auto& t : list_candidates(books_, 2)) {
-    if (t.effect == leaving.effect && t.place.at == leaving.place.at) continue;
-    if (!look_alike(*t.effect, *leaving.effect) && t.effect != leaving.effect) continue;
+    const bool itself = t.effect == leaving.effect && t.place.where() == leaving.place.where();
+    if (!itself && (!look_alike(*t.effect, *leaving.effect) || t.effect == leaving.effect)) continue;
     Addition rival;
     rival.tried = std::move(t);
-    rivals.push_back(std::move(rival));
+    rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(rival));
   }
   books_.current = was;
   std::vector<Fitted> answers(rivals.size());
@@ -318,10 +318,14 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
     return false;
   });
   for (std::size_t k = 0; k < rivals.size(); ++k) {
-    take_up(rivals[k], std::move(answers[k]), 0, *score_);
+    take_up(rivals[k], std::move(answers[k]), rivals[k].tried.law, *score_);
     rivals[k].tried.contender = rivals[k].fitted.model;
   }
-  sort(rivals);
+  std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
+    const auto rank = [&](const Addition& r) { return std::pair(r.tried.effect != leaving.effect, !r.fitted.ok()); };
+    if (rank(a) != rank(b)) return rank(a) < rank(b);
+    return a.fitted.ok() && score_of(a.fitted) > score_of(b.fitted);
+  });
   return rivals;
 }
 
@@ -330,7 +334,8 @@ bool Selection::exchange() {
   const auto terms = terms_of(best_.model);
   for (std::size_t i = 0; i + 1 < terms.size(); ++i)
     for (const auto& r : in_place_of(terms[i]))
-      if (r.fitted.ok() && is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
+      if (r.fitted.ok() && r.tried.effect != best_.model.standing[terms[i].front()].effect && is_itself(r) &&
+          score_of(r.fitted) > score_of(best_) + rules::exchange) {
         best_ = r.fitted;
         return true;
       }

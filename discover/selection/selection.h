@@ -45,7 +45,8 @@ class Selection {
   const BlockScore& score() const { return *score_; }
   const FitSetting& setting() const { return setting_; }
   double score_of(const Fitted& f) const { return hysteron::score_of(*score_, f); }
-  /// Others in the place of one term of the best model (see terms_of), fitted with the rest, best first.
+  /// One term of the best model (see terms_of) and what looks like it in its place, each last in its model and fitted
+  /// with the rest; that term first, the others by their score.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
 
  private:

@@ -136,6 +136,30 @@ Score Judge::score(const DataModel& model, const Prediction& prediction, std::sp
   return score;
 }
 
+namespace {
+
+/// Of each free initial state how much of its response lies in what this recording leaves.
+std::vector<double> amounts_of_initial(const DataModel& model, const Judge& judge, const Prediction& prediction,
+                                       int recording) {
+  std::vector<double> w(judge.size(recording));
+  judge.whiten(recording, differences(model, prediction, recording), w.data());
+  return minimum_norm(initial_columns(judge, prediction, recording), w, 1e-10).x;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> starts_of(const DataModel& model, const Judge& judge, const Prediction& prediction) {
+  std::vector<std::vector<double>> starts(prediction.y.size());
+  for (std::size_t r = 0; r < prediction.y.size(); ++r) {
+    if (prediction.y[r].empty() || prediction.initial[r].empty()) continue;
+    const int recording = static_cast<int>(r);
+    starts[r] = amounts_of_initial(model, judge, prediction, recording);
+    const auto& begun = model.start_of(recording);
+    for (std::size_t k = 0; k < begun.size(); ++k) starts[r][k] += begun[k];
+  }
+  return starts;
+}
+
 std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& judge, Prediction& prediction) {
   std::vector<std::vector<double>> zeros(prediction.y.size(), std::vector<double>(model.outputs().size(), 0.0));
   for (std::size_t r = 0; r < prediction.y.size(); ++r) {
@@ -143,12 +167,10 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
     if (y.empty()) continue;
     const int recording = static_cast<int>(r);
     if (const auto& initial = prediction.initial[r]; !initial.empty()) {
-      std::vector<double> w(judge.size(recording));
-      judge.whiten(recording, differences(model, prediction, recording), w.data());
-      const auto start = minimum_norm(initial_columns(judge, prediction, recording), w, 1e-10);
+      const auto start = amounts_of_initial(model, judge, prediction, recording);
       for (std::size_t k = 0; k < initial.size(); ++k)
         for (std::size_t o = 0; o < y.size(); ++o)
-          for (std::size_t i = 0; i < y[o].size(); ++i) y[o][i] += start.x[k] * initial[k][o][i];
+          for (std::size_t i = 0; i < y[o].size(); ++i) y[o][i] += start[k] * initial[k][o][i];
     }
     for (std::size_t o = 0; o < y.size(); ++o) {
       if (!model.zero_per_recording(static_cast<int>(o))) continue;

@@ -58,6 +58,10 @@ class Judge {
 /// Returns the zeros [recording][output] [SI]. Afterwards measured - y is the residual that people see.
 std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& judge, Prediction& prediction);
 
+/// Where the recordings begin, as far from equilibrium as DataModel::start_of(): what the simulations began with, and
+/// what the free initial states of this prediction add to it. [recording][state]; empty where none is free.
+std::vector<std::vector<double>> starts_of(const DataModel& model, const Judge& judge, const Prediction& prediction);
+
 /// Measured minus predicted on the judged rows [SI].
 Rows residual_rows(const DataModel& model, const Prediction& prediction, int recording, int output);
 /// The same into `rows`, whose memory is used again.

@@ -1,0 +1,126 @@
+// The score of whole models, held against its formula and closed forms.
+#include "discover/selection/block_score.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "blocks/register_all.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+
+Rows first_order(std::size_t n, double a, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  Rows rows(n);
+  double state = normal(engine) / std::sqrt(1 - a * a);
+  for (double& v : rows) v = state = a * state + normal(engine);
+  return rows;
+}
+
+/// 1 + 2 sum of a^k up to the first that is 0.05 or less.
+double correlation_of_first_order(double a) {
+  double tau = 1;
+  for (double rho = a; rho > 0.05; rho *= a) tau += 2 * rho;
+  return tau;
+}
+
+TEST(CorrelationRows, AreOneWhereRowsAreIndependent) { EXPECT_EQ(correlation_rows(first_order(4000, 0, 1)), 1); }
+
+// A sample's autocorrelation at lag k is known to about sqrt(tau/N): of each set 5 % here, one in ten of the sum.
+TEST(CorrelationRows, AreThoseOfAFirstOrderProcess) {
+  EXPECT_NEAR(correlation_rows(first_order(200'000, 0.9, 2)) / correlation_of_first_order(0.9), 1, 0.1);
+  EXPECT_NEAR(correlation_rows(first_order(1'000'000, 0.99, 3)) / correlation_of_first_order(0.99), 1, 0.1);
+}
+
+TEST(CorrelationRows, OfRowsThatAreAllZeroIsOne) { EXPECT_EQ(correlation_rows(Rows(100, 0.0)), 1); }
+
+constexpr double white = 1e-3;
+
+class ScoreOf : public ::testing::Test {
+ protected:
+  ScoreOf() {
+    std::vector<Recording> list;
+    for (int r = 0; r < 3; ++r) {
+      const auto t = rows(4000, 0.01);
+      const auto u = several_sines(t, 1, {0.1 + 0.02 * r});
+      auto y = noise(t.size(), white, 0, 20 + static_cast<std::uint64_t>(r));
+      for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k];
+      list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
+    }
+    model_.emplace(compile(plain_gain(), registry_), std::make_shared<const DataSet>(data_set(std::move(list), white)));
+    evidence_.emplace(*model_);
+    best_ = left_rows(*evidence_, model_->predict({}, evidence_->recordings()));
+  }
+  /// What is left with `added` to it.
+  std::vector<LeftRows> with(const std::function<double(int recording, std::size_t row)>& added) const {
+    auto left = best_;
+    for (auto& l : left)
+      for (std::size_t i = 0; i < l.rows.size(); ++i) l.rows[i] += added(l.recording, i);
+    return left;
+  }
+  /// By the formula: sixteen blocks of 250 rows in each recording, every row a witness.
+  static double by_formula(const std::vector<LeftRows>& left) {
+    double score = 0;
+    for (const auto& l : left)
+      for (std::size_t b = 0; b < 16; ++b) {
+        double rss = 0;
+        for (std::size_t i = 250 * b; i < 250 * (b + 1); ++i) rss += l.rows[i] * l.rows[i];
+        score -= 0.5 * 250 * std::log(white * white + rss / 250);
+      }
+    return score;
+  }
+  Registry registry_ = all_blocks();
+  std::optional<DataModel> model_;
+  std::optional<Evidence> evidence_;
+  std::vector<LeftRows> best_;
+};
+
+// Pieces are whole rows: 4000 rows in 48 pieces and 16 blocks leave a block up to a row longer than 250.
+TEST_F(ScoreOf, IsTheSumOverBlocks) {
+  const BlockScore score(*evidence_, best_);
+  EXPECT_NEAR(score.n_eff(), 12'000, 1e-6);
+  EXPECT_NEAR(score.n_eff(1), 4'000, 1e-6);
+  EXPECT_NEAR(score.price(2), std::log(12'000), 1e-9);
+  const auto off = with([](int r, std::size_t i) { return r == 1 && i >= 2000 ? 0.01 : 0.0; });
+  const double fall = score.fit_of(left_sums(best_)) - score.fit_of(left_sums(off));
+  EXPECT_NEAR(fall / (by_formula(best_) - by_formula(off)), 1, 2e-3);
+  EXPECT_NEAR(score.fit_of(left_sums(off), 0), score.fit_of(left_sums(best_), 0), 1e-9) << "another recording";
+}
+
+// Far from the truth only ratios count: all that is left made twice as large costs n/2 ln 4.
+TEST_F(ScoreOf, CountsRatiosFarFromTheNoise) {
+  const BlockScore score(*evidence_, best_);
+  const auto far = with([](int, std::size_t i) { return std::sin(0.1 * static_cast<double>(i)); });
+  const auto twice = with([](int, std::size_t i) { return 2 * std::sin(0.1 * static_cast<double>(i)); });
+  EXPECT_NEAR(score.fit_of(left_sums(far)) - score.fit_of(left_sums(twice)), 12'000 / 2.0 * std::log(4.0),
+              12'000 * 1e-4);
+}
+
+TEST_F(ScoreOf, OverNoiseIsOneWhereOnlyNoiseIsLeft) {
+  const BlockScore score(*evidence_, best_);
+  EXPECT_NEAR(score.over_noise(left_sums(best_)), 1, 0.03);  // rms of 12000 rows: 0.6 %, and its stated size
+}
+
+// chi2 counts witnesses: rows over their correlation time.
+TEST_F(ScoreOf, WeightsMakeChi2TheNumberOfWitnesses) {
+  auto left = best_;
+  for (auto& l : left) l.rows = first_order(4000, 0.9, 40 + static_cast<std::uint64_t>(l.recording));
+  const NoiseModel weights = weights_by(*evidence_, left);
+  double chi2 = 0, witnesses = 0;
+  for (const auto& l : left) {
+    if (model_->recording(l.recording).role != Role::train) continue;
+    for (const double v : l.rows) chi2 += v * v / std::pow(weights.outputs[0].white, 2);
+    witnesses += static_cast<double>(l.rows.size()) / correlation_rows(l.rows);
+  }
+  EXPECT_NEAR(chi2, witnesses, 1e-6 * witnesses);
+  EXPECT_EQ(weights.outputs[0].one_over_f, 0);
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,132 @@
+// What a search by whole models says of machines whose truth is known, made by formulas of their own.
+#include "discover/selection/select.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/discover/discoveries.h"
+#include "tests/discover/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+using namespace testing;
+
+constexpr double white = 2e-5;  // [m], of some millimeters
+
+/// 1 kg on a spring, by Runge and Kutta's rule in 50 steps to a row.
+struct Machine {
+  double stiffness = 400, damping = 4, friction = 0;  // [N/m], [N s/m], [N]
+  double x = 0, v = 0;                                // [m], [m/s] at the start
+
+  double acceleration(double force, double at, double speed) const {
+    return force - stiffness * at - damping * speed - friction * std::tanh(speed / 1e-4);
+  }
+  std::vector<double> positions(const std::vector<double>& t, const std::vector<double>& u) const {
+    std::vector<double> list;
+    double at = x, speed = v;
+    constexpr int steps = 50;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      list.push_back(at);
+      if (k + 1 == t.size()) break;
+      const double h = (t[k + 1] - t[k]) / steps;
+      for (int i = 0; i < steps; ++i) {
+        const auto force = [&](double part) { return 10 * (u[k] + (u[k + 1] - u[k]) * (i + part) / steps); };
+        const double a1 = acceleration(force(0), at, speed);
+        const double a2 = acceleration(force(0.5), at + h / 2 * speed, speed + h / 2 * a1);
+        const double a3 = acceleration(force(0.5), at + h / 2 * (speed + h / 2 * a1), speed + h / 2 * a2);
+        const double a4 = acceleration(force(1), at + h * (speed + h / 2 * a2), speed + h * a3);
+        at += h * speed + h * h / 6 * (a1 + a2 + a3);
+        speed += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      }
+    }
+    return list;
+  }
+};
+
+class Selected : public Discoveries {
+ protected:
+  /// Two recordings to fit and one to judge; `begin`: where each starts.
+  static DataSet recorded(Machine machine,
+                          const std::vector<std::pair<double, double>>& begin = {{0, 0}, {0, 0}, {0, 0}}) {
+    std::vector<Recording> list;
+    for (int r = 0; r < 3; ++r) {
+      const auto t = rows(1500, 0.01);
+      const auto u = several_sines(t, 0.2 + 0.1 * r, {0.31 + 0.1 * r, 0.87, 1.9});
+      machine.x = begin[static_cast<std::size_t>(r)].first;
+      machine.v = begin[static_cast<std::size_t>(r)].second;
+      auto y = machine.positions(t, u);
+      const auto n = noise(t.size(), white, 0, 7 + static_cast<std::uint64_t>(r));
+      for (std::size_t k = 0; k < t.size(); ++k) y[k] += n[k];
+      list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
+    }
+    return data_set(std::move(list), white, 0);
+  }
+  Discovery selected(const DataSet& data) {
+    DiscoverOptions options;
+    options.only = {"friction", "hysteresis", "stiffening", "calibration", "creep", "backlash", "quadratic_drag"};
+    return select_model(mass_on_spring(), data, registry, effects, options);
+  }
+};
+
+TEST_F(Selected, NothingIsToldWhereNothingIsHidden) {
+  const Discovery d = selected(recorded({}));
+  EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  EXPECT_TRUE(d.other_numbers.empty());
+  EXPECT_TRUE(d.found_starts.empty());
+}
+
+TEST_F(Selected, ANumberThatIsOffIsToldAsANumber) {
+  Machine machine;
+  machine.stiffness = 430;
+  const Discovery d = selected(recorded(machine));
+  EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  ASSERT_EQ(d.other_numbers.size(), 1u);
+  EXPECT_EQ(d.other_numbers.front().path, "stage.stiffness");
+  // White noise of 2e-5 m on 3000 rows of 5 mm: some parts in 10^5 of the stiffness; half a per cent would be a prior.
+  EXPECT_NEAR(d.other_numbers.front().found, 430, 0.3);
+}
+
+TEST_F(Selected, ARecordingThatBeginsInMotionIsToldAsThat) {
+  const Discovery d = selected(recorded({}, {{2e-3, 0}, {0, 0}, {-1e-3, 0.02}}));
+  EXPECT_EQ(d.verdict, Verdict::adequate) << tried(d);
+  EXPECT_TRUE(d.steps.empty()) << tried(d);
+  EXPECT_TRUE(d.other_numbers.empty());
+  EXPECT_EQ(d.found_starts, (std::vector<std::string>{"0.csv", "2.csv"}));
+}
+
+TEST_F(Selected, FrictionIsFoundBesideANumberThatIsOffAndAStartThatNobodyStates) {
+  Machine machine;
+  machine.stiffness = 430;
+  machine.friction = 0.1;  // of 2 to 4 N
+  const Discovery d = selected(recorded(machine, {{2e-3, 0}, {0, 0}, {-1e-3, 0.02}}));
+  EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(winner(d), "friction") << tried(d);
+  EXPECT_NEAR(value(d, "contact_stiffness[0]") * value(d, "slip_distance[0]"), 0.1, 0.005);
+  ASSERT_EQ(d.other_numbers.size(), 1u);
+  EXPECT_NEAR(d.other_numbers.front().found, 430, 2);
+}
+
+TEST_F(Selected, DoesNotDependOnTheNumberOfThreads) {
+  Machine machine;
+  machine.friction = 0.1;
+  const DataSet data = recorded(machine);
+  DiscoverOptions options;
+  options.only = {"friction", "hysteresis", "stiffening"};
+  options.threads = Threads{1};
+  const Discovery one = select_model(mass_on_spring(), data, registry, effects, options);
+  options.threads = Threads{3};
+  const Discovery three = select_model(mass_on_spring(), data, registry, effects, options);
+  ASSERT_EQ(one.candidates.size(), three.candidates.size());
+  for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+    EXPECT_EQ(one.candidates[i].effect, three.candidates[i].effect);
+    EXPECT_EQ(one.candidates[i].reason, three.candidates[i].reason);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
