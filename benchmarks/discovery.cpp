@@ -1,9 +1,10 @@
 // Answers a folder of cases with hidden effects (layout: README of the set; no answers needed): builds each base
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
-//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]
+//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] [--tell]
 //   [--progress]
 //
+// --models: whole models are chosen by one score (discover/selection), not one effect after the other.
 // --unstated: the data set does not say how noisy the sensor is.
 // Each case runs in a process of its own: one that fails costs that case only.
 #include <fmt/format.h>
@@ -27,6 +28,7 @@
 #include "benchmarks/hidden_answer.h"
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
+#include "discover/selection/select.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 
@@ -43,6 +45,7 @@ struct Wish {
   /// Of CPU, so that a busy machine gives the same answers: then a case ends, on two cores within thirty seconds of
   /// the clock; 0 = never.
   double seconds = 45;
+  bool by_models = false;
   bool tell = false;      ///< everything that was tried
   bool progress = false;  ///< what is being tried, and the CPU seconds until then
   Noise noise = Noise::stated;
@@ -95,7 +98,8 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     options.progress = [&](const std::string& what, double) {
       fmt::print(stderr, "{} {:7.2f}  {}\n", hidden.id, cpu_seconds(), what);
     };
-  const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
+  const Discovery found = wish.by_models ? select_model(hidden.diagram, data, all_blocks(), effects, options)
+                                         : discover(hidden.diagram, data, all_blocks(), effects, options);
   write_hidden_answer(hidden, data, found, cpu_seconds(), wish.results);
   const std::string late = found.broken_off ? ", stopped by its time limit" : "";
   return fmt::format("{} runs{}; {}{}", found.model_runs, late, found.headline, wish.tell ? everything(found) : "");
@@ -196,6 +200,8 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       wish.threads = std::atoi(next().c_str());
     } else if (word == "--seconds") {
       wish.seconds = std::atof(next().c_str());
+    } else if (word == "--models") {
+      wish.by_models = true;
     } else if (word == "--unstated") {
       wish.noise = Noise::unstated;
     } else if (word == "--tell") {
@@ -217,10 +223,11 @@ std::optional<Wish> read_wish(int argc, char** argv) {
 int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
-    fmt::print(stderr,
-               "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] "
-               "[--tell] [--progress]\n"
-               "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
+    fmt::print(
+        stderr,
+        "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] "
+        "[--tell] [--progress]\n"
+        "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }
   std::filesystem::create_directories(wish->results);

@@ -49,12 +49,13 @@ std::map<std::string, double> numbers_not_exact(const Books& books) {
   return numbers;
 }
 
-Nulls fit_nulls(const FitSetting& setting) {
+Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
   nulls.written = measured(setting, setting.books.base, Numbers::written, 0);
-  if (Fitted again = refitted(setting, setting.books.shop, nulls.written, Numbers::written); again.ok())
+  if (Fitted again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
     nulls.written = std::move(again);
-  if (!setting.numbers.empty()) nulls.let_go = refitted(setting, setting.books.shop, nulls.written, Numbers::let_go);
+  if (!setting.numbers.empty())
+    nulls.let_go = refitted(setting, setting.books.shop, nulls.written, Numbers::let_go, renewals);
   return nulls;
 }
 
@@ -67,7 +68,8 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   const auto states = free.base_model->free_initial_states().size();
   if (states == 0) return moving;
   const FitSetting setting{free, numbers_not_exact(free)};
-  const Nulls nulls = fit_nulls(setting);
+  constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
+  const Nulls nulls = fit_nulls(setting, renewals);
   const Fitted& best = nulls.best();
   const BlockScore score(*free.evidence, left_rows(*free.evidence, best.model.prediction));
   // The same model and numbers from rest.

@@ -19,7 +19,7 @@ struct Nulls {
 };
 
 /// Fits both. `books.base` is the user's model.
-Nulls fit_nulls(const FitSetting& setting);
+Nulls fit_nulls(const FitSetting& setting, int renewals = most_renewals);
 
 /// Recordings of which nobody says where they begin, and that begin elsewhere than at rest: with a free start each
 /// explains more than its states cost. By name.

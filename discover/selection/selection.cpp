@@ -80,7 +80,10 @@ bool is_in_a_loop(const Wiring& w, const std::string& signal) {
   return false;
 }
 
+/// Memory or a delay inside a loop, and several elements of memory in a block that moves: each row is solved in steps.
 bool is_slow(const Books& books, const Tried& t) {
+  constexpr std::size_t several = 4;
+  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several;
   const bool remembers = t.effect->is_memory || t.effect->id == "dead_time" || t.effect->id == "backlash";
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
   return remembers && !nested && is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire);

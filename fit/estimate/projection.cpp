@@ -245,19 +245,27 @@ void Projection::responses(std::span<ProjectedPoint*> points, std::vector<std::v
   }
 }
 
-/// Free initial states are responses too, but scaled by the linear parameters: taken at `theta`.
-void Projection::clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta) {
-  const auto prediction = model_.predict(values(point.z, theta), recordings_, true);
-  point.initial_basis.clear();
-  if (!prediction.ok) return;
-  point.initial_basis.resize(recordings_.size());
+/// Per recording; empty where the model cannot be simulated.
+std::vector<Dense> Projection::initial_basis_at(std::span<const double> z, const std::vector<double>& theta) {
+  const auto prediction = model_.predict(values(z, theta), recordings_, true);
+  if (!prediction.ok) return {};
+  std::vector<Dense> basis(recordings_.size());
   for (std::size_t k = 0; k < recordings_.size(); ++k) {
     const int r = recordings_[k];
     const auto& initial = prediction.initial[static_cast<std::size_t>(r)];
     Dense columns(judge_.size(r), initial.size());
     for (std::size_t s = 0; s < initial.size(); ++s) judge_.whiten(r, initial[s], columns.col(s));
-    point.initial_basis[k] = orthonormal_basis(columns, dependent);
+    basis[k] = orthonormal_basis(columns, dependent);
   }
+  return basis;
+}
+
+/// Free initial states are responses too, but scaled by the linear parameters: taken at `theta`.
+void Projection::clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta) {
+  const bool searched = model_.starts_are_searched();
+  point.initial_basis = searched && !searched_basis_.empty() ? searched_basis_ : initial_basis_at(point.z, theta);
+  if (point.initial_basis.empty()) return;
+  if (searched && searched_basis_.empty()) searched_basis_ = point.initial_basis;
   clear(point, residual.data());
   for (std::size_t j = 0; j < linear_.size(); ++j) clear(point, point.columns.col(j));
 }
@@ -298,7 +306,8 @@ void Projection::solve(ProjectedPoint& point, std::vector<double>& residual) {
   LinearSolution solution;
   const auto plain_columns = has_initial_ ? point.columns : Dense{};
   const auto plain_residual = has_initial_ ? residual : std::vector<double>{};
-  for (int pass = 0; pass < (has_initial_ ? 2 : 1); ++pass) {
+  const int passes = has_initial_ && !model_.starts_are_searched() ? 2 : 1;
+  for (int pass = 0; pass < passes; ++pass) {
     if (has_initial_) {
       point.columns = plain_columns;
       residual = plain_residual;

@@ -66,7 +66,10 @@ class Projection {
   PointPointer at(std::span<const double> z);
   /// Many at once, for what is simulated side by side; not remembered.
   std::vector<PointPointer> at_each(const std::vector<std::vector<double>>& points);
-  void forget() { recent_.clear(); }
+  void forget() {
+    recent_.clear();
+    searched_basis_.clear();
+  }
   /// chi2 of all rows at points near `best`, linear parameters as given instead of at their best; infinite where the
   /// model cannot be simulated. A point is one simulation.
   struct Point {
@@ -107,6 +110,7 @@ class Projection {
   void remember(std::shared_ptr<ProjectedPoint> point);
   void responses(std::span<ProjectedPoint*> points, std::vector<std::vector<double>>& residuals);
   void solve(ProjectedPoint& point, std::vector<double>& residual);
+  std::vector<Dense> initial_basis_at(std::span<const double> z, const std::vector<double>& theta);
   void clear_initial(ProjectedPoint& point, std::vector<double>& residual, const std::vector<double>& theta);
   void whiten_residual(const Prediction& prediction, std::size_t k, double* out);
   void prior_rows(std::span<const double> z, std::span<const double> theta, double* out) const;
@@ -124,6 +128,9 @@ class Projection {
   std::vector<double> delta_;  ///< per linear parameter: step between the two simulations
   bool from_zero_ = true;      ///< reference: zero where the bounds allow it, else the start
   bool has_initial_ = false;
+  /// Where starts are searched for (starts.h), the responses to them hold about one start only, and cost as much as all
+  /// else: those of the first point stand for all until the next start.
+  std::vector<Dense> searched_basis_;
   std::size_t rows_ = 0, data_rows_ = 0;
   struct PriorRow {
     int free = -1;           ///< index into the free parameters

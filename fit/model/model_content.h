@@ -27,6 +27,8 @@ struct BoundRecording {
   double points_per_instant = 1;   ///< a run also passes the samples of inputs between the instants
   bool simulated = false;          ///< with these, at the values for which they were chosen
   std::vector<double> start;       ///< per free state: how far from equilibrium it begins [SI]; empty: in equilibrium
+  Trial rest_of{};                 ///< of which values `rest` is the equilibrium
+  std::optional<Run> rest{};       ///< found last: a prediction and its responses to other starts ask for it in turn
   std::optional<Advance> advance;
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
   std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
@@ -75,9 +77,9 @@ struct DataModel::Content {
   void bind(int r);
   void find_free_states();
   bool settles(int r) const;
-  Run begun_at_start(int r, std::span<const ParameterValue> values) const;
+  Run begun_at_start(int r, std::span<const ParameterValue> values);
   std::vector<std::vector<Rows>> rows_of_each(BoundRecording& b, std::vector<Run> begun);
-  Run in_equilibrium(int r, std::span<const ParameterValue> values) const;
+  Run in_equilibrium(int r, std::span<const ParameterValue> values);
   Run prepared(int r, std::span<const ParameterValue> values) const;
   void set_start(const Recording& recording, Run& run, double t) const;
   bool from_rest(const Recording& recording) const;

@@ -194,7 +194,7 @@ bool DataModel::Content::settles(int r) const {
   return bound[static_cast<std::size_t>(r)].start.empty() && from_rest(data->recordings[static_cast<std::size_t>(r)]);
 }
 
-Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> values) const {
+Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> values) {
   const BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   if (from_rest(recording) && !b.start.empty()) {
@@ -207,10 +207,14 @@ Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> va
   return run;
 }
 
-Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> values) const {
+Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> values) {
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  if (b.rest && std::equal(values.begin(), values.end(), b.rest_of.begin(), b.rest_of.end())) return *b.rest;
   Run rest = prepared(r, values);
-  rest.t = bound[static_cast<std::size_t>(r)].instants.front();
+  rest.t = b.instants.front();
   settle_at_rest(*program, rest, rest.t);
+  b.rest_of.assign(values.begin(), values.end());
+  b.rest = rest;
   return rest;
 }
 
