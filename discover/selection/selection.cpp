@@ -7,6 +7,7 @@
 #include <set>
 
 #include "discover/wiring/wiring.h"
+#include "engine/diagram/stop.h"
 
 namespace hysteron {
 namespace {
@@ -80,13 +81,16 @@ bool is_in_a_loop(const Wiring& w, const std::string& signal) {
   return false;
 }
 
-/// Memory or a delay inside a loop, and several elements of memory in a block that moves: each row is solved in steps.
-bool is_slow(const Books& books, const Tried& t) {
+/// How long a fit takes, roughly: inside a loop each row is solved in steps, more so where something remembers there,
+/// and so are several elements of memory in a block that moves.
+int slowness(const Books& books, const Tried& t) {
   constexpr std::size_t several = 4;
-  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several;
-  const bool remembers = t.effect->is_memory || t.effect->id == "dead_time" || t.effect->id == "backlash";
+  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? 2 : 0;
+  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
-  return remembers && !nested && is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire);
+  if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire)) return 0;
+  const bool remembers = t.effect->is_memory || t.effect->id == "dead_time" || t.effect->id == "backlash";
+  return remembers && t.effect->id != "friction" ? 2 : 1;
 }
 
 Fitted without_term(const Workshop& shop, Fitted f, const std::vector<std::size_t>& term) {
@@ -133,7 +137,7 @@ std::vector<Addition> Selection::list(int step) {
     rivals.push_back(std::move(rival));
   }
   for (auto& a : at_like_places(books_, rivals)) rivals.push_back(std::move(a));
-  for (auto& r : rivals) r.slow = is_slow(books_, r.tried);
+  for (auto& r : rivals) r.slowness = slowness(books_, r.tried);
   return rivals;
 }
 
@@ -147,7 +151,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
         (step - 1 + 0.6 * static_cast<double>(i) / static_cast<double>(rivals.size())) / books_.options.max_steps);
     const double tried = ln_tried(rivals, *t.effect);
     const auto choice = term_of(rivals[i], 0);
-    if (step == 1 && rivals[i].slow) {
+    if (step == 1 && rivals[i].slowness > 0) {
       const Fitted& from = nulls_.let_go.ok() ? nulls_.let_go : nulls_.written;
       answers[i].push_back(with_term(setting_, shop, from, choice, tried, Effort::screen));
     } else if (step > 1) {
@@ -239,20 +243,21 @@ bool Selection::is_itself(const Addition& rival) const {
 
 /// Those that are quick first; the others where these leave more than noise.
 void Selection::fit(std::vector<Addition>& rivals, int step) {
-  const auto middle = std::stable_partition(rivals.begin(), rivals.end(), [](const Addition& r) { return !r.slow; });
-  std::vector<Addition> slow(std::make_move_iterator(middle), std::make_move_iterator(rivals.end()));
-  rivals.erase(middle, rivals.end());
-  fit_first_laws(rivals, step);
-  fit_with_numbers(rivals);
-  const auto only_noise_left = [&] {
-    return !rivals.empty() && rivals.front().fitted.ok() && score_->over_noise(rivals.front().fitted.left) < near_noise;
-  };
-  if (!slow.empty() && !only_noise_left() && !books_.stopped()) {
-    fit_first_laws(slow, step);
-    fit_with_numbers(slow);
+  std::vector<Addition> all;
+  for (const int slow : {0, 1, 2}) {
+    std::vector<Addition> some;
+    for (auto& r : rivals)
+      if (r.slowness == slow) some.push_back(std::move(r));
+    const bool only_noise =
+        !all.empty() && all.front().fitted.ok() && score_->over_noise(all.front().fitted.left) < near_noise;
+    if (!some.empty() && !only_noise && !books_.stopped()) {
+      fit_first_laws(some, step);
+      fit_with_numbers(some);
+    }
+    all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+    sort(all);
   }
-  rivals.insert(rivals.end(), std::make_move_iterator(slow.begin()), std::make_move_iterator(slow.end()));
-  sort(rivals);
+  rivals = std::move(all);
   fit_richer_laws(rivals);
   settle_best(rivals);
 }
@@ -261,6 +266,7 @@ bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
   fit(rivals, step);
+  const StopScope to_its_end(nullptr);  // what was fitted until then is compared
   if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
   sort(rivals);
   for (auto& r : rivals) r.tried.contender = r.fitted.model;

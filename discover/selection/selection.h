@@ -20,7 +20,7 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 struct Addition {
   Tried tried;              ///< effect, place, laws; `contender` is that of `fitted`
   std::vector<Tried> also;  ///< the same effect at like places, where it enters all of them at once
-  bool slow = false;        ///< memory or a delay inside a loop: each row is solved point by point
+  int slowness = 0;         ///< the quick ones are asked first
   Fitted fitted;            ///< with its best law
 };
 
