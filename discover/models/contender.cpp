@@ -172,6 +172,10 @@ Contender without(const Workshop& shop, const Contender& contender, std::size_t 
   c.ok = true;
   c.standing = contender.standing;
   c.standing.erase(c.standing.begin() + static_cast<std::ptrdiff_t>(standing));
+  for (auto& s : c.standing) {  // what stood behind it on its wire stands on that wire
+    if (s.place.at == leaving.name) s.place.at = leaving.place.at;
+    if (s.place.wire == leaving.name) s.place.wire = leaving.place.wire;
+  }
   c.of_recordings = contender.of_recordings;
   c.starts = contender.starts;
   c.fit.estimates = contender.fit.estimates;
