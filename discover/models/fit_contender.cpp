@@ -388,7 +388,11 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   double rows = 1;
   for (const auto& r : shop.data->recordings)
     if (r.role == Role::train) rows += static_cast<double>(r.last);
-  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > simulation_steps) {
+  // Whole models are compared by hundreds of fits: what needs more steps is too stiff for that, and integrating it takes
+  // a hundred times as long.
+  const double most_steps = shop.weights ? simulation_steps / 4 : simulation_steps;
+  if (shop.weights) options.bdf_otherwise = false;
+  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > most_steps) {
     options.max_substeps /= 2;
     options.bdf_otherwise = false;
   }
