@@ -410,15 +410,13 @@ void Fitting::refine_substeps() {
     again = projection_->at(coarse->z);
     keep(again);
   });
-  if (result_.stopped) {
-    if (!best_) best_ = coarse;
-    return;
-  }
+  if (!best_) best_ = coarse;  // stopped, or not to be had with finer rows: then as it is with the coarse ones
+  if (result_.stopped || !again || !again->ok) return;
   double steps = 0;
   for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
   constexpr double iterations = 3;  // fewer than that hardly ever end a search
   const bool in_time = iterations * (1 + static_cast<double>(free_.size())) * steps <= options_.search_again_steps;
-  if (again->ok && projection_->n_nonlinear() > 0 && in_time) search_from(again->z);
+  if (projection_->n_nonlinear() > 0 && in_time) search_from(again->z);
 }
 
 /// Where the way from a start to the outputs is not linear, it is found for given values, and these for a given start:
