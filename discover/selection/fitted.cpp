@@ -50,16 +50,16 @@ double chi2_of(const NoiseModel& weights, const DataModel& model, const LeftSums
 
 }  // namespace
 
-double score_of(const BlockScore& score, const Fitted& f) {
+double score_of(const BlockScore& score, const TableModel& f) {
   return score.fit_of(f.left) - score.price(f.parameters) - f.tried - 0.5 * f.moved;
 }
 
-double tie_score_of(const BlockScore& score, const Fitted& f) {
+double tie_score_of(const BlockScore& score, const TableModel& f) {
   return score.fit_of(f.left) - f.parameters - f.tried - 0.5 * f.moved;
 }
 
-Fitted measured(const FitSetting& setting, Contender model, Numbers numbers, double tried) {
-  Fitted f;
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, double tried) {
+  TableModel f;
   f.numbers = numbers;
   f.tried = tried;
   f.model = std::move(model);
@@ -86,7 +86,8 @@ Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const Noi
   return own;
 }
 
-Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers, int renewals) {
+TableModel refitted(const FitSetting& setting, const Workshop& shop, const TableModel& from, Numbers numbers,
+                    int renewals) {
   Contender c = from.model;
   std::optional<NoiseModel> before;
   for (int i = 0; i < renewals; ++i) {
@@ -97,11 +98,11 @@ Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& f
     before = weights;
     c = std::move(next);
   }
-  return before ? measured(setting, std::move(c), numbers, from.tried) : Fitted{};
+  return before ? measured(setting, std::move(c), numbers, from.tried) : TableModel{};
 }
 
-Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const std::vector<Choice>& term,
-                 double tried, Effort effort) {
+TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+                     const std::vector<Choice>& term, double tried, Effort effort) {
   const NoiseModel weights = weights_of(setting, from.model);
   const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
   Contender c = from.model;
@@ -109,7 +110,7 @@ Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& 
     c = with_effect(own, c, *choice.effect, choice.law, choice.place, choice.at, effort);
     if (!c.ok) break;
   }
-  Fitted f = measured(setting, std::move(c), from.numbers, from.tried + tried);
+  TableModel f = measured(setting, std::move(c), from.numbers, from.tried + tried);
   if (!f.ok()) return f;
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
   const DataModel& model = setting.books.evidence->model();
@@ -188,11 +189,11 @@ std::map<std::string, double> worth_it(const FitResult& fit, const std::map<std:
 
 }  // namespace
 
-Fitted with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
-                           const Fitted& let_go, std::map<std::string, double>& kept) {
+TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+                               const TableModel& let_go, std::map<std::string, double>& kept) {
   constexpr int most_rounds = 4;
   const double worth = 6 + std::log(std::max(score.n_eff(), 2.0));
-  Fitted now = let_go;
+  TableModel now = let_go;
   kept = setting.numbers;
   for (int round = 0; round < most_rounds && !kept.empty(); ++round) {
     const FitSetting these{setting.books, kept};
@@ -204,12 +205,12 @@ Fitted with_fewest_numbers(const FitSetting& setting, const Workshop& shop, cons
     Trial written;
     for (const auto& [path, value] : kept)
       if (!few.contains(path)) written.push_back({parameter_index(*c.program, path), value, -1});
-    Fitted start = now;
+    TableModel start = now;
     start.model = c;
     start.model.diagram = with_parameters(c.diagram, *c.program, written);
     std::erase_if(start.model.fit.estimates,
                   [&](const ParameterEstimate& e) { return kept.contains(e.path) && !few.contains(e.path); });
-    Fitted next = refitted({setting.books, few}, shop, start, few.empty() ? Numbers::written : Numbers::let_go);
+    TableModel next = refitted({setting.books, few}, shop, start, few.empty() ? Numbers::written : Numbers::let_go);
     if (!next.ok()) break;
     kept = few;
     now = std::move(next);

@@ -16,7 +16,7 @@ namespace hysteron {
 /// Numbers of the user's model, as written or let go.
 enum class Numbers { written, let_go };
 
-struct Fitted {
+struct TableModel {
   Contender model;
   Numbers numbers = Numbers::written;
   LeftSums left;
@@ -38,12 +38,12 @@ inline constexpr double known_to = 0.1;
 /// Weights of one model are renewed at most so often: each time from where it came to.
 inline constexpr int most_renewals = 12;
 
-double score_of(const BlockScore& score, const Fitted& fitted);
+double score_of(const BlockScore& score, const TableModel& fitted);
 /// The same of a model whose numbers cost no more than what chance takes with them: one each. For ties.
-double tie_score_of(const BlockScore& score, const Fitted& fitted);
+double tie_score_of(const BlockScore& score, const TableModel& fitted);
 
 /// What is left, and what it cost, of a model that was fitted.
-Fitted measured(const FitSetting& setting, Contender model, Numbers numbers, double tried);
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, double tried);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers);
@@ -52,16 +52,16 @@ NoiseModel weights_of(const FitSetting& setting, const Contender& model);
 /// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
 /// truth all weights are wrong, and the user's numbers are held too firmly by what is written. At most `renewals`
 /// times.
-Fitted refitted(const FitSetting& setting, const Workshop& shop, const Fitted& from, Numbers numbers,
-                int renewals = most_renewals);
+TableModel refitted(const FitSetting& setting, const Workshop& shop, const TableModel& from, Numbers numbers,
+                    int renewals = most_renewals);
 
 /// `from` with one more effect, at one place or at several like ones. The user's numbers stay as `from` has them.
-Fitted with_term(const FitSetting& setting, const Workshop& shop, const Fitted& from, const std::vector<Choice>& term,
-                 double tried, Effort effort);
+TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+                     const std::vector<Choice>& term, double tried, Effort effort);
 
 /// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and
 /// fits again with the others. `kept`: the others, as written.
-Fitted with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
-                           const Fitted& let_go, std::map<std::string, double>& kept);
+TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+                               const TableModel& let_go, std::map<std::string, double>& kept);
 
 }  // namespace hysteron

@@ -34,11 +34,11 @@ bool any_start_unstated(const DataSet& data) {
 
 }  // namespace
 
-const Fitted& Nulls::better(const BlockScore& score) const {
+const TableModel& Nulls::better(const BlockScore& score) const {
   return let_go.ok() && score_of(score, let_go) > score_of(score, written) ? let_go : written;
 }
 
-const Fitted& Nulls::best() const {
+const TableModel& Nulls::best() const {
   return let_go.ok() && squares_over(let_go.left, written.left) < 1 ? let_go : written;
 }
 
@@ -52,7 +52,7 @@ std::map<std::string, double> numbers_not_exact(const Books& books) {
 Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
   nulls.written = measured(setting, setting.books.base, Numbers::written, 0);
-  if (Fitted again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
+  if (TableModel again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
     nulls.written = std::move(again);
   if (!setting.numbers.empty())
     nulls.let_go = refitted(setting, setting.books.shop, nulls.written, Numbers::let_go, renewals);
@@ -70,7 +70,7 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   const FitSetting setting{free, numbers_not_exact(free)};
   constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
   const Nulls nulls = fit_nulls(setting, renewals);
-  const Fitted& best = nulls.best();
+  const TableModel& best = nulls.best();
   const BlockScore score(*free.evidence, left_rows(*free.evidence, best.model.prediction));
   // The same model and numbers from rest.
   Workshop at_rest = free.shop;

@@ -12,10 +12,10 @@ namespace hysteron {
 
 /// The user's model as written and with its numbers let go; both compete with every effect.
 struct Nulls {
-  Fitted written, let_go;  ///< let_go is not ok where no number may be let go
-  const Fitted& better(const BlockScore& score) const;
+  TableModel written, let_go;  ///< let_go is not ok where no number may be let go
+  const TableModel& better(const BlockScore& score) const;
   /// The one that leaves less: by it the score is made.
-  const Fitted& best() const;
+  const TableModel& best() const;
 };
 
 /// Fits both. `books.base` is the user's model.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/narrate/words.h"
 #include "discover/selection/selection.h"
 #include "engine/diagram/stop.h"
 
@@ -39,7 +38,7 @@ NoiseModel plain_weights(const FitSetting& setting, const Contender& model) {
 Told to_be_told(Books& books, const Selection& selection) {
   Told told;
   const FitSetting& setting = selection.setting();
-  Fitted best = selection.best();
+  TableModel best = selection.best();
   if (best.numbers == Numbers::let_go)
     books.unless_stopped([&] { best = with_fewest_numbers(setting, books.shop, selection.score(), best, told.kept); });
   const FitSetting few{books, told.kept};
@@ -82,8 +81,8 @@ Tried tried_as(const Selection& selection, const Standing& s) {
 }
 
 /// Rivals that explain as much as the winner by other effects, each effect once.
-std::vector<Addition> tied(const Books& books, const Selection& selection, const Fitted& winner, const Effect& effect,
-                           std::vector<Addition> rivals) {
+std::vector<Addition> tied(const Books& books, const Selection& selection, const TableModel& winner,
+                           const Effect& effect, std::vector<Addition> rivals) {
   std::vector<Addition> list;
   const double reach = tie_score_of(selection.score(), winner) - rules::tie;
   for (auto& r : rivals) {
@@ -98,7 +97,7 @@ std::vector<Addition> tied(const Books& books, const Selection& selection, const
   return list;
 }
 
-std::string how_much_more(const Selection& selection, const Fitted& f, const Fitted& before) {
+std::string how_much_more(const Selection& selection, const TableModel& f, const TableModel& before) {
   return fmt::format("its score is {:.1f} above that of the model without it; {:.0f} are asked",
                      selection.score_of(f) - selection.score_of(before), rules::by_score);
 }
@@ -125,7 +124,7 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
     const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
     // Where others stand, too, it is compared as the last of them, as its rivals are.
     Tried last = w;
-    Fitted winner = selection.best();
+    TableModel winner = selection.best();
     if (!alone && !rivals.empty() && rivals.front().tried.effect == &effect && rivals.front().fitted.ok()) {
       winner = rivals.front().fitted;
       last = rivals.front().tried;
@@ -155,7 +154,7 @@ void tell_candidates(Books& books, const Selection& selection, const Told& told)
   int step = 0;
   for (const auto& round : selection.rounds()) {
     ++step;
-    const Fitted& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
+    const TableModel& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
     for (const auto& r : round.rivals) {
       Tried t = r.tried;
       t.contender = r.fitted.model;

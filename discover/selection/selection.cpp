@@ -55,7 +55,7 @@ std::vector<Addition> at_like_places(const Books& books, const std::vector<Addit
 }
 
 /// Dry models do not keep what nobody asks for again.
-void take_up(Addition& rival, Fitted fitted, std::size_t law, const BlockScore& score) {
+void take_up(Addition& rival, TableModel fitted, std::size_t law, const BlockScore& score) {
   if (!fitted.ok()) {
     if (!rival.fitted.ok()) rival.fitted.model.error = fitted.model.error;
     return;
@@ -93,7 +93,7 @@ int slowness(const Books& books, const Tried& t) {
   return remembers && t.effect->id != "friction" ? 2 : 1;
 }
 
-Fitted without_term(const Workshop& shop, Fitted f, const std::vector<std::size_t>& term) {
+TableModel without_term(const Workshop& shop, TableModel f, const std::vector<std::size_t>& term) {
   for (auto i = term.rbegin(); i != term.rend() && f.ok(); ++i) f.model = without(shop, f.model, *i);
   return f;
 }
@@ -117,7 +117,7 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
 Selection::Selection(Books& books, std::map<std::string, double> numbers)
     : books_(books), setting_{books, std::move(numbers)} {}
 
-void Selection::measure_by(const Fitted& best) {
+void Selection::measure_by(const TableModel& best) {
   score_.emplace(*books_.evidence, left_rows(*books_.evidence, best.model.prediction));
 }
 
@@ -143,7 +143,7 @@ std::vector<Addition> Selection::list(int step) {
 
 void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   // Each answer of its own: the score that orders them is that of all.
-  std::vector<std::vector<Fitted>> answers(rivals.size());
+  std::vector<std::vector<TableModel>> answers(rivals.size());
   books_.side_by_side(rivals.size(), [&](std::size_t i, const Workshop& shop) {
     const Tried& t = rivals[i].tried;
     books_.progress(
@@ -152,7 +152,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
     const double tried = ln_tried(rivals, *t.effect);
     const auto choice = term_of(rivals[i], 0);
     if (step == 1 && rivals[i].slowness > 0) {
-      const Fitted& from = nulls_.let_go.ok() ? nulls_.let_go : nulls_.written;
+      const TableModel& from = nulls_.let_go.ok() ? nulls_.let_go : nulls_.written;
       answers[i].push_back(with_term(setting_, shop, from, choice, tried, Effort::screen));
     } else if (step > 1) {
       answers[i].push_back(with_term(setting_, shop, best_, choice, tried, Effort::screen));
@@ -173,7 +173,7 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
-    std::vector<Fitted> answers(n);
+    std::vector<TableModel> answers(n);
     books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
       const Addition& rival = rivals[first + i];
       if (rival.fitted.ok()) answers[i] = refitted(setting_, shop, rival.fitted, numbers, few_renewals);
@@ -193,9 +193,9 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
 /// Who may win is fitted until its weights are those of what it leaves.
 void Selection::settle_best(std::vector<Addition>& rivals) {
   const std::size_t n = std::min<std::size_t>(3, rivals.size());
-  std::vector<Fitted> answers(n);
+  std::vector<TableModel> answers(n);
   books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
-    const Fitted& f = rivals[i].fitted;
+    const TableModel& f = rivals[i].fitted;
     if (f.ok() && f.numbers == Numbers::let_go) answers[i] = refitted(setting_, shop, f, f.numbers);
     return false;
   });
@@ -213,20 +213,20 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     if (!names.insert(rivals[i].tried.effect->id).second) continue;  // at its best place
     for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l) jobs.emplace_back(i, l);
   }
-  std::vector<Fitted> answers(jobs.size());
+  std::vector<TableModel> answers(jobs.size());
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
     const auto [i, law] = jobs[j];
     const Tried& t = rivals[i].tried;
     // With the numbers of the simple law's model: those of the null bear what the effect does.
-    Fitted bare = rivals[i].fitted;
+    TableModel bare = rivals[i].fitted;
     for (std::size_t k = 0; k <= rivals[i].also.size() && bare.ok(); ++k)
       bare.model = without(shop, bare.model, bare.model.standing.size() - 1);
     if (!bare.ok()) return false;
     bare.model = refit(shop, bare.model, Effort::full);  // simulated, with what is free
     if (!bare.ok()) return false;
     bare = measured(setting_, std::move(bare.model), bare.numbers, best_.tried);
-    Fitted f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
+    TableModel f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
     if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers, few_renewals);
     return false;
   });
@@ -272,7 +272,7 @@ bool Selection::add_one(int step) {
   for (auto& r : rivals) r.tried.contender = r.fitted.model;
   rounds_.push_back({best_, std::move(rivals)});
   const Round& round = rounds_.back();
-  const Fitted& before = step == 1 ? nulls_.better(*score_) : best_;
+  const TableModel& before = step == 1 ? nulls_.better(*score_) : best_;
   const double needed = score_of(before) + rules::by_score;
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
@@ -289,7 +289,7 @@ bool Selection::add_one(int step) {
 /// single term the rest is the user's own model from other numbers than it had been searched from.
 bool Selection::leave_out() {
   for (const auto& term : terms_of(best_.model)) {
-    Fitted rest = without_term(books_.shop, best_, term);
+    TableModel rest = without_term(books_.shop, best_, term);
     if (!rest.ok()) continue;
     rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
     if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
@@ -306,7 +306,7 @@ bool Selection::leave_out() {
 std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
   std::vector<Addition> rivals;
   const Standing& leaving = best_.model.standing[term.front()];
-  Fitted rest = without_term(books_.shop, best_, term);
+  TableModel rest = without_term(books_.shop, best_, term);
   if (!rest.ok()) return rivals;
   rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
   if (!rest.ok()) return rivals;
@@ -319,9 +319,9 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
     rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(rival));
   }
   books_.current = was;
-  std::vector<Fitted> answers(rivals.size());
+  std::vector<TableModel> answers(rivals.size());
   books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
-    const Fitted f =
+    const TableModel f =
         with_term(setting_, shop, rest, term_of(rivals[k], 0), ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
     if (f.ok()) answers[k] = refitted(setting_, shop, f, best_.numbers);
     return false;

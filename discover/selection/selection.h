@@ -21,12 +21,12 @@ struct Addition {
   Tried tried;              ///< effect, place, laws; `contender` is that of `fitted`
   std::vector<Tried> also;  ///< the same effect at like places, where it enters all of them at once
   int slowness = 0;         ///< the quick ones are asked first
-  Fitted fitted;            ///< with its best law
+  TableModel fitted;        ///< with its best law
 };
 
 /// What was asked on top of one model.
 struct Round {
-  Fitted on;                     ///< the model that all of them stand on
+  TableModel on;                 ///< the model that all of them stand on
   std::vector<Addition> rivals;  ///< best score first
 };
 
@@ -40,11 +40,11 @@ class Selection {
   void run();
 
   const Nulls& nulls() const { return nulls_; }
-  const Fitted& best() const { return best_; }
+  const TableModel& best() const { return best_; }
   const std::vector<Round>& rounds() const { return rounds_; }
   const BlockScore& score() const { return *score_; }
   const FitSetting& setting() const { return setting_; }
-  double score_of(const Fitted& f) const { return hysteron::score_of(*score_, f); }
+  double score_of(const TableModel& f) const { return hysteron::score_of(*score_, f); }
   /// One term of the best model (see terms_of) and what looks like it in its place, each last in its model and fitted
   /// with the rest; that term first, the others by their score.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
@@ -59,14 +59,14 @@ class Selection {
   void sort(std::vector<Addition>& rivals) const;
   bool leave_out();
   bool exchange();
-  void measure_by(const Fitted& best);
+  void measure_by(const TableModel& best);
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
 
   Books& books_;
   FitSetting setting_;
   Nulls nulls_;
-  Fitted best_;
+  TableModel best_;
   std::optional<BlockScore> score_;
   std::vector<Round> rounds_;
 };
