@@ -295,8 +295,8 @@ void tell_numbers(Discovery& d) {
                                       shown(n.written)));
   }
   d.sentences.push_back(
-      "These are the fewest that explain as much as all together, each near what is written (95 % within 3 %; one that "
-      "does the same, as a spring does for a force, would do as well). As they are written an effect would be named "
+      "These are the fewest that explain as much as all together, each near what is written (one that "
+      "does the same, as a spring does for a force, would do as well). As they are written an effect might be named "
       "that only makes up for them. Leave free in the diagram (\"free\": true) those that are not sure; where all are "
       "exact, say so with --exact.");
 }
