@@ -266,6 +266,7 @@ bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
   fit(rivals, step);
+  const bool broken_off = books_.stopped();
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
   if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
   sort(rivals);
@@ -277,6 +278,8 @@ bool Selection::add_one(int step) {
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
+    // Where more than noise is left, who was not asked might have been the one.
+    if (broken_off && score_->over_noise(r.fitted.left) > near_noise) break;
     best_ = r.fitted;
     return true;
   }
