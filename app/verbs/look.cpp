@@ -16,8 +16,8 @@
 #include "discover/selection/select.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
-#include "io/json/value_text.h"
 #include "io/data/same_rows.h"
+#include "io/json/value_text.h"
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_page.h"
 
@@ -111,6 +111,9 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   if (how != "steps" && how != "models")
     fail("bad_command_line", "--search", json_quoted(how) + " is no way to search", "\"steps\" or \"models\"");
   wish.by_models = how == "models";
+  if (wish.by_models && wish.is_check)
+    fail("bad_command_line", "--search", "--check asks by steps: it holds all numbers of the model",
+         "leave out --search, or --check");
   wish.given = load_data(arguments, *program);
   need_moving_outputs(wish.given, *program);
   wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
@@ -144,6 +147,7 @@ Looked search(const std::string& verb, Wish& wish, const DataSet& data, const Wa
         looked.check = check(wish.diagram, data, registry(), wish.effects, settings);
         looked.found = looked.check->discovery;
       } else {
+        if (verb == "diagnose") settings.max_steps = 1;
         looked.found = wish.by_models       ? select_model(wish.diagram, data, registry(), wish.effects, settings)
                        : verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
                                             : diagnose(wish.diagram, data, registry(), wish.effects, settings);
@@ -212,11 +216,9 @@ std::vector<OptionSpec> look_options() {
           options::data(true),
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
-          {"--search",
-           "HOW",
-           "\"steps\" (default): one effect after the other, by rules; \"models\": whole models by one score",
-           false,
-           {}},
+          {"--search", "HOW",
+           "\"steps\" (default): one effect after the other, by rules; \"models\": whole models by one score", false,
+           false},
           {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
            false},
           options::effects(),

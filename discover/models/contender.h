@@ -86,8 +86,12 @@ struct Workshop {
   /// How far a simulated row may be off, as a share of the output's span: a small part of the noise. What is finer
   /// costs time and decides nothing.
   double row_tolerance = 1e-6;
-  double looser = 1;  ///< than usual, for what is not simulated in fixed substeps
-  Threads threads{};  ///< recordings side by side
+  /// Steps that one simulation may take while candidates are searched: some tenths of a second where states are
+  /// nonlinear.
+  double simulation_steps = 4e6;
+  bool bdf_otherwise = true;  ///< see DataModelOptions
+  double looser = 1;          ///< than usual, for what is not simulated in fixed substeps
+  Threads threads{};          ///< recordings side by side
   std::shared_ptr<Notebook> notes = std::make_shared<Notebook>();
 };
 

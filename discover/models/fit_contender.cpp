@@ -85,9 +85,6 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
   return free;
 }
 
-/// Steps of one simulation while candidates are searched: some tenths of a second where states are nonlinear.
-constexpr double simulation_steps = 4e6;
-
 /// Rows are no more exact than this share of what a candidate leaves: a law that leaves a thousand times the noise of
 /// an encoder is not told from others by the last tenth of that noise.
 constexpr double residual_share = 1.0 / 300;
@@ -388,11 +385,8 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   double rows = 1;
   for (const auto& r : shop.data->recordings)
     if (r.role == Role::train) rows += static_cast<double>(r.last);
-  // Whole models are compared by hundreds of fits: what needs more steps is too stiff for that, and integrating it takes
-  // a hundred times as long.
-  const double most_steps = shop.weights ? simulation_steps / 4 : simulation_steps;
-  if (shop.weights) options.bdf_otherwise = false;
-  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > most_steps) {
+  options.bdf_otherwise = shop.bdf_otherwise;
+  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > shop.simulation_steps) {
     options.max_substeps /= 2;
     options.bdf_otherwise = false;
   }

@@ -1,6 +1,8 @@
 #include "discover/selection/null_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "discover/models/fit_contender.h"
 #include "discover/search/nominal_parameters.h"
@@ -17,19 +19,33 @@ double squares_over(const LeftSums& left, const LeftSums& than) {
   return sum / static_cast<double>(left.size());
 }
 
-DataSet with_free_starts(DataSet data, const std::vector<std::string>* only) {
-  for (auto& r : data.recordings) {
-    if (r.start_is_stated || !r.at_rest || r.role == Role::test) continue;
-    if (only != nullptr && std::find(only->begin(), only->end(), r.name) == only->end()) continue;
-    r.at_rest = false;
-    r.initial_per_recording = true;
-  }
-  return data;
+/// Recordings of which nobody says where they begin, by name.
+std::vector<std::string> without_stated_start(const DataSet& data) {
+  std::vector<std::string> names;
+  for (const auto& r : data.recordings)
+    if (!r.start_is_stated && r.at_rest && r.role != Role::test) names.push_back(r.name);
+  return names;
 }
 
-bool any_start_unstated(const DataSet& data) {
-  return std::any_of(data.recordings.begin(), data.recordings.end(),
-                     [](const Recording& r) { return !r.start_is_stated && r.at_rest && r.role != Role::test; });
+/// Of the recordings that may move, those whose free start explains more than its states cost: by Schwarz's price in
+/// the recording's own witnesses.
+std::vector<std::string> worth_a_start(const Books& free, const DataSet& given, const TableModel& best) {
+  const BlockScore score(*free.evidence, left_rows(*free.evidence, best.model.prediction));
+  // The same model and numbers from rest.
+  Workshop at_rest = free.shop;
+  at_rest.data = std::make_shared<const DataSet>(given);
+  DataModel from_rest(compile(best.model.diagram, free.registry), at_rest.data, accuracy(at_rest, Effort::full));
+  const Prediction rest = from_rest.predict({}, free.evidence->recordings());
+  if (!rest.ok) return {};
+  const LeftSums left = left_sums(left_rows(*free.evidence, rest));
+  const auto states = static_cast<double>(free.base_model->free_initial_states().size());
+  std::vector<std::string> moving;
+  for (const int r : free.evidence->recordings()) {
+    const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
+    const double price = 0.5 * states * std::log(std::max(score.n_eff(r), 2.0));
+    if (gain > price) moving.push_back(free.base_model->recording(r).name);
+  }
+  return moving;
 }
 
 }  // namespace
@@ -51,7 +67,7 @@ std::map<std::string, double> numbers_not_exact(const Books& books) {
 
 Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
-  nulls.written = measured(setting, setting.books.base, Numbers::written, 0);
+  nulls.written = measured(setting, setting.books.base, Numbers::written, {});
   if (TableModel again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
     nulls.written = std::move(again);
   if (!setting.numbers.empty())
@@ -61,32 +77,18 @@ Nulls fit_nulls(const FitSetting& setting, int renewals) {
 
 std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& data, const Registry& registry,
                                          const Effects& effects, const DiscoverOptions& options) {
-  std::vector<std::string> moving;
-  if (!any_start_unstated(data)) return moving;
-  Books free(diagram, with_free_starts(data, nullptr), registry, effects, options);
+  Discovery may_move;
+  may_move.found_starts = without_stated_start(data);
+  if (may_move.found_starts.empty()) return {};
+  Books free(diagram, as_found(data, may_move), registry, effects, options);
   fit_base(free);
-  const auto states = free.base_model->free_initial_states().size();
-  if (states == 0) return moving;
-  const FitSetting setting{free, numbers_not_exact(free)};
-  constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
-  const Nulls nulls = fit_nulls(setting, renewals);
-  const TableModel& best = nulls.best();
-  const BlockScore score(*free.evidence, left_rows(*free.evidence, best.model.prediction));
-  // The same model and numbers from rest.
-  Workshop at_rest = free.shop;
-  at_rest.data = std::make_shared<const DataSet>(data);
-  ProgramPointer fitted = compile(best.model.diagram, registry);
-  DataModel from_rest(fitted, at_rest.data, accuracy(at_rest, Effort::full));
-  const Prediction rest = from_rest.predict({}, free.evidence->recordings());
-  if (!rest.ok) return moving;
-  const LeftSums left = left_sums(left_rows(*free.evidence, rest));
-  for (const int r : free.evidence->recordings()) {
-    const Recording& recording = free.base_model->recording(r);
-    if (recording.start_is_stated) continue;
-    const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
-    const double price = 0.5 * static_cast<double>(states) * std::log(std::max(score.n_eff(r), 2.0));
-    if (gain > price) moving.push_back(recording.name);
-  }
+  if (free.base_model->free_initial_states().empty()) return {};
+  std::vector<std::string> moving;
+  free.unless_stopped([&] {
+    constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
+    const Nulls nulls = fit_nulls({free, numbers_not_exact(free)}, renewals);
+    moving = worth_a_start(free, data, nulls.best());
+  });
   return moving;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/selection/fitted.h"
+#include "discover/selection/table_model.h"
 
 namespace hysteron {
 

@@ -20,21 +20,6 @@ struct Told {
   std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
 };
 
-/// Intervals count rows where the residual is white.
-NoiseModel plain_weights(const FitSetting& setting, const Contender& model) {
-  const auto left = left_rows(*setting.books.evidence, model.prediction);
-  NoiseModel weights = weights_by(*setting.books.evidence, left);
-  std::vector<double> squares(weights.outputs.size()), rows(squares);
-  for (const auto& l : left) {
-    for (const double v : l.rows) squares[static_cast<std::size_t>(l.output)] += v * v;
-    rows[static_cast<std::size_t>(l.output)] += static_cast<double>(l.rows.size());
-  }
-  for (std::size_t o = 0; o < weights.outputs.size(); ++o)
-    if (rows[o] > 0)
-      weights.outputs[o].white = std::min(weights.outputs[o].white, std::max(std::sqrt(squares[o] / rows[o]), 1e-300));
-  return weights;
-}
-
 Told to_be_told(Books& books, const Selection& selection) {
   Told told;
   const FitSetting& setting = selection.setting();
@@ -42,7 +27,7 @@ Told to_be_told(Books& books, const Selection& selection) {
   if (best.numbers == Numbers::let_go)
     books.unless_stopped([&] { best = with_fewest_numbers(setting, books.shop, selection.score(), best, told.kept); });
   const FitSetting few{books, told.kept};
-  told.shop = workshop_for(few, books.shop, plain_weights(few, best.model),
+  told.shop = workshop_for(few, books.shop, weights_of(few, best.model),
                            told.kept.empty() ? Numbers::written : Numbers::let_go);
   Contender whole = best.model;
   books.unless_stopped([&] {
@@ -98,8 +83,9 @@ std::vector<Addition> tied(const Books& books, const Selection& selection, const
 }
 
 std::string how_much_more(const Selection& selection, const TableModel& f, const TableModel& before) {
-  return fmt::format("its score is {:.1f} above that of the model without it; {:.0f} are asked",
-                     selection.score_of(f) - selection.score_of(before), rules::by_score);
+  const double more = selection.score_of(f) - selection.score_of(before);
+  return fmt::format("its score is {:.1f} {} that of the model without it; {:.0f} more are asked", std::abs(more),
+                     more < 0 ? "below" : "above", rules::by_score);
 }
 
 void tell_step(Books& books, Selection& selection, const Told& told, std::size_t k) {
@@ -170,9 +156,10 @@ void tell_candidates(Books& books, const Selection& selection, const Told& told)
 }
 
 void tell_numbers(Books& books, const Told& told) {
-  for (const auto& e : told.chain.back().fit.estimates)
+  const FitResult& fit = told.chain.back().fit;
+  for (const auto& e : fit.estimates)
     if (const auto n = told.kept.find(e.path); n != told.kept.end())
-      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, e.sigma.value_or(0)});
+      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
   std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });

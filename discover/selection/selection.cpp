@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/stop.h"
@@ -15,7 +18,8 @@ namespace {
 constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
 constexpr double near_noise = 1.1;  // rms over the noise: nothing is left that another effect could take away
 constexpr int few_renewals = 3;     // of weights, for rivals that may not win
-constexpr std::size_t enriched_names = 4;
+constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
+constexpr std::size_t finalists = 3;       // that are fitted until their weights are those of what they leave
 
 /// How many ways of saying one effect were tried: among more of them chance finds more.
 double ln_tried(const std::vector<Addition>& rivals, const Effect& effect) {
@@ -54,7 +58,7 @@ std::vector<Addition> at_like_places(const Books& books, const std::vector<Addit
   return at_all;
 }
 
-/// Dry models do not keep what nobody asks for again.
+/// The better of two fits of one rival, and its law.
 void take_up(Addition& rival, TableModel fitted, std::size_t law, const BlockScore& score) {
   if (!fitted.ok()) {
     if (!rival.fitted.ok()) rival.fitted.model.error = fitted.model.error;
@@ -63,6 +67,11 @@ void take_up(Addition& rival, TableModel fitted, std::size_t law, const BlockSco
   if (rival.fitted.ok() && score_of(score, rival.fitted) >= score_of(score, fitted)) return;
   rival.fitted = std::move(fitted);
   rival.tried.law = law;
+}
+
+std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
+  const auto here = std::find_if(laws.begin(), laws.end(), [&](const Law& l) { return l.name == name; });
+  return here == laws.end() ? 0 : static_cast<std::size_t>(here - laws.begin());
 }
 
 /// Does what the place moves come back to it?
@@ -89,13 +98,8 @@ int slowness(const Books& books, const Tried& t) {
   const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
   if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire)) return 0;
-  const bool remembers = t.effect->is_memory || t.effect->id == "dead_time" || t.effect->id == "backlash";
-  return remembers && t.effect->id != "friction" ? 2 : 1;
-}
-
-TableModel without_term(const Workshop& shop, TableModel f, const std::vector<std::size_t>& term) {
-  for (auto i = term.rbegin(); i != term.rend() && f.ok(); ++i) f.model = without(shop, f.model, *i);
-  return f;
+  const Kernel* law = books.registry.find(t.laws.front().block.type);
+  return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr) ? 2 : 1;
 }
 
 }  // namespace
@@ -128,15 +132,21 @@ void Selection::sort(std::vector<Addition>& rivals) const {
   });
 }
 
-std::vector<Addition> Selection::list(int step) {
+/// Every effect at every place, and at all like ones, of the present model.
+std::vector<Addition> Selection::everywhere(int step) {
   std::vector<Addition> rivals;
-  books_.current = best_.model;
   for (auto& t : list_candidates(books_, step)) {
     Addition rival;
     rival.tried = std::move(t);
     rivals.push_back(std::move(rival));
   }
   for (auto& a : at_like_places(books_, rivals)) rivals.push_back(std::move(a));
+  return rivals;
+}
+
+std::vector<Addition> Selection::list(int step) {
+  books_.current = best_.model;
+  auto rivals = everywhere(step);
   for (auto& r : rivals) r.slowness = slowness(books_, r.tried);
   return rivals;
 }
@@ -192,7 +202,7 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
 
 /// Who may win is fitted until its weights are those of what it leaves.
 void Selection::settle_best(std::vector<Addition>& rivals) {
-  const std::size_t n = std::min<std::size_t>(3, rivals.size());
+  const std::size_t n = std::min(finalists, rivals.size());
   std::vector<TableModel> answers(n);
   books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
     const TableModel& f = rivals[i].fitted;
@@ -219,13 +229,10 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     const auto [i, law] = jobs[j];
     const Tried& t = rivals[i].tried;
     // With the numbers of the simple law's model: those of the null bear what the effect does.
-    TableModel bare = rivals[i].fitted;
-    for (std::size_t k = 0; k <= rivals[i].also.size() && bare.ok(); ++k)
-      bare.model = without(shop, bare.model, bare.model.standing.size() - 1);
+    std::vector<std::size_t> last(rivals[i].also.size() + 1);  // it came last
+    std::iota(last.begin(), last.end(), rivals[i].fitted.model.standing.size() - last.size());
+    const TableModel bare = without_term(setting_, shop, rivals[i].fitted, last);
     if (!bare.ok()) return false;
-    bare.model = refit(shop, bare.model, Effort::full);  // simulated, with what is free
-    if (!bare.ok()) return false;
-    bare = measured(setting_, std::move(bare.model), bare.numbers, best_.tried);
     TableModel f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
     if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers, few_renewals);
     return false;
@@ -292,9 +299,7 @@ bool Selection::add_one(int step) {
 /// single term the rest is the user's own model from other numbers than it had been searched from.
 bool Selection::leave_out() {
   for (const auto& term : terms_of(best_.model)) {
-    TableModel rest = without_term(books_.shop, best_, term);
-    if (!rest.ok()) continue;
-    rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
+    TableModel rest = without_term(setting_, books_.shop, best_, term);
     if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
     if (!rest.ok()) continue;
     if (rest.model.standing.empty() && score_of(rest) > score_of(nulls_.better(*score_)))
@@ -309,23 +314,21 @@ bool Selection::leave_out() {
 std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
   std::vector<Addition> rivals;
   const Standing& leaving = best_.model.standing[term.front()];
-  TableModel rest = without_term(books_.shop, best_, term);
-  if (!rest.ok()) return rivals;
-  rest = measured(setting_, refit(books_.shop, rest.model, Effort::full), best_.numbers, 0);
+  const TableModel rest = without_term(setting_, books_.shop, best_, term);
   if (!rest.ok()) return rivals;
   const Contender was = std::exchange(books_.current, rest.model);
-  for (auto& t : list_candidates(books_, 2)) {
-    const bool itself = t.effect == leaving.effect && t.place.where() == leaving.place.where();
-    if (!itself && (!look_alike(*t.effect, *leaving.effect) || t.effect == leaving.effect)) continue;
-    Addition rival;
-    rival.tried = std::move(t);
-    rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(rival));
+  for (auto& r : everywhere(2)) {
+    const bool same = r.tried.effect == leaving.effect;
+    const bool itself = same && r.tried.place.where() == leaving.place.where() && r.also.size() + 1 == term.size();
+    if (same ? !itself : !look_alike(*r.tried.effect, *leaving.effect)) continue;
+    if (itself) r.tried.law = place_of(r.tried.laws, leaving.law.name);
+    rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(r));
   }
   books_.current = was;
   std::vector<TableModel> answers(rivals.size());
   books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
-    const TableModel f =
-        with_term(setting_, shop, rest, term_of(rivals[k], 0), ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
+    const TableModel f = with_term(setting_, shop, rest, term_of(rivals[k], rivals[k].tried.law),
+                                   ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
     if (f.ok()) answers[k] = refitted(setting_, shop, f, best_.numbers);
     return false;
   });

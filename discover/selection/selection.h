@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "discover/selection/fitted.h"
 #include "discover/selection/null_model.h"
+#include "discover/selection/table_model.h"
 
 namespace hysteron {
 
@@ -36,7 +36,7 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model);
 class Selection {
  public:
   Selection(Books& books, std::map<std::string, double> numbers);
-  /// Finds the model. False where it was broken off before the null was fitted.
+  /// Finds the model. Throws Stopped where it is broken off: best() is what was found until then.
   void run();
 
   const Nulls& nulls() const { return nulls_; }
@@ -60,6 +60,7 @@ class Selection {
   bool leave_out();
   bool exchange();
   void measure_by(const TableModel& best);
+  std::vector<Addition> everywhere(int step);
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
 

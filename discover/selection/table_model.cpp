@@ -1,4 +1,4 @@
-#include "discover/selection/fitted.h"
+#include "discover/selection/table_model.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -48,21 +48,29 @@ double chi2_of(const NoiseModel& weights, const DataModel& model, const LeftSums
   return chi2;
 }
 
+double all_tried(const TableModel& f) {
+  double sum = 0;
+  for (const auto& [effect, ln_tried] : f.tried) sum += ln_tried;
+  return sum;
+}
+
 }  // namespace
 
 double score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) - score.price(f.parameters) - f.tried - 0.5 * f.moved;
+  return score.fit_of(f.left) - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
 }
 
 double tie_score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) - f.parameters - f.tried - 0.5 * f.moved;
+  return score.fit_of(f.left) - f.parameters - all_tried(f) - 0.5 * f.moved;
 }
 
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, double tried) {
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
+                    const std::map<std::string, double>& tried) {
   TableModel f;
   f.numbers = numbers;
-  f.tried = tried;
   f.model = std::move(model);
+  for (const auto& s : f.model.standing)
+    if (const auto known = tried.find(s.effect->id); known != tried.end()) f.tried.insert(*known);
   if (!f.model.ok) return f;
   const Evidence& evidence = *setting.books.evidence;
   f.left = left_sums(left_rows(evidence, f.model.prediction));
@@ -80,6 +88,10 @@ NoiseModel weights_of(const FitSetting& setting, const Contender& model) {
 Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers) {
   Workshop own = shop;
   own.weights = weights;
+  // Whole models are compared by hundreds of fits: what needs more steps is too stiff for that, and integrating it
+  // takes a hundred times as long.
+  own.simulation_steps /= 4;
+  own.bdf_otherwise = false;
   if (numbers == Numbers::written) return own;
   own.known_to = {two_sided * known_to, 0.5, 2};
   own.free_nominal_parameters(setting.numbers);
@@ -102,7 +114,7 @@ TableModel refitted(const FitSetting& setting, const Workshop& shop, const Table
 }
 
 TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
-                     const std::vector<Choice>& term, double tried, Effort effort) {
+                     const std::vector<Choice>& term, double ln_tried, Effort effort) {
   const NoiseModel weights = weights_of(setting, from.model);
   const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
   Contender c = from.model;
@@ -110,12 +122,27 @@ TableModel with_term(const FitSetting& setting, const Workshop& shop, const Tabl
     c = with_effect(own, c, *choice.effect, choice.law, choice.place, choice.at, effort);
     if (!c.ok) break;
   }
-  TableModel f = measured(setting, std::move(c), from.numbers, from.tried + tried);
+  auto tried = from.tried;
+  if (!term.empty()) tried[term.front().effect->id] = ln_tried;
+  TableModel f = measured(setting, std::move(c), from.numbers, tried);
   if (!f.ok()) return f;
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
   const DataModel& model = setting.books.evidence->model();
   if (chi2_of(weights, model, f.left) > chi2_of(weights, model, from.left)) f.left = from.left;
   return f;
+}
+
+TableModel without_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+                        const std::vector<std::size_t>& term) {
+  Contender rest = from.model;
+  for (auto i = term.rbegin(); i != term.rend() && rest.ok; ++i) rest = without(shop, rest, *i);
+  if (rest.ok)
+    rest = refit(workshop_for(setting, shop, weights_of(setting, from.model), Numbers::written), rest, Effort::full);
+  return measured(setting, std::move(rest), from.numbers, from.tried);
+}
+
+double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimate) {
+  return estimate.sigma ? *estimate.sigma / std::sqrt(fit.s2 > 0 ? fit.s2 : 1) : 0;
 }
 
 namespace {
@@ -130,14 +157,12 @@ struct LetGo {
 
 std::vector<LetGo> all_let_go(const FitResult& fit, const std::map<std::string, double>& numbers) {
   std::vector<LetGo> all;
-  const double s2 = fit.s2 > 0 ? fit.s2 : 1;  // intervals are scaled by it, and weights count witnesses already
   for (const auto& e : fit.estimates) {
     const auto n = numbers.find(e.path);
     if (n == numbers.end()) continue;
-    LetGo one{e.path, e.used - n->second, 0, -1, e.at_lower || e.at_upper};
+    LetGo one{e.path, e.used - n->second, sigma_by_witnesses(fit, e), -1, e.at_lower || e.at_upper};
     for (std::size_t k = 0; k < fit.correlated.size(); ++k)
       if (&fit.estimates[static_cast<std::size_t>(fit.correlated[k])] == &e) one.place = static_cast<int>(k);
-    if (e.sigma) one.sigma = *e.sigma / std::sqrt(s2);
     if (one.at_bound || (one.place >= 0 && one.sigma > 0)) all.push_back(one);
   }
   return all;

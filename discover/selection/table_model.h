@@ -16,13 +16,15 @@ namespace hysteron {
 /// Numbers of the user's model, as written or let go.
 enum class Numbers { written, let_go };
 
+/// One row of the model table.
 struct TableModel {
   Contender model;
   Numbers numbers = Numbers::written;
   LeftSums left;
   int parameters = 0;  ///< all free numbers of the laws
-  double tried = 0;    ///< ln(places times laws tried) of its effects
-  double moved = 0;    ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
+  /// Of each of its effects, by id: ln(places times laws that were tried of it).
+  std::map<std::string, double> tried{};
+  double moved = 0;  ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
   bool ok() const { return model.ok; }
 };
 
@@ -42,8 +44,9 @@ double score_of(const BlockScore& score, const TableModel& fitted);
 /// The same of a model whose numbers cost no more than what chance takes with them: one each. For ties.
 double tie_score_of(const BlockScore& score, const TableModel& fitted);
 
-/// What is left, and what it cost, of a model that was fitted.
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, double tried);
+/// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
+                    const std::map<std::string, double>& tried);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers);
@@ -56,8 +59,17 @@ TableModel refitted(const FitSetting& setting, const Workshop& shop, const Table
                     int renewals = most_renewals);
 
 /// `from` with one more effect, at one place or at several like ones. The user's numbers stay as `from` has them.
+/// `ln_tried`: see TableModel::tried.
 TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
-                     const std::vector<Choice>& term, double tried, Effort effort);
+                     const std::vector<Choice>& term, double ln_tried, Effort effort);
+
+/// `from` without the effects that stand at these places of its list, fitted with all else as it is.
+TableModel without_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+                        const std::vector<std::size_t>& term);
+
+/// Of a number that was fitted by weights that count witnesses: one standard deviation [SI], not scaled by what the
+/// rows leave, for that scale takes their correlation for smallness.
+double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimate);
 
 /// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and
 /// fits again with the others. `kept`: the others, as written.
