@@ -116,6 +116,31 @@ TEST_F(DiscoverVerb, DiscoverSaysFirstOfAllThatARowIsFarFromAllOthers) {
   EXPECT_NE(headline.find("Take it out of the file"), std::string::npos) << headline;
 }
 
+TEST_F(DiscoverVerb, SearchSaysHowAndRefusesWhatItDoesNotKnow) {
+  record(3, 0.02);
+  const auto searched = [&](const std::string& verb, std::vector<std::string> words) {
+    std::vector<std::string> all{verb, "diagram.json", "--data", "dataset.json", "-o", verb + ".out"};
+    all.insert(all.end(), words.begin(), words.end());
+    return hysteron(folder_.path(), all);
+  };
+  for (const char* verb : {"discover", "diagnose"}) {
+    const Outcome found = searched(verb, {"--search", "models", "--only", "amplifier_lag,calibration"});
+    ASSERT_EQ(found.code, 0) << found.err;
+    const json facts = result(verb + std::string(".out"))["facts"];
+    EXPECT_EQ(facts["effects"].at(0), "amplifier_lag") << verb;
+    EXPECT_NE(facts["candidates"].at(0)["reason"].get<std::string>().find("score"), std::string::npos) << verb;
+  }
+  const Outcome cut = searched("discover", {"--search", "models", "--within", "1 us"});
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_TRUE(result("discover.out")["facts"]["effects"].empty()) << "nobody was asked";
+  const Outcome unknown = searched("discover", {"--search", "model"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("\"models\""), std::string::npos) << unknown.err;
+  const Outcome check = searched("discover", {"--search", "models", "--check"});
+  EXPECT_EQ(check.code, 2);
+  EXPECT_NE(check.err.find("--check"), std::string::npos) << check.err;
+}
+
 TEST_F(DiscoverVerb, DiscoverEndsWithinTheTimeThatItIsGivenAndSaysSo) {
   record(3, 0.02);
   const auto discovered = [&](const std::string& within) {
