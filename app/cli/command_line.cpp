@@ -135,8 +135,10 @@ int parse_and_act(const std::vector<std::string>& words) {
   app.get_formatter()->column_width(26);
   app.require_subcommand(0, 1);
   std::deque<ParsedVerb> verbs;
-  for (auto& verb : all_verbs())
-    add_verb_to(app, verbs.emplace_back(ParsedVerb{verb, nullptr, {}, {}}), !words.empty() && words[0] == verb.name);
+  for (const auto make : verb_functions()) {
+    ParsedVerb& parsed = verbs.emplace_back(ParsedVerb{make(), nullptr, {}, {}});
+    add_verb_to(app, parsed, !words.empty() && words[0] == parsed.verb.name);
+  }
 
   if (words.empty()) {
     fmt::print("{}", app.help());

@@ -42,8 +42,8 @@ Answer schemas(const Arguments& arguments, const Watch&) {
   write("effect.schema.json", effect_schema(registry()));
   write("failure.schema.json", failure_schema());
   write("progress.schema.json", progress_schema());
-  for (const auto& verb : all_verbs())
-    if (verb.shape != nullptr) write(answer_schema_name(verb), answer_schema(verb));
+  for (const auto make : verb_functions())
+    if (const Verb verb = make(); verb.shape != nullptr) write(answer_schema_name(verb), answer_schema(verb));
   answer.facts = Facts::object({{"folder", folder.string()}});
   return answer;
 }

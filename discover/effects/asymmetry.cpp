@@ -1,6 +1,6 @@
 // The effect asymmetry: a static curve before the memory.
-#include "discover/effects/library.h"
 #include "discover/effects/static_curves.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

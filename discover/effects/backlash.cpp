@@ -1,7 +1,7 @@
 // The effect backlash: lost motion after every reversal.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

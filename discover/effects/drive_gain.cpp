@@ -1,7 +1,7 @@
 // The effect drive_gain: the device answers its drive by another factor than the model says, on all of its outputs.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

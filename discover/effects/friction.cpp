@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/effects/library.h"
 #include "discover/effects/presliding.h"
 #include "discover/effects/travel.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

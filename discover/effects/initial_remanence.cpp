@@ -1,7 +1,7 @@
 // The effect initial_remanence: the actuator did not start from its virgin state.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

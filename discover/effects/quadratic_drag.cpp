@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "discover/effects/library.h"
 #include "discover/effects/travel.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

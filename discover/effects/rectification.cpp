@@ -1,7 +1,7 @@
 // The effect rectification: part of the signal loses its sign.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

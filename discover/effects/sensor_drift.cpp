@@ -1,7 +1,7 @@
 // The effect sensor_drift: the reading runs away though nothing moves.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

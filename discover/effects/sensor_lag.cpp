@@ -1,5 +1,6 @@
 // The effect sensor_lag: the sensor follows what it measures late, with a time constant.
-#include "discover/effects/library.h"
+#include "discover/effects/lag.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

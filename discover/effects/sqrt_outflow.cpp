@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "discover/effects/library.h"
 #include "discover/effects/travel.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "discover/effects/library.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {

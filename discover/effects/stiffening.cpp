@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/effects/library.h"
 #include "discover/effects/travel.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

@@ -1,9 +1,9 @@
 // The effect stribeck_friction: dry friction that falls while a body gets under way.
 #include <fmt/format.h>
 
-#include "discover/effects/library.h"
 #include "discover/effects/presliding.h"
 #include "discover/effects/travel.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/effects/library.h"
+#include "discover/effects/room_temperature.h"
+#include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {
 namespace {
@@ -70,8 +71,6 @@ bool is_right_nowhere(const Law& law, const std::vector<double>& values) {
 }
 
 }  // namespace
-
-double usual_room(double temperature) { return std::clamp(temperature, 293.15, 298.15); }
 
 Effect temperature_gain() {
   Effect e;

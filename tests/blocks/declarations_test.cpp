@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/diagram/units.h"
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 
 namespace hysteron {
 namespace {
@@ -101,102 +101,6 @@ TEST_P(EveryBlock, NamesListsOfEqualLengthThatExist) {
 
 INSTANTIATE_TEST_SUITE_P(Types, EveryBlock, testing::ValuesIn(bench::registry().types()),
                          [](const auto& made) { return made.param; });
-
-TEST(AllBlocks, HoldTheTypesThatDiagramsRelyOn) {
-  const auto types = bench::registry().types();
-  const std::set<std::string> found(types.begin(), types.end());
-  const std::set<std::string> expected{"constant",
-                                       "sine",
-                                       "triangle",
-                                       "step",
-                                       "staircase",
-                                       "chirp",
-                                       "multisine",
-                                       "recorded",
-                                       "input",
-                                       "gain",
-                                       "sum",
-                                       "product",
-                                       "pass",
-                                       "mux",
-                                       "demux",
-                                       "select",
-                                       "matrix_gain",
-                                       "state_space",
-                                       "saturation",
-                                       "calibration",
-                                       "integrator",
-                                       "transfer_function",
-                                       "pi_controller",
-                                       "lag",
-                                       "creep",
-                                       "logarithmic_creep",
-                                       "dead_time",
-                                       "play",
-                                       "prandtl_ishlinskii",
-                                       "bouc_wen",
-                                       "sensor_noise",
-                                       "jiles_atherton",
-                                       "relay",
-                                       "backlash",
-                                       "prandtl_ishlinskii_inverse",
-                                       "bouc_wen_inverse",
-                                       "jiles_atherton_inverse",
-                                       "rate_limiter",
-                                       "current_limit",
-                                       "slew_limit",
-                                       "mass_with_drag",
-                                       "load_dependence",
-                                       "sensor_drift",
-                                       "rectifier",
-                                       "rounding",
-                                       "pyro_charge",
-                                       "mains_interference",
-                                       "generalized_prandtl_ishlinskii",
-                                       "late_prandtl_ishlinskii",
-                                       "preisach",
-                                       "ageing",
-                                       "tank",
-                                       "thermal_network",
-                                       "mass_spring_damper",
-                                       "mass_on_stiffening_spring",
-                                       "mass_with_friction",
-                                       "mass_with_stops",
-                                       "sample_hold",
-                                       "quantizer",
-                                       "sampled_noise",
-                                       "delay_line",
-                                       "discrete_transfer_function",
-                                       "sampled_pid",
-                                       "sampled_bouc_wen_inverse",
-                                       "sampled_jiles_atherton_inverse",
-                                       "polynomial",
-                                       "soft_saturation",
-                                       "cross_coupling",
-                                       "late_cross_coupling",
-                                       "temperature_gain",
-                                       "thermal_expansion",
-                                       "resonance",
-                                       "modes",
-                                       "mass_with_mode",
-                                       "mass_with_presliding",
-                                       "mass_on_hysteretic_spring",
-                                       "mass_on_spring_of_plays",
-                                       "mass_on_bouc_wen_spring",
-                                       "sliding_friction",
-                                       "guide_friction",
-                                       "tapi",
-                                       "sampled_tapi_inverse",
-                                       "asymmetric_prandtl_ishlinskii",
-                                       "sampled_asymmetric_inverse",
-                                       "coupled_tapi",
-                                       "sampled_coupled_tapi_inverse",
-                                       "maxwell_capacitor",
-                                       "impedance_estimator",
-                                       "wheatstone_bridge",
-                                       "wheatstone_bridge_inverse"};
-  EXPECT_EQ(found, expected);
-}
 
 TEST(AllBlocks, HaveASampleForTheLawsThatHoldForAll) {
   std::set<std::string> sampled{"recorded", "input"};  // their samples are series: sources_test.cpp

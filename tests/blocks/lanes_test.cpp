@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "models/random.h"
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 
 namespace hysteron {
 namespace {

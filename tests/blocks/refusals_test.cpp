@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 
 namespace hysteron {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "models/random.h"
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 
 namespace hysteron {
 namespace {

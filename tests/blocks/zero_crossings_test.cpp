@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 #include "tests/engine/simulate_tools.h"
 
 namespace hysteron {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "models/random.h"
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {

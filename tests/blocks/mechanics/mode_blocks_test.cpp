@@ -8,7 +8,7 @@
 #include "models/mechanics/friction.h"
 #include "models/mechanics/hard_stop.h"
 #include "models/random.h"
-#include "tests/blocks/bench.h"
+#include "tests/blocks/samples.h"
 
 namespace hysteron {
 namespace {
