@@ -14,14 +14,13 @@ const std::vector<OtherNames>& table() {
       {{"deadzone", "deadband"},
        "a dead zone is its input less a \"saturation\" with the zone's ends as limits: a \"sum\" with "
        "\"signs\": \"+-\""},
-      {{"ramp", "ramps"}, "a ramp is an \"integrator\" behind a \"constant\" (or a \"step\", to begin later)"},
-      {{"pulse", "pulses", "pulsegenerator", "rectangle", "rectangular"},
-       "a pulse is a \"sum\" of two \"step\" blocks, the second with the opposite height; a train of them is a "
-       "\"sine\" into a \"relay\", or \"recorded\" rows that are held"},
-      {{"square", "squarewave"},
-       "a square wave is a \"sine\" or \"triangle\" into a \"relay\"; the square of a signal is a \"product\" of it "
-       "with itself"},
-      {{"sawtooth"}, "a sawtooth is \"recorded\" rows; \"triangle\" rises and falls alike"},
+      {{"ramps", "clock", "time"}, "a straight line over time is \"ramp\"; the time itself one of slope 1"},
+      {{"pulses", "pulsegenerator", "rectangle", "rectangular", "square", "squarewave", "pulsetrain"},
+       "pulses and square waves are \"pulse\"; the square of a signal is a \"product\" of it with itself"},
+      {{"sawtooth", "repeatingsequence", "repeatingtable", "signalbuilder", "pwl", "timetable"},
+       "points over time, once or again and again, are \"time_table\"; \"triangle\" rises and falls alike"},
+      {{"scurve", "trajectory", "pointtopoint", "setpointgenerator", "profile", "motion"},
+       "a move within limits of velocity, acceleration and jerk is \"motion_profile\""},
       {{"lookup", "lookuptable", "table", "1dlookuptable", "lookup1d", "lut", "interpolation", "interp", "map",
         "curve"},
        "a static curve is a \"polynomial\", straight outside its \"lower\" and \"upper\"; a table over time is "
@@ -69,8 +68,8 @@ const std::vector<OtherNames>& table() {
        "a mass on spring and damper is \"mass_spring_damper\""},
       {{"gear", "deadplay", "lostmotion", "freeplay"}, "play between parts is \"backlash\", as an operator \"play\""},
       {{"endstop", "hardstop", "bumper"}, "a mass between stops is \"mass_with_stops\""},
-      {{"noise", "whitenoise", "random", "randomnumber", "bandlimitedwhitenoise", "gaussian"},
-       "noise is \"sampled_noise\" (added to its input at each sample) or \"sensor_noise\""},
+      {{"whitenoise", "random", "randomnumber", "bandlimitedwhitenoise", "gaussian", "randomsource"},
+       "a random signal is \"noise\"; \"sensor_noise\" and \"sampled_noise\" (at each sample) add it to their input"},
       {{"adc", "dac", "quantize", "quantiser"}, "a converter is \"quantizer\"; without sampling \"rounding\""},
       {{"multiply", "divide", "times", "dot", "mul", "multiplier"},
        "signals are multiplied by \"product\"; by a number by \"gain\""},

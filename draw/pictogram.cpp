@@ -62,6 +62,11 @@ std::map<std::string, Pictogram> make_all() {
   all["staircase"] = over_time({stairs({-0.8, -0.3, 0.2, 0.7, 0.1, -0.5})});
   all["square"] = over_time({stairs({0.7, -0.7, 0.7, -0.7})});
   all["ramp"] = over_time({{{-1, -0.7}, {-0.5, -0.7}, {1, 0.8}}});
+  all["trapezoid"] = over_time({{{-1, -0.6}, {-0.7, -0.6}, {-0.3, 0.7}, {0.3, 0.7}, {0.7, -0.6}, {1, -0.6}}});
+  all["s_curve"] = over_time({sampled(-1, 1, 32, [](double x) {
+    const double s = std::fmax(0, std::fmin(1, 0.5 * (x / 0.7 + 1)));
+    return -0.7 + 1.4 * s * s * (3 - 2 * s);
+  })});
   all["chirp"] = over_time({sampled(-1, 1, 96, [](double x) { return 0.8 * std::sin(2.2 * (x + 1) * (x + 1.6)); })});
   all["multisine"] = over_time({sampled(-1, 1, 60, [](double x) {
     return 0.4 * (std::sin(3.1 * (x + 1)) + 0.7 * std::sin(7.7 * (x + 1) + 1) + 0.5 * std::sin(15 * (x + 1)));

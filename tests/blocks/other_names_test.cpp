@@ -40,8 +40,11 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
     says(word, "saturation");
     says(word, "sum");
   }
-  says("ramp", "integrator");
-  says("pulse", "step");
+  says("clock", "ramp");
+  says("square_wave", "pulse");
+  says("Repeating Sequence", "time_table");
+  says("s-curve", "motion_profile");
+  says("Band-Limited White Noise", "noise");
   says("lookup_table", "polynomial");
   says("derivative", "transfer_function");
   says("switch", "relay");
