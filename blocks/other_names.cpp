@@ -40,9 +40,9 @@ const std::vector<OtherNames>& table() {
       {{"transportdelay", "timedelay", "puredelay", "delay", "latency", "deadtime", "transportlag"},
        "a delay in time is \"dead_time\"; one by whole samples is \"delay_line\""},
       {{"unitdelay", "z1", "sampledelay", "discretedelay"}, "a delay by samples is \"delay_line\""},
-      {{"pid", "pidcontroller", "pd", "pdcontroller", "discretepid", "controller"},
-       "a digital PID controller is \"sampled_pid\", a continuous PI controller \"pi_controller\""},
-      {{"pi", "pidcontinuous"}, "a continuous PI controller is \"pi_controller\", a digital one \"sampled_pid\""},
+      {{"pidcontroller", "pd", "pdcontroller", "controller", "pi", "picontroller", "pidcontinuous"},
+       "a PID controller is \"pid\", at sampling instants \"discrete_pid\""},
+      {{"discretepid", "pidcontroller2dof", "digitalpid"}, "a digital PID controller is \"discrete_pid\""},
       {{"tf", "transferfcn", "transferfunction", "zpk", "zeropole"},
        "a transfer function is \"transfer_function\" with \"num\" and \"den\", highest power first; a sampled one is "
        "\"discrete_transfer_function\""},

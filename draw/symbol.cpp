@@ -268,9 +268,9 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = formula("K u");
   } else if (type == "pi_controller") {
     s = formula("kp + ki/s");
-  } else if (type == "pid_controller") {
-    s = formula("kp + ki/s + kd s");
-  } else if (type == "sampled_pid") {
+  } else if (type == "pid" || type == "pid_tracking") {
+    s = formula("PID");
+  } else if (type == "sampled_pid" || type == "discrete_pid" || type == "discrete_pid_tracking") {
     s = formula("PID");
     s.note = "sampled";
     s.height = 54;

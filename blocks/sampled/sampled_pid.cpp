@@ -23,7 +23,7 @@ void SampledPid::describe(BlockSpec<SampledPid>& spec) {
   spec.remark("The command is computed from the error at the same instant and held until the next: no hidden delay.");
   spec.input(&In<double>::u, "u", "$a", "control error");
   spec.state(&State<double>::integral, "integral", "$b", "integral part");
-  spec.state(&State<double>::derivative, "derivative", "$b", "derivative part, filtered");
+  spec.state(&State<double>::rate, "rate", "$a/s", "rate of the error, filtered");
   spec.state(&State<double>::error, "error", "$a", "last error");
   spec.output(&Out<double>::y, "y", "$b", "command");
   spec.param(&Params<double>::kp, "kp", "$b/$a", "proportional gain, e.g. \"1.207 V/um\"");

@@ -20,7 +20,7 @@ struct SampledPid {
   };
   template <class T>
   struct State {
-    T integral, derivative, error;
+    T integral, rate, error;
   };
   template <class T>
   struct Out {
@@ -35,10 +35,16 @@ struct SampledPid {
       tracking = p.period;
       if (value_of(p.ki) != 0 && p.kp / p.ki > p.period) tracking = p.kp / p.ki;
     }
-    const sampled_pid::Params<T> law{p.kp, p.ki, p.kd, p.filter, p.lower, p.upper, tracking, p.period};
+    sampled_pid::Params<T> law;
+    law.gains = {p.kp, p.ki, p.kd, T{0}};
+    law.filter = p.filter;
+    law.lower = p.lower;
+    law.upper = p.upper;
+    law.tracking_time = tracking;
+    law.period = p.period;
     return sampled_pid::step(sampled_pid::Rule(static_cast<int>(value_of(p.rule))),
                              sampled_pid::AntiWindup(static_cast<int>(value_of(p.anti_windup))), law,
-                             sampled_pid::State<T>{s.integral, s.derivative, s.error}, in.u);
+                             {s.integral, s.rate, s.error, s.error, T{0}}, sampled_pid::Inputs<T>{in.u, T{0}, in.u});
   }
   template <class T>
   static Out<T> output(const Params<T>& p, const State<T>& s, const In<T>& in) {
@@ -47,7 +53,7 @@ struct SampledPid {
   template <class T>
   static State<T> update(const Params<T>& p, const State<T>& s, const In<T>& in) {
     const auto after = step(p, s, in).after;
-    return {after.integral, after.derivative, after.error};
+    return {after.integral, after.rate, after.error};
   }
   static State<double> initial(const Params<double>& p) { return {p.initial, 0, 0}; }
   static std::string check(const Params<double>& p);

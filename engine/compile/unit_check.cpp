@@ -168,7 +168,8 @@ class UnitCheck {
       const int columns = block.parameters[i].columns;
       for (std::size_t k = 0; k < block.parameters[i].numbers.size(); ++k) {
         const auto& number = block.parameters[i].numbers[k];
-        if (!number.has_unit && number.si == 0) continue;  // zero fits any unit
+        // Nothing and without end are the same in every unit.
+        if (!number.has_unit && (number.si == 0 || std::isinf(number.si))) continue;
         if (was_set(number.origin) && !believe_those_set_) continue;
         std::string unit = d.parameters[i].unit;
         if (columns > 0)

@@ -50,7 +50,8 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   says("switch", "relay");
   says("abs", "rectifier");
   says("transport_delay", "dead_time");
-  says("PID", "sampled_pid");
+  says("PID Controller", "pid");
+  says("Discrete PID", "discrete_pid");
   EXPECT_EQ(instead_of_other_name("sawn_off"), "");
 }
 

@@ -135,7 +135,7 @@ class SampledPid : public Sampled {
   void run(const Point& p) override {
     const Command c = command(u(p));
     integral = c.integral;
-    if (windup == "back_calculation") integral += period / tracking * (c.limited - c.wanted);
+    if (windup == "back_calculation" && ki != 0) integral += period / tracking * (c.limited - c.wanted);
     derivative = c.derivative;
     error = u(p);
     held = c.limited;

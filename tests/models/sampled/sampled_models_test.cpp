@@ -78,14 +78,20 @@ TEST(DiscreteFilterModel, AtRestTheOutputStays) {
   EXPECT_TRUE(std::isnan(sum.w[0]));
 }
 
+/// Of an error alone.
+sampled_pid::Step<double> step_of(Rule rule, AntiWindup windup, const sampled_pid::Params<double>& p,
+                                  const sampled_pid::State<double>& s, double error) {
+  return sampled_pid::step(rule, windup, p, s, {error, 0.0, error});
+}
+
 TEST(SampledPidModel, RulesIntegrateAsTheyAreNamed) {
   // e = k h: forward sums e_0 ... e_(k-1), backward e_1 ... e_k, trapezoids are exact: t^2/2.
   const double h = 0.1;
   for (const Rule rule : {Rule::forward, Rule::backward, Rule::trapezoidal}) {
-    const sampled_pid::Params<double> p{.kp = 0, .ki = 1, .lower = -100, .upper = 100, .period = h};
+    const sampled_pid::Params<double> p{.gains = {.kp = 0, .ki = 1}, .lower = -100, .upper = 100, .period = h};
     sampled_pid::State<double> s;
     for (int k = 0; k <= 10; ++k) {
-      const auto step = sampled_pid::step(rule, AntiWindup::none, p, s, k * h);
+      const auto step = step_of(rule, AntiWindup::none, p, s, k * h);
       s = step.after;
       const double exact = k * h * k * h / 2, half = k * h * h / 2;
       EXPECT_NEAR(step.command,
@@ -99,45 +105,47 @@ TEST(SampledPidModel, RulesIntegrateAsTheyAreNamed) {
 
 TEST(SampledPidModel, DerivativeOfARampIsItsSlopeBehindTheFilter) {
   // D_k = kd s (1 - q^k), q = T_f/(T_f + T_s), for e = s k T_s.
-  const sampled_pid::Params<double> p{.kp = 0, .kd = 2, .filter = 0.3, .lower = -100, .upper = 100, .period = 0.1};
+  const sampled_pid::Params<double> p{
+      .gains = {.kp = 0, .kd = 2}, .filter = 0.3, .lower = -100, .upper = 100, .period = 0.1};
   sampled_pid::State<double> s;
   for (int k = 0; k < 20; ++k) {
-    const auto step = sampled_pid::step(Rule::forward, AntiWindup::none, p, s, 5 * 0.1 * k);
+    const auto step = step_of(Rule::forward, AntiWindup::none, p, s, 5 * 0.1 * k);
     s = step.after;
     EXPECT_NEAR(step.command, 10 * (1 - std::pow(0.75, k)), 1e-14);
   }
 }
 
 TEST(SampledPidModel, ClampingStopsTheIntegralAtTheLimitAndReleasesItAtOnce) {
-  const sampled_pid::Params<double> p{.kp = 1, .ki = 1, .lower = -2, .upper = 2, .period = 1};
+  const sampled_pid::Params<double> p{.gains = {.kp = 1, .ki = 1}, .lower = -2, .upper = 2, .period = 1};
   sampled_pid::State<double> wound, clamped;
   for (int k = 0; k < 50; ++k) {
-    wound = sampled_pid::step(Rule::forward, AntiWindup::none, p, wound, 1.0).after;
-    clamped = sampled_pid::step(Rule::forward, AntiWindup::clamping, p, clamped, 1.0).after;
+    wound = step_of(Rule::forward, AntiWindup::none, p, wound, 1.0).after;
+    clamped = step_of(Rule::forward, AntiWindup::clamping, p, clamped, 1.0).after;
   }
   EXPECT_EQ(wound.integral, 50);
   EXPECT_EQ(clamped.integral, 2);  // 1 + 2 is beyond the limit: the third second adds nothing
-  EXPECT_EQ(sampled_pid::step(Rule::forward, AntiWindup::none, p, wound, -1.0).command, 2);
-  EXPECT_EQ(sampled_pid::step(Rule::forward, AntiWindup::clamping, p, clamped, -1.0).command, 1);
-  EXPECT_EQ(sampled_pid::step(Rule::forward, AntiWindup::clamping, p, clamped, -1.0).after.integral, 1);
+  EXPECT_EQ(step_of(Rule::forward, AntiWindup::none, p, wound, -1.0).command, 2);
+  EXPECT_EQ(step_of(Rule::forward, AntiWindup::clamping, p, clamped, -1.0).command, 1);
+  EXPECT_EQ(step_of(Rule::forward, AntiWindup::clamping, p, clamped, -1.0).after.integral, 1);
 }
 
 TEST(SampledPidModel, BackCalculationSettlesWhereItsLeakBalancesTheError) {
   // Steady: ki T e = T/T_t (raw - upper), raw = kp e + I: I = upper - kp e + ki T_t e = 2 - 1 + 0.5.
-  const sampled_pid::Params<double> p{.kp = 1, .ki = 1, .lower = -2, .upper = 2, .tracking_time = 0.5, .period = 0.1};
+  const sampled_pid::Params<double> p{
+      .gains = {.kp = 1, .ki = 1}, .lower = -2, .upper = 2, .tracking_time = 0.5, .period = 0.1};
   sampled_pid::State<double> s;
-  for (int k = 0; k < 300; ++k) s = sampled_pid::step(Rule::forward, AntiWindup::back_calculation, p, s, 1.0).after;
+  for (int k = 0; k < 300; ++k) s = step_of(Rule::forward, AntiWindup::back_calculation, p, s, 1.0).after;
   EXPECT_NEAR(s.integral, 1.5, 1e-14);
 }
 
 TEST(SampledPidModel, WithinItsLimitsNoAntiWindupActs) {
-  const sampled_pid::Params<double> p{.kp = 1, .ki = 3, .lower = -9, .upper = 9, .period = 0.1};
+  const sampled_pid::Params<double> p{.gains = {.kp = 1, .ki = 3}, .lower = -9, .upper = 9, .period = 0.1};
   sampled_pid::State<double> a, b, c;
   for (std::uint64_t k = 0; k < 50; ++k) {
     const double e = 0.3 * random::normal(2, 0, k);
-    a = sampled_pid::step(Rule::backward, AntiWindup::none, p, a, e).after;
-    b = sampled_pid::step(Rule::backward, AntiWindup::clamping, p, b, e).after;
-    c = sampled_pid::step(Rule::backward, AntiWindup::back_calculation, p, c, e).after;
+    a = step_of(Rule::backward, AntiWindup::none, p, a, e).after;
+    b = step_of(Rule::backward, AntiWindup::clamping, p, b, e).after;
+    c = step_of(Rule::backward, AntiWindup::back_calculation, p, c, e).after;
     ASSERT_EQ(a.integral, b.integral);
     ASSERT_EQ(a.integral, c.integral);
   }
@@ -152,11 +160,10 @@ TEST_P(SampledPidGolden, CommandOfTheThesisLoopIsReproduced) {
   HYSTERON_NEEDS_GOLDEN(GetParam().name);
   const auto trace = golden::read(GetParam().name);
   const sampled_pid::Params<double> p{
-      .kp = GetParam().kp, .ki = GetParam().ki, .lower = -100, .upper = 100, .period = 1e-4};
+      .gains = {.kp = GetParam().kp, .ki = GetParam().ki}, .lower = -100, .upper = 100, .period = 1e-4};
   sampled_pid::State<double> s;
   for (std::size_t k = 0; k < trace.at("u [V]").size(); ++k) {
-    const auto step =
-        sampled_pid::step(Rule::forward, AntiWindup::clamping, p, s, trace.at("r [um]")[k] - trace.at("y [um]")[k]);
+    const auto step = step_of(Rule::forward, AntiWindup::clamping, p, s, trace.at("r [um]")[k] - trace.at("y [um]")[k]);
     s = step.after;
     // r and y have ten digits (up to 6e-9 together): 1.2 of that directly, 0.7 of it each step in the integral, as a
     // random walk of 2000 steps at most 0.7 2e-9 sqrt(2000) 3 = 2e-7
