@@ -5,48 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/diagram/error.h"
-#include "engine/diagram/units.h"
+#include "blocks/vectors/element_units.h"
 #include "models/continuous/linear_system.h"
 
 namespace hysteron::blocks {
-namespace {
-
-/// "V" for all elements, or "V, A, N" one each.
-std::vector<std::string> units_of(const std::string& text, int elements) {
-  std::vector<std::string> list;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto end = std::min(text.find(',', begin), text.size());
-    std::string unit = text.substr(begin, end - begin);
-    unit.erase(0, unit.find_first_not_of(' '));
-    unit.erase(unit.find_last_not_of(' ') + 1);
-    list.push_back(std::move(unit));
-    begin = end + 1;
-  }
-  if (list.size() == 1) list.resize(static_cast<std::size_t>(elements), list.front());
-  return list;
-}
-
-std::string text_of(const View<double>& v, int parameter) {
-  std::string text;
-  for (const double code : v.list(parameter)) text += static_cast<char>(code);
-  return text;
-}
-
-/// "" or what is wrong with these units.
-std::string wrong_units(const std::vector<std::string>& units, int elements, const char* parameter) {
-  if (static_cast<int>(units.size()) != elements)
-    return fmt::format("\"{}\" names {} units for {} elements; name one for all, or one for each", parameter,
-                       units.size(), elements);
-  for (const auto& unit : units) try {
-      parse_unit(unit);
-    } catch (const Error& error) {
-      return fmt::format("\"{}\": {}", parameter, error.problems.front().what);
-    }
-  return "";
-}
-
-}  // namespace
 
 void StateSpace::describe(Declaration& spec) {
   spec.name("state_space", "linear system of any order with vectors at its ports").in_group("continuous").linear();
@@ -55,6 +17,10 @@ void StateSpace::describe(Declaration& spec) {
       "The matrices are plain numbers for t in s, u in \"input_unit\" and y in \"output_unit\": with \"input_unit\": "
       "\"V\" and \"output_unit\": \"um\", C x is in um. Several units, one per element, are separated by commas: "
       "\"V, A\".");
+  describe_matrices(spec);
+}
+
+void Matrices::describe_matrices(Declaration& spec) {
   spec.remark(
       "Without \"d\" the input acts through the states only, and the block can stand in any loop; so can an output "
       "whose "
@@ -72,13 +38,12 @@ void StateSpace::describe(Declaration& spec) {
   spec.text("output_unit", {}, "unit of the outputs in which the matrices count").optional("");
 }
 
-Sizes StateSpace::sizes(const Shape& shape) {
+Sizes Matrices::sizes_of(const Shape& shape) {
   Sizes s;
   const auto size = [&](const char* name) {
     return fmt::format("\"{}\" is {} x {}", name, shape.rows_of(name), shape.columns_of(name));
   };
   const int n = shape.rows_of("a"), m = shape.columns_of("b"), p = shape.rows_of("c");
-  s.states = n;
   s.outputs = p;
   s.constants = 2 * (m + p);
   s.feedthrough = shape.rows_of("d") > 0;
@@ -96,27 +61,24 @@ Sizes StateSpace::sizes(const Shape& shape) {
   else if (const int k = shape.length("initial"); k != 0 && k != n)
     s.error = fmt::format("\"initial\" has {} numbers for {} states; write one per state", k, n);
   if (!s.error.empty()) return s;
-  s.input_units = units_of(shape.free_text("input_unit"), m);
-  s.output_units = units_of(shape.free_text("output_unit"), p);
+  s.input_units = units_of_elements(shape.free_text("input_unit"), m);
+  s.output_units = units_of_elements(shape.free_text("output_unit"), p);
   s.error = wrong_units(s.input_units, m, "input_unit");
   if (s.error.empty()) s.error = wrong_units(s.output_units, p, "output_unit");
   return s;
 }
 
-void StateSpace::prepare(const View<double>& v) {
-  double* c = v.out;
-  const auto note = [&](int parameter, int elements) {
-    for (const auto& text : units_of(text_of(v, parameter), elements)) {
-      const Unit unit = parse_unit(text);
-      *c++ = unit.scale;
-      *c++ = unit.offset;
-    }
-  };
-  note(input_unit, v.n_u);
-  note(output_unit, v.n_y);
+Sizes StateSpace::sizes(const Shape& shape) {
+  Sizes s = sizes_of(shape);
+  s.states = shape.rows_of("a");
+  return s;
 }
 
-void StateSpace::initial_states(const View<double>& v) {
+void Matrices::prepare(const View<double>& v) {
+  note_scales(v, output_unit, v.n_y, note_scales(v, input_unit, v.n_u, v.out));
+}
+
+void Matrices::initial_states(const View<double>& v) {
   const auto given = v.list(initial);
   for (int k = 0; k < v.n_x; ++k) v.out[k] = given.empty() ? 0.0 : given[static_cast<std::size_t>(k)];
 }

@@ -1,20 +1,21 @@
-// Decides the block "state_space": any linear time-invariant system with vectors at its ports. Does not know what its
-// states mean.
+// Decides the block "state_space": any linear time-invariant system with vectors at its ports, and what its sampled
+// sibling shares with it. Does not know what its states mean.
 #pragma once
 
 #include "engine/block/block.h"
 
 namespace hysteron::blocks {
 
-struct StateSpace {
+/// What systems of four matrices share, whatever their states do: ports, parameters, units, output.
+struct Matrices {
   enum Parameter { a, b, c, d, initial, input_unit, output_unit };
 
-  static void describe(Declaration& spec);
-  static Sizes sizes(const Shape& shape);
+  /// Ports, states and parameters.
+  static void describe_matrices(Declaration& spec);
+  /// Without the number of states.
+  static Sizes sizes_of(const Shape& shape);
   static void prepare(const View<double>& v);
   static void initial_states(const View<double>& v);
-  /// A x = -B u; not a number where A is singular.
-  static void rest(const View<double>& v);
 
   template <class T>
   static void output(const View<T>& v) {
@@ -28,8 +29,11 @@ struct StateSpace {
       v.out[r] = scale.output(r, y);
     }
   }
+
+ protected:
+  /// A x + B u
   template <class T>
-  static void derivative(const View<T>& v) {
+  static void moved(const View<T>& v) {
     const Scale scale{v.c, v.n_u};
     for (int r = 0; r < v.n_x; ++r) {
       T rate = times(v.list(a).data() + r * v.n_x, v.x, v.n_x);
@@ -58,6 +62,18 @@ struct StateSpace {
     T sum{0};
     for (int k = 0; k < n; ++k) sum += row[k] * x[k];
     return sum;
+  }
+};
+
+struct StateSpace : Matrices {
+  static void describe(Declaration& spec);
+  static Sizes sizes(const Shape& shape);
+  /// A x = -B u; not a number where A is singular.
+  static void rest(const View<double>& v);
+
+  template <class T>
+  static void derivative(const View<T>& v) {
+    moved(v);
   }
 };
 

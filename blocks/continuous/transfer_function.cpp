@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace hysteron::blocks {
 
@@ -49,18 +48,6 @@ std::string TransferFunction::check(const View<double>& v) {
 void TransferFunction::prepare(const View<double>& v) {
   const auto order = static_cast<int>(v.list(den).size()) - 1;
   linear_system::realise(v.list(num), v.list(den), linear_system::chain_at(v.out, order));
-}
-
-void TransferFunction::rest(const View<double>& v) {
-  const auto chain = linear_system::chain_at(v.c, v.n_x);
-  std::fill(v.out, v.out + v.n_x, 0.0);
-  if (v.n_x == 0) return;
-  const auto last = static_cast<std::size_t>(v.n_x) - 1;
-  // x_n' = row_1 x_1 + up_n u = 0. Without a constant in den a constant input has no equilibrium: not a number says so.
-  if (chain.row[0] != 0)
-    v.out[0] = -chain.up[last] * v.u[0] / chain.row[0];
-  else if (v.u[0] != 0)
-    v.out[0] = std::numeric_limits<double>::quiet_NaN();
 }
 
 Kernel transfer_function_block() { return kernel<TransferFunction>(); }

@@ -51,6 +51,8 @@ class Builder {
                               "{} \"{}\" {}", type_of(b), b.path,
                               b.sizes.smoothness == Smoothness::no_rate ? "draws random numbers" : "changes with time");
     if (b.kernel->has_modes() && b.kernel->rows == nullptr) return changes_mode(b);
+    if (b.history_index >= 0 && b.sizes.feedthrough)
+      return fmt::format("{} \"{}\" adds what its input was to what it is", type_of(b), b.path);
     if (b.n_u > 0 && b.kernel->rows == nullptr)
       return fmt::format("{} \"{}\" has no functions that rows could be passed by", type_of(b), b.path);
     return "";
@@ -66,7 +68,7 @@ class Builder {
   /// What comes late of a recording is a recording: where it turns is known. Sampled blocks hand their jumps on at
   /// points of their own.
   int recording_of(const BlockInstance& b) const {
-    if (b.kernel->reach_back == nullptr || b.source.size() != 1 || !program_.sampled_blocks.empty()) return -1;
+    if (b.kernel->reach_back == nullptr || b.sizes.feedthrough || b.source.size() != 1 || !program_.sampled_blocks.empty()) return -1;
     const int from = block_of(b.source.front());
     return block(from).series_index >= 0 ? from : -1;
   }
