@@ -62,6 +62,8 @@ const std::map<std::string, Example>& examples() {
       {"bouc_wen", {"V", {{"alpha", "0.6 um/V"}, {"beta", "0.24 1/V"}, {"gamma", "0.02 1/V"}, {"d_p", "1.6 um/V"}}}},
       {"jiles_atherton",
        {"V", {{"p_s", "56 um"}, {"a", "48.6 V"}, {"alpha", "0.25 V/um"}, {"k", "3.9 V"}, {"c", 0.69}}}},
+      {"encoder", {"rad", {{"lines", 40.0}}}},
+      {"linear_encoder", {"m", {{"pitch", "0.2 m"}}}},
       {"sample_hold", {"V", {{"period", "10 ms"}, {"offset", "3 ms"}}}},
   };
   return all;
@@ -172,7 +174,9 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"sharpness", {{"exponent", 2.0}, {"scale", "1 um"}}},
       {"scale", {{"scale", 1.2}}},
       {"noise", {{"rms", "0.1 V"}}},
-      {"computing_time", {{"samples", 1.0}}}};
+      {"computing_time", {{"samples", 1.0}}},
+      {"interpolation_error", {{"error_sine", "0.01 rad"}}},
+      {"periodic_error", {{"error_sine", "10 mm"}}}};
   const auto found = active.find(GetParam().variation.name);
   ASSERT_NE(found, active.end()) << "add values for " << GetParam().variation.name;
   const auto& example = examples().at(GetParam().type);
