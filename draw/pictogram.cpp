@@ -117,6 +117,49 @@ std::map<std::string, Pictogram> make_all() {
                   {{0.2, -0.6}, {0.2, 0.6}, {1, 0.6}, {1, -0.6}, {0.2, -0.6}}},
                  {}};
   all["tank"] = {false, false, {{{-0.6, 0.9}, {-0.6, -0.8}, {0.6, -0.8}, {0.6, 0.9}}, {{-0.6, 0.2}, {0.6, 0.2}}}, {}};
+  // Amplitudes over the frequency.
+  const auto amplitude = [](double x) { return 0.7 - 0.7 * std::log1p(std::exp(4 * x)); };
+  all["low_pass"] = over_time({sampled(-1, 0.65, 24, amplitude)});
+  all["high_pass"] = over_time({sampled(-0.65, 1, 24, [=](double x) { return amplitude(-x); })});
+  all["band_pass"] = over_time({sampled(-1, 1, 40, [](double x) { return 0.8 - 1.5 * std::tanh(2 * std::fabs(x)); })});
+  all["notch"] = over_time({sampled(-1, 1, 40, [](double x) { return 0.7 - 1.3 * std::exp(-18 * x * x); })});
+  // Pulses that grow wider; the windings of a coil; an arm that swings; the plates of two cells.
+  all["pulses"] = over_time({{{-1, -0.6},
+                              {-0.9, -0.6},
+                              {-0.9, 0.6},
+                              {-0.75, 0.6},
+                              {-0.75, -0.6},
+                              {-0.3, -0.6},
+                              {-0.3, 0.6},
+                              {0.05, 0.6},
+                              {0.05, -0.6},
+                              {0.3, -0.6},
+                              {0.3, 0.6},
+                              {0.85, 0.6},
+                              {0.85, -0.6},
+                              {1, -0.6}}});
+  all["winding"] = {
+      false,
+      false,
+      {{{-1, 0}, {-0.75, 0}},
+       sampled(-0.75, 0.75, 48, [](double x) { return 0.7 * std::fabs(std::sin(2 * std::numbers::pi * (x + 0.75))); }),
+       {{0.75, 0}, {1, 0}}},
+      {}};
+  all["pendulum"] = {false,
+                     false,
+                     {{{-0.4, 0.9}, {0.4, 0.9}},
+                      {{0, 0.9}, {0.5, -0.5}},
+                      {{0.35, -0.5}, {0.5, -0.3}, {0.65, -0.5}, {0.5, -0.7}, {0.35, -0.5}}},
+                     {}};
+  all["battery"] = {false,
+                    false,
+                    {{{-1, 0}, {-0.4, 0}},
+                     {{-0.4, 0.8}, {-0.4, -0.8}},
+                     {{-0.15, 0.4}, {-0.15, -0.4}},
+                     {{0.15, 0.8}, {0.15, -0.8}},
+                     {{0.4, 0.4}, {0.4, -0.4}},
+                     {{0.4, 0}, {1, 0}}},
+                    {}};
   all["calibration"] = characteristic({{{-1, -0.45}, {1, 0.95}}});
   all["straight"] = characteristic({{{-1, -0.8}, {1, 0.8}}});
   all["table"] = characteristic({{{-1, -0.9}, {-0.5, -0.2}, {0.2, 0.1}, {0.6, 0.7}, {1, 0.85}}});

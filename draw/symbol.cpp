@@ -79,6 +79,14 @@ const Look* find_look(const std::string& type) {
       {"mass_on_spring_of_plays", {"mass", true}},
       {"mass_on_bouc_wen_spring", {"mass", true}},
       {"tank", {"tank", true}},
+      {"notch", {"notch", true}},
+      {"pwm", {"pulses", true}},
+      {"winding", {"winding", true}},
+      {"voice_coil", {"winding", true}},
+      {"pendulum", {"pendulum", true}},
+      {"battery_cell", {"battery", true}},
+      {"encoder", {"quantizer", true}},
+      {"linear_encoder", {"quantizer", true}},
   };
   const auto found = all.find(type);
   return found == all.end() ? nullptr : &found->second;
@@ -208,6 +216,25 @@ Symbol transfer_function(const Values& values, const std::string& variable) {
   return fraction(short_form("b", num.size()), short_form("a", den.size()));
 }
 
+/// A filter by which frequencies pass.
+Symbol filter(const Values& values, const std::string& note) {
+  const std::string pass = values.text("pass");
+  Symbol s = picture(pass == "high"   ? "high_pass"
+                     : pass == "band" ? "band_pass"
+                     : pass == "stop" ? "notch"
+                                      : "low_pass",
+                     note);
+  s.shown = {"pass"};
+  return s;
+}
+
+Symbol discrete_integrator(const Values& values) {
+  const std::string rule = values.text("rule");
+  if (rule == "backward") return fraction("T z", "z − 1");
+  if (rule == "trapezoidal") return fraction("T (z + 1)", "2 (z − 1)");
+  return fraction("T", "z − 1");
+}
+
 }  // namespace
 
 double text_width(const std::string& text, double size) {
@@ -253,14 +280,26 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s.shown = {"value"};
   } else if (type == "lag") {
     s = lag(values);
-  } else if (type == "second_order") {
-    s = fraction("ω₀²", "s² + 2Dω₀s + ω₀²");
+  } else if (type == "second_order" || type == "digital_filter") {
+    s = filter(values, type);
+  } else if (type == "lead_lag") {
+    s = fraction("s/ω₁ + 1", "s/ω₂ + 1");
+  } else if (type == "biquads") {
+    s = fraction("s²/ω₁² + 2D₁s/ω₁ + 1", "s²/ω₂² + 2D₂s/ω₂ + 1");
+  } else if (type == "zero_pole_gain") {
+    s = fraction("k ∏(s − z)", "∏(s − p)");
+  } else if (type == "fir") {
+    s = formula("Σ bᵢ z⁻ⁱ");
+  } else if (type == "discrete_integrator") {
+    s = discrete_integrator(values);
   } else if (type == "transfer_function") {
     s = transfer_function(values, "s");
   } else if (type == "discrete_transfer_function") {
     s = transfer_function(values, "z⁻");
   } else if (type == "state_space") {
     s = text_symbol({"ẋ = A x + B u", "y = C x + D u"}, n_in, n_out);
+  } else if (type == "discrete_state_space") {
+    s = text_symbol({"x⁺ = A x + B u", "y = C x + D u"}, n_in, n_out);
   } else if (type == "mux" || type == "demux") {
     s = formula("⋮");
     s.width = type == "mux" ? 36 : 44;

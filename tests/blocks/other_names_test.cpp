@@ -52,6 +52,14 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   says("transport_delay", "dead_time");
   says("PID Controller", "pid");
   says("Discrete PID", "discrete_pid");
+  says("Zero-Pole", "zero_pole_gain");
+  says("Discrete State-Space", "discrete_state_space");
+  says("Discrete-Time Integrator", "discrete_integrator");
+  says("Discrete FIR Filter", "fir");
+  says("Butterworth", "digital_filter");
+  says("PMSM", "synchronous_motor");
+  says("Rate Transition", "sample_hold");
+  says("Unit Delay", "delay_line");
   EXPECT_EQ(instead_of_other_name("sawn_off"), "");
 }
 

@@ -110,7 +110,10 @@ class Creep : public Law {
 /// gain num(s)/den(s), as a chain of derivatives: x_1' = x_2, ..., den x = u.
 class TransferFunction : public Law {
  public:
-  explicit TransferFunction(const Block& b) : gain(b.number("gain", 1)), num(b.list("num")), den(b.list("den")) {
+  explicit TransferFunction(const Block& b) : TransferFunction(b.number("gain", 1), b.list("num"), b.list("den")) {}
+  /// Highest power first.
+  TransferFunction(double gain_, std::vector<double> num_, std::vector<double> den_)
+      : gain(gain_), num(std::move(num_)), den(std::move(den_)) {
     num.insert(num.begin(), den.size() - num.size(), 0.0);
     for (auto& n : num) n /= den[0];
     for (std::size_t i = den.size(); i-- > 0;) den[i] /= den[0];
@@ -141,6 +144,40 @@ class TransferFunction : public Law {
   double gain;
   std::vector<double> num, den;
 };
+
+double angular(double hertz) { return 2 * pi * hertz; }
+
+/// Product of polynomials, highest power first.
+std::vector<double> times(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> c(a.size() + b.size() - 1, 0.0);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
+  return c;
+}
+
+/// What is known by corner frequencies, as quotients of polynomials.
+LawPointer section(const Block& b) {
+  if (b.type == "lead_lag")
+    return std::make_unique<TransferFunction>(b.number("gain", 1),
+                                              std::vector<double>{1 / angular(b.number("zero")), 1},
+                                              std::vector<double>{1 / angular(b.number("pole")), 1});
+  if (b.type == "biquads") {
+    std::vector<double> num{1}, den{1};
+    const auto quadratic = [](double w, double z) { return std::vector<double>{1 / (w * w), 2 * z / w, 1}; };
+    for (std::size_t k = 0; k < b.list("pole_frequencies").size(); ++k) {
+      num = times(num, quadratic(angular(b.list("zero_frequencies")[k]), b.list("zero_dampings")[k]));
+      den = times(den, quadratic(angular(b.list("pole_frequencies")[k]), b.list("pole_dampings")[k]));
+    }
+    return std::make_unique<TransferFunction>(b.number("gain", 1), num, den);
+  }
+  const double w = angular(b.number("frequency")), z = b.number("damping");
+  std::vector<double> num{w * w};
+  const std::string pass = b.text("pass", "low");
+  if (b.type == "notch") num = {1, 2 * b.number("depth", 0) * z * w, w * w};
+  if (pass == "band") num = {2 * z * w, 0};
+  if (pass == "high") num = {1, 0, 0};
+  return std::make_unique<TransferFunction>(b.number("gain", 1), num, std::vector<double>{1, 2 * z * w, w * w});
+}
 
 class RateLimiter : public Law {
  public:
@@ -243,6 +280,7 @@ LawPointer make_linear(const Block& b) {
   if (b.type == "modes") return std::make_unique<Modes>(b);
   if (b.type == "creep") return std::make_unique<Creep>(b);
   if (b.type == "transfer_function") return std::make_unique<TransferFunction>(b);
+  if (b.type == "lead_lag" || b.type == "biquads" || b.type == "notch" || b.type == "second_order") return section(b);
   if (b.type == "rate_limiter")
     return std::make_unique<RateLimiter>(b, b.number("rise"), b.number("fall"), b.number("time", 1e-5));
   if (b.type == "slew_limit") return slew_limit(b);

@@ -189,15 +189,16 @@ class Generator {
 
   Wire grow(const Wire& u) {
     static const std::vector<Maker> makers = {
-        &Generator::gain,         &Generator::sum,       &Generator::sum,        &Generator::product,
-        &Generator::saturation,   &Generator::dead_zone, &Generator::rectifier,  &Generator::rounding,
-        &Generator::relay,        &Generator::relay,     &Generator::play,       &Generator::play,
-        &Generator::plays,        &Generator::preisach,  &Generator::bouc_wen,   &Generator::jiles_atherton,
-        &Generator::inverse,      &Generator::lag,       &Generator::lag,        &Generator::integrator,
-        &Generator::resonance,    &Generator::transfer,  &Generator::dead_time,  &Generator::dead_time,
-        &Generator::hold,         &Generator::quantizer, &Generator::delay_line, &Generator::filter,
-        &Generator::pid,          &Generator::limiter,   &Generator::body,       &Generator::body,
-        &Generator::smooth_curve, &Generator::creep,     &Generator::modes,      &Generator::backlash};
+        &Generator::gain,         &Generator::sum,           &Generator::sum,        &Generator::product,
+        &Generator::saturation,   &Generator::dead_zone,     &Generator::rectifier,  &Generator::rounding,
+        &Generator::relay,        &Generator::relay,         &Generator::play,       &Generator::play,
+        &Generator::plays,        &Generator::preisach,      &Generator::bouc_wen,   &Generator::jiles_atherton,
+        &Generator::inverse,      &Generator::lag,           &Generator::lag,        &Generator::integrator,
+        &Generator::resonance,    &Generator::transfer,      &Generator::dead_time,  &Generator::dead_time,
+        &Generator::hold,         &Generator::quantizer,     &Generator::delay_line, &Generator::filter,
+        &Generator::pid,          &Generator::limiter,       &Generator::body,       &Generator::body,
+        &Generator::smooth_curve, &Generator::creep,         &Generator::modes,      &Generator::backlash,
+        &Generator::section,      &Generator::sampled_filter};
     return (this->*random.one_of(makers))(u);
   }
 
@@ -350,6 +351,57 @@ class Generator {
     const bool direct = num.size() == 3;
     return add({{"type", "transfer_function"}, {"num", num}, {"den", {1, 2 * d * w, w * w}}}, {u}, 1.5 * u.size,
                u.smooth || !direct);
+  }
+  /// What is known by corner frequencies.
+  Wire section(const Wire& u) {
+    const auto corner = [&] { return with_unit(random.spread(1, 20), "Hz"); };
+    switch (random.below(4)) {
+      case 0:
+        return add({{"type", "lead_lag"}, {"zero", corner()}, {"pole", corner()}}, {u}, 3 * u.size, u.smooth);
+      case 1: {
+        Json block = {{"type", "notch"}, {"frequency", corner()}, {"damping", random.between(0.1, 1)}};
+        block["depth"] = random.between(0, 1.2);
+        return add(block, {u}, 1.5 * u.size, u.smooth);
+      }
+      case 2: {
+        Json block = {{"type", "second_order"}, {"frequency", corner()}, {"damping", random.between(0.1, 1.3)}};
+        const auto pass = random.one_of<std::string>({"low", "band", "high"});
+        block["pass"] = pass;
+        return add(block, {u}, 1.5 * u.size, u.smooth || pass != "high");
+      }
+      default: {
+        Json block = {{"type", "biquads"}, {"zero_frequencies", {corner(), corner()}}};
+        block["zero_dampings"] = {random.between(-0.3, 0.5), random.between(0, 0.5)};
+        block["pole_frequencies"] = {with_unit(random.spread(2, 20), "Hz"), with_unit(random.spread(2, 20), "Hz")};
+        block["pole_dampings"] = {random.between(0.2, 1), random.between(0.2, 1)};
+        return add(block, {u}, 10 * u.size, u.smooth);
+      }
+    }
+  }
+  Wire sampled_filter(const Wire& u) {
+    const bool begins = random.chance(0.3);
+    Json block;
+    switch (random.below(4)) {
+      case 0:
+        block = {{"type", "fir"}, {"coefficients", {random.between(0, 0.6), random.between(-0.3, 0.5), 0.3}}};
+        break;
+      case 1:
+        block = {{"type", "moving_average"}, {"samples", 1 + random.below(5)}};
+        break;
+      case 2: {
+        block = {{"type", "discrete_integrator"}};
+        block["rule"] = random.one_of<std::string>({"forward", "backward", "trapezoidal"});
+        const Wire rate =
+            put({{"type", "gain"}, {"gain", with_unit(random.spread(0.3, 3), "1/s")}}, {u}, u.size, u.smooth);
+        return add(sampled(block), {rate}, 2 * u.size, false);
+      }
+      default:
+        block = {{"type", "digital_filter"}, {"order", 1 + random.below(2)}};
+        block["pass"] = random.one_of<std::string>({"low", "high"});
+        block["corner"] = with_unit(random.between(0.3, 2.4), "Hz");
+    }
+    if (begins) block["before"] = around(u.size);
+    return add(sampled(block), {u}, u.size, false);
   }
   Wire dead_time(const Wire& u) {
     return add({{"type", "dead_time"}, {"delay", with_unit(random.spread(0.01, 0.6), "s")}}, {u}, u.size, u.smooth);

@@ -80,8 +80,9 @@ class DelayLine : public Sampled {
 class DiscreteTransferFunction : public Sampled {
  public:
   explicit DiscreteTransferFunction(const Block& b)
-      : Sampled(b), gain(b.number("gain", 1)), num(b.list("num")), den(b.list("den")) {
-    if (b.text("direct", "yes") == "no") num.insert(num.begin(), 0.0);
+      : DiscreteTransferFunction(b, b.number("gain", 1), numerator(b), b.list("den")) {}
+  DiscreteTransferFunction(const Block& b, double gain_, std::vector<double> num_, std::vector<double> den_)
+      : Sampled(b), gain(gain_), num(std::move(num_)), den(std::move(den_)) {
     const double before = b.number("before", 0);
     double above = 0, below = 0;
     for (const double n : num) above += n;
@@ -103,6 +104,11 @@ class DiscreteTransferFunction : public Sampled {
   }
 
  private:
+  static std::vector<double> numerator(const Block& b) {
+    auto all = b.list("num");
+    if (b.text("direct", "yes") == "no") all.insert(all.begin(), 0.0);
+    return all;
+  }
   double plain(const Point& p) const {
     double y = num[0] == 0 ? 0 : num[0] * u(p);
     for (std::size_t i = 1; i < num.size(); ++i) y += num[i] * last_u[i - 1];
@@ -165,6 +171,36 @@ class SampledPid : public Sampled {
   std::string rule, windup;
 };
 
+/// Sums over samples as difference equations.
+LawPointer difference_equation(const Block& b) {
+  const auto made = [&](std::vector<double> num, std::vector<double> den) {
+    return std::make_unique<DiscreteTransferFunction>(b, 1.0, std::move(num), std::move(den));
+  };
+  if (b.type == "fir") return made(b.list("coefficients"), {1});
+  if (b.type == "moving_average") {
+    const double n = b.number("samples");
+    return made(std::vector<double>(static_cast<std::size_t>(n), 1 / n), {1});
+  }
+  const double t = b.number("period");
+  if (b.type == "discrete_integrator") {
+    const std::string rule = b.text("rule", "forward");
+    if (b.number("initial", 0) != 0) throw Unknown("a sum that begins elsewhere");
+    return made(rule == "forward"    ? std::vector<double>{0, t}
+                : rule == "backward" ? std::vector<double>{t}
+                                     : std::vector<double>{t / 2, t / 2},
+                {1, -1});
+  }
+  // Butterworth's filters of order one and two, by the bilinear transform: s = (1 - z^-1)/(k (1 + z^-1)).
+  const double k = std::tan(std::acos(-1.0) * b.number("corner") * t), order = b.number("order", 2);
+  const std::string pass = b.text("pass", "low");
+  if (order > 2 || b.text("family", "butterworth") != "butterworth" || (pass != "low" && pass != "high"))
+    throw Unknown("filters of higher order");
+  const double sign = pass == "low" ? 1 : -1;
+  if (order == 1) return made(pass == "low" ? std::vector<double>{k, k} : std::vector<double>{1, -1}, {1 + k, k - 1});
+  const double top = pass == "low" ? k * k : 1, d = std::sqrt(2.0) * k;
+  return made({top, 2 * sign * top, top}, {1 + d + k * k, 2 * (k * k - 1), 1 - d + k * k});
+}
+
 }  // namespace
 
 LawPointer make_sampled(const Block& b) {
@@ -173,6 +209,8 @@ LawPointer make_sampled(const Block& b) {
   if (b.type == "delay_line") return std::make_unique<DelayLine>(b);
   if (b.type == "discrete_transfer_function") return std::make_unique<DiscreteTransferFunction>(b);
   if (b.type == "sampled_pid") return std::make_unique<SampledPid>(b);
+  if (b.type == "fir" || b.type == "moving_average" || b.type == "discrete_integrator" || b.type == "digital_filter")
+    return difference_equation(b);
   return nullptr;
 }
 
