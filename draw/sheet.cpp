@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "engine/block/instance.h"
 #include "engine/block/port_names.h"
 
 namespace hysteron::draw {
@@ -116,7 +117,7 @@ class Maker {
   }
 
   void block(Item& item, const Node& node, const Node& body, const Surroundings& around) {
-    const Kernel* kernel = registry_.find(body.type);
+    const KernelPointer kernel = kernel_of(registry_, body);
     if (kernel == nullptr)
       fail("unknown_block", item.path, fmt::format("there is no block type \"{}\"", body.type),
            did_you_mean(body.type, registry_.types()));
@@ -211,7 +212,7 @@ class Maker {
       return;
     }
     int port = 0;
-    for (const auto& [name, from] : ports_of(registry_.find(body.type)->declaration, wires))
+    for (const auto& [name, from] : ports_of(kernel_of(registry_, body)->declaration, wires))
       add_wire(sheet, at, from, to, port++, prefix);
   }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "engine/block/instance.h"
 
 namespace hysteron {
 namespace {
@@ -19,7 +20,7 @@ bool any_block(const Node& node, const Registry& registry, const std::function<b
   if (node.nested)
     return std::any_of(node.nested->blocks.begin(), node.nested->blocks.end(),
                        [&](const auto& inner) { return any_block(inner.second, registry, is); });
-  const Kernel* k = registry.find(node.type);
+  const KernelPointer k = kernel_of(registry, node);
   return k != nullptr && is(*k);
 }
 

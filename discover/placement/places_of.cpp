@@ -24,7 +24,7 @@ void collect_vary(const Diagram& diagram, const Registry& registry, const std::s
       collect_vary(*body->nested, registry, name, prefix + block + "/", list);
       continue;
     }
-    const Kernel* k = registry.find(body->type);
+    const KernelPointer k = kernel_of(registry, *body);
     if (k == nullptr || k->declaration.parameter_index(name) < 0 || k->advance == nullptr) continue;
     if (prefix.empty() && !w.reaches_output(w.outputs_of(block).front())) continue;
     Place p;
@@ -69,7 +69,7 @@ void collect_variations(const Diagram& diagram, const Registry& registry, const 
       continue;
     }
     if (has_effect(node, effect.id)) continue;
-    const Kernel* k = registry.find(body->type);
+    const KernelPointer k = kernel_of(registry, *body);
     if (k == nullptr || node.in.empty()) continue;
     for (const auto& v : k->declaration.variations) {
       if (v.name != effect.variation || has_already(v, *body)) continue;

@@ -29,7 +29,7 @@ std::string type_for(const Node& before, const Node& with_parameters, const Regi
     return k != nullptr && std::all_of(with_parameters.parameters.begin(), with_parameters.parameters.end(),
                                        [&](const auto& p) { return k->declaration.parameter_index(p.first) >= 0; });
   };
-  const Kernel* k = registry.find(before.type);
+  const KernelPointer k = kernel_of(registry, before);
   if (k == nullptr || has_all(before.type)) return before.type;
   for (const auto& v : k->declaration.variations) {
     const bool meant = std::any_of(v.null_value.begin(), v.null_value.end(), [&](const auto& null_value) {
@@ -56,7 +56,7 @@ void take_from(Node& later, const Node& before, const Node& with_effect, const R
 /// `later` came to stand upon a law that an effect put there, and varies it: without that law it is nothing.
 void refuse_without_its_law(const Node& later, const Node& with_effect, const std::string& effect,
                             const Registry& registry) {
-  const Kernel* k = registry.find(later.type);
+  const KernelPointer k = kernel_of(registry, later);
   if (k == nullptr) return;
   for (const auto& p : k->declaration.parameters) {
     const bool taken = with_effect.parameters.find(p.name) != nullptr && later.parameters.find(p.name) == nullptr;

@@ -5,6 +5,7 @@
 
 #include "discover/effects/all.h"
 #include "discover/hypotheses/effect.h"
+#include "engine/block/instance.h"
 
 namespace hysteron {
 namespace {
@@ -32,7 +33,7 @@ int rank_of(const Wiring& w, const Registry& registry, const std::string& wire, 
     if (kind != "command" || is_drive(w, wire)) earliest = earliest < 0 ? rank(kind) : std::min(earliest, rank(kind));
   if (earliest >= 0) return earliest;
   const Node* node = w.body(block);
-  const Kernel* k = node != nullptr && !node->nested ? registry.find(node->type) : nullptr;
+  const KernelPointer k = node != nullptr && !node->nested ? kernel_of(registry, *node) : nullptr;
   if (k != nullptr && !k->declaration.place.empty()) return rank(k->declaration.place);
   return w.has_memory(block) ? rank("core") : -1;
 }

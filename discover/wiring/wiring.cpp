@@ -62,6 +62,13 @@ bool has_effect(const Node& choice, const std::string& effect) {
          });
 }
 
+namespace {
+
+/// What its output is without inputs never changes.
+bool stays(const Kernel& k) { return !k.uses_time && !k.declaration.is_series && k.derivative == nullptr; }
+
+}  // namespace
+
 Wiring::Wiring(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
 
 const Node* Wiring::body(const std::string& block) const {
@@ -76,7 +83,7 @@ std::vector<std::string> Wiring::outputs_of(const std::string& block) const {
   std::vector<std::string> ports;
   if (node->nested)
     ports = node->nested->outputs.names();
-  else if (const Kernel* k = registry_.find(node->type))
+  else if (const KernelPointer k = kernel_of(registry_, *node))
     ports = output_names(k->declaration, *node);
   if (ports.size() == 1) return {block};
   for (auto& port : ports) port = block + "." + port;
@@ -97,7 +104,7 @@ std::string Wiring::signal(const std::string& text) const {
     if (dot == std::string::npos) return head;
     const Node* node = body(head);
     const auto ports =
-        node->nested ? node->nested->outputs.names() : output_names(registry_.find(node->type)->declaration, *node);
+        node->nested ? node->nested->outputs.names() : output_names(kernel_of(registry_, *node)->declaration, *node);
     return ports.front() == text.substr(dot + 1) ? head : "";
   }
   return std::find(made.begin(), made.end(), text) != made.end() ? text : "";
@@ -151,7 +158,7 @@ std::vector<std::string> Wiring::ports(const std::string& block) const {
   if (inner->nested) {
     declared = inner->nested->inputs.names();
     variadic.assign(declared.size(), false);
-  } else if (const Kernel* k = registry_.find(inner->type)) {
+  } else if (const KernelPointer k = kernel_of(registry_, *inner)) {
     for (const auto& port : k->declaration.inputs) {
       declared.push_back(port.name);
       variadic.push_back(port.variadic);
@@ -183,7 +190,7 @@ bool Wiring::remembers(const Node* node) const {
   if (node->nested)
     return !all_blocks(*node->nested, registry_,
                        [](const Wiring& w, const std::string& b) { return !w.has_memory(b); });
-  const Kernel* k = registry_.find(node->type);
+  const KernelPointer k = kernel_of(registry_, *node);
   // What merely counts (cycles) is no memory that shapes the response.
   const bool remembers = k != nullptr && k->advance != nullptr && !k->declaration.memory_port.empty();
   return remembers || (k != nullptr && k->declaration.is_rate_independent);
@@ -194,10 +201,10 @@ bool Wiring::is_linear(const std::string& block) const {
   if (node == nullptr) return false;
   if (node->nested)
     return all_blocks(*node->nested, registry_, [](const Wiring& w, const std::string& b) { return w.is_linear(b); });
-  const Kernel* k = registry_.find(node->type);
+  const KernelPointer k = kernel_of(registry_, *node);
   // A delay is linear and time-invariant too, though its past is no state; a constant is a linear block without inputs.
-  return k != nullptr && (k->declaration.is_linear || k->reach_back != nullptr ||
-                          (k->declaration.inputs.empty() && !k->uses_time && !k->declaration.is_series));
+  return k != nullptr &&
+         (k->declaration.is_linear || k->reach_back != nullptr || (k->declaration.inputs.empty() && stays(*k)));
 }
 
 bool Wiring::has_states(const std::string& block) const {
@@ -206,7 +213,7 @@ bool Wiring::has_states(const std::string& block) const {
   if (node->nested)
     return !all_blocks(*node->nested, registry_,
                        [](const Wiring& w, const std::string& b) { return !w.has_states(b); });
-  const Kernel* k = registry_.find(node->type);
+  const KernelPointer k = kernel_of(registry_, *node);
   return k != nullptr && (k->derivative != nullptr || k->reach_back != nullptr);
 }
 
@@ -214,8 +221,8 @@ bool Wiring::is_constant(const std::string& signal) const {
   const std::string block = source(signal);
   const Node* node = block.empty() ? nullptr : body(block);
   if (node == nullptr || node->nested) return false;
-  const Kernel* k = registry_.find(node->type);
-  return k != nullptr && k->declaration.inputs.empty() && !k->uses_time && !k->declaration.is_series;
+  const KernelPointer k = kernel_of(registry_, *node);
+  return k != nullptr && k->declaration.inputs.empty() && stays(*k);
 }
 
 std::vector<std::string> Wiring::outputs_behind(const std::string& from, bool beside) const {
@@ -271,7 +278,7 @@ bool Wiring::passes(const std::string& block, Commutes law) const {
     case Commutes::time_invariant: {
       const Node* node = body(block);
       if (node->nested) return is_linear(block);
-      const Kernel* k = registry_.find(node->type);
+      const KernelPointer k = kernel_of(registry_, *node);
       return k != nullptr && !k->declaration.inputs.empty() && (!k->uses_time || k->reach_back != nullptr);
     }
   }

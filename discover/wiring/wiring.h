@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "discover/wiring/commutes.h"
+#include "engine/block/instance.h"
 #include "engine/block/kernel.h"
 #include "engine/diagram/diagram.h"
 

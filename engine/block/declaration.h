@@ -46,6 +46,7 @@ struct ParameterDeclaration {
   bool is_difference = false;    ///< a temperature here is a difference (0.01 degC = 0.01 K)
   bool is_increasing = false;    ///< a list that must be strictly increasing
   std::string same_length_as{};  ///< a list that must be as long as that other list
+  bool may_be_matrix = false;    ///< a list that may also be given as rows, one behind the other
   bool is_structural = false;    ///< whole numbers that fix ports and lengths: read once, no parameter of a run
 
   ParameterDeclaration& optional(std::string text) { return default_text = std::move(text), *this; }
@@ -55,6 +56,7 @@ struct ParameterDeclaration {
   ParameterDeclaration& positive() { return minimum = 0, exclusive_minimum = true, *this; }
   ParameterDeclaration& not_negative() { return minimum = 0, *this; }
   ParameterDeclaration& increasing() { return is_increasing = true, *this; }
+  ParameterDeclaration& or_matrix() { return may_be_matrix = true, *this; }
   ParameterDeclaration& structural() { return is_structural = true, *this; }
   ParameterDeclaration& as_long_as(std::string other) { return same_length_as = std::move(other), *this; }
 };
@@ -107,6 +109,7 @@ class Declaration {
   bool is_series = false;            ///< driven by a recorded series (parameter "samples")
   bool is_sampled = false;           ///< runs at offset + k period only, and holds its outputs between
   bool is_elementwise = false;       ///< on vectors: one such block per element, with the same parameters
+  std::string names_from;  ///< the parameter whose text names inputs and further parameters of a block; "" = none
 
   Declaration& name(std::string type_name, std::string what) {
     type = std::move(type_name);
@@ -118,6 +121,7 @@ class Declaration {
   Declaration& remark(std::string text) { return remarks.push_back(std::move(text)), *this; }
   Declaration& linear() { return is_linear = true, *this; }
   Declaration& elementwise() { return is_elementwise = true, *this; }
+  Declaration& named_by(std::string parameter) { return names_from = std::move(parameter), *this; }
   Declaration& rate_independent() { return is_rate_independent = true, *this; }
   /// A sampled block. Adds the parameters "period" and "offset", behind all others.
   Declaration& sampled() {

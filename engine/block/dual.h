@@ -74,9 +74,37 @@ inline Jet tanh(const Jet& a) {
   const double h = std::tanh(a.value);
   return Jet::chain(h, 1 - h * h, a);
 }
+inline Jet sinh(const Jet& a) { return Jet::chain(std::sinh(a.value), std::cosh(a.value), a); }
+inline Jet cosh(const Jet& a) { return Jet::chain(std::cosh(a.value), std::sinh(a.value), a); }
+inline Jet tan(const Jet& a) {
+  const double t = std::tan(a.value);
+  return Jet::chain(t, 1 + t * t, a);
+}
+inline Jet asin(const Jet& a) { return Jet::chain(std::asin(a.value), 1 / std::sqrt(1 - a.value * a.value), a); }
+inline Jet acos(const Jet& a) { return Jet::chain(std::acos(a.value), -1 / std::sqrt(1 - a.value * a.value), a); }
+inline Jet atan(const Jet& a) { return Jet::chain(std::atan(a.value), 1 / (1 + a.value * a.value), a); }
+inline Jet cbrt(const Jet& a) {
+  const double c = std::cbrt(a.value);
+  return Jet::chain(c, 1 / (3 * c * c), a);
+}
+inline Jet atan2(const Jet& y, const Jet& x) {
+  const double square = x.value * x.value + y.value * y.value;
+  return Jet::chain(std::atan2(y.value, x.value), x.value / square, y, -y.value / square, x);
+}
+inline Jet hypot(const Jet& a, const Jet& b) {
+  const double h = std::hypot(a.value, b.value);
+  return Jet::chain(h, a.value / h, a, b.value / h, b);
+}
 inline Jet floor(const Jet& a) { return {std::floor(a.value)}; }
 inline Jet pow(const Jet& a, double n) {
   return Jet::chain(std::pow(a.value, n), n == 0 ? 0.0 : n * std::pow(a.value, n - 1), a);
+}
+
+/// a^n: of a base that is not positive only the slope along the base counts, the other is that of a constant exponent.
+inline Jet pow(const Jet& a, const Jet& n) {
+  const double p = std::pow(a.value, n.value);
+  return Jet::chain(p, n.value == 0 ? 0.0 : n.value * std::pow(a.value, n.value - 1), a,
+                    a.value > 0 ? p * std::log(a.value) : 0.0, n);
 }
 
 /// A value with its rate in time.
@@ -146,6 +174,58 @@ struct DualOf {
     using std::tanh;
     const T h = tanh(a.value);
     return {h, (1.0 - h * h) * a.rate};
+  }
+  friend DualOf sinh(const DualOf& a) {
+    using std::cosh;
+    using std::sinh;
+    return {sinh(a.value), cosh(a.value) * a.rate};
+  }
+  friend DualOf cosh(const DualOf& a) {
+    using std::cosh;
+    using std::sinh;
+    return {cosh(a.value), sinh(a.value) * a.rate};
+  }
+  friend DualOf tan(const DualOf& a) {
+    using std::tan;
+    const T t = tan(a.value);
+    return {t, (1.0 + t * t) * a.rate};
+  }
+  friend DualOf asin(const DualOf& a) {
+    using std::asin;
+    using std::sqrt;
+    return {asin(a.value), a.rate / sqrt(1.0 - a.value * a.value)};
+  }
+  friend DualOf acos(const DualOf& a) {
+    using std::acos;
+    using std::sqrt;
+    return {acos(a.value), -a.rate / sqrt(1.0 - a.value * a.value)};
+  }
+  friend DualOf atan(const DualOf& a) {
+    using std::atan;
+    return {atan(a.value), a.rate / (1.0 + a.value * a.value)};
+  }
+  friend DualOf cbrt(const DualOf& a) {
+    using std::cbrt;
+    const T c = cbrt(a.value);
+    return {c, a.rate / (3.0 * c * c)};
+  }
+  friend DualOf atan2(const DualOf& y, const DualOf& x) {
+    using std::atan2;
+    const T square = x.value * x.value + y.value * y.value;
+    return {atan2(y.value, x.value), (x.value * y.rate - y.value * x.rate) / square};
+  }
+  friend DualOf hypot(const DualOf& a, const DualOf& b) {
+    using std::hypot;
+    const T h = hypot(a.value, b.value);
+    return {h, (a.value * a.rate + b.value * b.rate) / h};
+  }
+  friend DualOf pow(const DualOf& a, const DualOf& n) {
+    using std::log;
+    using std::pow;
+    const T p = pow(a.value, n.value);
+    T rate = value_of(n.value) == 0 ? T(0.0) : n.value * pow(a.value, n.value - 1.0) * a.rate;
+    if (value_of(a.value) > 0) rate = rate + p * log(a.value) * n.rate;
+    return {p, rate};
   }
   friend DualOf floor(const DualOf& a) { return {T(std::floor(value_of(a.value))), T(0.0)}; }
   friend DualOf pow(const DualOf& a, double n) {

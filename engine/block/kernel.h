@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -15,6 +16,9 @@
 #include "engine/diagram/series.h"
 
 namespace hysteron {
+
+struct Node;
+struct InstanceUnits;
 
 /// Past of one signal, committed at accepted points only (dead time). Cubic Hermite where rates are known.
 struct History {
@@ -86,7 +90,9 @@ struct Sizes {
   bool history = false;                        ///< remembers the past of its input (dead time)
   int kinks = 0;                               ///< numbers that Kernel::kinks writes
   bool keeps_sides = false;                    ///< its derivative asks for View::sides
-  std::string error{};  ///< not empty: these shapes do not go together; says what and what instead
+  std::vector<double> code{};  ///< the first of the constants, where the shape alone fixes them: a law that a text
+                               ///< says, compiled. prepare() leaves them alone
+  std::string error{};         ///< not empty: these shapes do not go together; says what and what instead
 
   // Blocks with vector ports only. `outputs` then counts all elements of all output ports.
   std::vector<int> input_lengths{};   ///< per wire: the length that it must have (0 = any)
@@ -194,6 +200,12 @@ struct Kernel : Functions<double> {
   /// "" or why the numbers m that a diagram gives are no memory of this block, and the cure.
   std::string (*check_memory)(const View<double>&) = nullptr;
 
+  /// Types whose ports and parameters depend on what a block was given (Declaration::names_from): the declaration of
+  /// one block. Throws Error; its places begin at the block: "/y".
+  Declaration (*instance)(const Declaration& type, const Node& block) = nullptr;
+  /// What the units of some ports and parameters say of the others, where no unit expression could say it.
+  void (*units)(const Shape&, InstanceUnits&) = nullptr;
+
   bool has_modes() const { return guard != nullptr; }
   bool is_sampled() const { return declaration.is_sampled; }
   template <class T>
@@ -204,6 +216,8 @@ struct Kernel : Functions<double> {
       return jet;
   }
 };
+
+using KernelPointer = std::shared_ptr<const Kernel>;
 
 /// The block types that diagrams can name.
 class Registry {

@@ -118,5 +118,15 @@ inline Lane pow(Lane a, double n) {
 // Called lane by lane: right, and slow.
 inline Lane sin(Lane a) { return {std::sin(a.v)}; }
 inline Lane cos(Lane a) { return {std::cos(a.v)}; }
+inline Lane tan(Lane a) { return {std::tan(a.v)}; }
+inline Lane asin(Lane a) { return {std::asin(a.v)}; }
+inline Lane acos(Lane a) { return {std::acos(a.v)}; }
+inline Lane atan(Lane a) { return {std::atan(a.v)}; }
+inline Lane sinh(Lane a) { return {std::sinh(a.v)}; }
+inline Lane cosh(Lane a) { return {std::cosh(a.v)}; }
+inline Lane cbrt(Lane a) { return {std::cbrt(a.v)}; }
+inline Lane atan2(Lane y, Lane x) { return {std::atan2(y.v, x.v)}; }
+inline Lane hypot(Lane a, Lane b) { return {std::hypot(a.v, b.v)}; }
+inline Lane pow(Lane a, Lane n) { return {std::pow(a.v, n.v)}; }
 
 }  // namespace hysteron

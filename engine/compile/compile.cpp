@@ -281,6 +281,7 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
 ProgramPointer compile_graph(Graph graph, const Diagram& diagram) {
   check_units(graph);
   auto program = std::make_shared<Program>();
+  program->kernels = graph.kernels;
   program->signals = graph.signals;
   program->n_y = static_cast<int>(graph.signals.size());
   for (const auto& block : graph.blocks) lay_out_block(block, *program);

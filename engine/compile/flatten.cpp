@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 
+#include "engine/block/instance.h"
+
 namespace hysteron {
 namespace {
 
@@ -179,7 +181,29 @@ class Builder {
                     did_you_mean(body.type, types));
       return;
     }
-    if (!is_left_out(origin)) entry.leaf = add_leaf(index, name, *kernel, body, origin);
+    if (is_left_out(origin)) return;
+    if (kernel->instance != nullptr) {
+      KernelPointer own = own_kernel(*kernel, body, origin);
+      if (own == nullptr) return;
+      kernel = wired_.kernels.emplace_back(std::move(own)).get();
+    }
+    entry.leaf = add_leaf(index, name, *kernel, body, origin);
+  }
+
+  /// Null where the text that names the ports of a block is wrong.
+  KernelPointer own_kernel(const Kernel& type, const Node& body, const std::string& origin) {
+    try {
+      return instance_of(type, body);
+    } catch (const Error& e) {
+      for (const auto& p : e.problems) problems_.add(p.code, place_of(body, origin, p.path), p.what, p.cure);
+      return nullptr;
+    }
+  }
+
+  /// "/blocks/law/y"; where the value was given from outside, that.
+  static std::string place_of(const Node& body, const std::string& origin, const std::string& in_block) {
+    const Value* given = in_block.empty() ? nullptr : body.parameters.find(in_block.substr(1));
+    return given != nullptr && was_set(given->origin) ? given->origin : origin + in_block;
   }
 
   /// -1 in a draft where its parameters are wrong.

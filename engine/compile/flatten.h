@@ -54,6 +54,7 @@ struct StatedLength {
 
 struct WiredDiagram {
   std::vector<WiredBlock> blocks;
+  std::vector<KernelPointer> kernels;               ///< those that blocks have of their own
   std::vector<std::pair<std::string, int>> inputs;  ///< name, block
   std::vector<std::pair<std::string, int>> open;    ///< the same of the ends that a draft leaves open
   std::vector<std::string> left_out;                ///< of a draft: paths of blocks

@@ -65,6 +65,7 @@ struct GraphBlock {
 
 struct Graph {
   std::vector<GraphBlock> blocks;
+  std::vector<KernelPointer> kernels;  ///< those that blocks have of their own
   std::vector<SignalInfo> signals;
   std::vector<std::pair<std::string, int>> inputs, outputs;  ///< name, signal
   std::vector<std::pair<std::string, int>> open;  ///< the same of inputs whose units are those of what reads them

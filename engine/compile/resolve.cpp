@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/block/instance.h"
 #include "engine/compile/graph.h"
 #include "engine/program/parameter_values.h"
 
@@ -80,7 +81,8 @@ class Resolver {
     result.list = p.kind == ParameterKind::list;
     if (const auto* reference = std::get_if<Reference>(&value.content)) return from_reference(p, *reference, depth);
     if (p.kind == ParameterKind::text) return from_text(p, value);
-    if (p.kind == ParameterKind::matrix) return from_matrix(p, value, name);
+    if (p.kind == ParameterKind::matrix || (p.may_be_matrix && std::holds_alternative<NumberMatrix>(value.content)))
+      return from_matrix(p, value, name);
     if (const auto* number = std::get_if<Number>(&value.content)) {
       if (p.kind == ParameterKind::list) result.list = true;
       result.numbers.push_back(resolve(p, *number, name, value.origin));
@@ -138,6 +140,8 @@ class Resolver {
     std::string text;
     if (const auto* given = std::get_if<std::string>(&value.content)) {
       text = *given;
+    } else if (const auto written = p.choices.empty() ? written_text(value) : std::nullopt) {
+      text = *written;
     } else {
       problems_.add("wrong_type", place(p.name),
                     fmt::format("\"{}\" of {} is a text, found a number", p.name, declaration_.type),

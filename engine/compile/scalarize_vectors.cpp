@@ -31,6 +31,7 @@ class Apart {
         graph_.outputs.emplace_back(indexed(name, d_.length(end), k), element(end, k));
     for (const auto& end : d_.record)
       for (int k = 0; k < d_.length(end); ++k) graph_.record.push_back(element(end, k));
+    graph_.kernels = d_.kernels;
     graph_.parameters = d_.parameters;
     graph_.places = d_.places;
     return std::move(graph_);

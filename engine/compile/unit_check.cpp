@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/block/instance.h"
 #include "engine/compile/graph.h"
 
 namespace hysteron {
@@ -40,6 +41,11 @@ Expression parse_expression(const std::string& text) {
   }
   std::erase_if(e.variables, [](const auto& v) { return v.second == 0; });
   return e;
+}
+
+/// Nothing and without end are the same in every unit.
+bool fits_any_unit(const ResolvedNumber& number) {
+  return !number.has_unit && (number.si == 0 || std::isinf(number.si));
 }
 
 /// "$a[i]" with the place of the element put in: "$a[2]".
@@ -80,17 +86,24 @@ class UnitCheck {
     for (const auto& [those_set, those_contested] : {std::pair{false, false}, {true, false}, {true, true}}) {
       believe_those_set_ = those_set;
       believe_contested_ = those_contested;
-      do {
-        changed_ = false;
-        for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
-      } while (changed_);
+      settle();
     }
+    // What is known of inputs by the laws that read them comes last: a guess where nothing else says it.
+    ask_for_inputs_ = true;
+    settle();
     report();
     for (std::size_t s = 0; s < signals_.size(); ++s) graph_.signals[s].dimension = signals_[s].value_or(Dimension{});
     show_units();
   }
 
  private:
+  void settle() {
+    do {
+      changed_ = false;
+      for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
+    } while (changed_);
+  }
+
   /// Blocks whose parameters do not agree among themselves on a unit.
   void find_contested() {
     contested_.assign(graph_.blocks.size(), false);
@@ -168,8 +181,7 @@ class UnitCheck {
       const int columns = block.parameters[i].columns;
       for (std::size_t k = 0; k < block.parameters[i].numbers.size(); ++k) {
         const auto& number = block.parameters[i].numbers[k];
-        // Nothing and without end are the same in every unit.
-        if (!number.has_unit && (number.si == 0 || std::isinf(number.si))) continue;
+        if (fits_any_unit(number)) continue;
         if (was_set(number.origin) && !believe_those_set_) continue;
         std::string unit = d.parameters[i].unit;
         if (columns > 0)
@@ -203,11 +215,55 @@ class UnitCheck {
             changed_ = true;
           }
         });
+    if (graph_.blocks[b].kernel->units != nullptr) ask_law(b);
+  }
+
+  /// What the law itself says of its units (Kernel::units).
+  InstanceUnits known_of(std::size_t b) const {
+    const GraphBlock& block = graph_.blocks[b];
+    InstanceUnits units;
+    units.name = [this](const Dimension& d) { return d.none() ? "a plain number" : written(d); };
+    for (const int source : block.source) units.inputs.push_back(signals_[static_cast<std::size_t>(source)]);
+    for (std::size_t i = 0; i < block.output.size(); ++i)
+      units.outputs.push_back(signals_[static_cast<std::size_t>(block.first_signal) + i]);
+    for (const auto& parameter : block.parameters) {
+      Known known;
+      for (const auto& number : parameter.numbers)
+        if (!known && !fits_any_unit(number)) known = number.dimension.value_or(Dimension{});
+      units.parameters.push_back(known);
+    }
+    return units;
+  }
+
+  void ask_law(std::size_t b) {
+    const GraphBlock& block = graph_.blocks[b];
+    InstanceUnits units = known_of(b);
+    block.kernel->units(block.shape, units);
+    if (!units.error.empty()) return;  // told by report()
+    const auto take = [&](int signal, const Known& found) {
+      Known& own = signals_[static_cast<std::size_t>(signal)];
+      if (own || !found) return;
+      own = found;
+      changed_ = true;
+    };
+    for (std::size_t i = 0; ask_for_inputs_ && i < block.source.size(); ++i) take(block.source[i], units.inputs[i]);
+    for (std::size_t i = 0; i < block.output.size(); ++i)
+      take(block.first_signal + static_cast<int>(i), units.outputs[i]);
+  }
+
+  void report_law(std::size_t b, Problems& problems) const {
+    const GraphBlock& block = graph_.blocks[b];
+    InstanceUnits units = known_of(b);
+    block.kernel->units(block.shape, units);
+    if (!units.error.empty())
+      problems.add("wrong_unit", block.origin + "/" + units.parameter,
+                   fmt::format("\"{}\": {}", block.path, units.error), units.cure);
   }
 
   void report() {
     Problems problems;
-    for (std::size_t b = 0; b < graph_.blocks.size(); ++b)
+    for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
+      if (graph_.blocks[b].kernel->units != nullptr) report_law(b, problems);
       each_constraint(
           b, [&](const std::string& unit, const Known& actual, const std::string& why, int, const std::string& where) {
             const Known expected = value(b, parse_expression(unit));
@@ -221,17 +277,18 @@ class UnitCheck {
                                      named(*expected), chain),
                          "give the value the expected unit, or put a gain between");
           });
+    }
     problems.throw_if_any();
   }
 
   /// In a unit that the file writes, where it writes one of this kind.
-  std::string named(const Dimension& d) const {
-    if (d.none()) return "a plain number";
+  std::string named(const Dimension& d) const { return d.none() ? "a plain number" : "in " + written(d); }
+  std::string written(const Dimension& d) const {
     for (const auto& block : graph_.blocks)
       for (const auto& parameter : block.parameters)
         for (const auto& number : parameter.numbers)
-          if (number.has_unit && number.unit.dimension == d) return "in " + number.unit.text;
-    return "in " + si_unit(d).text;
+          if (number.has_unit && number.unit.dimension == d) return number.unit.text;
+    return si_unit(d).text;
   }
 
   /// The words of a unit ("V", "um", "s" of "V/(um s)"), each noted if it is a unit of its own.
@@ -262,7 +319,8 @@ class UnitCheck {
           if (number.has_unit) note(number.unit);
     for (const auto& block : graph_.blocks)
       for (const auto* units : {&block.sizes.input_units, &block.sizes.output_units})
-        for (const auto& unit : *units) note(parse_unit(unit));
+        for (const auto& unit : *units)
+          if (unit.find('$') == std::string::npos) note(parse_unit(unit));
     for (const auto& block : graph_.blocks)  // "um/V" also shows lengths in um
       for (const auto& parameter : block.parameters)
         for (const auto& number : parameter.numbers)
@@ -282,7 +340,7 @@ class UnitCheck {
   std::vector<BlockUnits> units_;
   std::vector<Known> signals_;
   std::vector<bool> contested_;
-  bool changed_ = false, believe_those_set_ = false, believe_contested_ = false;
+  bool changed_ = false, believe_those_set_ = false, believe_contested_ = false, ask_for_inputs_ = false;
 };
 
 }  // namespace

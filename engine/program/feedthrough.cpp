@@ -91,7 +91,8 @@ std::vector<bool> feedthrough(const Program& program, int block) {
   if (!by_entries) return through;
   const auto first = program.p.begin() + b.p_begin;
   const std::vector<double> numbers(first, first + b.p_at.back());
-  std::vector<double> constants(at(b.sizes.constants));
+  std::vector<double> constants = b.sizes.code;
+  constants.resize(at(b.sizes.constants));
   View<double> own;
   own.p = numbers.data();
   own.p_at = b.p_at.data();

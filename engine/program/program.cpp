@@ -88,6 +88,7 @@ void prepare(const Program& program, Run& run, int block) {
     if (const std::string wrong = b.kernel->check(v); !wrong.empty())
       fail("bad_value", b.origin, fmt::format("{} \"{}\": {}", b.kernel->declaration.type, b.path, wrong),
            "correct the parameter values");
+  std::copy(b.sizes.code.begin(), b.sizes.code.end(), run.c.begin() + b.c_begin);
   if (b.kernel->prepare) {
     v.out = run.c.data() + b.c_begin;
     b.kernel->prepare(v);

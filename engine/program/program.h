@@ -108,6 +108,7 @@ struct Past {
 
 struct Program {
   std::vector<BlockInstance> blocks;
+  std::vector<KernelPointer> kernels;  ///< those that blocks have of their own (engine/block/instance.h)
   std::vector<SignalInfo> signals;
   std::vector<Step> all_values;        ///< every value
   std::vector<Step> derivative_steps;  ///< values, rates and derivatives that dx/dt needs

@@ -32,6 +32,9 @@ Json parameter_schema(const ParameterDeclaration& p) {
   if (p.kind == ParameterKind::text) return p.choices.empty() ? text(description) : choice_of(description, p.choices);
   if (p.kind == ParameterKind::number) return quantity(description, true);
   const char* kind = p.kind == ParameterKind::matrix ? "#/definitions/matrix" : "#/definitions/list";
+  if (p.may_be_matrix)
+    return {{"description", description},
+            {"anyOf", Json::array({{{"$ref", kind}}, {{"$ref", "#/definitions/matrix"}}})}};
   return {{"description", description}, {"allOf", Json::array({{{"$ref", kind}}})}};
 }
 
@@ -68,6 +71,9 @@ Json body_of(const Declaration& d) {
   // Whether these may stand here, the block or the choice says.
   for (const char* key : {"in", "effect", "upon"}) properties[key] = true;
   Json body{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!d.names_from.empty())  // its text names further parameters
+    body["additionalProperties"] = {
+        {"anyOf", Json::array({{{"$ref", "#/definitions/quantity"}}, {{"$ref", "#/definitions/list"}}})}};
   if (!required.empty()) body["anyOf"] = Json::array({{{"required", required}}, {{"required", {"parameters"}}}});
   return body;
 }
