@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   hysteron::benchmarks::register_creep();
   hysteron::benchmarks::register_lanes();
   hysteron::benchmarks::register_evaluation();
+  hysteron::benchmarks::register_expression();
   hysteron::benchmarks::register_sampled_loop();
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;

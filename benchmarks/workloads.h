@@ -14,6 +14,7 @@ void register_chains();        ///< W3: chains of 10, 100, 1000 lags
 void register_creep();         ///< a plant with relaxations on 20 000 recorded rows
 void register_lanes();         ///< value and slopes of a law on a recording, runs side by side
 void register_evaluation();    ///< one evaluation of a diagram, per block
+void register_expression();    ///< a law that the diagram writes, against the same law in C++
 void register_sampled_loop();  ///< 10 kHz PI, Jiles-Atherton inverse, plant
 
 /// The closed loop of W1 written by hand on stock CVODE: BDF, own dense Jacobian, plant states scaled. [um, V]

@@ -56,6 +56,7 @@ const Look* find_look(const std::string& type) {
       {"sampled_coupled_tapi_inverse", {"hysteresis_inverse", true}},
       {"maxwell_capacitor", {"hysteresis", true}},
       {"polynomial", {"table", true}},
+      {"lookup", {"table", true}},
       {"preisach", {"hysteresis", true}},
       {"duhem", {"hysteresis", true}},
       {"quantizer", {"quantizer"}},
@@ -235,6 +236,33 @@ Symbol discrete_integrator(const Values& values) {
   return fraction("T", "z − 1");
 }
 
+/// The law itself where it is short.
+Symbol expression(const Values& values) {
+  const std::string law = values.text("y");
+  if (law.empty() || text_width(law, 12) > 150) return formula("f(…)");
+  Symbol s = formula(law);
+  s.shown = {"y"};
+  return s;
+}
+
+/// Blocks that one choice makes what they are: "sin", "max", "<".
+Symbol chosen(const Values& values, const char* parameter, const std::map<std::string, std::string>& signs = {}) {
+  const std::string choice = values.text(parameter);
+  const auto sign = signs.find(choice);
+  Symbol s = formula(sign == signs.end() ? choice : sign->second);
+  s.shown = {parameter};
+  return s;
+}
+
+/// Blocks whose symbol is a letter or two.
+const char* letters_of(const std::string& type) {
+  static const std::map<std::string, const char*> all{
+      {"divide", "÷"}, {"abs", "|u|"},   {"sign", "sgn"}, {"sample_and_hold", "S/H"},
+      {"edge", "↑"},   {"counter", "n"}, {"timer", "t"},  {"state_machine", "○→○"}};
+  const auto found = all.find(type);
+  return found == all.end() ? nullptr : found->second;
+}
+
 }  // namespace
 
 double text_width(const std::string& text, double size) {
@@ -317,6 +345,20 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = formula("e⁻ˢᵀ");
   } else if (type == "delay_line") {
     s = formula("z⁻ⁿ");
+  } else if (type == "expression") {
+    s = expression(values);
+  } else if (type == "trigonometry") {
+    s = chosen(values, "function");
+  } else if (type == "min_max") {
+    s = chosen(values, "is");
+  } else if (type == "logic") {
+    s = chosen(values, "is", {{"and", "&"}, {"or", "≥1"}, {"xor", "=1"}, {"not", "¬"}});
+  } else if (type == "compare") {
+    s = chosen(
+        values, "is",
+        {{"less", "<"}, {"at_most", "≤"}, {"equal", "="}, {"not_equal", "≠"}, {"at_least", "≥"}, {"greater", ">"}});
+  } else if (const char* letters = letters_of(type)) {
+    s = formula(letters);
   } else if (const Look* look = find_look(type)) {
     s = picture(look->picture, look->note ? type : "");
   } else {

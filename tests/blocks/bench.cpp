@@ -109,7 +109,8 @@ double Bench::default_of(const std::string& text) {
 }
 
 void Bench::prepare() {
-  c.assign(static_cast<std::size_t>(sizes.constants), 0);
+  c = sizes.code;
+  c.resize(static_cast<std::size_t>(sizes.constants));
   if (kernel.prepare == nullptr) return;
   View<double> v = view<double>(p, {}, {}, {}, 0, 0);
   v.out = c.data();

@@ -188,17 +188,27 @@ class Generator {
   using Maker = Wire (Generator::*)(const Wire&);
 
   Wire grow(const Wire& u) {
-    static const std::vector<Maker> makers = {
-        &Generator::gain,         &Generator::sum,           &Generator::sum,        &Generator::product,
-        &Generator::saturation,   &Generator::dead_zone,     &Generator::rectifier,  &Generator::rounding,
-        &Generator::relay,        &Generator::relay,         &Generator::play,       &Generator::play,
-        &Generator::plays,        &Generator::preisach,      &Generator::bouc_wen,   &Generator::jiles_atherton,
-        &Generator::inverse,      &Generator::lag,           &Generator::lag,        &Generator::integrator,
-        &Generator::resonance,    &Generator::transfer,      &Generator::dead_time,  &Generator::dead_time,
-        &Generator::hold,         &Generator::quantizer,     &Generator::delay_line, &Generator::filter,
-        &Generator::pid,          &Generator::limiter,       &Generator::body,       &Generator::body,
-        &Generator::smooth_curve, &Generator::creep,         &Generator::modes,      &Generator::backlash,
-        &Generator::section,      &Generator::sampled_filter};
+    static const std::vector<Maker> makers = {&Generator::gain,         &Generator::sum,
+                                              &Generator::sum,          &Generator::product,
+                                              &Generator::saturation,   &Generator::dead_zone,
+                                              &Generator::rectifier,    &Generator::rounding,
+                                              &Generator::relay,        &Generator::relay,
+                                              &Generator::play,         &Generator::play,
+                                              &Generator::plays,        &Generator::preisach,
+                                              &Generator::bouc_wen,     &Generator::jiles_atherton,
+                                              &Generator::inverse,      &Generator::lag,
+                                              &Generator::lag,          &Generator::integrator,
+                                              &Generator::resonance,    &Generator::transfer,
+                                              &Generator::dead_time,    &Generator::dead_time,
+                                              &Generator::hold,         &Generator::quantizer,
+                                              &Generator::delay_line,   &Generator::filter,
+                                              &Generator::pid,          &Generator::limiter,
+                                              &Generator::body,         &Generator::body,
+                                              &Generator::smooth_curve, &Generator::creep,
+                                              &Generator::modes,        &Generator::backlash,
+                                              &Generator::section,      &Generator::sampled_filter,
+                                              &Generator::expression,   &Generator::table,
+                                              &Generator::level,        &Generator::of_two};
     return (this->*random.one_of(makers))(u);
   }
 
@@ -238,6 +248,46 @@ class Generator {
     block["off_value"] = random.between(-2, 2);
     if (random.chance(0.3)) block["initial"] = "on";
     return add(block, {u}, 2, false);
+  }
+  Wire expression(const Wire& u) {
+    const double a = around(u.size), b = random.between(0.3, 1) * u.size;
+    Json block = {{"type", "expression"}, {"a", a}, {"b", b}};
+    switch (random.below(3)) {
+      case 0:
+        block["y"] = "a*sin(u/b) + u^2/sqrt(b^2 + u^2)";
+        return add(block, {u}, 2 * u.size, u.smooth);
+      case 1:
+        block["y"] = "max(u, a) - 0.5*min(u, b) + abs(u)";
+        return add(block, {u}, 3 * u.size, u.smooth);
+      default:
+        block["y"] = "if(u > a, b, c)";
+        block["c"] = around(u.size);
+        return add(block, {u}, u.size, false);
+    }
+  }
+  Wire table(const Wire& u) {
+    Json block = {{"type", "lookup"}, {"at", Json::array()}, {"values", Json::array()}};
+    double at = random.between(-1, -0.4) * u.size;
+    for (int i = 2 + random.below(4); i > 0; --i, at += random.between(0.2, 0.6) * u.size) {
+      block["at"].push_back(at);
+      block["values"].push_back(around(u.size));
+    }
+    if (random.chance(0.4)) block["outside"] = "extrapolate";
+    return add(block, {u}, 4 * u.size, u.smooth);
+  }
+  Wire level(const Wire& u) {
+    Json block = {{"type", "comparator"}, {"level", around(u.size)}};
+    block["above"] = random.between(-2, 2);
+    block["below"] = random.between(-2, 2);
+    return add(block, {u}, 2, false);
+  }
+  Wire of_two(const Wire& u) {
+    const Wire v = any();
+    if (random.chance(0.5))
+      return add({{"type", "min_max"}, {"is", random.chance(0.5) ? "max" : "min"}}, {u, v}, u.size + v.size,
+                 u.smooth && v.smooth);
+    const Wire control = any();
+    return add({{"type", "switch"}, {"level", around(control.size)}}, {u, control, v}, u.size + v.size, false);
   }
   Wire play(const Wire& u) {
     Json block = {{"type", "play"}, {"radius", random.between(0.05, 0.7) * u.size}};

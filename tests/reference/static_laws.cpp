@@ -141,6 +141,98 @@ class Relay : public Law {
   bool on;
 };
 
+/// One of two values, or of two signals, by a level. Between instants it stays on its side.
+class Level : public Law {
+ public:
+  Level(double level_, double above_, double below_) : level(level_), above(above_), below(below_) {}
+  void output(const Point& p, double* y) const override { *y = is_above(p) ? above : below; }
+  long branch(const Point& p) const override { return control(p) > level; }
+  int roughness() const override { return 0; }
+  void keep(const Point& p) override {
+    if (p.free) side = control(p) > level;
+  }
+
+ protected:
+  virtual double control(const Point& p) const { return u(p); }
+  bool is_above(const Point& p) const { return p.free ? control(p) > level : side; }
+
+ private:
+  double level, above, below;
+  bool side = false;
+};
+
+class Switch : public Level {
+ public:
+  explicit Switch(const Block& b) : Level(b.number("level", 0), 0, 0) {}
+  std::vector<std::string> inputs() const override { return {"above", "control", "below"}; }
+  void output(const Point& p, double* y) const override { *y = is_above(p) ? u(p, 0) : u(p, 2); }
+
+ private:
+  double control(const Point& p) const override { return u(p, 1); }
+};
+
+class Larger : public Law {
+ public:
+  explicit Larger(const Block& b) : smaller(b.text("is", "max") == "min") {}
+  std::vector<std::string> inputs() const override { return {"", ""}; }
+  void output(const Point& p, double* y) const override {
+    *y = smaller ? std::min(u(p, 0), u(p, 1)) : std::max(u(p, 0), u(p, 1));
+  }
+  long branch(const Point& p) const override { return u(p, 0) > u(p, 1); }
+
+ private:
+  bool smaller;
+};
+
+class Table : public Law {
+ public:
+  explicit Table(const Block& b)
+      : knots(b.list("at")), values(b.list("values")), clips(b.text("outside", "clip") == "clip") {}
+  void output(const Point& p, double* y) const override {
+    const double at = clips ? std::clamp(u(p), knots.front(), knots.back()) : u(p);
+    std::size_t i = 0;
+    while (i + 2 < knots.size() && at > knots[i + 1]) ++i;
+    *y = values[i] + (values[i + 1] - values[i]) / (knots[i + 1] - knots[i]) * (at - knots[i]);
+  }
+  long branch(const Point& p) const override {
+    return std::count_if(knots.begin(), knots.end(), [&](double knot) { return u(p) > knot; });
+  }
+
+ private:
+  std::vector<double> knots, values;
+  bool clips;
+};
+
+/// Expressions that the random diagrams write, each by hand.
+class Bent : public Law {
+ public:
+  explicit Bent(const Block& b) : a(b.number("a")), b_(b.number("b")) {}
+  void output(const Point& p, double* y) const override {
+    *y = std::max(u(p), a) - 0.5 * std::min(u(p), b_) + std::abs(u(p));
+  }
+  long branch(const Point& p) const override { return (u(p) > a) + 2 * (u(p) > b_) + 4 * (u(p) > 0); }
+
+ private:
+  double a, b_;
+};
+class Waved : public Law {
+ public:
+  explicit Waved(const Block& b) : a(b.number("a")), b_(b.number("b")) {}
+  void output(const Point& p, double* y) const override {
+    *y = a * std::sin(u(p) / b_) + u(p) * u(p) / std::sqrt(b_ * b_ + u(p) * u(p));
+  }
+
+ private:
+  double a, b_;
+};
+LawPointer expression(const Block& b) {
+  const std::string y = b.text("y", "");
+  if (y == "a*sin(u/b) + u^2/sqrt(b^2 + u^2)") return std::make_unique<Waved>(b);
+  if (y == "max(u, a) - 0.5*min(u, b) + abs(u)") return std::make_unique<Bent>(b);
+  if (y == "if(u > a, b, c)") return std::make_unique<Level>(b.number("a"), b.number("b"), b.number("c"));
+  throw Unknown("expression " + y);
+}
+
 }  // namespace
 
 LawPointer make_static(const Block& b) {
@@ -156,6 +248,11 @@ LawPointer make_static(const Block& b) {
   if (b.type == "polynomial") return std::make_unique<Polynomial>(b);
   if (b.type == "rounding") return std::make_unique<Rounding>(b);
   if (b.type == "relay") return std::make_unique<Relay>(b);
+  if (b.type == "expression") return expression(b);
+  if (b.type == "lookup") return std::make_unique<Table>(b);
+  if (b.type == "comparator") return std::make_unique<Level>(b.number("level"), b.number("above"), b.number("below"));
+  if (b.type == "switch") return std::make_unique<Switch>(b);
+  if (b.type == "min_max") return std::make_unique<Larger>(b);
   return nullptr;
 }
 

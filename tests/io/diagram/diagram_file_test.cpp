@@ -147,6 +147,26 @@ TEST(DiagramFile, EveryPartOfTheFormatIsRead) {
   EXPECT_EQ(d.places.find("measured")->size(), 2U);
 }
 
+TEST(DiagramFile, ListsComeFromTheColumnsOfATable) {
+  const TemporaryFolder folder;
+  folder.write("curve.csv", "at [mm],values [N]\n0,1\n2,1.5\n5,0\n");
+  const Diagram d = read_diagram(folder.write(
+      "d.json",
+      R"({"format": 1, "inputs": {"x": {"unit": "m"}}, "blocks": {"force": {"type": "lookup", "parameters": "curve.csv", "in": "x"}}})"));
+  const Node& force = *d.blocks.find("force");
+  EXPECT_EQ(force.parameter_file, "curve.csv");
+  EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("at")->content)[1], (Number{2, "mm"}));
+  EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("values")->content).size(), 3U);
+  EXPECT_EQ(force.parameters_from_file.find("values")->origin, folder.path("curve.csv") + "#values");
+}
+
+TEST(DiagramFile, ATextThatGoesOnBehindANumberIsNoQuantity) {
+  for (const char* text : {"2*u", "2 * u", "3 - u", "1e3+u", "2^u", "0.5 > u"})
+    EXPECT_EQ(std::get<std::string>(Value(text).content), text);
+  EXPECT_EQ(std::get<Number>(Value("2 /s").content), (Number{2, "/s"}));
+  EXPECT_EQ(std::get<Number>(Value("2 (V/s)").content), (Number{2, "(V/s)"}));
+}
+
 TEST(DiagramFile, EveryValueKnowsWhereItWasWritten) {
   const Project project;
   const Diagram d = read_diagram(project.folder.path("d.json"));

@@ -1,0 +1,193 @@
+#include "blocks/math/expression.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "blocks/math/expression_units.h"
+#include "engine/diagram/error.h"
+
+namespace hysteron::blocks {
+namespace {
+
+using expression::Code;
+using expression::Tree;
+using expression::Wrong;
+
+/// Which symbols are parameters of the block: those that its declaration names.
+std::vector<bool> parameters_among(const Tree& tree, const Declaration& d) {
+  std::vector<bool> is_parameter;
+  for (const auto& symbol : tree.symbols)
+    is_parameter.push_back(d.parameter_index(symbol) >= Expression::first_of_its_own);
+  return is_parameter;
+}
+
+/// As many of the parameters as the value is affine in together, in the order of the text.
+std::vector<bool> linear_among(const Tree& tree, const std::vector<bool>& is_parameter) {
+  std::vector<bool> linear(is_parameter.size(), false);
+  for (std::size_t i = 0; i < linear.size(); ++i) {
+    linear[i] = is_parameter[i];
+    if (linear[i] && expression::degree_in(tree, linear) > 1) linear[i] = false;
+  }
+  return linear;
+}
+
+/// The value jumps where these do, even if what they are multiplied with does not.
+bool jumps(const Tree& tree) {
+  return std::any_of(tree.parts.begin(), tree.parts.end(), [](const auto& part) {
+    return part.is_logical() || part.is(expression::Op::sign) || part.is(expression::Op::mod) ||
+           part.is(expression::Op::atan2) || (part.op >= expression::Op::floor && part.op <= expression::Op::round);
+  });
+}
+
+void refuse_unused(const Tree& tree, const Declaration& type, const Node& block) {
+  Problems problems;
+  for (const auto& [name, value] : block.parameters)
+    if (type.parameter_index(name) < 0 &&
+        std::find(tree.symbols.begin(), tree.symbols.end(), name) == tree.symbols.end())
+      problems.add("unknown_parameter", "/" + name, fmt::format("the expression has no \"{}\"", name),
+                   tree.symbols.empty() ? "take it out" : did_you_mean(name, tree.symbols));
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+void Expression::describe(Declaration& d) {
+  d.name("expression", "a law that the diagram writes: \"a*sin(b*u) + max(u, 0)\"").in_group("math").elementwise();
+  d.law("y = what the text says").from("definition; grammar: models/math/expression_tree.h");
+  d.named_by("y");
+  d.remark(
+      "Every name in the text is a parameter if the block has a value for it (\"a\": \"2 um\"), else an input, in the "
+      "order in which they first appear: \"in\": {\"u\": \"drive\"}, or \"in\": \"drive\" where there is one.");
+  d.remark(
+      "Operators + - * / ^ < <= > >= == != and or not; functions abs sign min max floor ceil round mod sqrt cbrt exp "
+      "log log10 sin cos tan asin acos atan atan2 sinh cosh tanh hypot pow if(condition, then, else); the number pi. "
+      "True is 1, false 0; what is above 0.5 counts as true.");
+  d.remark(
+      "Units are checked: what is added or compared must have one unit, sin(x) takes an angle or a plain number, sqrt "
+      "halves units, and an exponent must be a number where the base has a unit. Numbers in the text have none; 0 fits "
+      "any.");
+  d.remark(
+      "Parameters are fitted, set and varied as those of any block; those in which the value is affine are found by "
+      "linear least squares. Bends and jumps (abs, min, max, sign, if, comparisons, floor) are located.");
+  d.inputs_any("in", "$in", "the names in the text that are no parameters, in the order in which they appear");
+  d.output("y", "$result", "the value");
+  d.text("y", {}, "the expression");
+  d.text("unit", {}, "unit of the value, where wires and parameters leave it open or it must be this one").optional("");
+}
+
+Declaration Expression::instance(const Declaration& type, const Node& block) {
+  const auto text_at = [&](const std::string& name) {
+    const Value* given = block.parameters.find(name);
+    if (given == nullptr) given = block.parameters_from_file.find(name);
+    const auto text = given == nullptr ? std::optional<std::string>("") : written_text(*given);
+    if (!text)
+      fail("wrong_type", "/" + name, fmt::format("\"{}\" of expression is a text", name), "write it in quotes");
+    return *text;
+  };
+  Tree tree;
+  try {
+    tree = expression::parse(text_at("y"));
+    refuse_unused(tree, type, block);
+    std::vector<bool> is_parameter;
+    for (const auto& symbol : tree.symbols)
+      is_parameter.push_back(type.parameter_index(symbol) < 0 && (block.parameters.find(symbol) != nullptr ||
+                                                                  block.parameters_from_file.find(symbol) != nullptr));
+    expression::compile(tree, is_parameter);
+    Declaration d = type;
+    d.equation = "y = " + text_at("y");
+    d.inputs.clear();
+    d.outputs.front().unit = "$.y";  // no name in the text is like it
+    std::vector<bool> inputs = is_parameter;
+    inputs.flip();
+    d.is_linear = expression::degree_in(tree, inputs) <= 1;
+    const auto linear = linear_among(tree, is_parameter);
+    for (std::size_t i = 0; i < tree.symbols.size(); ++i) {
+      const std::string& name = tree.symbols[i];
+      const std::string where = fmt::format("\"{}\" of the expression, at its character {}", name, tree.symbol_at[i]);
+      if (!is_parameter[i])
+        d.input(name, "$" + name, where + "; or a parameter: give the block a value for it");
+      else
+        d.parameter(name, "$" + name, where).is_linear = linear[i];
+    }
+    return d;
+  } catch (const Wrong& wrong) {
+    fail("bad_value", "/y", fmt::format("\"y\": {}", wrong.what()), wrong.cure);
+  }
+}
+
+Sizes Expression::sizes(const Shape& shape) {
+  Sizes s;
+  try {
+    const Tree tree = expression::parse(shape.free_text("y"));
+    s.code = expression::compile(tree, parameters_among(tree, *shape.declaration)).code;
+    s.constants = static_cast<int>(s.code.size());
+    s.kinks = Code::count(s.code.data(), Code::kinks);
+    if (jumps(tree)) s.smoothness = Smoothness::jumps;
+    if (const int n = Code::count(s.code.data(), Code::inputs); n != shape.inputs)
+      s.error = fmt::format("{} wires for {} inputs of the expression", shape.inputs, n);
+  } catch (const Wrong& wrong) {
+    s.error = wrong.what();
+  }
+  return s;
+}
+
+void Expression::units(const Shape& shape, InstanceUnits& units) {
+  const Declaration& d = *shape.declaration;
+  units.parameter = "y";
+  try {
+    const Tree tree = expression::parse(shape.free_text("y"));
+    expression::UnitsOfTree of{std::vector<InstanceUnits::Known>(tree.symbols.size()), units.outputs.front()};
+    std::vector<InstanceUnits::Known*> known;
+    std::size_t input = 0;
+    for (const auto& symbol : tree.symbols) {
+      const int own = d.parameter_index(symbol);
+      known.push_back(own >= first_of_its_own ? &units.parameters[static_cast<std::size_t>(own)]
+                                              : &units.inputs[input++]);
+    }
+    for (std::size_t i = 0; i < known.size(); ++i) of.symbols[i] = *known[i];
+    if (const std::string stated = shape.free_text("unit"); !stated.empty() && !of.whole)
+      of.whole = parse_unit(stated).dimension;
+    expression::infer_units(tree, of, units.name);
+    for (std::size_t i = 0; i < known.size(); ++i) *known[i] = of.symbols[i];
+    units.outputs.front() = of.whole;
+  } catch (const Wrong& wrong) {
+    units.error = wrong.what();
+    units.cure = wrong.cure;
+  }
+}
+
+/// A chunk of rows at a time, one operation after the other: the text costs nothing per row.
+void Expression::rows(const RowsView& r) {
+  constexpr int chunk = 64;  // numbers of all lanes; what a chunk needs stays in the nearest cache
+  static_assert(chunk % RowsView::most_lanes == 0);
+  const double* code = r.views[0].c;
+  const int inputs = Code::count(code, Code::inputs), parameters = Code::count(code, Code::parameters),
+            numbers = Code::count(code, Code::numbers);
+  std::array<double, static_cast<std::size_t>(Code::most_slots * chunk)> work;
+  std::array<const double*, static_cast<std::size_t>(Code::most_slots)> at;
+  double* fixed = work.data();
+  for (int i = 0; i < parameters + numbers; ++i, fixed += chunk) {
+    at[static_cast<std::size_t>(inputs + i)] = fixed;
+    for (int k = 0; k < chunk; ++k)
+      fixed[k] = i < parameters ? r.views[k % r.lanes].parameter(first_of_its_own + i)
+                                : code[Code::head_size + i - parameters];
+  }
+  const std::ptrdiff_t all = static_cast<std::ptrdiff_t>(r.count) * r.lanes;
+  for (std::ptrdiff_t begin = 0; begin < all; begin += chunk) {
+    const int n = static_cast<int>(std::min<std::ptrdiff_t>(chunk, all - begin));
+    for (int i = 0; i < inputs; ++i) at[static_cast<std::size_t>(i)] = r.u[i] + begin;
+    const double* result = expression::evaluate_rows<chunk>(code, at.data(), fixed, n);
+    std::copy_n(result, n, r.y[0] + begin);
+  }
+}
+
+Kernel expression_block() {
+  Kernel k = kernel<Expression>();
+  k.instance = &Expression::instance;
+  k.units = &Expression::units;
+  return k;
+}
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,99 @@
+#include "blocks/math/lookup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hysteron::blocks {
+namespace {
+
+const std::array axis_names{"at", "at_2", "at_3", "at_4"};
+
+}  // namespace
+
+void Lookup::describe(Declaration& d) {
+  d.name("lookup", "a table: values at knots of one axis or several, and what lies between").in_group("math");
+  d.elementwise().at("core");
+  d.law("y = values at the knots \"at\"; between them straight, or a smooth curve through them")
+      .from(
+          "linear: definition; akima: J. ACM 17 (1970) 589-602; monotone: Fritsch, Butland, SIAM J. Sci. Stat. Comput. 5 "
+          "(1984) 300-304; several axes: one after the other");
+  d.remark(
+      "Over two axes \"values\" are rows: one row per knot of \"at\", one number per knot of \"at_2\". Over three or four "
+      "they stand one behind the other, the last axis fastest. Each wire has an axis: \"in\": [\"current\", \"position\"].");
+  d.remark(
+      "From a file: \"parameters\": \"curve.csv\", with the columns at and values, units in their headers (\"at [mm]\").");
+  d.remark(
+      "A straight table bends at its knots: they are located. Its values can be fitted, by linear least squares. A curve "
+      "through measured knots: akima does not overshoot much, monotone not at all.");
+  d.remark("refuse: beyond the knots the run ends and says so.");
+  d.inputs_any("in", "$a", "one signal per axis");
+  d.output("y", "$y", "the value of the table there");
+  d.list("values", "$y", "at the knots").or_matrix().difference();
+  d.list("at", "$a", "knots of the first axis, two at least").increasing();
+  d.list("at_2", "$b", "knots of the second axis").optional("").increasing();
+  d.list("at_3", "$c", "knots of the third axis").optional("").increasing();
+  d.list("at_4", "$d", "knots of the fourth axis").optional("").increasing();
+  d.text("between", {"linear", "akima", "monotone"},
+         "straight; a smooth curve; a smooth curve that rises and falls only where the values do");
+  d.text("outside", {"clip", "extrapolate", "refuse"}, "beyond the knots: held, straight on, or the run ends");
+}
+
+/// The value is affine in the values of a straight table only.
+Declaration Lookup::instance(const Declaration& type, const Node& block) {
+  Declaration d = type;
+  const Value* given = block.parameters.find("between");
+  if (given == nullptr) given = block.parameters_from_file.find("between");
+  if (given == nullptr || written_text(*given) == "linear") d.parameters[values].linear();
+  return d;
+}
+
+Sizes Lookup::sizes(const Shape& shape) {
+  Sizes s;
+  int axes = 0, all = 1;
+  for (const char* name : axis_names)
+    if (const int n = shape.length(name); n > 0) {
+      if (name != axis_names[static_cast<std::size_t>(axes)])
+        s.error = fmt::format("\"{}\" is given, \"{}\" is not", name, axis_names[static_cast<std::size_t>(axes)]);
+      if (n < 2) s.error = fmt::format("\"{}\" has one knot; give two at least", name);
+      ++axes;
+      all *= n;
+    }
+  if (axes != shape.inputs)
+    s.error = fmt::format("{} wires for {} axes; give each wire its knots: \"{}\"", shape.inputs, axes,
+                          axis_names[static_cast<std::size_t>(std::clamp(shape.inputs, 1, lookup::most_axes)) - 1]);
+  const int columns = shape.columns_of("values");
+  if (s.error.empty() &&
+      (shape.length("values") != all || (columns > 0 && axes > 0 && columns * shape.length("at") != all)))
+    s.error = columns > 0 ? fmt::format("\"values\" has {} rows of {}, the axes make {} of {}", shape.rows_of("values"),
+                                        columns, shape.length("at"), all / shape.length("at"))
+                          : fmt::format("\"values\" has {} numbers, the axes make {}", shape.length("values"), all);
+  s.input_units = {"$a", "$b", "$c", "$d"};
+  s.kinks = shape.text("between") == "linear" || shape.text("outside") == "clip" ? shape.inputs : 0;
+  return s;
+}
+
+void Lookup::kinks(const View<double>& v) {
+  std::array<lookup::Axis<double>, lookup::most_axes> all;
+  const bool clips = v.choice(outside) == static_cast<int>(lookup::Outside::clip);
+  int i = 0;
+  for (const auto& axis : axes_of(v, all)) {
+    const double lower = axis.u - axis.knots.front(), upper = axis.knots.back() - axis.u;
+    v.out[i++] =
+        v.choice(between) == static_cast<int>(lookup::Between::linear) ? lookup::knot_kink(axis, clips) : lower * upper;
+  }
+}
+
+std::string Lookup::check(const View<double>& v) {
+  for (const double x : v.list(values))
+    if (!std::isfinite(x)) return "\"values\" holds a number that is not finite; give a number for every knot";
+  return "";
+}
+
+Kernel lookup_block() {
+  Kernel k = kernel<Lookup>();
+  k.instance = &Lookup::instance;
+  return k;
+}
+
+}  // namespace hysteron::blocks
