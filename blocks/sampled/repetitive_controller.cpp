@@ -7,7 +7,7 @@
 namespace hysteron::blocks {
 namespace {
 
-constexpr int most_samples = 100000;
+constexpr int longest_cycle = 100000;
 
 }  // namespace
 
@@ -46,8 +46,8 @@ Sizes RepetitiveController::sizes(const Shape& shape) {
   const int cycle = n.empty() ? 0 : n[0], lead = early.empty() ? 0 : early[0];
   s.sampled_states = std::max(cycle, 1) + 1;
   s.feedthrough = false;
-  if (cycle < 2 || cycle > most_samples)
-    s.error = fmt::format("a cycle of {} samples; give a whole number from 2 to {}", cycle, most_samples);
+  if (cycle < 2 || cycle > longest_cycle)
+    s.error = fmt::format("a cycle of {} samples; give a whole number from 2 to {}", cycle, longest_cycle);
   else if (lead > cycle - 2)
     s.error = fmt::format("a lead of {} samples in a cycle of {}; give at most {}", lead, cycle, cycle - 2);
   return s;
