@@ -149,10 +149,15 @@ const std::vector<OtherNames>& table() {
 
 }  // namespace
 
-std::string instead_of_other_name(const std::string& type) {
-  std::string plain;  // "Dead Zone" and "dead-zone" are "deadzone", as "dead_zone" is
+std::string plain_name(const std::string& type) {
+  std::string plain;
   for (const char c : type)
     if (c != '_' && c != '-' && c != ' ') plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return plain;
+}
+
+std::string instead_of_other_name(const std::string& type) {
+  const std::string plain = plain_name(type);
   for (const auto& [words, instead] : table())
     for (const char* word : words)
       if (plain == word) return instead;

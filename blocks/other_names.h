@@ -7,6 +7,9 @@
 
 namespace hysteron {
 
+/// As it would be without "_", "-", blanks and capitals: "Dead Zone" and "dead_zone" are "deadzone".
+std::string plain_name(const std::string& type);
+
 /// What to write instead of a type that is known from elsewhere ("dead_zone", "Dead Zone"); "" if nobody knows it.
 std::string instead_of_other_name(const std::string& type);
 

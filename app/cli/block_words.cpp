@@ -11,6 +11,8 @@ std::string instead_of_type(const std::string& type) {
   auto types = registry().types();
   std::erase(types, "input");
   types.push_back("diagram");
+  for (const auto& own : types)
+    if (plain_name(own) == plain_name(type)) return "it is written \"" + own + "\".";
   return (known.empty() ? did_you_mean(type, types) : known + ".") + " \"hysteron blocks\" shows all types.";
 }
 

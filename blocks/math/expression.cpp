@@ -95,6 +95,7 @@ Declaration Expression::instance(const Declaration& type, const Node& block) {
       is_parameter.push_back(type.parameter_index(symbol) < 0 && (block.parameters.find(symbol) != nullptr ||
                                                                   block.parameters_from_file.find(symbol) != nullptr));
     expression::compile(tree, is_parameter);
+    if (const std::string unit = text_at("unit"); !unit.empty()) parse_unit(unit, "/unit");
     Declaration d = type;
     d.equation = "y = " + text_at("y");
     d.inputs.clear();

@@ -72,6 +72,71 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   EXPECT_EQ(instead_of_other_name("sawn_off"), "");
 }
 
+/// What people from Simulink type.
+TEST(OtherNames, TheBlocksOfSimulinkLeadSomewhere) {
+  std::set<std::string> types;
+  for (const auto& type : all_blocks().types()) types.insert(plain_name(type));
+  for (const char* name : {"Transport Delay",
+                           "Zero-Order Hold",
+                           "Unit Delay",
+                           "Rate Limiter",
+                           "Dead Zone",
+                           "Lookup Table",
+                           "Derivative",
+                           "Clock",
+                           "Constant",
+                           "Step",
+                           "Repeating Sequence",
+                           "Sine Wave",
+                           "Chirp",
+                           "Pulse Generator",
+                           "Manual Switch",
+                           "Scope",
+                           "To Workspace",
+                           "Mux",
+                           "Demux",
+                           "Bus",
+                           "Transfer Fcn",
+                           "State-Space",
+                           "Zero-Pole",
+                           "Discrete Filter",
+                           "MinMax",
+                           "Sign",
+                           "Abs",
+                           "Math Function",
+                           "Saturation",
+                           "Quantizer",
+                           "Backlash",
+                           "Coulomb & Viscous Friction",
+                           "Relay",
+                           "From Workspace",
+                           "Fcn",
+                           "Switch",
+                           "Sample and Hold",
+                           "Logical Operator",
+                           "Relational Operator",
+                           "PID Controller",
+                           "Discrete-Time Integrator",
+                           "Ramp",
+                           "Sum",
+                           "Gain",
+                           "Product",
+                           "Divide",
+                           "Integrator",
+                           "Trigonometric Function",
+                           "Counter",
+                           "Subsystem",
+                           "Delay",
+                           "Random Number",
+                           "Band-Limited White Noise",
+                           "Signal Builder",
+                           "Compare To Constant",
+                           "1-D Lookup Table",
+                           "2-D Lookup Table",
+                           "n-D Lookup Table"})
+    EXPECT_TRUE(types.contains(plain_name(name)) || !instead_of_other_name(name).empty()) << name;
+}
+
 TEST(OtherNames, AWordIsThereOnceAndIsNoTypeItself) {
   const Registry registry = all_blocks();
   std::set<std::string> seen;

@@ -111,6 +111,7 @@ TEST(ExpressionBlock, TellsWhichUnitsDoNotFitAndWhere) {
   EXPECT_NE(problem(law("u + 1", {})).find("cannot add V and a plain number at character 3"), std::string::npos);
   EXPECT_NE(problem(law("sqrt(u)", {})).find("the result has the unit V^(1/2)"), std::string::npos);
   EXPECT_NE(problem(law("u", {{"unit", "um"}})).find("the expression gives V"), std::string::npos);
+  EXPECT_NE(problem(law("u", {{"unit", "furlongz"}})).find("/blocks/law/unit: "), std::string::npos);
   EXPECT_EQ(problem(law("u*0 + 0", {})), "none");
 }
 
