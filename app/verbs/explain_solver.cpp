@@ -8,10 +8,10 @@
 #include "engine/lanes/lanes.h"
 #include "engine/program/breakpoints.h"
 #include "engine/simulate/choose_method.h"
+#include "engine/simulate/exact_advance.h"
 #include "engine/simulate/fixed_step.h"
 #include "engine/simulate/jacobian.h"
 #include "engine/simulate/simulate.h"
-#include "engine/simulate/simulate_parts.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {

@@ -5,7 +5,10 @@
 #include <set>
 #include <string_view>
 
-#include "engine/compile/flatten.h"
+#include "engine/compile/compile.h"
+#include "engine/compile/lengths.h"
+#include "engine/compile/scalarize_vectors.h"
+#include "engine/compile/unused.h"
 
 namespace hysteron {
 namespace {

@@ -11,6 +11,8 @@
 #include <set>
 
 #include "engine/block/instance.h"
+#include "engine/compile/resolve.h"
+#include "engine/compile/unused.h"
 
 namespace hysteron {
 namespace {

@@ -85,21 +85,4 @@ struct Gaps {
 /// whole when it is called again. Problems go into `problems`.
 WiredDiagram wire_draft(const Diagram& diagram, const Registry& registry, Gaps& gaps, Problems& problems);
 
-/// unused.cpp: what nobody reads. `used`: (scope, name) of what somebody read in passing.
-struct ScopeOfNames {
-  const Diagram* diagram = nullptr;
-  std::string origin;             ///< JSON pointer of the block that holds it, "" at the top
-  std::vector<std::string> used;  ///< blocks that a wire from elsewhere reads
-};
-void check_unused(const std::vector<ScopeOfNames>& scopes, Problems& problems);
-
-/// lengths.cpp. Throws "wrong_length", "bad_index", "bad_value" naming both ends, both lengths and what fixed them.
-void infer_lengths(WiredDiagram& diagram);
-
-/// scalarize_vectors.cpp.
-Graph scalarize_vectors(const WiredDiagram& diagram, const Registry& registry);
-
-/// The name of a block or input at the head of a wire: "stage" of "stage.y[1]", "stage/play".
-std::string head_of_wire(const std::string& wire);
-
 }  // namespace hysteron

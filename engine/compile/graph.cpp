@@ -2,7 +2,8 @@
 // Does not look at units (unit_check.cpp) nor at the order of evaluation (order.cpp).
 #include "engine/compile/graph.h"
 
-#include "engine/compile/flatten.h"
+#include "engine/compile/lengths.h"
+#include "engine/compile/scalarize_vectors.h"
 
 namespace hysteron {
 

@@ -75,30 +75,7 @@ struct Graph {
   Ordered<std::vector<std::string>> places;
 };
 
-/// resolve.cpp: the values of one block's parameters. Problems go to `problems` at `origin`.
-std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node& node, const Declaration& declaration,
-                                                  const std::string& origin, std::vector<GraphParameter>& parameters,
-                                                  Problems& problems);
-
-/// graph.cpp: choices, nested diagrams, wires (flatten.h), lengths, and every vector taken apart into numbers.
+/// Choices, nested diagrams, wires (flatten.h), lengths, and every vector taken apart into numbers.
 Graph build_graph(const Diagram& diagram, const Registry& registry);
-
-/// compile.cpp: the later stages, from units to a program that can start.
-ProgramPointer compile_graph(Graph graph, const Diagram& diagram);
-
-/// unit_check.cpp: dimensions and units of all signals; throws "wrong_unit" naming both ends.
-void check_units(Graph& graph);
-
-/// What the diagram says of its algebraic loops.
-struct LoopWishes {
-  bool forbidden = false;
-  std::vector<std::pair<int, double>> guesses{};  ///< signal, where a loop through it starts [SI]
-  std::vector<int> guessed_signals() const;
-};
-/// Where a guess stands, as a JSON pointer; signals inside nested diagrams have a "/" in their names.
-std::string place_of_guess(const std::string& signal);
-
-/// order.cpp: smoothness, needed rates, loops, steps.
-void order_steps(const Graph& graph, const LoopWishes& wishes, Program& program);
 
 }  // namespace hysteron

@@ -7,13 +7,14 @@
 //   any other block        one
 // A need goes back over a wire only where it leaves no choice: through elementwise blocks with one wire. Then every
 // wire is held against its reader; a mismatch names both ends, both lengths and what fixed them.
+#include "engine/compile/lengths.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <deque>
 #include <set>
 
-#include "engine/compile/flatten.h"
 #include "engine/diagram/index.h"
 
 namespace hysteron {

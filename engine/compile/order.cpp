@@ -10,13 +10,14 @@
 // path block by block. What goes round by blocks though no number depends on itself (entries of D that are zero) is no
 // algebraic loop, and solved by one step of Newton exactly. Between its instants a sampled block holds what it put out:
 // there it is a source. At its instants its inputs feed through, so values have a second order for these.
+#include "engine/compile/order.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <map>
 
-#include "engine/compile/graph.h"
 #include "engine/program/components.h"
 #include "engine/program/feedthrough.h"
 #include "engine/program/loop_plan.h"
@@ -382,12 +383,6 @@ class Scheduler {
 };
 
 }  // namespace
-
-std::vector<int> LoopWishes::guessed_signals() const {
-  std::vector<int> signals;
-  for (const auto& [signal, value] : guesses) signals.push_back(signal);
-  return signals;
-}
 
 void order_steps(const Graph& graph, const LoopWishes& wishes, Program& program) {
   Scheduler(graph, wishes, program).run();

@@ -1,5 +1,7 @@
 // Decides which number each parameter of a block gets: default < parameter set < block < diagram parameter by "$name".
 // Does not check physics: that is the block's own check() once all numbers are known.
+#include "engine/compile/resolve.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <limits>
 
 #include "engine/block/instance.h"
-#include "engine/compile/graph.h"
 #include "engine/program/parameter_values.h"
 
 namespace hysteron {

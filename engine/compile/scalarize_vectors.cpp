@@ -2,9 +2,10 @@
 // "tilt[k]", element k of an elementwise block "lag" the block "lag[k]" with the parameters of "lag". A rewiring (mux,
 // demux, select) becomes one pass per element: each keeps its own unit and smoothness, and a loop through one element
 // is no loop through the others.
+#include "engine/compile/scalarize_vectors.h"
+
 #include <fmt/format.h>
 
-#include "engine/compile/flatten.h"
 #include "engine/diagram/index.h"
 
 namespace hysteron {

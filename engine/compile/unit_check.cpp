@@ -1,13 +1,14 @@
 // Decides the dimension of every signal: unit variables of each block are found from wires and from the units written
 // at its parameters, until nothing changes; then every port is held against its wire. Checking only: nothing is
 // rescaled.
+#include "engine/compile/unit_check.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <map>
 
 #include "engine/block/instance.h"
-#include "engine/compile/graph.h"
 
 namespace hysteron {
 namespace {

@@ -1,11 +1,11 @@
 // Decides what in a diagram nobody reads: blocks, inputs, parameters. What an unchosen candidate of a choice names
 // counts as read.
+#include "engine/compile/unused.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
-
-#include "engine/compile/flatten.h"
 
 namespace hysteron {
 namespace {

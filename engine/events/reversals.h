@@ -1,5 +1,5 @@
 // Decides when the input of a memory block turns back, as falling roots of a signed and shifted indicator.
-// Does not commit memory: the loop in simulate.cpp does, wherever one of these fires.
+// Does not commit memory: the loop in adaptive_step.cpp does, wherever one of these fires.
 #pragma once
 
 #include <vector>

@@ -3,7 +3,7 @@
 // quiet these are long: a sine may rise above a level and fall below it again between two of them. Here every step is
 // looked at in its middle too, and at the extremum of each function that comes near zero between.
 // Does not decide how long a step may be (longest_step in breakpoints.h), nor what happens at a crossing
-// (simulate.cpp).
+// (adaptive_step.cpp).
 #pragma once
 
 #include <functional>

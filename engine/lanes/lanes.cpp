@@ -13,6 +13,7 @@
 #include "engine/lanes/lane_grid.h"
 #include "engine/program/needed.h"
 #include "engine/simulate/fixed_step.h"
+#include "engine/simulate/output_instants.h"
 #include "engine/simulate/simulate_parts.h"
 
 namespace hysteron {

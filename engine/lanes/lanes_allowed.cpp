@@ -7,8 +7,10 @@
 #include "engine/diagram/index.h"
 #include "engine/lanes/lane_shared.h"
 #include "engine/lanes/lanes.h"
+#include "engine/program/breakpoints.h"
+#include "engine/simulate/exact_advance.h"
 #include "engine/simulate/fixed_step.h"
-#include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/output_instants.h"
 
 namespace hysteron {
 namespace {

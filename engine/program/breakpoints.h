@@ -1,5 +1,5 @@
 // Decides at which known times the signals of a program are not smooth: corners of the sources and their echoes behind
-// dead times. Does not know what is done there (simulate.cpp stops); reversals are not known in advance and are not
+// dead times. Does not know what is done there (adaptive_step.cpp); reversals are not known in advance and are not
 // here.
 #pragma once
 

@@ -17,6 +17,7 @@
 #include "engine/simulate/divergence.h"
 #include "engine/simulate/linear_row_kernel.h"
 #include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/step_tolerances.h"
 
 namespace hysteron {
 namespace {

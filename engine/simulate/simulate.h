@@ -1,5 +1,5 @@
 // Decides what a simulation is asked for and what it gives: options, traces, statistics, and where it starts. How it is
-// done stands in simulate.cpp (adaptive steps), fixed_step.h (fixed ones) and advance.h (exactly, row by row).
+// done stands in adaptive_step.h (adaptive ones), fixed_step.h (fixed ones) and advance.h (exactly, row by row).
 #pragma once
 
 #include <functional>

@@ -1,21 +1,14 @@
-// Decides how options become instants and checks, and when a simulation is handed to the exact advance.
-// Internal to the ways of simulating.
+// Decides what all ways of simulating check, count and tell. Internal to them.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <optional>
-#include <vector>
 
 #include "engine/events/events.h"
-#include "engine/program/nominal.h"
 #include "engine/simulate/simulate.h"
 
 namespace hysteron {
-
-/// Absolute tolerance per state [SI]; never empty.
-std::vector<double> absolute_tolerances(const NominalSizes& sizes, const SimulateOptions& options);
 
 /// Counts of events and loops for the statistics.
 void tell_counts(const Program& program, const Events& events, const Work& work, Statistics& statistics);
@@ -59,18 +52,7 @@ class HowFar {
   Clock::time_point last_{};
 };
 
-/// The output times: as given, or begin, begin + every ... until. Throws Error "bad_value" for options that make no
-/// sense.
-std::vector<double> output_instants(const SimulateOptions& options);
-
 /// Throws Error "unbound_input" if an input of the diagram has no series.
 void check_inputs(const Program& program, const Run& run);
-
-/// True if the method and the diagram allow it; "auto" does not take it for loops with nonlinear blocks. Throws Error
-/// "not_exact" where it was asked for and cannot be.
-bool advances_exactly(const Program& program, const SimulateOptions& options);
-/// Nothing where the method may be another and no number of substeps that pays gives the tolerance.
-std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
-                                       std::vector<double> instants, const std::vector<int>& signals);
 
 }  // namespace hysteron

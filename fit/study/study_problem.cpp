@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/program/names.h"
-#include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/output_instants.h"
 #include "fit/model/model.h"
 #include "fit/signals/features.h"
 #include "fit/study/unit_algebra.h"

@@ -89,7 +89,8 @@ class ListFunctions : public testing::Test {
     (void)folder_.write("order.txt", "# order\nlast\nfirst\n");
     (void)folder_.write("a.h", "Thing first_thing();\nint other();\n");
     (void)folder_.write("b.h", "Thing last_thing();\nThing unnamed_thing();\n");
-    (void)folder_.write("look.cmake", "cmake_minimum_required(VERSION 3.25)\ninclude(" HYSTERON_SOURCE_DIR R"(/cmake/list_functions.cmake)
+    (void)folder_.write("look.cmake", "cmake_minimum_required(VERSION 3.25)\ninclude(" HYSTERON_SOURCE_DIR
+                                      R"(/cmake/list_functions.cmake)
 file(GLOB files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.h)
 hysteron_list_functions(things TYPE Thing SUFFIX _thing ENDING ";" NAMESPACE n HEADER thing.h ORDER order.txt
   FILES ${files} CURE "Write \"Thing name_thing();\".")

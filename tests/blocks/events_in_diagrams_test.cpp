@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/rowwise/advance.h"
-#include "engine/simulate/simulate_parts.h"
+#include "engine/simulate/exact_advance.h"
 #include "tests/engine/simulate_tools.h"
 #include "tests/models/golden.h"
 
@@ -25,7 +25,7 @@ Traces simulated(const Diagram& d, std::vector<double> instants) {
   options.relative_tolerance = tolerance;
   return simulate(*program, start(*program), options);
 }
-std::vector<double> grid(double until, int n, double shift = 0) {
+std::vector<double> rows_until(double until, int n, double shift = 0) {
   std::vector<double> t;
   for (int k = 0; k < n; ++k) t.push_back(until * k / n + shift);
   return t;
@@ -83,7 +83,7 @@ TEST(EventsInDiagrams, SampledInversesPutTheirActuatorsOnTheReferenceAtEveryInst
                                  {"u2", block("sampled_bouc_wen_inverse", sampled_bw, {"r"})},
                                  {"y2", block("bouc_wen", bw, {"u2"})}},
                                 {"y1", "y2"});
-  const Traces traces = simulated(d, grid(0.3, 300, 0.5e-3));
+  const Traces traces = simulated(d, rows_until(0.3, 300, 0.5e-3));
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double r = 3 - 3 * std::cos(2 * M_PI * 5 * (traces.t[k] - 0.5e-3));
     ASSERT_NEAR(1e6 * traces.values[0][k], r, 1e-6) << "Jiles-Atherton, row " << k;
@@ -99,7 +99,7 @@ TEST(EventsInDiagrams, HoldDelayAndQuantizerGiveTheSamplesOfTheirInstants) {
        {"coarse",
         block("quantizer", {{"bits", 4.0}, {"lower", "-4 V"}, {"upper", "4 V"}, {"period", "10 ms"}}, {"u"})}},
       {"held", "late", "coarse"});
-  const Traces traces = simulated(d, grid(1, 100, 5e-3));
+  const Traces traces = simulated(d, rows_until(1, 100, 5e-3));
   for (int k = 0; k < 100; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto u = [](double t) { return 3 * std::sin(2 * M_PI * t); };
@@ -116,7 +116,7 @@ TEST(EventsInDiagrams, RelayAroundAnIntegratorMakesATriangle) {
         block("relay", {{"on_at", "1 V"}, {"off_at", "-1 V"}, {"on_value", "-2 V/s"}, {"off_value", "2 V/s"}}, {"y"})},
        {"y", block("integrator", {{"initial", "0 V"}}, {"switch"})}},
       {"y"});
-  const Traces traces = simulated(d, grid(10, 97));
+  const Traces traces = simulated(d, rows_until(10, 97));
   for (std::size_t k = 0; k < traces.t.size(); ++k)
     EXPECT_NEAR(traces.values[0][k], 2 / M_PI * std::asin(std::sin(M_PI * traces.t[k])), 2e-7) << traces.t[k];
 }
@@ -180,7 +180,7 @@ TEST(EventsInDiagrams, RateLimiterMakesARampOfAStepAndBreaksNoLoop) {
       tools::diagram({{"u", block("step", {{"before", "0 V"}, {"after", "3 V"}, {"time", "0.1 s"}})},
                       {"y", block("rate_limiter", {{"rise", "4 V/s"}, {"fall", "2 V/s"}, {"time", "50 ms"}}, {"u"})}},
                      {"y"});
-  const Traces traces = simulated(d, grid(1.5, 60));
+  const Traces traces = simulated(d, rows_until(1.5, 60));
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double t = traces.t[k] - 0.1;
     const double expected = t < 0 ? 0 : t < 0.7 ? 4 * t : 3 - 0.2 * std::exp(-(t - 0.7) / 0.05);
@@ -205,7 +205,7 @@ TEST(RowsOfRecordings, AreTheSameAsTheirIntegration) {
     auto run = start(*program);
     bind_input(*program, run, "u", tools::series(t, u));
     SimulateOptions options;
-    options.instants = grid(1.3, 400);
+    options.instants = rows_until(1.3, 400);
     options.until = options.instants.back();
     options.relative_tolerance = tolerance;
     options.method = Method::exact;
