@@ -30,6 +30,12 @@ Numbers rates(const Duals& d) {
   return r;
 }
 
+Numbers moved(const Numbers& a, const Numbers& direction, double h) {
+  Numbers b = a;
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] += h * direction[i];
+  return b;
+}
+
 template <class T>
 View<T> Bench::view(const std::vector<T>& parameters, const std::vector<T>& u, const std::vector<T>& x,
                     const std::vector<T>& m, T t, double branch) const {

@@ -21,6 +21,8 @@ const Kernel& kernel_of(const std::string& type);
 /// Values with their rates, all of them zero where none are given.
 Duals dual(const Numbers& value, const Numbers& rate = {});
 Numbers rates(const Duals& d);
+/// a + h direction
+Numbers moved(const Numbers& a, const Numbers& direction, double h);
 
 /// One block with its numbers. Text parameters are given as the index of the choice, free texts as character codes, the
 /// columns of a matrix "m" as "m columns". Blocks with vector ports get one wire, `inputs` elements long.

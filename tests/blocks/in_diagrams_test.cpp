@@ -6,10 +6,12 @@
 #include "engine/diagram/error.h"
 #include "engine/simulate/simulate.h"
 #include "tests/blocks/bench.h"
+#include "tests/engine/simulate_tools.h"
 
 namespace hysteron {
 namespace {
 
+using tools::grid;
 Node node(const std::string& type, std::vector<std::pair<std::string, Value>> values,
           std::vector<std::string> in = {}) {
   Node n;
@@ -38,12 +40,6 @@ Traces simulated(const Diagram& d, std::vector<double> instants, Method method, 
   options.signals = {program->signal("y")};
   return simulate(*program, start(*program), options);
 }
-std::vector<double> grid(double until, int n) {
-  std::vector<double> t;
-  for (int k = 0; k <= n; ++k) t.push_back(until * k / n);
-  return t;
-}
-
 TEST(BlocksInDiagrams, UnitsOfEveryTypeFitTogetherInOneChain) {
   Diagram d;
   d.blocks["u"] = node("sine", {{"amplitude", "3 V"}, {"offset", "3 V"}, {"frequency", "5 Hz"}, {"phase", "-90 deg"}});
@@ -76,7 +72,7 @@ TEST(BlocksInDiagrams, UnitsOfEveryTypeFitTogetherInOneChain) {
   EXPECT_EQ(dimension("controller"), parse_unit("V").dimension);
   EXPECT_EQ(dimension("sum_of_u"), parse_unit("V s").dimension);
   EXPECT_EQ(dimension("power"), parse_unit("V V").dimension);
-  EXPECT_TRUE(std::isfinite(simulated(d, grid(0.05, 20), Method::bdf, 1e-6).values[0].back()));
+  EXPECT_TRUE(std::isfinite(simulated(d, grid(0, 0.05, 20), Method::bdf, 1e-6).values[0].back()));
 }
 
 TEST(BlocksInDiagrams, ATwoPoleLagAnswersAStepByItsClosedForm) {
@@ -85,7 +81,7 @@ TEST(BlocksInDiagrams, ATwoPoleLagAnswersAStepByItsClosedForm) {
   d.blocks["u"] = node("recorded", {{"samples", series({0, 1}, {1, 1})}});
   d.blocks["y"] = node("lag", {{"times", numbers({0.1, 0.3})}}, {"u"});
   for (const Method method : {Method::exact, Method::bdf}) {
-    const Traces traces = simulated(d, grid(1, 20), method);
+    const Traces traces = simulated(d, grid(0, 1, 20), method);
     for (std::size_t k = 0; k < traces.t.size(); ++k) {
       const double t = traces.t[k];
       const double expected = 1 - (0.1 * std::exp(-t / 0.1) - 0.3 * std::exp(-t / 0.3)) / (0.1 - 0.3);
@@ -98,7 +94,7 @@ TEST(BlocksInDiagrams, CreepAnswersAStepByItsClosedForm) {
   Diagram d;
   d.blocks["u"] = node("recorded", {{"samples", series({0, 1}, {2, 2})}});
   d.blocks["y"] = node("creep", {{"amounts", numbers({0.1, 0.2})}, {"times", numbers({0.1, 3})}}, {"u"});
-  const Traces traces = simulated(d, grid(1, 20), Method::bdf);
+  const Traces traces = simulated(d, grid(0, 1, 20), Method::bdf);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double t = traces.t[k];
     EXPECT_NEAR(traces.values[0][k], 2 * (1 + 0.1 * (1 - std::exp(-t / 0.1)) + 0.2 * (1 - std::exp(-t / 3))), 2e-7)
@@ -114,7 +110,7 @@ TEST(BlocksInDiagrams, ADeadTimeBehindARecordingIsTheRecordingLater) {
   d.blocks["y"] = node("dead_time", {{"delay", "0.07 s"}}, {"u"});
   const Series expected{t, v, Between::linear};
   for (const Method method : {Method::exact, Method::bdf}) {
-    const Traces traces = simulated(d, grid(1, 200), method);
+    const Traces traces = simulated(d, grid(0, 1, 200), method);
     for (std::size_t k = 0; k < traces.t.size(); ++k) {
       const double late = traces.t[k] - 0.07;
       EXPECT_NEAR(traces.values[0][k], expected.value(late, late), 1e-12)
@@ -127,7 +123,7 @@ TEST(BlocksInDiagrams, ADeadTimeBehindASineIsTheSineLater) {
   Diagram d;
   d.blocks["u"] = node("sine", {{"amplitude", "2 V"}, {"frequency", "1 Hz"}});
   d.blocks["y"] = node("dead_time", {{"delay", "0.13 s"}}, {"u"});
-  const Traces traces = simulated(d, grid(2, 100), Method::bdf, 1e-8);
+  const Traces traces = simulated(d, grid(0, 2, 100), Method::bdf, 1e-8);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double late = traces.t[k] - 0.13;
     // cubic Hermite over steps of at most the delay: 2 (2 pi)^4 h^4/384 = 2.3e-3 at worst, at h = 0.13 s

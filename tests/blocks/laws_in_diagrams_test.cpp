@@ -13,6 +13,7 @@ namespace hysteron {
 namespace {
 
 using tools::block;
+using tools::grid;
 using tools::list;
 
 Traces simulated(const Diagram& d, std::vector<double> instants, double tolerance, bool at_rest = false) {
@@ -25,12 +26,6 @@ Traces simulated(const Diagram& d, std::vector<double> instants, double toleranc
   options.at_rest = at_rest;
   return simulate(*program, start(*program), options);
 }
-std::vector<double> grid(double until, int n) {
-  std::vector<double> t;
-  for (int k = 0; k <= n; ++k) t.push_back(until * k / n);
-  return t;
-}
-
 Node reference(const std::string& shape, const std::string& unit) {
   return block(shape,
                {{"amplitude", "3 " + unit}, {"offset", "3 " + unit}, {"frequency", "5 Hz"}, {"phase", "-90 deg"}});
@@ -92,7 +87,7 @@ Diagram steel_under_a_triangle(const std::string& curve) {
 }
 
 TEST(LawsInDiagrams, APublishedSetFollowsTheLawWithLangevinsFunction) {
-  const Traces traces = simulated(steel_under_a_triangle("langevin"), grid(2.25, 450), 1e-8);
+  const Traces traces = simulated(steel_under_a_triangle("langevin"), grid(0, 2.25, 450), 1e-8);
   const jiles_atherton::Params<double> law{
       .p_s = 1.6e6, .a = 560, .alpha = 7e-4, .k = 1200, .c = 0.1, .curve = jiles_atherton::Curve::langevin};
   double p = 0, from = 0;
@@ -188,7 +183,7 @@ TEST_P(Compensated, ActuatorBehindItsInverseFollowsTheReference) {
                                    {"u", block(type + "_inverse", law.parameters(), {"r"})},
                                    {"y", block(type, law.parameters(), {"u"})}},
                                   {"r", "y", "u"});
-    const Traces traces = simulated(d, grid(0.4, 400), 1e-9);
+    const Traces traces = simulated(d, grid(0, 0.4, 400), 1e-9);
     double top = 0;
     for (std::size_t k = 0; k < traces.t.size(); ++k) {
       ASSERT_NEAR(1e6 * traces.values[1][k], 1e6 * traces.values[0][k], law.tolerance) << shape << " row " << k;
@@ -268,7 +263,7 @@ TEST(LawsInDiagrams, MassHasItsPositionAndItsVelocityAsPorts) {
               {"force"})},
        {"way", block("integrator", {}, {"mass.velocity"})}},
       {"mass.position", "way"});
-  const Traces traces = simulated(d, grid(3, 60), 1e-9);
+  const Traces traces = simulated(d, grid(0, 3, 60), 1e-9);
   const double decay = 0.2, w = std::sqrt(25 - decay * decay);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double t = traces.t[k];
@@ -285,7 +280,7 @@ TEST(LawsInDiagrams, MassOnASpringStartsAtRestUnderItsForce) {
                       {{"mass", "2 kg"}, {"damping", "0.8 N s/m"}, {"stiffness", "2 N/m"}, {"stiffening", "3 N/m^3"}},
                       {"force"})}},
       {"mass.position", "mass.velocity"});
-  const Traces traces = simulated(d, grid(1, 4), 1e-9, true);
+  const Traces traces = simulated(d, grid(0, 1, 4), 1e-9, true);
   for (const double x : traces.values[0]) EXPECT_NEAR(x, 1, 1e-9);  // 2 x + 3 x^3 = 5
   for (const double v : traces.values[1]) EXPECT_NEAR(v, 0, 1e-9);
 }
@@ -307,13 +302,13 @@ TEST(LawsInDiagrams, ThermalNetworkWarmsInItsTwoModesAndRestsWhereHeatFlowsThrou
     const double mean = 7.5 * (1 - std::exp(-0.05 * t)), half = 1.5 / 1.6 * (1 - std::exp(-0.4 * t));
     return 293.15 + mean + (body == 0 ? half : -half);
   };
-  const Traces traces = simulated(d, grid(40, 20), 1e-9);
+  const Traces traces = simulated(d, grid(0, 40, 20), 1e-9);
   ASSERT_EQ(traces.values.size(), 2u);
   for (std::size_t k = 0; k < traces.t.size(); ++k)
     for (int body = 0; body < 2; ++body)
       EXPECT_NEAR(traces.values[static_cast<std::size_t>(body)][k], expected(traces.t[k], body),
                   3e-6);  // 10 rtol 300 K
-  const Traces rest = simulated(d, grid(1, 2), 1e-9, true);
+  const Traces rest = simulated(d, grid(0, 1, 2), 1e-9, true);
   EXPECT_NEAR(rest.values[0].back(), expected(1e9, 0), 1e-6);
   EXPECT_NEAR(rest.values[1].back(), expected(1e9, 1), 1e-6);
 }

@@ -13,17 +13,13 @@ namespace {
 using bench::Bench;
 using bench::dual;
 using bench::Duals;
+using bench::moved;
 using bench::Numbers;
 
 Numbers draw(std::size_t n, std::uint64_t stream, double scale) {
   Numbers v;
   for (std::size_t i = 0; i < n; ++i) v.push_back(scale * random::normal(99, stream, i));
   return v;
-}
-Numbers moved(const Numbers& a, const Numbers& direction, double h) {
-  Numbers b = a;
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] += h * direction[i];
-  return b;
 }
 
 class EverySample : public testing::TestWithParam<bench::Sample> {};

@@ -12,18 +12,14 @@ namespace hysteron {
 namespace {
 
 using bench::Bench;
+using bench::moved;
 using bench::Numbers;
 using Jets = std::vector<Jet>;
 
-Numbers draw(std::size_t n, std::uint64_t stream, double scale) {
+Numbers drawn(std::size_t n, std::uint64_t stream, double scale) {
   Numbers v;
   for (std::size_t i = 0; i < n; ++i) v.push_back(scale * random::normal(17, stream, i));
   return v;
-}
-Numbers moved(const Numbers& a, const Numbers& direction, double h) {
-  Numbers b = a;
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] += h * direction[i];
-  return b;
 }
 Jets along(const Numbers& a, const Numbers& direction) {
   Jets b;
@@ -141,14 +137,14 @@ TEST_P(SlopesOfEverySample, CarriesTheExactSlopesOfItsFunctions) {
                                                            : 3;
   for (std::uint64_t trial = 0; trial < 20; ++trial)
     for (b.mode = 0; b.mode < modes; ++b.mode) {
-      Point at{b.p, draw(nu, 10 * trial, 1), draw(nx, 10 * trial + 1, 1), draw(nm, 10 * trial + 2, 1),
-               draw(nu, 10 * trial + 3, 1)};
+      Point at{b.p, drawn(nu, 10 * trial, 1), drawn(nx, 10 * trial + 1, 1), drawn(nm, 10 * trial + 2, 1),
+               drawn(nu, 10 * trial + 3, 1)};
       // Temperatures are absolute; where a block has one it is its last input.
       if (const auto& ports = b.kernel.declaration.inputs; !ports.empty() && ports.back().unit == "K")
         at.u.back() = 0.1 + std::fabs(at.u.back());
       if (GetParam().type == "divide") at.u.back() = 0.5 + std::fabs(at.u.back());  // away from its pole
-      Point direction{Numbers(b.p.size(), 0.0), draw(nu, 10 * trial + 4, 1), draw(nx, 10 * trial + 5, 1),
-                      draw(nm, 10 * trial + 6, 1), draw(nu, 10 * trial + 7, 1)};
+      Point direction{Numbers(b.p.size(), 0.0), drawn(nu, 10 * trial + 4, 1), drawn(nx, 10 * trial + 5, 1),
+                      drawn(nm, 10 * trial + 6, 1), drawn(nu, 10 * trial + 7, 1)};
       if (whole.contains(GetParam().type))
         for (std::size_t i = 0; i < b.kernel.declaration.parameters.size(); ++i)
           if (b.kernel.declaration.parameters[i].kind != ParameterKind::text)

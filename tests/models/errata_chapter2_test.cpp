@@ -14,17 +14,14 @@
 #include "models/hysteresis/jiles_atherton.h"
 #include "models/hysteresis/prandtl_ishlinskii.h"
 #include "tests/models/golden.h"
+#include "tests/models/thesis_tables.h"
 
-namespace hysteron {
+namespace hysteron::errata_chapter2 {
 namespace {
 
 using Numbers = std::vector<double>;
-
-// Thesis Tables 2.1 to 2.3, in V and um.
-const bouc_wen::Params<double> table1{.alpha = 0.6187, .beta = 0.2418, .gamma = 0.0237, .d_p = 1.6126};
-const jiles_atherton::Params<double> table2{.p_s = 55.9973, .a = 48.5843, .alpha = 0.2512, .k = 3.8892, .c = 0.6929};
-const Numbers weights{0.7521, 0.1381, 0.0775, 0.0651, 0.0658, 0.0522, 0.0506, 0.0523, 0.0520, 0.1169};
-const Numbers thresholds{0, 0.6, 1.2, 1.8, 2.4, 3.0, 3.6, 4.2, 4.8, 5.4};
+using thesis::thresholds;
+using thesis::weights;
 
 struct Operators {
   Numbers r, c, w;
@@ -89,7 +86,7 @@ TEST(ErrataOfChapter2, E10InitialStatesLieBelowZeroAndAreNested) {
 
 /// dP/dE as the thesis prints it (2.32, 2.34), with a spurious alpha in the numerator.
 double printed_slope(double e, double p, double d) {
-  const auto& q = table2;
+  const auto& q = thesis::table_2_2;
   const double anhysteretic = q.p_s * std::tanh((e + q.alpha * p) / q.a), gap = anhysteretic - p;
   const double r = q.c * q.p_s * q.alpha / q.a * (1 - std::pow(anhysteretic / q.p_s, 2));
   return (gap / (q.k * d - q.alpha / (1 - q.c) * gap) + r) / (1 - r);
@@ -97,7 +94,7 @@ double printed_slope(double e, double p, double d) {
 
 /// As corrected, its irreversible part clipped where it would be negative, as is usual for magnets.
 double clipped_slope(double e, double p, double d) {
-  const auto& q = table2;
+  const auto& q = thesis::table_2_2;
   const double anhysteretic = q.p_s * std::tanh((e + q.alpha * p) / q.a), gap = anhysteretic - p;
   const double s = 1 - std::pow(anhysteretic / q.p_s, 2);
   const double irreversible = gap * d > 0 ? gap / (q.k * d - q.alpha / (1 - q.c) * gap) : 0;
@@ -135,7 +132,7 @@ TEST(ErrataOfChapter2, E12TheReversibleTermHasNoAlphaInItsNumerator) {
   EXPECT_NEAR(printed.virgin, 6.5562, 1e-4);  // SPEC, five digits; the equations solved directly give 7.8929041445
   EXPECT_NEAR(printed.stroke, 3.8118,
               1e-4);  // Runge-Kutta in another program; where Bouc-Wen has 6.617 um and Prandtl-Ishlinskii 6.645 um
-  EXPECT_NEAR(jiles_atherton::polarisation_after(table2, 0.0, 0.0, 6.0), 7.8929041445, 1e-8);
+  EXPECT_NEAR(jiles_atherton::polarisation_after(thesis::table_2_2, 0.0, 0.0, 6.0), 7.8929041445, 1e-8);
   HYSTERON_NEEDS_GOLDEN("ja_printed_form_sine");
   const auto trace = golden::read("ja_printed_form_sine");
   EXPECT_NEAR(printed.virgin, trace.at("P printed [um]")[500], 1e-7);  // Runge-Kutta steps of 0.01 V
@@ -151,11 +148,11 @@ TEST(ErrataOfChapter2, E15TheInverseTakesTheFieldFirst) {
   const double step = 0.001;
   double right = 0, exchanged = 0;
   for (double r = 0; r < 6 - step / 2; r += step) {
-    right = jiles_atherton::field_after(table2, right, r, r + step);
-    exchanged += jiles_atherton::field_rate(table2, r, exchanged, step);
+    right = jiles_atherton::field_after(thesis::table_2_2, right, r, r + step);
+    exchanged += jiles_atherton::field_rate(thesis::table_2_2, r, exchanged, step);
   }
-  EXPECT_NEAR(jiles_atherton::polarisation_after(table2, 0.0, 0.0, right), 6, 1e-8);
-  const double reached = jiles_atherton::polarisation_after(table2, 0.0, 0.0, exchanged);
+  EXPECT_NEAR(jiles_atherton::polarisation_after(thesis::table_2_2, 0.0, 0.0, right), 6, 1e-8);
+  const double reached = jiles_atherton::polarisation_after(thesis::table_2_2, 0.0, 0.0, exchanged);
   EXPECT_FALSE(std::fabs(reached - 6) < 0.5) << reached;
 }
 
@@ -164,10 +161,10 @@ double delayed_error(int rows_per_second) {
   double z = 0, u = 0, worst = 0;
   for (int k = 1; k <= rows_per_second * 2 / 5; ++k) {
     const double r = 3 - 3 * std::cos(2 * std::numbers::pi * 5 * k / rows_per_second);
-    const double next = bouc_wen::command(table1, r, z);
-    z = bouc_wen::z_after(table1, z, next - u);
+    const double next = bouc_wen::command(thesis::table_2_1, r, z);
+    z = bouc_wen::z_after(thesis::table_2_1, z, next - u);
     u = next;
-    worst = std::fmax(worst, std::fabs(table1.d_p * u - z - r));
+    worst = std::fmax(worst, std::fabs(thesis::table_2_1.d_p * u - z - r));
   }
   return worst;
 }
@@ -179,10 +176,10 @@ TEST(ErrataOfChapter2, E16ALoopWithADelayIsNoInverse) {
   double z = 0, worst = 0, z_actuator = 0, u = 0, before = 0;
   for (int k = 1; k <= 400; ++k) {
     const double r = 3 - 3 * std::cos(2 * std::numbers::pi * 5 * k / 1000);
-    z = bouc_wen::compensator_after(table1, z, r - before);
-    const double next = bouc_wen::command(table1, r, z);
-    z_actuator = bouc_wen::z_after(table1, z_actuator, next - u);
-    worst = std::fmax(worst, std::fabs(table1.d_p * next - z_actuator - r));
+    z = bouc_wen::compensator_after(thesis::table_2_1, z, r - before);
+    const double next = bouc_wen::command(thesis::table_2_1, r, z);
+    z_actuator = bouc_wen::z_after(thesis::table_2_1, z_actuator, next - u);
+    worst = std::fmax(worst, std::fabs(thesis::table_2_1.d_p * next - z_actuator - r));
     u = next;
     before = r;
   }
@@ -198,4 +195,4 @@ TEST(ErrataOfChapter2, E50TheTablesCannotAllHoldForOnePeriod) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::errata_chapter2

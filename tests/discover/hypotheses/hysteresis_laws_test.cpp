@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double white = 2e-4;
+constexpr double sensor_noise = 2e-4;
 
 /// Relays that switch up at a and down at b, 0 <= b <= a <= 1, of the density 1 + uneven (a + b) + apart (a - b) (a + b
 /// - 1): of the triangle from b to a they give (a - b)^2/2 (1 + uneven (a + b) + apart/3 (a - b) (a + b - 1)).
@@ -55,11 +55,11 @@ class HysteresisLaws : public Discoveries {
       const auto t = rows(1500, 0.005);
       const auto u = decaying_triangle(t, top, periods);
       const auto loop = relays(u, uneven, apart);
-      auto y = noise(t.size(), white, 0.1 * white, seed);
+      auto y = noise(t.size(), sensor_noise, 0.1 * sensor_noise, seed);
       for (std::size_t k = 0; k < y.size(); ++k) y[k] += u[k] + amount * (loop[k] - 0.8 * u[k]);
       list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
     }
-    return data_set(std::move(list), white);
+    return data_set(std::move(list), sensor_noise);
   }
 };
 
@@ -96,7 +96,7 @@ TEST_F(HysteresisLaws, ACurveBeforePlaysIsNotSwallowedByALawThatCouldHoldBoth) {
   std::uint64_t seed = 300;
   for (auto& r : data.recordings) {
     const auto& u = r.columns.at("u");
-    auto y = noise(u.size(), white, 0.1 * white, seed++);
+    auto y = noise(u.size(), sensor_noise, 0.1 * sensor_noise, seed++);
     double narrow = 0, wide = 0;
     for (std::size_t k = 0; k < u.size(); ++k) {
       const double bent = u[k] + 0.04 * u[k] * (u[k] - 1);
@@ -156,11 +156,11 @@ TEST_F(HysteresisLaws, ASpringThatYieldsUnevenlyIsHysteresisAndNoCurveBesides) {
     const auto soft = passed_on(x);
     std::vector<double> u;
     for (std::size_t k = 0; k < t.size(); ++k) u.push_back((inertia[k] + 420 * x[k] - 1.5 * soft[k]) / 10);
-    auto y = noise(t.size(), white, 0.1 * white, seed);
+    auto y = noise(t.size(), sensor_noise, 0.1 * sensor_noise, seed);
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += x[k];
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
   }
-  const auto d = discovered(mass_on_spring(), data_set(std::move(list), white),
+  const auto d = discovered(mass_on_spring(), data_set(std::move(list), sensor_noise),
                             {"hysteresis", "friction", "stiffening", "asymmetry", "sensor_nonlinearity", "backlash"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(winner(d), "hysteresis") << tried(d);
@@ -207,12 +207,12 @@ TEST_F(HysteresisLaws, ASpringWhoseLoopsHardenWithTheTravelIsHysteresis) {
       const double w = 2 * std::numbers::pi * hertz;
       return top * (std::sin(w * s) + 0.6 * std::sin(2.3 * w * s) + 0.4 * std::sin(0.31 * w * s)) / 2;
     };
-    auto y = noise(t.size(), white, 0.1 * white, seed);
+    auto y = noise(t.size(), sensor_noise, 0.1 * sensor_noise, seed);
     const auto x = on_a_bouc_wen_spring(t, drive, 40, -55);
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += x[k];
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, sampled(t, drive), std::move(y)));
   }
-  DataSet data = data_set(std::move(list), white);
+  DataSet data = data_set(std::move(list), sensor_noise);
   data.notes["u"].between = Between::smooth;
   const auto d = discovered(mass_on_spring(), data, {"hysteresis", "friction", "stiffening", "quadratic_drag"});
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
@@ -252,7 +252,8 @@ TEST_F(HysteresisLaws, AMassOnNoSpringHasNoneThatRemembers) {
     std::vector<Recording> list;
     for (const Role role : {Role::train, Role::validate}) {
       const auto t = rows(200, 0.01);
-      list.push_back(recording(to_text(role), role, t, several_sines(t, 1, {1.3}), noise(t.size(), white, 0, 1)));
+      list.push_back(
+          recording(to_text(role), role, t, several_sines(t, 1, {1.3}), noise(t.size(), sensor_noise, 0, 1)));
     }
     Diagram d = mass_on_spring();
     d.blocks["stage"].parameters["stiffness"] = Value(stiffness);
@@ -260,7 +261,7 @@ TEST_F(HysteresisLaws, AMassOnNoSpringHasNoneThatRemembers) {
     options.only = {"hysteresis"};
     options.max_steps = 1;
     for (auto& r : list) r.at_rest = false;
-    const Discovery found = discover(d, data_set(std::move(list), white), registry, effects, options);
+    const Discovery found = discover(d, data_set(std::move(list), sensor_noise), registry, effects, options);
     return std::any_of(found.refused.begin(), found.refused.end(), [](const Refused& r) {
       return r.place == "stage" && r.reason.find("on no spring") != std::string::npos;
     });

@@ -40,7 +40,7 @@ TEST(CorrelationRows, AreThoseOfAFirstOrderProcess) {
 
 TEST(CorrelationRows, OfRowsThatAreAllZeroIsOne) { EXPECT_EQ(correlation_rows(Rows(100, 0.0)), 1); }
 
-constexpr double white = 1e-3;
+constexpr double sensor_noise = 1e-3;
 
 class ScoreOf : public ::testing::Test {
  protected:
@@ -49,11 +49,12 @@ class ScoreOf : public ::testing::Test {
     for (int r = 0; r < 3; ++r) {
       const auto t = rows(4000, 0.01);
       const auto u = several_sines(t, 1, {0.1 + 0.02 * r});
-      auto y = noise(t.size(), white, 0, 20 + static_cast<std::uint64_t>(r));
+      auto y = noise(t.size(), sensor_noise, 0, 20 + static_cast<std::uint64_t>(r));
       for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k];
       list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
     }
-    model_.emplace(compile(plain_gain(), registry_), std::make_shared<const DataSet>(data_set(std::move(list), white)));
+    model_.emplace(compile(plain_gain(), registry_),
+                   std::make_shared<const DataSet>(data_set(std::move(list), sensor_noise)));
     evidence_.emplace(*model_);
     best_ = left_rows(*evidence_, model_->predict({}, evidence_->recordings()));
   }
@@ -71,7 +72,7 @@ class ScoreOf : public ::testing::Test {
       for (std::size_t b = 0; b < 16; ++b) {
         double rss = 0;
         for (std::size_t i = 250 * b; i < 250 * (b + 1); ++i) rss += l.rows[i] * l.rows[i];
-        score -= 0.5 * 250 * std::log(white * white + rss / 250);
+        score -= 0.5 * 250 * std::log(sensor_noise * sensor_noise + rss / 250);
       }
     return score;
   }

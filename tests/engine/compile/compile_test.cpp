@@ -2,9 +2,10 @@
 
 #include <functional>
 
-#include "blocks/register_all.h"
 #include "engine/program/program.h"
+#include "tests/engine/compile/problems_of.h"
 #include "tests/engine/diagrams_in_code.h"
+#include "tests/engine/simulate_tools.h"
 
 namespace hysteron {
 namespace {
@@ -12,22 +13,8 @@ namespace {
 using test::node;
 using test::numbers;
 using test::series;
-
-const Registry& registry() {
-  static const Registry all = all_blocks();
-  return all;
-}
-
-/// The problems that compiling a diagram gives.
-std::vector<Problem> problems_of(const Diagram& diagram) {
-  try {
-    compile(diagram, registry());
-  } catch (const Error& e) {
-    EXPECT_EQ(e.fault, Fault::input);
-    return e.problems;
-  }
-  return {};
-}
+using tools::problems_of;
+using tools::registry;
 
 Diagram valid() {
   Diagram d;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "blocks/register_all.h"
 #include "engine/diagram/error.h"
 #include "engine/simulate/simulate.h"
 #include "tests/engine/diagrams_in_code.h"
+#include "tests/engine/simulate_tools.h"
 
 namespace hysteron {
 namespace {
@@ -15,11 +15,7 @@ namespace {
 using test::node;
 using test::numbers;
 using test::series;
-
-const Registry& registry() {
-  static const Registry all = all_blocks();
-  return all;
-}
+using tools::registry;
 
 /// "code path" of each, sorted.
 std::vector<std::string> told(const std::vector<Problem>& problems) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/engine/compile/problems_of.h"
 #include "tests/engine/diagrams_in_code.h"
 #include "tests/engine/simulate_tools.h"
 
@@ -14,6 +15,7 @@ namespace {
 using test::node;
 using test::numbers;
 using tools::compiled;
+using tools::problems_of;
 using tools::registry;
 
 NumberMatrix matrix(std::initializer_list<std::initializer_list<double>> rows, const std::string& unit = "") {
@@ -23,16 +25,6 @@ NumberMatrix matrix(std::initializer_list<std::initializer_list<double>> rows, c
     for (const double v : row) m.rows.back().push_back(unit.empty() ? Number{v, {}} : Number{v, unit});
   }
   return m;
-}
-
-std::vector<Problem> problems_of(const Diagram& diagram) {
-  try {
-    compile(diagram, registry());
-  } catch (const Error& e) {
-    EXPECT_EQ(e.fault, Fault::input);
-    return e.problems;
-  }
-  return {};
 }
 
 /// Three constants 1 V, 2 V, 4 V joined in "u".

@@ -15,7 +15,7 @@ using namespace tools;
 using Blocks = std::vector<std::pair<std::string, Node>>;
 
 // Against recursions that take the same steps: rounding, added up over some hundred instants of a stable loop.
-constexpr double exact = 1e-12;
+constexpr double rounding = 1e-12;
 
 ProgramPointer with_events(const Diagram& d) { return compile(d, test::registry_with_events()); }
 
@@ -82,7 +82,7 @@ TEST(AdvanceSampled, AControllerAroundALagIsTheRecursionOfItsZeroOrderHold) {
     EXPECT_EQ(traces.statistics.samples, 1 + static_cast<long>(traces.t.back() / 1e-3 + 1e-9));
     const auto x = loop_by_hand(
         traces.t, 0.004, [](double u) { return u; }, [](double y, long) { return y; });
-    EXPECT_LT(distance(trace(traces), x), exact) << every;
+    EXPECT_LT(distance(trace(traces), x), rounding) << every;
     for (std::size_t i = 0; i < traces.t.size(); ++i) {
       // what is a function of time is asked for at every row
       EXPECT_NEAR(traces.values[1][i], sine_at(traces.t[i]), 1e-13);
@@ -109,7 +109,7 @@ TEST(AdvanceSampled, RecordedRowsBesideTheInstantsChangeNothing) {
   const auto u = series(t, v);
   for (std::size_t k = 0; k < ours.t.size(); ++k) {
     if (k > 0) x = c + (x - c) * std::exp(-1e-3 / 0.004);
-    EXPECT_NEAR(trace(ours)[k], x, exact) << k;
+    EXPECT_NEAR(trace(ours)[k], x, rounding) << k;
     const double e = u->value(ours.t[k], ours.t[k]) - x;
     c = 0.8 * e + integral;
     integral += 0.12 * e;
@@ -137,7 +137,7 @@ TEST(AdvanceSampled, SeveralRatesAndOffsetsMeetAsTheirTicksSay) {
       return w + (x - w) * std::exp(-(time - from) / 0.004);
     };
     for (; i < traces.t.size() && traces.t[i] < t - 1e-12; ++i)
-      EXPECT_NEAR(traces.values[0][i], x_at(traces.t[i]), exact);
+      EXPECT_NEAR(traces.values[0][i], x_at(traces.t[i]), rounding);
     x = x_at(t);
     from = t;
     if (tick % 4 == 1) {
@@ -146,8 +146,8 @@ TEST(AdvanceSampled, SeveralRatesAndOffsetsMeetAsTheirTicksSay) {
     }
     if (tick % 12 == 2) h = x;
     if (i < traces.t.size() && traces.t[i] < t + 1e-12) {
-      EXPECT_NEAR(traces.values[1][i], s, exact) << t;
-      EXPECT_NEAR(traces.values[2][i], h, exact) << t;
+      EXPECT_NEAR(traces.values[1][i], s, rounding) << t;
+      EXPECT_NEAR(traces.values[2][i], h, rounding) << t;
     }
   }
   EXPECT_EQ(i, traces.t.size() - 1);
@@ -168,7 +168,7 @@ TEST(AdvanceSampled, PlayInTheLoopFollowsTheJumpsAndNeedsNoSubsteps) {
   const auto x = loop_by_hand(
       traces.t, 0.004, [&](double u) { return w = std::max(u - 0.3, std::min(u + 0.3, w)); },
       [](double y, long) { return y; });
-  EXPECT_LT(distance(trace(traces), x), exact);
+  EXPECT_LT(distance(trace(traces), x), rounding);
   EXPECT_LT(disagreement(*program, 0.4, 0.37e-3), 1e-7);  // the error of bdf after 400 restarts
 }
 
@@ -202,8 +202,8 @@ TEST(AdvanceSampled, ADeadTimeHandsTheStaircaseOnAtItsOwnInstants) {
     const auto held = [&](long k) { return k < 0 ? 0.0 : s[static_cast<std::size_t>(k)]; };
     for (long k = 0; k <= 300; ++k) {
       const double before = held(k - 3), behind = held(k - 2);
-      EXPECT_NEAR(traces.values[0][static_cast<std::size_t>(k)], x, exact) << k;
-      EXPECT_NEAR(traces.values[1][static_cast<std::size_t>(k)], part > 1e-9 ? before : behind, exact) << k;
+      EXPECT_NEAR(traces.values[0][static_cast<std::size_t>(k)], x, rounding) << k;
+      EXPECT_NEAR(traces.values[1][static_cast<std::size_t>(k)], part > 1e-9 ? before : behind, rounding) << k;
       s.push_back(s.back() + 0.05 * (1 - x));
       x = before + (x - before) * std::exp(-part / 0.004);
       x = behind + (x - behind) * std::exp(-(1e-3 - part) / 0.004);
@@ -224,7 +224,7 @@ TEST(AdvanceSampled, TwoDeadTimesInARowAddUp) {
   const auto a = run_to(*with_events(diagram(one, {"x"})), 0.2, 0.37e-3);
   const auto b = run_to(*with_events(diagram(two, {"x"})), 0.2, 0.37e-3);
   EXPECT_EQ(b.statistics.method, "exact");
-  EXPECT_LT(distance(trace(a), trace(b)), exact);
+  EXPECT_LT(distance(trace(a), trace(b)), rounding);
 }
 
 TEST(AdvanceSampled, NoiseIsThatOfTheInstant) {
@@ -241,7 +241,7 @@ TEST(AdvanceSampled, NoiseIsThatOfTheInstant) {
     const auto x = loop_by_hand(
         traces.t, 0.004, [](double u) { return u; },
         [&](double y, long k) { return y + 0.1 * random::normal(5, stream, static_cast<std::uint64_t>(k)); });
-    EXPECT_LT(distance(trace(traces), x), exact) << sensor;
+    EXPECT_LT(distance(trace(traces), x), rounding) << sensor;
   }
 }
 
@@ -255,7 +255,7 @@ TEST(AdvanceSampled, ACornerAtAnInstantIsPassedBeforeTheSample) {
   EXPECT_EQ(traces.statistics.method, "exact");
   for (std::size_t i = 0; i < traces.t.size(); ++i) {
     EXPECT_EQ(traces.values[0][i], i < 6 ? 0.0 : 1.0) << i;
-    EXPECT_NEAR(traces.values[1][i], std::max(0.0, traces.t[i] - 0.3), exact) << i;
+    EXPECT_NEAR(traces.values[1][i], std::max(0.0, traces.t[i] - 0.3), rounding) << i;
   }
 }
 
@@ -279,7 +279,7 @@ TEST(AdvanceSampled, WhatStandsBetweenSampledBlocksIsPassedInTheSameInstant) {
     if (k > 0) w = std::max(3 * u - z - 0.3, std::min(3 * u - z + 0.3, w));
     u = sine_at(1e-3 * static_cast<double>(k));
     w = std::max(3 * u - z - 0.3, std::min(3 * u - z + 0.3, w));
-    EXPECT_NEAR(traces.values[0][k], w, exact) << k;
+    EXPECT_NEAR(traces.values[0][k], w, rounding) << k;
   }
   EXPECT_LT(disagreement(*program, 0.3, 1e-3), 1e-7);
 }

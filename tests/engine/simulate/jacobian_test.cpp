@@ -48,7 +48,7 @@ std::vector<std::vector<double>> by_differences(const Program& p, const hysteron
 }
 
 /// x' = (in - x)/tau in a chain with neighbours: three entries a column.
-Diagram chain(int n) {
+Diagram lags_in_a_row(int n) {
   std::vector<std::pair<std::string, Node>> blocks{{"u", block("sine", {{"amplitude", "1 V"}, {"frequency", "5 Hz"}})}};
   for (int i = 0; i < n; ++i) {
     const auto name = "x" + std::to_string(i);
@@ -65,7 +65,7 @@ Diagram chain(int n) {
 
 TEST(JacobianBySlopes, OfAChainOfLagsIsItsClosedFormAndItsPatternTheChain) {
   const int n = 50;
-  const auto p = compiled(chain(n));
+  const auto p = compiled(lags_in_a_row(n));
   const auto run = start(*p);
   const std::vector<double> x(static_cast<std::size_t>(p->n_x), 0.3);
   const auto j = by_slopes(*p, run, 0.1, x);
@@ -111,7 +111,7 @@ TEST(JacobianBySlopes, ChangesNothingButTheCost) {
 }
 
 TEST(JacobianBySlopes, ALargeSparseDiagramIsSimulatedWithIt) {
-  const auto p = compiled(chain(400));
+  const auto p = compiled(lags_in_a_row(400));
   const SimulateOptions options{.until = 0.5, .every = 0.01, .method = Method::bdf, .relative_tolerance = 1e-8};
   SimulateOptions other = options;
   other.method = Method::runge_kutta;

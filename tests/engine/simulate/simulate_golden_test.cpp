@@ -12,7 +12,7 @@ using namespace tools;
 
 constexpr double um = 1e-6;
 
-struct Case {
+struct GoldenCase {
   const char* file;
   const char* column;
   Diagram diagram;  // records what is compared
@@ -54,8 +54,8 @@ Diagram closed_loop(int controller, const Node& reference) {
 
 Node unit_step(const std::string& after) { return block("step", {{"after", after}}); }
 
-std::vector<Case> cases() {
-  std::vector<Case> list;
+std::vector<GoldenCase> cases() {
+  std::vector<GoldenCase> list;
   for (const char* wave : {"sine", "triangle"}) {
     // No states: what is left is the missed peak of a reversal, eps^2 / 2 of it with eps = 1e-6.
     list.push_back({wave == std::string("sine") ? "pi_forward_sine" : "pi_forward_triangle", "y",
@@ -80,9 +80,9 @@ std::vector<Case> cases() {
   return list;
 }
 
-class GoldenTraces : public testing::TestWithParam<Case> {};
+class GoldenTraces : public testing::TestWithParam<GoldenCase> {};
 
-std::string name_of(const testing::TestParamInfo<Case>& info) {
+std::string name_of(const testing::TestParamInfo<GoldenCase>& info) {
   std::string name = std::to_string(info.index) + "_" + info.param.file;
   return name;
 }
@@ -90,7 +90,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
 INSTANTIATE_TEST_SUITE_P(Simulate, GoldenTraces, testing::ValuesIn(cases()), name_of);
 
 TEST_P(GoldenTraces, AreFollowedToTenTimesTheTolerance) {
-  const Case& c = GetParam();
+  const GoldenCase& c = GetParam();
   auto columns = golden(c.file);
   if (columns.empty()) GTEST_SKIP() << "no ../shared/thesis/golden/" << c.file << ".csv here";
   ASSERT_TRUE(columns.contains(c.column));

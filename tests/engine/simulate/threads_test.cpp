@@ -16,7 +16,7 @@ namespace {
 using namespace tools;
 
 /// One way of simulating that must not share anything between runs.
-struct Case {
+struct ThreadsCase {
   std::string name;
   Diagram diagram;
   std::string parameter;  ///< differs from run to run, by factors around one
@@ -24,9 +24,9 @@ struct Case {
   bool driven = false;  ///< by a recording, its own in each run
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const ThreadsCase& c, std::ostream* out) { *out << c.name; }
 
-Case sampled_control() {
+ThreadsCase sampled_control() {
   auto d = bouc_wen_loop();
   d.blocks["controller"] = block(
       "sampled_pid",
@@ -35,7 +35,7 @@ Case sampled_control() {
   return {"SampledControl", d, "controller.kp", {.until = 0.1, .method = Method::runge_kutta}};
 }
 
-Case loop_through_plays() {
+ThreadsCase loop_through_plays() {
   return {"LoopThroughPlays",
           diagram({{"lack", block("sum", {{"signs", "+-"}}, {"u", "curved"})},
                    {"command", block("gain", {{"gain", 1.3}}, {"lack"})},
@@ -49,7 +49,7 @@ Case loop_through_plays() {
           true};
 }
 
-Case events() {
+ThreadsCase events() {
   return {
       "Events",
       diagram({{"force", block("sine", {{"amplitude", "4 N"}, {"frequency", "3 Hz"}})},
@@ -65,7 +65,7 @@ Case events() {
       {.until = 2, .method = Method::bdf}};
 }
 
-Case jumps() {
+ThreadsCase jumps() {
   return {"Jumps",
           diagram({{"u", block("staircase", {{"levels", list({0, 3, 1, 5, 0}, "V")}, {"duration", "0.1 s"}})},
                    {"y", thesis_bouc_wen("u")},
@@ -76,7 +76,7 @@ Case jumps() {
           {.until = 0.5, .method = Method::adams}};
 }
 
-Case exact() {
+ThreadsCase exact() {
   return {"ExactAdvance",
           diagram({{"y", thesis_operators("u")},
                    {"creeping", block("creep", {{"amounts", list({0.1})}, {"times", list({0.3}, "s")}}, {"y"})},
@@ -87,20 +87,20 @@ Case exact() {
           true};
 }
 
-Case slopes() {
+ThreadsCase slopes() {
   auto d = play_loop();
   return {"Slopes", d, "amplifier.gain", {.until = 0.2, .method = Method::bdf, .slopes_for = {0, 1}}};
 }
 
-Case fixed_steps() {
+ThreadsCase fixed_steps() {
   return {"FixedSteps", bouc_wen_loop(), "controller.ki", {.until = 0.1, .method = Method::rk4, .step = 2e-5}};
 }
 
-class Threads : public testing::TestWithParam<Case> {
+class Threads : public testing::TestWithParam<ThreadsCase> {
  protected:
   static constexpr int runs = 32;
 
-  static std::vector<hysteron::Run> runs_of(const Program& program, const Case& c) {
+  static std::vector<hysteron::Run> runs_of(const Program& program, const ThreadsCase& c) {
     std::vector<hysteron::Run> list;
     std::mt19937 random(11);
     std::uniform_real_distribution<double> factor(0.8, 1.2);
@@ -133,7 +133,7 @@ class Threads : public testing::TestWithParam<Case> {
 };
 
 TEST_P(Threads, GiveTheBitsOfRunsOneByOne) {
-  const Case& c = GetParam();
+  const ThreadsCase& c = GetParam();
   const auto program = compiled(c.diagram);
   const auto list = runs_of(*program, c);
   std::vector<Traces> serial;

@@ -13,11 +13,11 @@
 namespace hysteron {
 namespace {
 
-enum class Colour { white, one_over_f };
+enum class Colour { white, pink_noise };
 
 /// 1/f noise of rms one as a sum of relaxing processes, each four times slower than the one before: made differently
 /// from the filter that whitens it.
-std::vector<double> one_over_f(std::size_t rows, lab::Noise& random) {
+std::vector<double> pink_noise(std::size_t rows, lab::Noise& random) {
   std::vector<double> sum(rows, 0.0);
   int processes = 0;
   for (double slow = 1; slow < 2 * static_cast<double>(rows); slow *= 4, ++processes) {
@@ -83,7 +83,7 @@ void draw_and_fit(const Experiment& e, const ProgramPointer& program, Colour col
     r.units[name] = parse_unit("K");
   }
   lab::measure(data, program, e.noise, seed + 1000, truth);
-  const auto pink = one_over_f(e.rows, random);
+  const auto pink = pink_noise(e.rows, random);
   auto& y = data.recordings[0].columns["y"];
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * e.noise * pink[i];
   DataModel model(program, lab::shared(data));
@@ -257,14 +257,14 @@ Experiment small_jiles_atherton() { return jiles_atherton(6); }
 INSTANTIATE_TEST_SUITE_P(
     Models, LongCoverage,
     testing::Values(Case{"PrandtlIshlinskii", prandtl_ishlinskii, Colour::white},
-                    Case{"PrandtlIshlinskiiOneOverF", prandtl_ishlinskii, Colour::one_over_f},
-                    Case{"BoucWen", bouc_wen, Colour::white}, Case{"BoucWenOneOverF", bouc_wen, Colour::one_over_f},
+                    Case{"PrandtlIshlinskiiOneOverF", prandtl_ishlinskii, Colour::pink_noise},
+                    Case{"BoucWen", bouc_wen, Colour::white}, Case{"BoucWenOneOverF", bouc_wen, Colour::pink_noise},
                     Case{"JilesAtherton", large_jiles_atherton, Colour::white},
-                    Case{"JilesAthertonOneOverF", large_jiles_atherton, Colour::one_over_f},
+                    Case{"JilesAthertonOneOverF", large_jiles_atherton, Colour::pink_noise},
                     Case{"JilesAthertonOnASmallLoop", small_jiles_atherton, Colour::white},
-                    Case{"Tapi", tapi, Colour::white}, Case{"TapiOneOverF", tapi, Colour::one_over_f},
-                    Case{"Creep", creep, Colour::white}, Case{"CreepOneOverF", creep, Colour::one_over_f},
-                    Case{"Plant", plant, Colour::white}, Case{"PlantOneOverF", plant, Colour::one_over_f}),
+                    Case{"Tapi", tapi, Colour::white}, Case{"TapiOneOverF", tapi, Colour::pink_noise},
+                    Case{"Creep", creep, Colour::white}, Case{"CreepOneOverF", creep, Colour::pink_noise},
+                    Case{"Plant", plant, Colour::white}, Case{"PlantOneOverF", plant, Colour::pink_noise}),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -17,7 +17,7 @@ bool says(const FitResult& r, const std::string& words) {
 }
 
 /// A lag of 50 ms and a gain; `noise` [m] against a motion of some 10 um.
-FitResult lag_and_gain(double noise, FitOptions options = {}) {
+FitResult fitted_lag_and_gain(double noise, FitOptions options = {}) {
   Diagram d = lab::diagram("g");
   lab::add(d, "amplifier", "lag", "u").parameters["times"] = NumberList{{50, "ms"}};
   lab::add(d, "g", "gain", "amplifier").parameters["gain"] = "1 um/V";
@@ -38,7 +38,7 @@ FitResult lag_and_gain(double noise, FitOptions options = {}) {
 }
 
 TEST(Curvature, WithLittleNoiseIntervalsAreThoseOfTheLinearization) {
-  const auto r = lag_and_gain(10e-9);
+  const auto r = fitted_lag_and_gain(10e-9);
   ASSERT_TRUE(r.ok) << r.error;
   EXPECT_FALSE(says(r, "bends"));
   const auto& e = r.estimates[0];
@@ -49,7 +49,7 @@ TEST(Curvature, WithLittleNoiseIntervalsAreThoseOfTheLinearization) {
 TEST(Curvature, WithMuchNoiseTheIntervalIsThatOfTheProfile) {
   FitOptions options;
   options.profile = {0};
-  const auto r = lag_and_gain(15e-6, options);  // the time constant is known to a factor of some two
+  const auto r = fitted_lag_and_gain(15e-6, options);  // the time constant is known to a factor of some two
   ASSERT_TRUE(r.ok) << r.error;
   ASSERT_EQ(r.profiles.size(), 1U);
   const auto& e = r.estimates[0];
@@ -65,7 +65,7 @@ TEST(Curvature, WithMuchNoiseTheIntervalIsThatOfTheProfile) {
 TEST(Curvature, AProfileThatWouldTakeTooLongIsOfferedAndNotMade) {
   FitOptions options;
   options.profile_steps = 1;
-  const auto r = lag_and_gain(15e-6, options);
+  const auto r = fitted_lag_and_gain(15e-6, options);
   ASSERT_TRUE(r.ok) << r.error;
   EXPECT_TRUE(says(r, "ask for their profiles"));
   const auto& e = r.estimates[0];
@@ -73,7 +73,7 @@ TEST(Curvature, AProfileThatWouldTakeTooLongIsOfferedAndNotMade) {
   EXPECT_NEAR(middle / *e.value, 1, 1e-9) << "the interval of the linearization";
 }
 
-FitResult jiles_atherton(double reach) {
+FitResult fitted_jiles_atherton(double reach) {
   Diagram d = lab::diagram("core");
   auto& core = lab::add(d, "core", "jiles_atherton", "u");
   core.parameters["p_s"] = "50 um";
@@ -97,10 +97,10 @@ FitResult jiles_atherton(double reach) {
 }
 
 TEST(Curvature, WhatASmallLoopHardlyTellsApartIsSaid) {
-  const auto small = jiles_atherton(6);
+  const auto small = fitted_jiles_atherton(6);
   ASSERT_TRUE(small.ok) << small.error;
   EXPECT_TRUE(says(small, "core.p_s, core.a, core.alpha are hardly told apart"));
-  const auto large = jiles_atherton(100);
+  const auto large = fitted_jiles_atherton(100);
   ASSERT_TRUE(large.ok) << large.error;
   EXPECT_FALSE(says(large, "hardly told apart"));
   EXPECT_TRUE(large.undetermined.empty());

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Problem {
   std::vector<double> a, b;  ///< column by column
@@ -46,7 +46,7 @@ double squared_error(const Problem& p, const std::vector<double>& x) {
 /// Least error over all ways of holding unknowns at bounds whose free solution stays inside: exhaustive, by normal
 /// equations.
 double by_enumeration(const Problem& p, const std::vector<double>& lower, const std::vector<double>& upper) {
-  double best = infinity;
+  double best = unbounded;
   int ways = 1;
   for (int j = 0; j < p.n; ++j) ways *= 3;
   for (int way = 0; way < ways; ++way) {
@@ -93,9 +93,9 @@ TEST(BoundedLeastSquares, AgreesWithTheBestOfAllActiveSets) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const int n = 1 + static_cast<int>(seed % 5);
     const auto p = random_problem(12, n, seed);
-    std::vector<double> lower(static_cast<std::size_t>(n), 0.0), upper(static_cast<std::size_t>(n), infinity);
+    std::vector<double> lower(static_cast<std::size_t>(n), 0.0), upper(static_cast<std::size_t>(n), unbounded);
     if (seed % 3 == 0) upper.assign(static_cast<std::size_t>(n), 0.3);
-    if (seed % 4 == 0) lower[0] = -infinity;
+    if (seed % 4 == 0) lower[0] = -unbounded;
     const auto s = solve_bounded(compressed(p), lower, upper);
     EXPECT_TRUE(s.converged) << seed;
     const double best = by_enumeration(p, lower, upper);
@@ -125,7 +125,7 @@ TEST(BoundedLeastSquares, RowsAddedBlockByBlockGiveTheSameAnswer) {
     for (int i = first; i < first + 10; ++i) b.push_back(p.b[static_cast<std::size_t>(i)]);
     blocks.add(a, b);
   }
-  const std::vector<double> low(4, -infinity), high(4, infinity);
+  const std::vector<double> low(4, -unbounded), high(4, unbounded);
   const auto whole = solve_bounded(compressed(p), low, high), parts = solve_bounded(blocks, low, high);
   for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(whole.x[j], parts.x[j], 1e-12);
   EXPECT_NEAR(whole.squared_error, parts.squared_error, 1e-12);
@@ -136,7 +136,7 @@ TEST(BoundedLeastSquares, OfDependentColumnsTheSolutionNearestToTheStartIsTaken)
   NormalForm f(2);
   const std::vector<double> a{1, 1, 1, 1, 1, 1}, b{6, 6, 6}, near{3, 1};
   f.add(a, b);
-  const std::vector<double> low(2, -infinity), high(2, infinity);
+  const std::vector<double> low(2, -unbounded), high(2, unbounded);
   const auto s = solve_bounded(f, low, high, near);
   EXPECT_EQ(s.rank, 1);
   EXPECT_NEAR(s.x[0], 4, 1e-12);
@@ -147,7 +147,7 @@ TEST(BoundedLeastSquares, AColumnOfZerosStaysAtItsStart) {
   NormalForm f(2);
   const std::vector<double> a{1, 2, 3, 0, 0, 0}, b{2, 4, 6}, near{0, 5};
   f.add(a, b);
-  const std::vector<double> low(2, 0.0), high(2, infinity);
+  const std::vector<double> low(2, 0.0), high(2, unbounded);
   const auto s = solve_bounded(f, low, high, near);
   EXPECT_NEAR(s.x[0], 2, 1e-12);
   EXPECT_NEAR(s.x[1], 5, 1e-12);
@@ -155,7 +155,7 @@ TEST(BoundedLeastSquares, AColumnOfZerosStaysAtItsStart) {
 
 TEST(BoundedLeastSquares, ColumnsOfVeryDifferentSizeAreTreatedAlike) {
   auto p = random_problem(20, 3, 11);
-  const std::vector<double> low(3, -infinity), high(3, infinity);
+  const std::vector<double> low(3, -unbounded), high(3, unbounded);
   const auto plain = solve_bounded(compressed(p), low, high);
   for (int i = 0; i < 20; ++i) p.a[static_cast<std::size_t>(i)] *= 1e-9;
   const auto scaled = solve_bounded(compressed(p), low, high);

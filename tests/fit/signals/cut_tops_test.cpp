@@ -13,7 +13,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<double> rows(std::size_t n, const std::function<double(double)>& value) {
   std::vector<double> list;

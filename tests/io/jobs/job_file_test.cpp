@@ -8,7 +8,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char whole_job[] = R"({
+constexpr char whole_fit_job[] = R"({
   "$schema": "x", "format": 1, "title": "stage", "do": "fit", "diagram": "stage.json", "data": "../lab.csv",
   "choose": {"compensator": "none"}, "set": {"controller.kp": "0.5 V/um", "gain": 2},
   "free": [
@@ -23,7 +23,7 @@ constexpr char whole_job[] = R"({
 })";
 
 /// code and pointer of the first problem, "" if there is none.
-std::string problem_of_job(const std::string& text, int* line = nullptr) {
+std::string problem_of_fit_job(const std::string& text, int* line = nullptr) {
   const TemporaryFolder folder;
   try {
     read_fit_job(folder.write("job.json", text));
@@ -43,7 +43,7 @@ std::string with(const std::string& members) {
 TEST(JobFile, EveryPartOfTheFormatIsRead) {
   const TemporaryFolder folder;
   folder.write("hysteron.project", "");
-  const auto job = read_fit_job(folder.write("jobs/job.json", whole_job));
+  const auto job = read_fit_job(folder.write("jobs/job.json", whole_fit_job));
   EXPECT_EQ(job.title, "stage");
   EXPECT_TRUE(job.diagram.ends_with("jobs/stage.json")) << job.diagram;  // seen from the job
   EXPECT_TRUE(job.data.ends_with("lab.csv"));
@@ -94,34 +94,37 @@ TEST(JobFile, IsKnownByItsDo) {
 }
 
 TEST(JobFile, OtherKindsOfJobsAreNoFits) {
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"runs\", \"plots\": []}"), "other_job /do");
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"study\"}"), "other_job /do");
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fitt\"}"), "bad_value /do");
-  EXPECT_EQ(problem_of_job("{\"format\": 1}"), "missing_key ");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"runs\", \"plots\": []}"), "other_job /do");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"study\"}"), "other_job /do");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"fitt\"}"), "bad_value /do");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1}"), "missing_key ");
 }
 
 TEST(JobFile, WrongInputIsToldWithItsPlace) {
   int line = 0;
-  EXPECT_EQ(problem_of_job(with("\"fre\": []"), &line), "unknown_key /fre");
+  EXPECT_EQ(problem_of_fit_job(with("\"fre\": []"), &line), "unknown_key /fre");
   EXPECT_EQ(line, 2);
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fit\", \"data\": \"a.csv\"}"), "missing_key ");
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fit\", \"diagram\": \"d.json\"}"), "missing_key ");
-  EXPECT_EQ(problem_of_job("{\"format\": 2, \"do\": \"fit\"}"), "newer_format /format");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"lower\": 1}]")), "missing_key /free/0");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"parameter\": \"a\", \"lowr\": 1}]")), "unknown_key /free/0/lowr");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"parameter\": \"a\", \"scale\": \"ln\"}]")), "bad_value /free/0/scale");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"parameter\": \"a\", \"per\": \"file\"}]")), "bad_value /free/0/per");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"parameter\": \"a\", \"prior\": [1]}]")), "wrong_type /free/0/prior");
-  EXPECT_EQ(problem_of_job(with("\"free\": [{\"parameter\": \"a\", \"start\": true}]")), "wrong_type /free/0/start");
-  EXPECT_EQ(problem_of_job(with("\"method\": {\"starts\": 5}")), "missing_key /method");
-  EXPECT_EQ(problem_of_job(with("\"method\": {\"name\": \"pso\", \"runs\": 1.5}")), "bad_value /method/runs");
-  EXPECT_EQ(problem_of_job(with("\"method\": {\"name\": \"pso\", \"runs\": -1}")), "bad_value /method/runs");
-  EXPECT_EQ(problem_of_job(with("\"method\": []")), "bad_value /method");
-  EXPECT_EQ(problem_of_job(with("\"seed\": -1")), "bad_value /seed");
-  EXPECT_EQ(problem_of_job(with("\"thresholds\": {\"count\": 5}")), "missing_key /thresholds");
-  EXPECT_EQ(problem_of_job(with("\"thresholds\": {\"block\": \"core\", \"count\": 1}")), "bad_value /thresholds/count");
-  EXPECT_EQ(problem_of_job(with("\"write\": \"../../out.json\"")), "outside_project /write");
-  EXPECT_EQ(problem_of_job("{\"format\": 1, \"do\": \"fit\", \"diagram\": \"/etc/d.json\", \"data\": \"a.csv\"}"),
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"fit\", \"data\": \"a.csv\"}"), "missing_key ");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"fit\", \"diagram\": \"d.json\"}"), "missing_key ");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 2, \"do\": \"fit\"}"), "newer_format /format");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"lower\": 1}]")), "missing_key /free/0");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"parameter\": \"a\", \"lowr\": 1}]")), "unknown_key /free/0/lowr");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"parameter\": \"a\", \"scale\": \"ln\"}]")),
+            "bad_value /free/0/scale");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"parameter\": \"a\", \"per\": \"file\"}]")), "bad_value /free/0/per");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"parameter\": \"a\", \"prior\": [1]}]")), "wrong_type /free/0/prior");
+  EXPECT_EQ(problem_of_fit_job(with("\"free\": [{\"parameter\": \"a\", \"start\": true}]")),
+            "wrong_type /free/0/start");
+  EXPECT_EQ(problem_of_fit_job(with("\"method\": {\"starts\": 5}")), "missing_key /method");
+  EXPECT_EQ(problem_of_fit_job(with("\"method\": {\"name\": \"pso\", \"runs\": 1.5}")), "bad_value /method/runs");
+  EXPECT_EQ(problem_of_fit_job(with("\"method\": {\"name\": \"pso\", \"runs\": -1}")), "bad_value /method/runs");
+  EXPECT_EQ(problem_of_fit_job(with("\"method\": []")), "bad_value /method");
+  EXPECT_EQ(problem_of_fit_job(with("\"seed\": -1")), "bad_value /seed");
+  EXPECT_EQ(problem_of_fit_job(with("\"thresholds\": {\"count\": 5}")), "missing_key /thresholds");
+  EXPECT_EQ(problem_of_fit_job(with("\"thresholds\": {\"block\": \"core\", \"count\": 1}")),
+            "bad_value /thresholds/count");
+  EXPECT_EQ(problem_of_fit_job(with("\"write\": \"../../out.json\"")), "outside_project /write");
+  EXPECT_EQ(problem_of_fit_job("{\"format\": 1, \"do\": \"fit\", \"diagram\": \"/etc/d.json\", \"data\": \"a.csv\"}"),
             "outside_project /diagram");
 }
 
@@ -138,7 +141,7 @@ TEST(JobFile, AnAttractorMayNameAnyParametersAndTheirCurves) {
   EXPECT_EQ(all[1].upper, (std::vector<std::pair<double, double>>{{0.112, 2.644}, {2.644e-9, 21.74}}));
   EXPECT_EQ(all[1].scale, 6);
   const auto told = [](const std::string& attractor) {
-    return problem_of_job(with("\"method\": {\"name\": \"nmpso\", \"attractor\": " + attractor + "}"));
+    return problem_of_fit_job(with("\"method\": {\"name\": \"nmpso\", \"attractor\": " + attractor + "}"));
   };
   EXPECT_EQ(told("[]"), "bad_value /method/attractor");
   EXPECT_EQ(told(R"([{"parameter": "a"}])"), "bad_value /method/attractor/0");

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char whole_job[] = R"({
+constexpr char whole_runs_job[] = R"({
   "$schema": "x", "format": 1, "do": "runs", "title": "stage", "surrogate": "a stand-in", "diagram": "stage.json",
   "choose": {"drive": "sine"}, "set": {"a.gain": 2}, "until": "1 s", "every": "1 ms",
   "draw": {"The loop": "loop.json"},
@@ -32,7 +32,7 @@ constexpr char whole_job[] = R"({
 })";
 
 /// code and pointer of the first problem, "" if there is none.
-std::string problem_of_job(const std::string& members, int* line = nullptr, std::string* cure = nullptr) {
+std::string problem_of_runs_job(const std::string& members, int* line = nullptr, std::string* cure = nullptr) {
   const TemporaryFolder folder;
   try {
     read_runs_job(
@@ -48,7 +48,7 @@ std::string problem_of_job(const std::string& members, int* line = nullptr, std:
 
 TEST(RunsJob, EveryPartOfTheFormatIsRead) {
   const TemporaryFolder folder;
-  const auto job = read_runs_job(folder.write("fig2_15.json", whole_job));
+  const auto job = read_runs_job(folder.write("fig2_15.json", whole_runs_job));
   EXPECT_EQ(job.name, "fig2_15");
   EXPECT_EQ(job.surrogate, "a stand-in");
   ASSERT_EQ(job.runs.size(), 7U);
@@ -81,27 +81,30 @@ TEST(RunsJob, NamesThatTheJobDoesNotGiveAreToldWithTheNearestOne) {
   const std::string run = "\"runs\": {\"plain\": {}},\n";
   int line = 0;
   std::string cure;
-  EXPECT_EQ(problem_of_job(run + R"("plots": [{"y": {"signal": "y"}, "runs": ["plian"]}])", &line, &cure),
+  EXPECT_EQ(problem_of_runs_job(run + R"("plots": [{"y": {"signal": "y"}, "runs": ["plian"]}])", &line, &cure),
             "unknown_run /plots/0/runs/0");
   EXPECT_EQ(line, 3);
   EXPECT_NE(cure.find("Did you mean \"plain\"?"), std::string::npos) << cure;
-  EXPECT_EQ(problem_of_job(run + R"("values": {"v": {"take": "strok", "of": "y", "run": "plain"}})", &line, &cure),
+  EXPECT_EQ(problem_of_runs_job(run + R"("values": {"v": {"take": "strok", "of": "y", "run": "plain"}})", &line, &cure),
             "bad_value /values/v/take");
   EXPECT_NE(cure.find("\"stroke\""), std::string::npos) << cure;
-  EXPECT_EQ(problem_of_job(R"("values": {"v": {"ratio": ["v", "w"]}})"), "unknown_value /values/v/ratio/1");
-  EXPECT_EQ(problem_of_job(R"("claims": [{"id": "C1", "value": "v", "above": 1}])"), "unknown_value /claims/0/value");
+  EXPECT_EQ(problem_of_runs_job(R"("values": {"v": {"ratio": ["v", "w"]}})"), "unknown_value /values/v/ratio/1");
+  EXPECT_EQ(problem_of_runs_job(R"("claims": [{"id": "C1", "value": "v", "above": 1}])"),
+            "unknown_value /claims/0/value");
 }
 
 TEST(RunsJob, WrongInputIsToldWithItsPlace) {
-  EXPECT_EQ(problem_of_job("\"run\": {}"), "unknown_key /run");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"choos": {}}})"), "unknown_key /runs/a/choos");
-  EXPECT_EQ(problem_of_job(R"("runs": {"A": {}})"), "bad_name /runs/A");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"diagram": "../../outside.json"}})"), "outside_project /runs/a/diagram");
-  EXPECT_EQ(problem_of_job(R"("plots": [{"y": {"signal": "y"}, "kind": "pie"}])"), "bad_value /plots/0/kind");
-  EXPECT_EQ(problem_of_job(R"("plots": [{"y": {"signal": "y"}, "between": ["1 s"]}])"), "bad_value /plots/0/between");
-  EXPECT_EQ(problem_of_job(R"("values": {"v": {"take": "area", "of": "y", "run": "a"}}, "runs": {"a": {}})"),
+  EXPECT_EQ(problem_of_runs_job("\"run\": {}"), "unknown_key /run");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"choos": {}}})"), "unknown_key /runs/a/choos");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"A": {}})"), "bad_name /runs/A");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"diagram": "../../outside.json"}})"),
+            "outside_project /runs/a/diagram");
+  EXPECT_EQ(problem_of_runs_job(R"("plots": [{"y": {"signal": "y"}, "kind": "pie"}])"), "bad_value /plots/0/kind");
+  EXPECT_EQ(problem_of_runs_job(R"("plots": [{"y": {"signal": "y"}, "between": ["1 s"]}])"),
+            "bad_value /plots/0/between");
+  EXPECT_EQ(problem_of_runs_job(R"("values": {"v": {"take": "area", "of": "y", "run": "a"}}, "runs": {"a": {}})"),
             "missing_key /values/v");
-  EXPECT_EQ(problem_of_job(R"("values": {"v": {"take": "rms", "of": "y", "run": "a"}}, "runs": {"a": {}},
+  EXPECT_EQ(problem_of_runs_job(R"("values": {"v": {"take": "rms", "of": "y", "run": "a"}}, "runs": {"a": {}},
     "claims": [{"id": "C1", "value": "v", "expected": "1 um"}])"),
             "missing_key /claims/0");
 }
@@ -135,16 +138,17 @@ TEST(RunsJob, AStudyMayBeSmallerOrLargerThanItsJobSays) {
   EXPECT_FALSE(full.size->draws);
   EXPECT_FALSE(full.every);
   EXPECT_EQ(read_runs_job(file).runs.at(1).other_run.text, "a");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"study": "mc.json", "draws": 1, "accepted": 1}})"), "bad_value /runs/a");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"study": "mc.json", "draws": 1.5}})"), "bad_value /runs/a/draws");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"select": "b"}})"), "unknown_run /runs/a/select");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"select": "b"}, "b": {"select": "a"}})"), "circular /runs/a");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"study": "mc.json", "draws": 1, "accepted": 1}})"),
+            "bad_value /runs/a");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"study": "mc.json", "draws": 1.5}})"), "bad_value /runs/a/draws");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"select": "b"}})"), "unknown_run /runs/a/select");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"select": "b"}, "b": {"select": "a"}})"), "circular /runs/a");
 }
 
 TEST(RunsJob, ConditionsAndSearchesThatSayTooLittleAreToldSo) {
   const std::string run = "\"runs\": {\"a\": {}},\n";
   const auto value = [&](const std::string& more) {
-    return problem_of_job(run + R"("values": {"v": {"of": "y", "run": "a", )" + more + "}}");
+    return problem_of_runs_job(run + R"("values": {"v": {"of": "y", "run": "a", )" + more + "}}");
   };
   EXPECT_EQ(value(R"("take": "rms", "where": [{"signal": "y"}])"), "missing_key /values/v/where/0");
   EXPECT_EQ(value(R"("take": "rms", "where": [{"from": 1}])"), "missing_key /values/v/where/0");
@@ -152,20 +156,21 @@ TEST(RunsJob, ConditionsAndSearchesThatSayTooLittleAreToldSo) {
   EXPECT_EQ(value(R"("take": "rms", "same_stroke": true)"), "missing_key /values/v");
   EXPECT_EQ(value(R"("take": "rms", "where": [{"signal": "y", "minus": {"run": "b", "signal": "y"}, "to": 1}])"),
             "unknown_run /values/v/where/0/minus/run");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"minimize": {"parameters": {}}}})"), "missing_key /runs/a/minimize");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"minimize": {"value": {"take": "rms"}, "parameters": {"g.k": [1]}}}})"),
-            "bad_value /runs/a/minimize/parameters/g.k");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"rows": {}}})"), "bad_value /runs/a/rows");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"computed": "nothing"}})"), "bad_value /runs/a");
-  EXPECT_EQ(problem_of_job(R"("plots": [{"kind": "medians", "y": {"signal": "y"}}])"), "missing_key /plots/0");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"minimize": {"parameters": {}}}})"), "missing_key /runs/a/minimize");
+  EXPECT_EQ(
+      problem_of_runs_job(R"("runs": {"a": {"minimize": {"value": {"take": "rms"}, "parameters": {"g.k": [1]}}}})"),
+      "bad_value /runs/a/minimize/parameters/g.k");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"rows": {}}})"), "bad_value /runs/a/rows");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"computed": "nothing"}})"), "bad_value /runs/a");
+  EXPECT_EQ(problem_of_runs_job(R"("plots": [{"kind": "medians", "y": {"signal": "y"}}])"), "missing_key /plots/0");
 }
 
 TEST(RunsJob, RunsAndValuesThatNeedThemselvesAreRefused) {
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"use": "b"}, "b": {"set": {"g.gain": {"of": "v"}}}},
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"use": "b"}, "b": {"set": {"g.gain": {"of": "v"}}}},
     "values": {"v": {"take": "max", "of": "y", "run": "a"}})"),
             "circular /runs/a");
-  EXPECT_EQ(problem_of_job(R"("values": {"v": {"ratio": ["v", "v"]}})"), "circular /values/v");
-  EXPECT_EQ(problem_of_job(R"("runs": {"a": {"use": "c"}, "b": {"use": "c"}, "c": {}})"), "");
+  EXPECT_EQ(problem_of_runs_job(R"("values": {"v": {"ratio": ["v", "v"]}})"), "circular /values/v");
+  EXPECT_EQ(problem_of_runs_job(R"("runs": {"a": {"use": "c"}, "b": {"use": "c"}, "c": {}})"), "");
 }
 
 TEST(Claims, AreReadInTheOrderOfTheFile) {

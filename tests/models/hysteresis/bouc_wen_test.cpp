@@ -9,11 +9,8 @@
 #include "engine/block/dual.h"
 #include "tests/models/golden.h"
 
-namespace hysteron {
+namespace hysteron::bouc_wen {
 namespace {
-
-using bouc_wen::Params;
-using bouc_wen::z_rate;
 
 // Thesis Table 2.1, in V and um.
 const Params<double> table{.alpha = 0.6187, .beta = 0.2418, .gamma = 0.0237, .d_p = 1.6126};
@@ -147,4 +144,4 @@ TEST(BoucWenModel, AWayOfAnyLengthInClosedForm) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::bouc_wen

@@ -11,7 +11,7 @@
 #include "models/hysteresis/prandtl_ishlinskii.h"
 #include "tests/models/golden.h"
 
-namespace hysteron {
+namespace hysteron::coupled_tapi {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -106,7 +106,6 @@ double worst(double plant_celsius, double model_celsius, coupled_tapi::Axes axes
 
 TEST(CoupledTapi, CompensatorKeepsThePlantBelowAFifthOfAMicrometre) {
   // Claim C5-08; errors as an independent program found them, told to 1 nm.
-  using coupled_tapi::Axes;
   EXPECT_LT(worst(23, 23, Axes::coupled), 1e-12);
   EXPECT_NEAR(worst(30, 30, Axes::coupled), 0.027, 0.001);
   EXPECT_NEAR(worst(35, 35, Axes::coupled), 0.046, 0.001);
@@ -166,4 +165,4 @@ TEST(CoupledTapi, SlopeIsTheDifferenceQuotient) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::coupled_tapi

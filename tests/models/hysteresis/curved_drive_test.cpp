@@ -3,11 +3,8 @@
 
 #include <gtest/gtest.h>
 
-namespace hysteron {
+namespace hysteron::curved_drive {
 namespace {
-
-using curved_drive::curved;
-using curved_drive::Params;
 
 TEST(CurvedDrive, IsTheStraightLineWhereBothSlopesAreOne) {
   const Params<double> p{-2, 6, 1, 1};
@@ -44,4 +41,4 @@ TEST(CurvedDrive, RisesForAllSlopesUpToThree) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::curved_drive

@@ -9,12 +9,8 @@
 #include "engine/block/dual.h"
 #include "tests/models/golden.h"
 
-namespace hysteron {
+namespace hysteron::jiles_atherton {
 namespace {
-
-using jiles_atherton::field_after;
-using jiles_atherton::Params;
-using jiles_atherton::polarisation_after;
 
 // Thesis Table 2.2, in V and um.
 const Params<double> table{.p_s = 55.9973, .a = 48.5843, .alpha = 0.2512, .k = 3.8892, .c = 0.6929};
@@ -393,4 +389,4 @@ TEST(JilesAthertonModel, GoldenTurningPointsOfRandomParametersAreReproduced) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::jiles_atherton

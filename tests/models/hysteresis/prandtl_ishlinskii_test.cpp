@@ -7,10 +7,9 @@
 
 #include "tests/models/golden.h"
 
-namespace hysteron {
+namespace hysteron::prandtl_ishlinskii {
 namespace {
 
-using prandtl_ishlinskii::advance;
 using Numbers = std::vector<double>;
 
 // Thesis Table 2.3: weights in um/V, thresholds 0.6 i in V; threshold 0 is the linear part.
@@ -153,4 +152,4 @@ TEST(PrandtlIshlinskiiModel, ManyRowsAtOnceAreTheSameAndNobodySeesAnOperatorOfWe
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::prandtl_ishlinskii

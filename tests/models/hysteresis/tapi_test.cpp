@@ -9,7 +9,7 @@
 #include "models/random.h"
 #include "tests/models/golden.h"
 
-namespace hysteron {
+namespace hysteron::tapi {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -189,4 +189,4 @@ TEST(TapiModel, SlopeIsTheDifferenceQuotient) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::tapi
