@@ -10,8 +10,8 @@
 #include "engine/diagram/smooth_series.h"
 #include "engine/simulate/simulate.h"
 #include "io/data/recording_file.h"
-#include "io/data/table_file.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/parameter_table.h"
 #include "io/files/project_path.h"
 #include "io/json/json_reader.h"
 #include "io/json/value_text.h"
@@ -284,7 +284,8 @@ class DiagramReader {
     node.parameter_file = *written;
     const auto path = file_to_open(place, *written);
     if (!path) return;
-    if (path->ends_with(".csv") || path->ends_with(".f64")) return with_file(place, [&] { parameter_table(node, *path); });
+    if (path->ends_with(".csv") || path->ends_with(".f64"))
+      return with_file(place, [&] { node.parameters_from_file = read_parameter_table(*path); });
     with_file(place, [&] {
       JsonFile set(*path);
       const JsonPlace root = set.root();
@@ -299,18 +300,6 @@ class DiagramReader {
         }
       set.throw_if_any();
     });
-  }
-
-  /// The columns of a table are lists: "at [mm]", "values [N]".
-  static void parameter_table(Node& node, const std::string& path) {
-    for (const auto& column : read_table(path).columns) {
-      NumberList list;
-      for (const double value : column.values)
-        list.push_back(column.unit.text.empty() ? Number{value, {}} : Number{value, column.unit.text});
-      Value value(std::move(list));
-      value.origin = path + "#" + column.name;
-      node.parameters_from_file[column.name] = std::move(value);
-    }
   }
 
   /// A recorded input: its samples are read here, once, and become a parameter of the block.

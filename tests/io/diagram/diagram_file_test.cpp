@@ -160,6 +160,30 @@ TEST(DiagramFile, ListsComeFromTheColumnsOfATable) {
   EXPECT_EQ(force.parameters_from_file.find("values")->origin, folder.path("curve.csv") + "#values");
 }
 
+TEST(DiagramFile, ATableOverTwoAxesIsAGridWhateverTheOrderOfItsRows) {
+  const TemporaryFolder folder;
+  const std::string diagram = folder.write("d.json",
+                                           R"({"format": 1, "inputs": {"x": {"unit": "m"}, "i": {"unit": "A"}},
+          "blocks": {"force": {"type": "lookup", "parameters": "map.csv", "in": ["x", "i"]}}})");
+  folder.write("map.csv", "at_2 [A],at [mm],values [N]\n1,0,4\n0,0,1\n0,5,2\n3,5,8\n3,0,6\n1,5,5\n");
+  const Node force = *read_diagram(diagram).blocks.find("force");
+  EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("at")->content), (NumberList{{0, "mm"}, {5, "mm"}}));
+  EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("at_2")->content).size(), 3U);
+  EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("values")->content),
+            (NumberList{{1, "N"}, {4, "N"}, {6, "N"}, {2, "N"}, {5, "N"}, {8, "N"}}));
+  const auto told = [&](const std::string& rows) {
+    folder.write("map.csv", "at,at_2,values\n" + rows);
+    try {
+      read_diagram(diagram);
+    } catch (const Error& error) {
+      return error.problems.front().what;
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(told("0,0,1\n0,1,2\n1,0,3\n"), "the table has 3 rows, its axes make a grid of 4 points");
+  EXPECT_EQ(told("0,0,1\n0,1,2\n1,1,3\n0,0,4\n"), "lines 2 and 5 are the same point of the grid");
+}
+
 TEST(DiagramFile, ATextThatGoesOnBehindANumberIsNoQuantity) {
   for (const char* text : {"2*u", "2 * u", "3 - u", "1e3+u", "2^u", "0.5 > u"})
     EXPECT_EQ(std::get<std::string>(Value(text).content), text);
