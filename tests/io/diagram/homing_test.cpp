@@ -53,8 +53,9 @@ TEST(Homing, MovesAsTheClosedFormDoes) {
     const bool at_change = now > 0 && t - phases[now].t0 < 1e-5;
     const double x = phases[now].x(t);
     EXPECT_NEAR(traces.values[0][k], x, 3e-7) << t;  // ten times 1e-6 of the stroke
-    if (!at_change) EXPECT_EQ(traces.values[1][k], static_cast<double>(now)) << t;
-    if (!at_change) EXPECT_NEAR(traces.values[2][k], now == 3 ? x - meets : x, 3e-7) << t;
+    if (at_change) continue;
+    EXPECT_EQ(traces.values[1][k], static_cast<double>(now)) << t;
+    EXPECT_NEAR(traces.values[2][k], now == 3 ? x - meets : x, 3e-7) << t;
   }
   // it runs on by the velocity times the lag
   EXPECT_NEAR(traces.values[2].back(), phases[3].v0 * lag, 3e-7);
