@@ -11,7 +11,7 @@ namespace {
 
 using tools::block;
 
-Traces run_of(const Diagram& d, double until, Method method = Method::automatic) {
+Traces machine_run(const Diagram& d, double until, Method method = Method::automatic) {
   const auto program = tools::compiled(d);
   SimulateOptions options;
   options.until = until;
@@ -23,7 +23,7 @@ Diagram machine(const tools::Parameters& parameters, const std::vector<std::stri
                          {"m", block("state_machine", parameters, {"u"})}},
                         record);
 }
-std::string problem(const tools::Parameters& parameters) {
+std::string machine_problem(const tools::Parameters& parameters) {
   try {
     tools::compiled(machine(parameters));
   } catch (const Error& e) {
@@ -45,62 +45,66 @@ TEST(StateMachine, GoesWhereItsConditionsLead) {
   auto d = machine(p, {"x", "m.state"});
   d.blocks["x"] = block("integrator", {}, {"m.v"});
   for (const Method method : {Method::bdf, Method::adams, Method::runge_kutta}) {
-    const auto traces = run_of(d, 3.2, method);
+    const auto traces = machine_run(d, 3.2, method);
     // three whole pulses of 0.2 s, and from 3 + 1/12 on the fourth
     EXPECT_NEAR(tools::trace(traces, 0).back(), 0.6 + 0.2 - 1.0 / 12, 1e-6) << method_name(method);
     EXPECT_EQ(tools::trace(traces, 1).back(), 1);
   }
-  EXPECT_EQ(tools::trace(run_of(d, 0.4), 1).back(), 2);
-  EXPECT_EQ(tools::trace(run_of(d, 0.6), 1).back(), 0);
+  EXPECT_EQ(tools::trace(machine_run(d, 0.4), 1).back(), 2);
+  EXPECT_EQ(tools::trace(machine_run(d, 0.6), 1).back(), 0);
 }
 
 TEST(StateMachine, TakesTheFirstConditionThatHoldsAndPassesThroughStates) {
-  EXPECT_EQ(
-      tools::trace(
-          run_of(machine({{"states", "a, b, c, d"},
-                          {"transitions", "a -> b: time >= t; a -> c: time >= t; b -> d: 1 > 0; c -> a: u < -2*u0"},
-                          {"t", "0.1 s"},
-                          {"u0", "1 V"}}),
-                 0.2))
-          .back(),
-      3);
-  EXPECT_EQ(tools::trace(run_of(machine({{"states", "a, b, stop"},
-                                         {"transitions", "* -> stop: u > 0.9*one; a -> b: time > t"},
-                                         {"t", "0.01 s"},
-                                         {"one", "1 V"}}),
-                                1))
+  EXPECT_EQ(tools::trace(
+                machine_run(
+                    machine({{"states", "a, b, c, d"},
+                             {"transitions", "a -> b: time >= t; a -> c: time >= t; b -> d: 1 > 0; c -> a: u < -2*u0"},
+                             {"t", "0.1 s"},
+                             {"u0", "1 V"}}),
+                    0.2))
+                .back(),
+            3);
+  EXPECT_EQ(tools::trace(machine_run(machine({{"states", "a, b, stop"},
+                                              {"transitions", "* -> stop: u > 0.9*one; a -> b: time > t"},
+                                              {"t", "0.01 s"},
+                                              {"one", "1 V"}}),
+                                     1))
                 .back(),
             2);
 }
 
 TEST(StateMachine, SaysWhatItRefusesAndWhere) {
-  EXPECT_EQ(problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0; b -> c: u < 0"}}),
+  EXPECT_EQ(machine_problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0; b -> c: u < 0"}}),
             "/blocks/m/transitions: \"transitions\": there is no state \"c\" at character 21\n");
-  EXPECT_NE(problem({{"states", "a, b"}, {"transitions", "a -> b: u >"}}).find("ends too early at character 12"),
+  EXPECT_NE(
+      machine_problem({{"states", "a, b"}, {"transitions", "a -> b: u >"}}).find("ends too early at character 12"),
+      std::string::npos);
+  EXPECT_NE(machine_problem({{"states", "a, b"}, {"transitions", "a: u > 0"}})
+                .find("a transition has no arrow at character 1"),
             std::string::npos);
-  EXPECT_NE(problem({{"states", "a, b"}, {"transitions", "a: u > 0"}}).find("a transition has no arrow at character 1"),
-            std::string::npos);
-  EXPECT_NE(problem({{"states", "a, b"}, {"transitions", "a -> b u > 0"}})
+  EXPECT_NE(machine_problem({{"states", "a, b"}, {"transitions", "a -> b u > 0"}})
                 .find("a transition has no condition at character 1"),
             std::string::npos);
-  EXPECT_NE(
-      problem({{"states", "a, b"}, {"transitions", "a -> a: u > 0"}}).find("a transition leads nowhere at character 1"),
-      std::string::npos);
-  EXPECT_NE(problem({{"states", "a, a"}, {"transitions", "a -> b: u > 0"}}).find("\"a\" stands twice at character 4"),
+  EXPECT_NE(machine_problem({{"states", "a, b"}, {"transitions", "a -> a: u > 0"}})
+                .find("a transition leads nowhere at character 1"),
             std::string::npos);
-  EXPECT_NE(problem({{"states", ""}, {"transitions", ""}}).find("there is no state"), std::string::npos);
-  EXPECT_NE(problem({{"states", "a, b"}, {"transitions", "a -> b: u > l; b -> a: u < 0"}, {"l", "1 m"}})
+  EXPECT_NE(
+      machine_problem({{"states", "a, a"}, {"transitions", "a -> b: u > 0"}}).find("\"a\" stands twice at character 4"),
+      std::string::npos);
+  EXPECT_NE(machine_problem({{"states", ""}, {"transitions", ""}}).find("there is no state"), std::string::npos);
+  EXPECT_NE(machine_problem({{"states", "a, b"}, {"transitions", "a -> b: u > l; b -> a: u < 0"}, {"l", "1 m"}})
                 .find("cannot compare m and V at character 11"),
             std::string::npos);
-  EXPECT_NE(
-      problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"outputs", "v"}, {"v", tools::list({1, 2, 3})}})
-          .find("\"v\" has 3 values for 2 states"),
-      std::string::npos);
-  EXPECT_NE(
-      problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"outputs", "v"}}).find("needs a parameter \"v\""),
-      std::string::npos);
-  EXPECT_NE(problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"w", 2}}).find("has no parameter \"w\""),
+  EXPECT_NE(machine_problem(
+                {{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"outputs", "v"}, {"v", tools::list({1, 2, 3})}})
+                .find("\"v\" has 3 values for 2 states"),
             std::string::npos);
+  EXPECT_NE(machine_problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"outputs", "v"}})
+                .find("needs a parameter \"v\""),
+            std::string::npos);
+  EXPECT_NE(
+      machine_problem({{"states", "a, b"}, {"transitions", "a -> b: u > 0"}, {"w", 2}}).find("has no parameter \"w\""),
+      std::string::npos);
 }
 
 }  // namespace

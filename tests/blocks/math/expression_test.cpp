@@ -11,13 +11,13 @@ namespace {
 
 using tools::block;
 
-Diagram law(const std::string& y, const tools::Parameters& parameters, const std::string& unit = "V") {
+Diagram written(const std::string& y, const tools::Parameters& parameters, const std::string& unit = "V") {
   auto values = parameters;
   values.emplace_back("y", y);
   return tools::diagram({{"law", block("expression", values, {"u"})}}, {"law"}, {{"u", unit}});
 }
 
-std::string problem(const Diagram& d) {
+std::string expression_problem(const Diagram& d) {
   try {
     tools::compiled(d);
   } catch (const Error& e) {
@@ -27,7 +27,7 @@ std::string problem(const Diagram& d) {
   }
   return "none";
 }
-std::string unit_of(const Diagram& d) {
+std::string unit_of_law(const Diagram& d) {
   const auto program = tools::compiled(d);
   return to_text(program->signals[static_cast<std::size_t>(program->signal("law"))].dimension);
 }
@@ -44,7 +44,7 @@ std::vector<double> response(const Diagram& d, const std::vector<double>& u) {
 }
 
 TEST(ExpressionBlock, TakesItsNamesFromTheText) {
-  const auto d = law("a*sin(b*u) + max(c*u, 0)", {{"a", "2 um"}, {"b", "3 rad/V"}, {"c", "1 um/V"}});
+  const auto d = written("a*sin(b*u) + max(c*u, 0)", {{"a", "2 um"}, {"b", "3 rad/V"}, {"c", "1 um/V"}});
   const std::vector<double> u{-1, -0.2, 0, 0.4, 1.7};
   const auto y = response(d, u);
   for (std::size_t i = 0; i < u.size(); ++i)  // a few roundings
@@ -75,14 +75,14 @@ TEST(ExpressionBlock, PortsAreNamedOrInTheOrderOfTheText) {
 }
 
 TEST(ExpressionBlock, FindsTheUnitOfItsValue) {
-  EXPECT_EQ(unit_of(law("a*sin(b*u)", {{"a", "2 um"}, {"b", "3 rad/V"}})), "m");
-  EXPECT_EQ(unit_of(law("sqrt(u^2 + a^2)", {{"a", "1 V"}}, "V")), to_text(parse_unit("V").dimension));
-  EXPECT_EQ(unit_of(law("sqrt(u)", {}, "m^2")), "m");
-  EXPECT_EQ(unit_of(law("u/a", {{"a", "1 V"}}, "V")), "1");
-  EXPECT_EQ(unit_of(law("u > 1*a", {{"a", "1 V"}}, "V")), "1");
-  EXPECT_EQ(unit_of(law("max(u, 0)", {}, "um")), "m");
-  EXPECT_EQ(unit_of(law("asin(u)", {}, "")), to_text(parse_unit("rad").dimension));
-  EXPECT_EQ(unit_of(law("u + 0.1*sin(u)", {}, "rad")), to_text(parse_unit("rad").dimension));
+  EXPECT_EQ(unit_of_law(written("a*sin(b*u)", {{"a", "2 um"}, {"b", "3 rad/V"}})), "m");
+  EXPECT_EQ(unit_of_law(written("sqrt(u^2 + a^2)", {{"a", "1 V"}}, "V")), to_text(parse_unit("V").dimension));
+  EXPECT_EQ(unit_of_law(written("sqrt(u)", {}, "m^2")), "m");
+  EXPECT_EQ(unit_of_law(written("u/a", {{"a", "1 V"}}, "V")), "1");
+  EXPECT_EQ(unit_of_law(written("u > 1*a", {{"a", "1 V"}}, "V")), "1");
+  EXPECT_EQ(unit_of_law(written("max(u, 0)", {}, "um")), "m");
+  EXPECT_EQ(unit_of_law(written("asin(u)", {}, "")), to_text(parse_unit("rad").dimension));
+  EXPECT_EQ(unit_of_law(written("u + 0.1*sin(u)", {}, "rad")), to_text(parse_unit("rad").dimension));
 }
 
 TEST(ExpressionBlock, AsksForUnitsThatNothingElseSays) {
@@ -100,37 +100,42 @@ TEST(ExpressionBlock, AsksForUnitsThatNothingElseSays) {
 }
 
 TEST(ExpressionBlock, TellsWhichUnitsDoNotFitAndWhere) {
-  EXPECT_EQ(problem(law("u + a", {{"a", "2 um"}})).substr(0, 60),
+  EXPECT_EQ(expression_problem(written("u + a", {{"a", "2 um"}})).substr(0, 60),
             "/blocks/law/y: \"law\": cannot add V and um at character 3; mu");
-  EXPECT_NE(problem(law("2*u + sin(u)", {}))
+  EXPECT_NE(expression_problem(written("2*u + sin(u)", {}))
                 .find("the argument of sin is in V, expected a plain number or an angle at character 7"),
             std::string::npos);
-  EXPECT_NE(problem(law("sin(u)", {}, "Hz s")).find("cycles"), std::string::npos);
-  EXPECT_NE(problem(law("u^a", {{"a", 2}})).find("the exponent of V is no number at character 2"), std::string::npos);
-  EXPECT_NE(problem(law("u > a", {{"a", "2 um"}})).find("cannot compare um and V at character 3"), std::string::npos);
-  EXPECT_NE(problem(law("u + 1", {})).find("cannot add V and a plain number at character 3"), std::string::npos);
-  EXPECT_NE(problem(law("sqrt(u)", {})).find("the result has the unit V^(1/2)"), std::string::npos);
-  EXPECT_NE(problem(law("u", {{"unit", "um"}})).find("the expression gives V"), std::string::npos);
-  EXPECT_NE(problem(law("u", {{"unit", "furlongz"}})).find("/blocks/law/unit: "), std::string::npos);
-  EXPECT_EQ(problem(law("u*0 + 0", {})), "none");
+  EXPECT_NE(expression_problem(written("sin(u)", {}, "Hz s")).find("cycles"), std::string::npos);
+  EXPECT_NE(expression_problem(written("u^a", {{"a", 2}})).find("the exponent of V is no number at character 2"),
+            std::string::npos);
+  EXPECT_NE(expression_problem(written("u > a", {{"a", "2 um"}})).find("cannot compare um and V at character 3"),
+            std::string::npos);
+  EXPECT_NE(expression_problem(written("u + 1", {})).find("cannot add V and a plain number at character 3"),
+            std::string::npos);
+  EXPECT_NE(expression_problem(written("sqrt(u)", {})).find("the result has the unit V^(1/2)"), std::string::npos);
+  EXPECT_NE(expression_problem(written("u", {{"unit", "um"}})).find("the expression gives V"), std::string::npos);
+  EXPECT_NE(expression_problem(written("u", {{"unit", "furlongz"}})).find("/blocks/law/unit: "), std::string::npos);
+  EXPECT_EQ(expression_problem(written("u*0 + 0", {})), "none");
 }
 
 TEST(ExpressionBlock, TellsWhatIsWrongWithItsText) {
-  EXPECT_NE(
-      problem(law("2*(u", {})).find("/blocks/law/y: \"y\": the parenthesis is not closed that opens at character 3"),
-      std::string::npos);
-  EXPECT_NE(problem(law("", {})).find("there is no expression"), std::string::npos);
-  EXPECT_NE(problem(law("a*u", {{"a", 1}, {"aa", 2}})).find("/blocks/law/aa: the expression has no \"aa\""),
+  EXPECT_NE(expression_problem(written("2*(u", {}))
+                .find("/blocks/law/y: \"y\": the parenthesis is not closed that opens at character 3"),
             std::string::npos);
-  EXPECT_NE(problem(law("a*u", {})).find("input \"u\" of expression \"law\" is not connected"), std::string::npos);
-  EXPECT_NE(problem(law("a*u", {})).find("give the block a value for it"), std::string::npos);
+  EXPECT_NE(expression_problem(written("", {})).find("there is no expression"), std::string::npos);
+  EXPECT_NE(
+      expression_problem(written("a*u", {{"a", 1}, {"aa", 2}})).find("/blocks/law/aa: the expression has no \"aa\""),
+      std::string::npos);
+  EXPECT_NE(expression_problem(written("a*u", {})).find("input \"u\" of expression \"law\" is not connected"),
+            std::string::npos);
+  EXPECT_NE(expression_problem(written("a*u", {})).find("give the block a value for it"), std::string::npos);
 }
 
 TEST(ExpressionBlock, ATextThatBeginsWithANumberIsOne) {
   for (const char* y : {"2*u", "2 * u", "2/(1/u)", "3-1*u", "1e0*u"}) {
-    EXPECT_EQ(problem(law(y, {}, "")), "none") << y;
+    EXPECT_EQ(expression_problem(written(y, {}, "")), "none") << y;
   }
-  EXPECT_DOUBLE_EQ(response(law("2/(1/u)", {}, ""), {3, 3})[0], 6);
+  EXPECT_DOUBLE_EQ(response(written("2/(1/u)", {}, ""), {3, 3})[0], 6);
 }
 
 TEST(ExpressionBlock, WorksOnVectorsElementByElement) {

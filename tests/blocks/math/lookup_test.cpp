@@ -19,7 +19,7 @@ NumberMatrix rows(const std::vector<std::vector<double>>& numbers, const std::st
   }
   return m;
 }
-std::string problem(const Diagram& d) {
+std::string table_problem(const Diagram& d) {
   try {
     tools::compiled(d);
   } catch (const Error& e) {
@@ -67,7 +67,7 @@ TEST(LookupBlock, RefusesTablesThatDoNotFitTheirAxes) {
   const auto table = [](const tools::Parameters& p, const std::vector<std::string>& in) {
     std::vector<std::pair<std::string, std::string>> inputs;
     for (const auto& name : in) inputs.emplace_back(name, "");
-    return problem(tools::diagram({{"y", block("lookup", p, in)}}, {"y"}, inputs));
+    return table_problem(tools::diagram({{"y", block("lookup", p, in)}}, {"y"}, inputs));
   };
   EXPECT_NE(table({{"values", tools::list({1, 2, 3})}, {"at", tools::list({0, 1})}}, {"u"})
                 .find("\"values\" has 3 numbers, the axes make 2"),

@@ -25,12 +25,12 @@ T evaluated(const std::string& text, const std::vector<T>& inputs) {
   return evaluate(code.code.data(), slots.data());
 }
 
-struct Case {
+struct ExpressionCase {
   std::string text;
   std::function<double(double, double)> meant;  ///< of a and b, which every text names in this order
 };
 
-std::vector<Case> cases() {
+std::vector<ExpressionCase> expression_cases() {
   using std::numbers::pi;
   return {
       {"a + b", [](double a, double b) { return a + b; }},
@@ -74,11 +74,12 @@ std::vector<Case> cases() {
       {"  ( a+((b)) )*1e-3 - .5", [](double a, double b) { return (a + b) * 1e-3 - 0.5; }},
   };
 }
-const std::vector<std::pair<double, double>> points{{0.7, 1.9}, {1.9, 0.7}, {2.3, 2.6}, {0.31, 0.22}, {4.1, 1.3}};
+const std::vector<std::pair<double, double>> expression_points{
+    {0.7, 1.9}, {1.9, 0.7}, {2.3, 2.6}, {0.31, 0.22}, {4.1, 1.3}};
 
 TEST(Expression, MeansWhatTheLanguageCMeansByIt) {
-  for (const auto& c : cases())
-    for (const auto& [a, b] : points) {
+  for (const auto& c : expression_cases())
+    for (const auto& [a, b] : expression_points) {
       const double right = c.meant(a, b);
       EXPECT_NEAR(evaluated<double>(c.text, {a, b}), right, 1e-14 * (1 + std::abs(right)))
           << c.text;  // a few roundings
@@ -88,8 +89,8 @@ TEST(Expression, MeansWhatTheLanguageCMeansByIt) {
 /// The slopes of the kinds that the engine asks for, against central differences.
 TEST(Expression, HasTheSlopesThatDifferencesShow) {
   constexpr double h = 1e-6;
-  for (const auto& c : cases())
-    for (const auto& [a, b] : points) {
+  for (const auto& c : expression_cases())
+    for (const auto& [a, b] : expression_points) {
       const double along = 0.6, across = -0.8;  // the direction in which a and b move
       const double right = (c.meant(a + along * h, b + across * h) - c.meant(a - along * h, b - across * h)) / (2 * h);
       const double tolerance = 1e-8 * (1 + std::abs(right));  // rounding 1e-16/h, curvature h^2
@@ -109,7 +110,7 @@ TEST(Expression, HasTheSlopesThatDifferencesShow) {
 
 TEST(Expression, OfManyRowsIsThatOfEach) {
   constexpr int rows = 8;
-  for (const auto& c : cases()) {
+  for (const auto& c : expression_cases()) {
     const Tree tree = parse(c.text);
     const Code code = compile(tree, {false, false});
     std::vector<double> a, b, work(Code::most_slots * rows), numbers;

@@ -15,65 +15,68 @@ namespace {
 using namespace lookup;
 using Numbers = std::vector<double>;
 
-double of(Between between, Outside outside, const Numbers& x, const Numbers& y, double u) {
+double looked_up(Between between, Outside outside, const Numbers& x, const Numbers& y, double u) {
   std::vector<Axis<double>> axes{{x, u}};
   return value<double>(between, outside, axes, y);
 }
-const Numbers x{-1, 0, 0.5, 2, 3, 4.5}, y{1, 2, 2, -1, -1.5, 3};
+const Numbers table_at{-1, 0, 0.5, 2, 3, 4.5}, table_values{1, 2, 2, -1, -1.5, 3};
 
 TEST(LookupTable, IsItsValuesAtItsKnots) {
   for (const auto between : {Between::linear, Between::akima, Between::monotone})
     for (const auto outside : {Outside::clip, Outside::extrapolate, Outside::refuse})
-      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(of(between, outside, x, y, x[i]), y[i], 1e-15);
+      for (std::size_t i = 0; i < table_at.size(); ++i)
+        EXPECT_NEAR(looked_up(between, outside, table_at, table_values, table_at[i]), table_values[i], 1e-15);
 }
 
 TEST(LookupTable, GoesStraightBetweenItsKnots) {
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::clip, x, y, 0.25), 2);
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::clip, x, y, 1.25), 0.5);
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::clip, x, y, 4), 1.5);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::clip, table_at, table_values, 0.25), 2);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::clip, table_at, table_values, 1.25), 0.5);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::clip, table_at, table_values, 4), 1.5);
 }
 
 TEST(LookupTable, BeyondItsEndsDoesWhatIsAsked) {
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::clip, x, y, -9), 1);
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::clip, x, y, 9), 3);
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::extrapolate, x, y, -2), 0);
-  EXPECT_DOUBLE_EQ(of(Between::linear, Outside::extrapolate, x, y, 5.5), 6);
-  EXPECT_TRUE(std::isnan(of(Between::linear, Outside::refuse, x, y, 4.6)));
-  EXPECT_TRUE(std::isnan(of(Between::akima, Outside::refuse, x, y, -1.1)));
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::clip, table_at, table_values, -9), 1);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::clip, table_at, table_values, 9), 3);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::extrapolate, table_at, table_values, -2), 0);
+  EXPECT_DOUBLE_EQ(looked_up(Between::linear, Outside::extrapolate, table_at, table_values, 5.5), 6);
+  EXPECT_TRUE(std::isnan(looked_up(Between::linear, Outside::refuse, table_at, table_values, 4.6)));
+  EXPECT_TRUE(std::isnan(looked_up(Between::akima, Outside::refuse, table_at, table_values, -1.1)));
   for (const auto between : {Between::akima, Between::monotone}) {  // straight on with the slope at the end
-    const double h = 1e-7, end = of(between, Outside::extrapolate, x, y, 4.5);
-    const double slope = (end - of(between, Outside::extrapolate, x, y, 4.5 - h)) / h;
-    EXPECT_NEAR(of(between, Outside::extrapolate, x, y, 6.5), end + 2 * slope, 1e-5);  // h times the curvature
+    const double h = 1e-7, end = looked_up(between, Outside::extrapolate, table_at, table_values, 4.5);
+    const double slope = (end - looked_up(between, Outside::extrapolate, table_at, table_values, 4.5 - h)) / h;
+    EXPECT_NEAR(looked_up(between, Outside::extrapolate, table_at, table_values, 6.5), end + 2 * slope,
+                1e-5);  // h times the curvature
   }
 }
 
 /// The monotone curve is that of Boost's pchip, another implementation of the same papers, away from the ends, where
 /// that takes slopes of its own.
 TEST(LookupTable, TheMonotoneCurveIsThatOfPchip) {
-  const auto other = boost::math::interpolators::pchip<Numbers>(Numbers(x), Numbers(y));
-  for (double u = 0; u < 3; u += 0.05) EXPECT_NEAR(of(Between::monotone, Outside::clip, x, y, u), other(u), 1e-14) << u;
+  const auto other = boost::math::interpolators::pchip<Numbers>(Numbers(table_at), Numbers(table_values));
+  for (double u = 0; u < 3; u += 0.05)
+    EXPECT_NEAR(looked_up(Between::monotone, Outside::clip, table_at, table_values, u), other(u), 1e-14) << u;
 }
 
 TEST(LookupTable, TheMonotoneCurveNeverLeavesItsValues) {
   for (double u = -1; u <= 4.5; u += 0.01) {
-    const auto i = interval<double>(x, u);
-    const double v = of(Between::monotone, Outside::clip, x, y, u);
-    EXPECT_GE(v, std::min(y[i], y[i + 1]) - 1e-14) << u;
-    EXPECT_LE(v, std::max(y[i], y[i + 1]) + 1e-14) << u;
+    const auto i = interval<double>(table_at, u);
+    const double v = looked_up(Between::monotone, Outside::clip, table_at, table_values, u);
+    EXPECT_GE(v, std::min(table_values[i], table_values[i + 1]) - 1e-14) << u;
+    EXPECT_LE(v, std::max(table_values[i], table_values[i + 1]) + 1e-14) << u;
   }
 }
 
-/// Akima's formula worked out by hand at one knot: slopes 1, 0, -2, -0.5, 3; at x = 0.5 the weights are |-0.5 + 2|
-/// = 1.5 and |0 - 1| = 1, at x = 2 |3 + 0.5| = 3.5 and |-2 - 0| = 2.
+/// Akima's formula worked out by hand: the secants are 1, 0, -2, -0.5, 3. At 0.5 the weights are |-0.5 + 2| = 1.5 and
+/// |0 - 1| = 1, at 2 they are |3 + 0.5| = 3.5 and |-2 - 0| = 2.
 TEST(LookupTable, TheCurveOfAkimaHasHisSlopes) {
   const double at_half = (1.5 * 0 + 1 * -2) / 2.5, at_two = (3.5 * -2 + 2 * -0.5) / 5.5;
   const double h = 1.5, s = 0.4, r = 0.6, u = 0.5 + s * h;
   const double right = r * r * ((1 + 2 * s) * 2 + s * h * at_half) + s * s * ((1 + 2 * r) * -1 - r * h * at_two);
-  EXPECT_NEAR(of(Between::akima, Outside::clip, x, y, u), right, 1e-14);
+  EXPECT_NEAR(looked_up(Between::akima, Outside::clip, table_at, table_values, u), right, 1e-14);
   // and he continues slopes straight at the ends: a parabola is kept, to its last interval
   const Numbers knots{0, 1, 2, 3, 4}, squares{0, 1, 4, 9, 16};
   for (double v = 0; v <= 4; v += 0.125)
-    EXPECT_NEAR(of(Between::akima, Outside::clip, knots, squares, v), v * v, 1e-13) << v;
+    EXPECT_NEAR(looked_up(Between::akima, Outside::clip, knots, squares, v), v * v, 1e-13) << v;
 }
 
 TEST(LookupTable, OverSeveralAxesIsOneAfterTheOther) {
@@ -96,12 +99,13 @@ TEST(LookupTable, OverSeveralAxesIsOneAfterTheOther) {
 TEST(LookupTable, ItsKinkChangesItsSignAtEveryKnotWhereItBends) {
   for (const bool ends : {false, true}) {
     int changes = 0;
-    double before = knot_kink({x, -2.013}, ends);
+    double before = knot_kink({table_at, -2.013}, ends);
     for (double u = -2; u < 6; u += 0.007) {
-      const double now = knot_kink({x, u}, ends);
+      const double now = knot_kink({table_at, u}, ends);
       if (now * before < 0) {
         ++changes;
-        EXPECT_TRUE(std::any_of(x.begin(), x.end(), [&](double k) { return k <= u && k > u - 0.0071; })) << u;
+        EXPECT_TRUE(std::any_of(table_at.begin(), table_at.end(), [&](double k) { return k <= u && k > u - 0.0071; }))
+            << u;
       }
       before = now;
     }
