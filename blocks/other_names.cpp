@@ -11,9 +11,7 @@ struct OtherNames {
 
 const std::vector<OtherNames>& table() {
   static const std::vector<OtherNames> all{
-      {{"deadzone", "deadband"},
-       "a dead zone is its input less a \"saturation\" with the zone's ends as limits: a \"sum\" with "
-       "\"signs\": \"+-\""},
+      {{"deadband"}, "what swallows small signals is \"dead_zone\""},
       {{"ramps", "clock", "time"}, "a straight line over time is \"ramp\"; the time itself one of slope 1"},
       {{"pulses", "pulsegenerator", "rectangle", "rectangular", "square", "squarewave", "pulsetrain"},
        "pulses and square waves are \"pulse\"; the square of a signal is a \"product\" of it with itself"},
@@ -26,8 +24,14 @@ const std::vector<OtherNames>& table() {
        "a table over one axis or several is \"lookup\", a curve with few numbers \"polynomial\"; rows over time are "
        "\"recorded\""},
       {{"derivative", "differentiator", "differentiate", "diff", "der", "dudt"},
-       "a derivative has to be filtered: a \"transfer_function\" with \"num\": [1, 0] and \"den\": [T, 1], T its time "
-       "constant in seconds"},
+       "a derivative has to be filtered: \"filtered_derivative\" with its time constant"},
+      {{"integratorlimited", "integratorwithlimits", "saturatedintegrator"},
+       "an integrator that stops at limits is \"limited_integrator\""},
+      {{"resettableintegrator", "integratorwithexternalreset"},
+       "an integrator that a signal sets anew is \"integrator_with_reset\""},
+      {{"variabletransportdelay", "variabletimedelay", "variabledelay"},
+       "a delay that is a signal is \"variable_dead_time\""},
+      {{"modulo", "mod", "unwrap", "wraptopi", "wrapto360"}, "an angle within one turn is \"wrap\""},
       {{"multiportswitch", "selector", "if", "conditional", "ifelse"},
        "one of two signals is taken by \"switch\", or by if() in an \"expression\"; what is chosen before a run is a "
        "choice: {\"choose\": ..., \"from\": {...}}; elements of a vector are taken by \"select\""},
@@ -115,7 +119,14 @@ const std::vector<OtherNames>& table() {
        "friction is \"sliding_friction\", of a mass \"mass_with_friction\" or \"mass_with_presliding\""},
       {{"spring", "damper", "mass", "springmassdamper", "msd"},
        "a mass on spring and damper is \"mass_spring_damper\""},
-      {{"gear", "deadplay", "lostmotion", "freeplay"}, "play between parts is \"backlash\", as an operator \"play\""},
+      {{"deadplay", "lostmotion", "freeplay"},
+       "play between parts is \"backlash\", as an operator \"play\", of a gear its \"gap\": \"gear\""},
+      {{"gearbox", "coupling", "transmission", "pulley", "timingbelt"},
+       "two shafts are joined by \"gear\", a shaft and a carriage by \"belt\""},
+      {{"leadscrew", "spindle", "screw", "ballscrewdrive"}, "a screw with its nut is \"ball_screw\""},
+      {{"rotor", "flywheel", "shaft", "rotationalinertia", "rotarymass"}, "what a torque turns is \"inertia\""},
+      {{"motor", "dcmachine", "servomotor", "brushedmotor"},
+       "a motor with brushes is \"dc_motor\", its winding alone \"dc_winding\""},
       {{"endstop", "hardstop", "bumper"}, "a mass between stops is \"mass_with_stops\""},
       {{"whitenoise", "random", "randomnumber", "bandlimitedwhitenoise", "gaussian", "randomsource"},
        "a random signal is \"noise\"; \"sensor_noise\" and \"sampled_noise\" (at each sample) add it to their input"},

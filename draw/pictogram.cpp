@@ -39,6 +39,16 @@ Curve noise() {
   return curve;
 }
 
+/// Around (x, y), as round as a pictogram whose sides are not alike lets it be.
+Curve circle(double x, double y, double radius) {
+  Curve curve;
+  for (int i = 0; i <= 24; ++i) {
+    const double a = 2 * std::numbers::pi * i / 24;
+    curve.emplace_back(x + 0.7 * radius * std::cos(a), y + radius * std::sin(a));
+  }
+  return curve;
+}
+
 /// A staircase from (-1, ...) with these levels.
 Curve stairs(const std::vector<double>& levels) {
   Curve curve;
@@ -160,6 +170,25 @@ std::map<std::string, Pictogram> make_all() {
                      {{0.4, 0.4}, {0.4, -0.4}},
                      {{0.4, 0}, {1, 0}}},
                     {}};
+  // A disc on a shaft; two wheels; a belt around them; a thread; a rotor between its brushes.
+  all["inertia"] = {
+      false,
+      false,
+      {{{-1, 0}, {-0.3, 0}}, {{-0.3, -0.8}, {-0.3, 0.8}, {0.3, 0.8}, {0.3, -0.8}, {-0.3, -0.8}}, {{0.3, 0}, {1, 0}}},
+      {}};
+  all["gear"] = {false, false, {circle(-0.45, 0, 0.45), circle(0.4, 0, 0.8)}, {}};
+  all["belt"] = {false,
+                 false,
+                 {circle(-0.6, 0, 0.4), circle(0.6, 0, 0.4), {{-0.6, 0.4}, {0.6, 0.4}}, {{-0.6, -0.4}, {0.6, -0.4}}},
+                 {}};
+  all["screw"] = {
+      false,
+      false,
+      {{{-1, -0.4}, {-0.7, 0.4}, {-0.5, -0.4}, {-0.2, 0.4}, {0, -0.4}, {0.3, 0.4}, {0.5, -0.4}, {0.8, 0.4}, {1, -0.4}},
+       {{-0.2, 0.7}, {0.3, 0.7}, {0.3, -0.7}, {-0.2, -0.7}, {-0.2, 0.7}}},
+      {}};
+  all["motor"] = {
+      false, false, {circle(0, 0, 0.75), {{-0.25, -0.3}, {-0.25, 0.35}, {0, 0}, {0.25, 0.35}, {0.25, -0.3}}}, {}};
   all["calibration"] = characteristic({{{-1, -0.45}, {1, 0.95}}});
   all["straight"] = characteristic({{{-1, -0.8}, {1, 0.8}}});
   all["table"] = characteristic({{{-1, -0.9}, {-0.5, -0.2}, {0.2, 0.1}, {0.6, 0.7}, {1, 0.85}}});

@@ -79,6 +79,16 @@ const Look* find_look(const std::string& type) {
       {"mass_with_stops", {"mass", true}},
       {"mass_on_spring_of_plays", {"mass", true}},
       {"mass_on_bouc_wen_spring", {"mass", true}},
+      {"inertia", {"inertia", true}},
+      {"inertia_with_friction", {"inertia", true}},
+      {"inertia_with_presliding", {"inertia", true}},
+      {"inertia_with_drag", {"inertia", true}},
+      {"inertia_with_cogging", {"inertia", true}},
+      {"gear", {"gear"}},
+      {"belt", {"belt"}},
+      {"ball_screw", {"screw", true}},
+      {"dc_motor", {"motor", true}},
+      {"dc_winding", {"motor", true}},
       {"tank", {"tank", true}},
       {"notch", {"notch", true}},
       {"pwm", {"pulses", true}},
@@ -298,8 +308,10 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
   if (type == "product") return product(n_in);
   if (type == "gain") return gain(values);
   Symbol s;
-  if (type == "integrator") {
+  if (type == "integrator" || type == "limited_integrator" || type == "integrator_with_reset") {
     s = fraction("1", "s");
+  } else if (type == "filtered_derivative") {
+    s = fraction("s", "T s + 1");
   } else if (type == "pass") {
     s = formula("1");
     s.width = 36;
@@ -341,7 +353,7 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = formula("PID");
     s.note = "sampled";
     s.height = 54;
-  } else if (type == "dead_time") {
+  } else if (type == "dead_time" || type == "variable_dead_time") {
     s = formula("e⁻ˢᵀ");
   } else if (type == "delay_line") {
     s = formula("z⁻ⁿ");

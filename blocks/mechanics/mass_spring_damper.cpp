@@ -43,9 +43,7 @@ void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
   spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "part by which it is harder one way than the other")
       .optional("0");
   spec.param(&Params<double>::quintic, "quintic", "N/m^5", "part of large travel").optional("0");
-  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
-      .optional("0")
-      .not_negative();
+  describe_drag(spec);
   spec.variation("drag", "mass_on_stiffening_spring", {{"drag", "0"}});
   describe_memories(spec);
   describe_start(spec);
@@ -56,35 +54,37 @@ void MassWithDrag::describe(BlockSpec<MassWithDrag>& spec) {
   spec.law("mass dv/dt = force - damping v - drag v |v| - stiffness x, dx/dt = v")
       .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
   describe_motion(spec);
-  spec.param(&Params<double>::drag, "drag", "N*s^2/m^2", "drag over the square of the speed")
-      .optional("0")
-      .not_negative();
+  describe_drag(spec);
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}});
   describe_memories(spec);
   describe_start(spec);
 }
 
-ParameterDeclaration& describe_motion(Declaration& d) {
+ParameterDeclaration& describe_motion(Declaration& d, const MotionWords& words) {
   d.in_group("mechanics");
-  d.input("force", "N", "force on the mass");
-  d.output("position", "m", "position");
-  d.output("velocity", "m/s", "velocity");
-  d.state("position", "m", "position");
-  d.state("velocity", "m/s", "velocity");
-  d.parameter("mass", "kg", "moving mass").positive();
-  d.parameter("damping", "N*s/m", "viscous damping").optional("0").not_negative();
-  return d.parameter("stiffness", "N/m", "spring to the ground, 0 = none").not_negative();
+  d.input(words.cause, words.cause_unit, std::string(words.cause) + " on the " + words.body);
+  d.output(words.place, words.place_unit, words.place);
+  d.output("velocity", words.speed_unit(), "velocity");
+  d.state(words.place, words.place_unit, words.place);
+  d.state("velocity", words.speed_unit(), "velocity");
+  d.parameter(words.body, words.body_unit, std::string("moving ") + words.body).positive();
+  d.parameter("damping", words.damping_unit(), "viscous damping").optional("0").not_negative();
+  return d.parameter("stiffness", words.per_place(), "spring to the ground, 0 = none").not_negative();
 }
-void describe_start(Declaration& d) {
-  d.parameter("initial_position", "m", "position at the start").optional("0");
-  d.parameter("initial_velocity", "m/s", "velocity at the start").optional("0");
+void describe_start(Declaration& d, const MotionWords& words) {
+  d.parameter(std::string("initial_") + words.place, words.place_unit, std::string(words.place) + " at the start")
+      .optional("0");
+  d.parameter("initial_velocity", words.speed_unit(), "velocity at the start").optional("0");
 }
-void describe_beyond_linear(Declaration& d) {
-  d.parameter("stiffening", "N/m^3", "cubic part of the spring").optional("0");
-  d.parameter("quadratic", "N/m^2", "part by which it is harder one way than the other").optional("0");
-  d.parameter("quintic", "N/m^5", "part of large travel").optional("0");
-  d.parameter("drag", "N*s^2/m^2", "drag over the square of the speed").optional("0").not_negative();
-  d.remark("The spring may stiffen and a fluid hold the mass as in mass_on_stiffening_spring.");
+ParameterDeclaration& describe_drag(Declaration& d, const MotionWords& words) {
+  return d.parameter("drag", words.drag_unit(), "drag over the square of the speed").optional("0").not_negative();
+}
+void describe_beyond_linear(Declaration& d, const MotionWords& words) {
+  d.parameter("stiffening", words.per_place(3), "cubic part of the spring").optional("0");
+  d.parameter("quadratic", words.per_place(2), "part by which it is harder one way than the other").optional("0");
+  d.parameter("quintic", words.per_place(5), "part of large travel").optional("0");
+  describe_drag(d, words);
+  d.remark("The spring may stiffen and a fluid hold it as in mass_on_stiffening_spring.");
   d.variation("stiffening", d.type, {{"stiffening", "0"}}).variation("drag", d.type, {{"drag", "0"}});
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "blocks/mechanics/motion_words.h"
 #include "engine/block/block.h"
 #include "models/mechanics/mass_motion.h"
 #include "models/mechanics/mass_spring_damper.h"
@@ -133,14 +134,16 @@ struct MassWithDrag : Mass {
   }
 };
 
-/// Ports, the first two states, and mass, damping and stiffness, with which the Params of all masses begin. Returns the
+/// Ports, the first two states, and mass, damping and stiffness, with which the Params of all bodies begin. Returns the
 /// stiffness.
-ParameterDeclaration& describe_motion(Declaration& d);
+ParameterDeclaration& describe_motion(Declaration& d, const MotionWords& words = translation);
 /// Position and velocity at the start, with which they end.
-void describe_start(Declaration& d);
+void describe_start(Declaration& d, const MotionWords& words = translation);
 /// What a block whose mass remembers may have besides, 0 where nothing is said: stiffening, quadratic, quintic, drag.
 /// They stand behind the start; bent_law() reads them. Says how both vary the block, which keeps its type.
-void describe_beyond_linear(Declaration& d);
+void describe_beyond_linear(Declaration& d, const MotionWords& words = translation);
+/// Its number, which is none where nothing is said.
+ParameterDeclaration& describe_drag(Declaration& d, const MotionWords& words = translation);
 
 /// The mass of a sized block, on its linear spring with what describe_beyond_linear() gives it.
 template <class Block, class T>

@@ -15,22 +15,26 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
   spec.remark(
       "coulomb and breakaway 0 give mass_spring_damper. Presliding (a spring-like contact) is not in this law.");
   describe_motion(spec).optional("0");
-  spec.param(&Params<double>::coulomb, "coulomb", "N", "dry friction of fast sliding").not_negative();
-  spec.param(&Params<double>::breakaway, "breakaway", "N", "force at which sticking ends, at least coulomb")
+  describe_dry_friction(spec);
+  describe_start(spec);
+}
+
+void describe_dry_friction(Declaration& d, const MotionWords& words) {
+  d.parameter("coulomb", words.cause_unit, "dry friction of fast sliding").not_negative();
+  d.parameter("breakaway", words.cause_unit, std::string(words.cause) + " at which sticking ends, at least coulomb")
       .not_negative();
-  spec.param(&Params<double>::stribeck_velocity, "stribeck_velocity", "m/s",
-             "over which breakaway falls to coulomb; 0 = at once")
+  d.parameter("stribeck_velocity", words.speed_unit(), "over which breakaway falls to coulomb; 0 = at once")
       .optional("0")
       .not_negative();
-  spec.param(&Params<double>::rest_speed, "rest_speed", "m/s", "a slower turn of the motion counts as standing still")
-      .optional("1 nm/s")
+  d.parameter("rest_speed", words.speed_unit(), "a slower turn of the motion counts as standing still")
+      .optional(std::string("1 n") + words.speed_unit())
       .positive();
-  describe_start(spec);
 }
 
 std::string MassWithFriction::check(const Params<double>& p) {
   if (p.breakaway >= p.coulomb) return "";
-  return fmt::format("breakaway ({:.4g} N) is below coulomb ({:.4g} N); give at least coulomb", p.breakaway, p.coulomb);
+  return fmt::format("breakaway ({:.4g}) is below coulomb ({:.4g}) [SI]; give at least coulomb", p.breakaway,
+                     p.coulomb);
 }
 
 Kernel mass_with_friction_block() { return kernel<MassWithFriction>(); }

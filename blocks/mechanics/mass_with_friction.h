@@ -44,6 +44,9 @@ struct MassWithFriction : Mass {
   static std::string check(const Params<double>& p);
 };
 
+/// Coulomb's friction, breakaway, and how one becomes the other.
+void describe_dry_friction(Declaration& d, const MotionWords& words = translation);
+
 Kernel mass_with_friction_block();
 
 }  // namespace hysteron::blocks

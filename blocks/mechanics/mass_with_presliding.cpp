@@ -6,25 +6,31 @@
 
 namespace hysteron::blocks {
 
-namespace {
-
-void describe_elements(Declaration& d) {
-  describe_motion(d);
-  d.state("deflection", "m", "deflection of each element");
-  d.list("contact_stiffness", "N/m", "stiffness of each element while it sticks").not_negative();
-  d.list("slip_distance", "m", "deflection at which each element slips; its friction is stiffness times distance")
+void describe_elements(Declaration& d, const MotionWords& words) {
+  auto& stiffness = describe_motion(d, words);
+  if (words.body == rotation.body) stiffness.optional("0");  // a shaft turns freely
+  d.state("deflection", words.place_unit, "deflection of each element");
+  d.list("contact_stiffness", words.per_place(), "stiffness of each element while it sticks").not_negative();
+  d.list("slip_distance", words.place_unit,
+         "deflection at which each element slips; its friction is stiffness times distance")
       .positive()
       .difference()
       .as_long_as("contact_stiffness");
   d.parameter("excess", "", "by how much more it holds before it slides fast, over its friction")
       .optional("0")
       .not_negative();
-  d.parameter("stribeck_velocity", "m/s", "speed at which that is gone").optional("1 m/s").positive();
-  describe_start(d);
-  describe_beyond_linear(d);
+  d.parameter("stribeck_velocity", words.speed_unit(), "speed at which that is gone")
+      .optional("1 " + words.speed_unit())
+      .positive();
+  describe_start(d, words);
+  describe_beyond_linear(d, words);
 }
 
-}  // namespace
+void describe_contact_time(Declaration& d) {
+  d.parameter("contact_time", "s", "damping of a contact over its stiffness; gone where it slides")
+      .optional("0 s")
+      .not_negative();
+}
 
 template <>
 void MassWithElements<DahlElement>::describe(Declaration& d) {
@@ -38,9 +44,7 @@ void MassWithElements<DahlElement>::describe(Declaration& d) {
   d.remark("One element is a guide with friction.");
   d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
   describe_elements(d);
-  d.parameter("contact_time", "s", "damping of a contact over its stiffness; gone where it slides")
-      .optional("0 s")
-      .not_negative();
+  describe_contact_time(d);
 }
 
 template <>
@@ -150,6 +154,8 @@ MassWithElements<Element>::OwnStep::OwnStep(const View<double>& v)
     : StepUnderMemory<HeldByElements<Element>>(bent_law<MassWithElements>(v),
                                                {v.list(contact_stiffness), v.list(slip_distance), v.parameter(excess),
                                                 v.parameter(stribeck_velocity), time_of_contact<Element>(v)}) {}
+
+template class HeldByElements<DahlElement>;  // of an inertia, too
 
 Kernel mass_with_presliding_block() { return kernel<MassWithElements<DahlElement>>(); }
 Kernel mass_on_hysteretic_spring_block() { return kernel<MassWithElements<SlipElement>>(); }

@@ -111,6 +111,10 @@ struct MassWithElements {
   }
 };
 
+/// What bodies with elements declare behind their name and law.
+void describe_elements(Declaration& d, const MotionWords& words = translation);
+void describe_contact_time(Declaration& d);
+
 Kernel mass_with_presliding_block();
 Kernel mass_on_hysteretic_spring_block();
 

@@ -31,11 +31,13 @@ Node node(const std::string& type, const std::vector<std::pair<std::string, Valu
   return n;
 }
 
-/// A device that lacks what varies it: a mass that rings at a third of a hertz, a tank that fills in five seconds, a
-/// hysteresis as the effect of that block puts it in; of any other type one with a unit of everything.
+/// A device that lacks what varies it: a mass or an inertia that rings at a third of a hertz, a tank that fills in five
+/// seconds, a hysteresis as the effect of that block puts it in; of any other type one with a unit of everything.
 Node usual_device(const Declaration& d, const Effects& library) {
   if (d.type == "mass_spring_damper")
     return node(d.type, {{"mass", "1 kg"}, {"stiffness", "4 N/m"}, {"damping", "0.4 N*s/m"}});
+  if (d.type == "inertia")
+    return node(d.type, {{"inertia", "1 kg m^2"}, {"stiffness", "4 N m/rad"}, {"damping", "0.4 N m s/rad"}});
   if (d.type == "tank") return node(d.type, {{"area", "0.5 m^2"}, {"outlet", "0.1 m^3/s"}, {"reference", "1 m"}});
   Excitation at;
   at.unit = parse_unit("V");
@@ -86,6 +88,7 @@ std::vector<DemoRig> device_rigs(const Effect& effect, const Effects& library, c
     if (by.empty() && !(effect.variation.empty() && has)) continue;
     // A force of 4 N on a spring of 4 N/m moves it by a metre; 0.1 m^3/s fill the tank to a metre.
     DemoRig demo_rig = type == "mass_spring_damper" ? wire_in(parse_unit("N"), 4)
+                       : type == "inertia"          ? wire_in(parse_unit("N m"), 4)
                        : type == "tank"             ? wire_in(parse_unit("m^3/s"), 0.1)
                                                     : wire_in(parse_unit("V"), 100);
     put_device(demo_rig, d, usual_device(d, library));

@@ -1,4 +1,5 @@
-// The effect friction: in the guide of a mass, on a wire that carries a speed, behind a motion without a mass.
+// The effect friction: in the guide of a mass or the bearings of an inertia, on a wire that carries a speed, behind a
+// motion without a mass.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,10 +89,10 @@ Effect friction() {
   e.else_a_block = true;
   e.is_memory = true;
   e.parameters = {
-      {"contact_stiffness", "N/m", "while it sticks", ""},
-      {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
+      {"contact_stiffness", "N/m, N*m/rad", "while it sticks", ""},
+      {"slip_distance", "m, rad", "after which it slides", "0.1 .. 50 um"},
       {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
-      {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
+      {"stribeck_velocity", "m/s, rad/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
       {"contact_time", "s", "richest law: damping over stiffness of the contact while it sticks", ""},
       {"level", "unit of the wire",
        "on a wire that carries a speed: friction over the damping behind it; a motion: what is held back", ""},
@@ -110,8 +111,12 @@ Effect friction() {
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
-    return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1],
-                       100 * values[0] * values[1] / std::max(at.range(), 1e-300), values[1] * 1e6);
+    const double share = 100 * values[0] * values[1] / std::max(at.range(), 1e-300);
+    if (turns(at))
+      return fmt::format("{:.3g} N m ({:.2g} % of the torque), after {:.3g} mrad", values[0] * values[1], share,
+                         values[1] * 1e3);
+    return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1], share,
+                       values[1] * 1e6);
   };
   e.laws = [](const Excitation& at) {
     if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
@@ -137,7 +142,7 @@ Effect friction() {
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
                          fmt::join(at.memory_blocks, ", "));
     if (at.by.empty() && !is_speed(at.unit) && !is_motion(at.unit))
-      return "friction needs a mass, or a wire that carries a motion or a speed";
+      return "friction needs a mass or an inertia, or a wire that carries a motion or a speed";
     return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";
   };
   return e;

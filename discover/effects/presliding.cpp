@@ -46,10 +46,11 @@ bool is_motion(const Unit& unit) {
 Law presliding(const Excitation& at) {
   Law law;
   law.name = "presliding (Dahl)";
-  law.block.type = "mass_with_presliding";
+  law.block.type = at.by.empty() ? "mass_with_presliding" : at.by;
   const double range = travel(at), force = at.range() > 0 ? at.range() : 1;
-  give(law.block, "contact_stiffness", NumberList{with_unit(0.5 * force / range, parse_unit("N/m"))});
-  give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit("um"))});
+  give(law.block, "contact_stiffness",
+       NumberList{with_unit(0.5 * force / range, parse_unit(turns(at) ? "N*m/rad" : "N/m"))});
+  give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit(turns(at) ? "mrad" : "um"))});
   LawParameter k;
   k.path = element("contact_stiffness", 0);
   k.start = 0.5 * force / range;
@@ -66,13 +67,13 @@ Law presliding(const Excitation& at) {
   d.upper = 10 * range;
   d.log_scale = true;
   for (const double f : {1e-4, 1e-3, 1e-2}) d.scan.push_back(f * range);
-  d.plausible_upper = 50e-6;
+  if (!turns(at)) d.plausible_upper = 50e-6;  // [m]; what an angle is at a contact hangs on its radius
   law.free = {k, d};
   return law;
 }
 
 Law presliding_with_excess(const Excitation& at) {
-  Law law = with_excess(presliding(at), travel(at), at, parse_unit("m/s"));
+  Law law = with_excess(presliding(at), travel(at), at, parse_unit(turns(at) ? "rad/s" : "m/s"));
   law.name = "presliding with Stribeck's excess (LuGre)";
   return law;
 }

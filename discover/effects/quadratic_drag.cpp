@@ -19,11 +19,11 @@ Effect quadratic_drag() {
   e.needs = "Speeds that span 3:1.";
   e.way = Way::vary;
   e.variation = "drag";
-  e.parameters = {{"drag", "N s^2/m^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
+  e.parameters = {{"drag", "N s^2/m^2, N m s^2/rad^2", "over the square of the speed", "rho*A*C_d/2, never negative"}};
   e.look_alikes = {{"friction", "triangle", "friction does not grow with the speed"},
                    {"stiffening", "low_frequencies", "a spring acts at rest too"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
-    return fmt::format("{:.3g} N at 1 m/s", values[0]);
+  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
+    return fmt::format("{:.3g} {}", values[0], turns(at) ? "N m at 1 rad/s" : "N at 1 m/s");
   };
   e.laws = [](const Excitation& at) {
     Law law;
@@ -32,7 +32,7 @@ Effect quadratic_drag() {
     // As much force as the drive has, at the whole travel in ten rows.
     const double speed = travel(at) / std::max(10 * at.shortest_step, 1e-9);
     const double unit = std::max(at.range(), 1e-30) / (speed * speed);
-    give(law.block, "drag", with_unit(0.01 * unit, parse_unit("N*s^2/m^2")));
+    give(law.block, "drag", with_unit(0.01 * unit, parse_unit(turns(at) ? "N*m*s^2/rad^2" : "N*s^2/m^2")));
     LawParameter c;
     c.path = "drag";
     c.start = 0.01 * unit;
@@ -44,7 +44,7 @@ Effect quadratic_drag() {
     return std::vector<Law>{law};
   };
   e.unsure = [](const Excitation& at) { return one_speed(at, 3, "tell it from a damper"); };
-  e.unseen = [](const Excitation& at) { return stands(at, "the mass"); };
+  e.unseen = [](const Excitation& at) { return stands(at, turns(at) ? "the inertia" : "the mass"); };
   return e;
 }
 

@@ -28,7 +28,8 @@ Effect stribeck_friction() {
   e.variation = "presliding";
   e.else_a_block = true;
   e.is_memory = true;
-  e.parameters = {{"contact_stiffness", "N/m", "of a mass: while it sticks; times slip_distance: the level", ""},
+  e.parameters = {{"contact_stiffness", "N/m, N*m/rad",
+                   "of a mass or an inertia: while it sticks; times slip_distance: the level", ""},
                   {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
                   {"level", "unit of the wire", "of a motion without a mass: what is held back of it", ""},
                   {"excess", "", "breakaway over the friction of fast sliding, less one", "0 .. 1"},
@@ -41,14 +42,14 @@ Effect stribeck_friction() {
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const std::string level = at.by.empty()
                                   ? fmt::format("{:.3g} {}", at.unit.difference_from_si(values[0]), at.unit.text)
-                                  : fmt::format("{:.3g} N", values[0] * values[1]);
+                                  : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
     if (values.size() < 4) return fmt::format("{} held back", level);
-    return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} mm/s", level, 100 * values[2],
-                       1e3 * values[3]);
+    return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} {}/s", level, 100 * values[2],
+                       1e3 * values[3], turns(at) ? "mrad" : "mm");
   };
   e.unsure = [](const Excitation& at) { return one_speed(at, 10, "tell what falls with it"); };
   e.unseen = [](const Excitation& at) -> std::string {
-    if (at.by.empty() && !is_motion(at.unit)) return "it needs a mass, or a wire that carries a motion";
+    if (at.by.empty() && !is_motion(at.unit)) return "it needs a mass or an inertia, or a wire that carries a motion";
     if (at.by.empty() && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
                          fmt::join(at.memory_blocks, ", "));

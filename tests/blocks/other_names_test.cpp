@@ -36,10 +36,7 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   const auto says = [](const char* word, const char* type) {
     EXPECT_NE(instead_of_other_name(word).find(std::string("\"") + type + "\""), std::string::npos) << word;
   };
-  for (const char* word : {"dead_zone", "DeadZone", "dead zone", "dead-band"}) {
-    says(word, "saturation");
-    says(word, "sum");
-  }
+  for (const char* word : {"dead_band", "DeadBand", "dead band", "dead-band"}) says(word, "dead_zone");
   says("clock", "ramp");
   says("square_wave", "pulse");
   says("Repeating Sequence", "time_table");
@@ -55,7 +52,9 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   says("Compare To Constant", "comparator");
   says("Trigonometric Function", "trigonometry");
   says("Coulomb & Viscous Friction", "mass_with_friction");
-  says("derivative", "transfer_function");
+  says("derivative", "filtered_derivative");
+  says("Variable Transport Delay", "variable_dead_time");
+  says("gearbox", "gear");
   says("Multiport Switch", "switch");
   says("absolute_value", "abs");
   says("transport_delay", "dead_time");

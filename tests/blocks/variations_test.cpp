@@ -39,6 +39,16 @@ Example mass_with(Parameters more) {
   return {"N", std::move(more)};
 }
 
+/// The same inertia with what else it needs.
+Example inertia_with(Parameters more) {
+  more.insert(more.begin(), {{"inertia", "0.2 kg m^2"},
+                             {"damping", "0.8 N m s/rad"},
+                             {"stiffness", "50 N m/rad"},
+                             {"initial_angle", "0.03 rad"},
+                             {"initial_velocity", "-0.2 rad/s"}});
+  return {"N m", std::move(more)};
+}
+
 const std::map<std::string, Example>& examples() {
   const std::pair<std::string, Value> stiff{"contact_stiffness", list({20, 9}, "N/m")},
       slip{"slip_distance", list({10, 40}, "mm")};
@@ -49,6 +59,10 @@ const std::map<std::string, Example>& examples() {
       {"mass_with_drag", mass_with({{"drag", "0.6 N s^2/m^2"}})},
       {"mass_with_presliding", mass_with({stiff, slip})},
       {"mass_on_hysteretic_spring", mass_with({stiff, slip})},
+      {"inertia", inertia_with({})},
+      {"inertia_with_drag", inertia_with({{"drag", "0.6 N m s^2/rad^2"}})},
+      {"inertia_with_presliding",
+       inertia_with({{"contact_stiffness", list({20, 9}, "N m/rad")}, {"slip_distance", list({10, 40}, "mrad")}})},
       {"mass_on_bouc_wen_spring", mass_with({{"hysteretic_share", 0.4}, {"beta", "7 1/m"}, {"gamma", "-3 1/m"}})},
       {"mass_on_spring_of_plays", mass_with({{"thresholds", list({10, 40}, "mm")},
                                              {"at_lower", list({4, 2}, "N/m")},
@@ -176,8 +190,14 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"noise", {{"rms", "0.1 V"}}},
       {"computing_time", {{"samples", 1.0}}},
       {"interpolation_error", {{"error_sine", "0.01 rad"}}},
-      {"periodic_error", {{"error_sine", "10 mm"}}}};
-  const auto found = active.find(GetParam().variation.name);
+      {"periodic_error", {{"error_sine", "10 mm"}}},
+      {"torque cogging", {{"cosine", "0.1 N m"}, {"sine", "0.2 N m"}, {"periods", 7.0}}},
+      {"torque drag", {{"drag", "3 N m s^2/rad^2"}}},
+      {"torque stiffening", {{"stiffening", "1e5 N m/rad^3"}}},
+      {"torque friction", {{"coulomb", "0.5 N m"}, {"breakaway", "1 N m"}}},
+      {"torque presliding", {{"contact_stiffness", "30 N m/rad"}, {"slip_distance", "0.02 rad"}}}};
+  const bool turns = own().inputs.front().name == "torque";
+  const auto found = active.find((turns ? "torque " : "") + GetParam().variation.name);
   ASSERT_NE(found, active.end()) << "add values for " << GetParam().variation.name;
   const auto& example = examples().at(GetParam().type);
   auto varied = example.parameters;

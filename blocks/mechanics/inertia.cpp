@@ -1,0 +1,74 @@
+#include "blocks/mechanics/inertia.h"
+
+namespace hysteron::blocks {
+
+void Inertia::describe(BlockSpec<Inertia>& spec) {
+  spec.name("inertia", "one inertia that a torque turns, with a damper and maybe a torsion spring").linear();
+  spec.law("inertia dw/dt = torque - damping w - stiffness angle, d angle/dt = w").from("Newton's second law");
+  spec.remark(
+      "A shaft that turns freely has stiffness 0. Gears, belts and screws: \"gear\", \"belt\", \"ball_screw\".");
+  spec.variation("drag", "inertia_with_drag", {{"drag", "0"}})
+      .variation("friction", "inertia_with_friction", {{"coulomb", "0 N m"}, {"breakaway", "0 N m"}})
+      .variation("presliding", "inertia_with_presliding",
+                 {{"contact_stiffness", "0 N m/rad"}, {"slip_distance", "1 rad"}})
+      .variation("cogging", "inertia_with_cogging", {{"cosine", "0 N m"}, {"sine", "0 N m"}, {"periods", "1"}});
+  describe_motion(spec, rotation).optional("0");
+  describe_start(spec, rotation);
+}
+
+void InertiaWithFriction::describe(BlockSpec<InertiaWithFriction>& spec) {
+  spec.name("inertia_with_friction", "one inertia with dry friction that truly sticks, turned by a torque");
+  spec.law(
+          "sliding: inertia dw/dt = torque - damping w - stiffness angle - sign(w) (coulomb + (breakaway - coulomb) "
+          "exp(-(w/stribeck_velocity)^2)); sticking: w = 0 until |torque - stiffness angle| reaches breakaway")
+      .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
+  spec.remark("Three modes: sticking, turning forwards, backwards. coulomb and breakaway 0 give inertia.");
+  describe_motion(spec, rotation).optional("0");
+  describe_dry_friction(spec, rotation);
+  describe_start(spec, rotation);
+}
+
+void InertiaWithDrag::describe(BlockSpec<InertiaWithDrag>& spec) {
+  spec.name("inertia_with_drag", "one inertia with a fan or a propeller, turned by a torque");
+  spec.law("inertia dw/dt = torque - damping w - drag w |w| - stiffness angle, d angle/dt = w")
+      .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
+  describe_motion(spec, rotation).optional("0");
+  describe_drag(spec, rotation);
+  spec.variation("presliding", "inertia_with_presliding",
+                 {{"contact_stiffness", "0 N m/rad"}, {"slip_distance", "1 rad"}});
+  describe_start(spec, rotation);
+}
+
+void InertiaWithPresliding::describe(Declaration& d) {
+  d.name("inertia_with_presliding", "one inertia in bearings that stick and slip, turned by a torque");
+  d.law(
+       "inertia dw/dt = torque - damping w - stiffness angle - sum contact_stiffness_i (z_i + contact_time dz_i/dt), d "
+       "angle/dt = w, dz_i/dt = w - |w| z_i/(slip_distance_i (1 + excess exp(-(w/stribeck_velocity)^2)))")
+      .from("Dahl, AIAA J. 14 (1976) 1675-1682, and as mass_with_presliding");
+  d.remark("The friction of an element is contact_stiffness times slip_distance, a torque.");
+  d.remark("Unlike inertia_with_friction it gives way a little before it turns, and it never sticks for good.");
+  describe_elements(d, rotation);
+  describe_contact_time(d);
+}
+
+void InertiaWithCogging::describe(BlockSpec<InertiaWithCogging>& spec) {
+  spec.name("inertia_with_cogging", "one inertia that magnets draw to certain angles, turned by a torque");
+  spec.law(
+          "inertia dw/dt = torque + cosine cos(periods angle) + sine sin(periods angle) - damping w - stiffness angle, "
+          "d angle/dt = w")
+      .from("Hanselman, Brushless Permanent Magnet Motor Design, 2nd ed. (2003), chapter 8");
+  spec.remark("periods: the least common multiple of slots and poles, or, of a ripple of torque, what is seen.");
+  describe_motion(spec, rotation).optional("0");
+  spec.param(&Params<double>::cosine, "cosine", "N*m", "of the torque of the teeth, at angle 0");
+  spec.param(&Params<double>::sine, "sine", "N*m", "of it, a quarter of a period further on");
+  spec.param(&Params<double>::periods, "periods", "", "of it in a turn").positive();
+  describe_start(spec, rotation);
+}
+
+Kernel inertia_block() { return kernel<Inertia>(); }
+Kernel inertia_with_friction_block() { return kernel<InertiaWithFriction>(); }
+Kernel inertia_with_drag_block() { return kernel<InertiaWithDrag>(); }
+Kernel inertia_with_presliding_block() { return kernel<InertiaWithPresliding>(); }
+Kernel inertia_with_cogging_block() { return kernel<InertiaWithCogging>(); }
+
+}  // namespace hysteron::blocks

@@ -1,0 +1,48 @@
+// Decides the blocks of an inertia that a torque turns: the masses' own laws in other words, and
+// "inertia_with_cogging". Does not decide the laws: models/mechanics.
+#pragma once
+
+#include "blocks/mechanics/mass_spring_damper.h"
+#include "blocks/mechanics/mass_with_friction.h"
+#include "blocks/mechanics/mass_with_presliding.h"
+#include "models/mechanics/cogging.h"
+
+namespace hysteron::blocks {
+
+struct Inertia : MassSpringDamper {
+  static void describe(BlockSpec<Inertia>& spec);
+};
+struct InertiaWithFriction : MassWithFriction {
+  static void describe(BlockSpec<InertiaWithFriction>& spec);
+};
+struct InertiaWithDrag : MassWithDrag {
+  static void describe(BlockSpec<InertiaWithDrag>& spec);
+};
+struct InertiaWithPresliding : MassWithElements<DahlElement> {
+  static void describe(Declaration& d);
+};
+
+struct InertiaWithCogging : Mass {
+  template <class T>
+  struct Params {
+    T inertia, damping, stiffness, cosine, sine, periods, initial_position, initial_velocity;
+  };
+  static void describe(BlockSpec<InertiaWithCogging>& spec);
+  template <class T>
+  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
+    const mass_spring_damper::Params<T> law{p.inertia, p.damping, p.stiffness, T{0}};
+    const T torque = in.force + cogging::torque(p.cosine, p.sine, p.periods, s.position);
+    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, torque)};
+  }
+  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
+    return {cogging::rest(p.cosine, p.sine, p.periods, p.stiffness, in.force), 0};
+  }
+};
+
+Kernel inertia_block();
+Kernel inertia_with_friction_block();
+Kernel inertia_with_drag_block();
+Kernel inertia_with_presliding_block();
+Kernel inertia_with_cogging_block();
+
+}  // namespace hysteron::blocks
