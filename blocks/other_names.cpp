@@ -124,7 +124,7 @@ const std::vector<OtherNames>& table() {
       {{"gearbox", "coupling", "transmission", "pulley", "timingbelt"},
        "two shafts are joined by \"gear\", a shaft and a carriage by \"belt\""},
       {{"leadscrew", "spindle", "screw", "ballscrewdrive"}, "a screw with its nut is \"ball_screw\""},
-      {{"rotor", "flywheel", "shaft", "rotationalinertia", "rotarymass"}, "what a torque turns is \"inertia\""},
+      {{"flywheel", "shaft", "rotationalinertia", "rotarymass"}, "what a torque turns is \"inertia\""},
       {{"motor", "dcmachine", "servomotor", "brushedmotor"},
        "a motor with brushes is \"dc_motor\", its winding alone \"dc_winding\""},
       {{"endstop", "hardstop", "bumper"}, "a mass between stops is \"mass_with_stops\""},

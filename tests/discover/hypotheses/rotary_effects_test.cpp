@@ -95,7 +95,8 @@ double friction_torque(const Discovery& d) {
 
 TEST_F(RotaryEffects, CoulombFrictionOfAnInertiaIsNamedWithItsTorque) {
   const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 8, .coulomb = 0.05};
-  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-5, 0.01, 20));
+  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-5, 0.01, 20),
+                                {"friction", "quadratic_drag", "cogging", "backlash", "saturation", "asymmetry"});
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   EXPECT_EQ(winner.effect, "friction") << tried(d);
@@ -114,13 +115,14 @@ TEST_F(RotaryEffects, CoulombFrictionOfAShaftThatTurnsFreelyIsSeenInItsSpeed) {
 }
 
 TEST_F(RotaryEffects, CoggingIsNamedWithItsTorqueAndItsPeriodsInATurn) {
-  const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.04, .periods = 12};
-  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-4, 0.005, 20));
+  const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.02, .periods = 12, .gain = 0.05};
+  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-4, 0.005, 20),
+                                {"friction", "quadratic_drag", "cogging", "backlash", "sensor_nonlinearity"});
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   EXPECT_EQ(winner.effect, "cogging") << tried(d);
   EXPECT_NEAR(value(d, "periods"), 12, 0.01);
-  EXPECT_NEAR(std::hypot(value(d, "cosine"), value(d, "sine")), 0.04, 4e-4);
+  EXPECT_NEAR(std::hypot(value(d, "cosine"), value(d, "sine")), 0.02, 2e-4);
 }
 
 }  // namespace
