@@ -31,7 +31,7 @@ const std::vector<OtherNames>& table() {
        "an integrator that a signal sets anew is \"integrator_with_reset\""},
       {{"variabletransportdelay", "variabletimedelay", "variabledelay"},
        "a delay that is a signal is \"variable_dead_time\""},
-      {{"modulo", "mod", "unwrap", "wraptopi", "wrapto360"}, "an angle within one turn is \"wrap\""},
+      {{"modulo", "unwrap", "wraptopi", "wrapto360"}, "an angle within one turn is \"wrap\""},
       {{"multiportswitch", "selector", "if", "conditional", "ifelse"},
        "one of two signals is taken by \"switch\", or by if() in an \"expression\"; what is chosen before a run is a "
        "choice: {\"choose\": ..., \"from\": {...}}; elements of a vector are taken by \"select\""},
