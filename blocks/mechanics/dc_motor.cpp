@@ -4,7 +4,7 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr const char* source =
+constexpr const char* source_of_motors =
     "Franklin, Powell, Emami-Naeini, Feedback Control of Dynamic Systems, 7th ed. (2015), section 2.3.1";
 
 template <class B>
@@ -25,7 +25,7 @@ void DcMotor::describe(BlockSpec<DcMotor>& spec) {
   spec.law(
           "inductance di/dt = voltage - resistance i - back_emf w, inertia dw/dt = torque_constant i - damping w - load, "
           "d angle/dt = w")
-      .from(source);
+      .from(source_of_motors);
   spec.remark("Of a rotor with friction, or geared, or cogging, take \"dc_winding\" and \"inertia\".");
   spec.input(&In<double>::voltage, "voltage", "V", "at its clamps");
   spec.input(&In<double>::load, "load", "N*m", "torque that holds it back");
@@ -46,7 +46,8 @@ void DcWinding::describe(BlockSpec<DcWinding>& spec) {
   spec.name("dc_winding", "winding of a motor with brushes, whose rotor is a block of its own")
       .in_group("mechanics")
       .linear();
-  spec.law("inductance di/dt = voltage - resistance i - back_emf velocity, torque = torque_constant i").from(source);
+  spec.law("inductance di/dt = voltage - resistance i - back_emf velocity, torque = torque_constant i")
+      .from(source_of_motors);
   spec.remark("The torque turns an \"inertia\", whose velocity comes back to the winding.");
   spec.input(&In<double>::voltage, "voltage", "V", "at its clamps");
   spec.input(&In<double>::velocity, "velocity", "rad/s", "of the rotor");

@@ -4,7 +4,7 @@ namespace hysteron::blocks {
 
 namespace {
 
-constexpr const char* source =
+constexpr const char* source_of_transmissions =
     "Nordin, Gutman, Automatica 38 (2002) 1633-1649 (play with damping in contact); Niemann, Winter, Maschinenelemente "
     "2 (2003), section 21.6 (losses)";
 
@@ -48,7 +48,7 @@ void Gear::describe(BlockSpec<Gear>& spec) {
   spec.law(
           "twist = angle_in/ratio - angle_out; torque_out = stiffness (twist -+ gap/2) + damping twist' beyond the gap, "
           "0 within; torque_in = torque_out/ratio over the efficiency where it drives, times it where it is driven")
-      .from(source);
+      .from(source_of_transmissions);
   remarks(spec, "\"inertia\" with the torque of the motor less torque_in, and one that torque_out turns.");
   spec.remark("A belt between pulleys of radius r1 and r2 is a gear of ratio r2/r1 and of its stiffness times r2^2.");
   spec.input(&In<double>::angle_in, "angle_in", "rad", "of the driving shaft");
@@ -66,7 +66,7 @@ void Belt::describe(BlockSpec<Belt>& spec) {
   spec.law(
           "stretch = radius angle - position; force = stiffness stretch + damping stretch' (beyond a gap as in gear); "
           "torque = radius force over the efficiency where it drives, times it where it is driven")
-      .from(source);
+      .from(source_of_transmissions);
   remarks(spec, "the pulley an \"inertia\", the carriage a \"mass_spring_damper\" of stiffness 0.");
   describe_shaft_and_carriage(spec);
   spec.param(&Params<double>::radius, "radius", "m", "of the pulley, to the middle of the belt").positive();
@@ -80,7 +80,7 @@ void BallScrew::describe(BlockSpec<BallScrew>& spec) {
           "ahead = pitch (1 + pitch_error) angle/(2 pi) + wobble sin(angle + wobble_phase) - position; force = "
           "stiffness ahead + damping ahead' (beyond a gap as in gear); torque = force pitch/(2 pi) over the efficiency "
           "where it drives, times it where it is driven")
-      .from(source);
+      .from(source_of_transmissions);
   remarks(spec, "the screw an \"inertia\", the table a \"mass_spring_damper\" of stiffness 0.");
   describe_shaft_and_carriage(spec);
   spec.param(&Params<double>::pitch, "pitch", "m", "way of the nut in one turn, e.g. \"5 mm\"").positive();

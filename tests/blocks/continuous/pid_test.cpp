@@ -38,8 +38,8 @@ const bench::Samples pids{
 constexpr double rtol = 1e-9;
 
 /// Signals of a diagram in which "r", "m" and maybe "c" are given and "y" is the controller.
-Traces response(const Node& reference, const Node& measured, const std::string& type, const Parameters& numbers,
-                std::vector<double> instants, const Node* tracked = nullptr) {
+Traces pid_response(const Node& reference, const Node& measured, const std::string& type, const Parameters& numbers,
+                    std::vector<double> instants, const Node* tracked = nullptr) {
   std::vector<std::pair<std::string, Node>> blocks{{"r", reference}, {"m", measured}};
   if (tracked != nullptr) blocks.emplace_back("c", *tracked);
   blocks.emplace_back("y",
@@ -69,9 +69,9 @@ TEST(PidBlock, ParallelOnARampOfTheErrorIsItsThreeParts) {
 TEST(PidBlock, TheDerivativeOfTheMeasuredValueDoesNotSeeTheReferenceJump) {
   const Parameters numbers{{"kp", "2 V/um"}, {"kd", "0.5 V s/um"}, {"filter", "0.3 s"}, {"setpoint_weight", 0.25}};
   const auto jump = block("step", {{"after", "4 um"}, {"time", "0.1 s"}});
-  const auto traces = response(jump, none, "pid", numbers, {0.05, 0.1, 0.2, 1});
+  const auto traces = pid_response(jump, none, "pid", numbers, {0.05, 0.1, 0.2, 1});
   EXPECT_EQ(traces.values[0], (std::vector<double>{0, 2, 2, 2})) << "kp times a quarter of 4 um, nothing else";
-  const auto moved = response(none, block("ramp", {{"slope", "1 um/s"}}), "pid", numbers, {1, 2});
+  const auto moved = pid_response(none, block("ramp", {{"slope", "1 um/s"}}), "pid", numbers, {1, 2});
   for (std::size_t k = 0; k < 2; ++k)
     EXPECT_NEAR(moved.values[0][k], -2 * moved.t[k] - 0.5 * (1 - std::exp(-moved.t[k] / 0.3)), 1e-7);
 }
@@ -80,14 +80,14 @@ TEST(PidBlock, SeriesIsALeadBeforeAPi) {
   // e' = 1 + T_d/T_f E, E = exp(-t/T_f), behind a step of the error; y = kp (e' + (t + T_d (1 - E))/T_i).
   const double kp = 2, ti = 0.7, td = 0.4, tf = 0.1;
   const auto t = tools::grid(0, 2, 40);
-  const auto traces = response(level(1), none, "pid",
-                               {{"form", "series"},
-                                {"kp", "2 V/um"},
-                                {"integral_time", "0.7 s"},
-                                {"derivative_time", "0.4 s"},
-                                {"filter", "0.1 s"},
-                                {"derivative_on", "error"}},
-                               t);
+  const auto traces = pid_response(level(1), none, "pid",
+                                   {{"form", "series"},
+                                    {"kp", "2 V/um"},
+                                    {"integral_time", "0.7 s"},
+                                    {"derivative_time", "0.4 s"},
+                                    {"filter", "0.1 s"},
+                                    {"derivative_on", "error"}},
+                                   t);
   for (std::size_t k = 0; k < t.size(); ++k) {
     const double e = std::exp(-t[k] / tf);
     EXPECT_NEAR(traces.values[0][k], kp * (1 + td / tf * e + (t[k] + td * (1 - e)) / ti), 1e-7);
@@ -97,13 +97,13 @@ TEST(PidBlock, SeriesIsALeadBeforeAPi) {
 TEST(PidBlock, StandardIsParallelWithItsTimes) {
   const auto source = block("sine", {{"amplitude", "1 um"}, {"frequency", "0.7 Hz"}});
   const auto t = tools::grid(0, 3, 60);
-  const auto standard = response(source, none, "pid",
-                                 {{"form", "standard"},
-                                  {"kp", "2 V/um"},
-                                  {"integral_time", "0.5 s"},
-                                  {"derivative_time", "0.1 s"},
-                                  {"derivative_on", "error"}},
-                                 t);
+  const auto standard = pid_response(source, none, "pid",
+                                     {{"form", "standard"},
+                                      {"kp", "2 V/um"},
+                                      {"integral_time", "0.5 s"},
+                                      {"derivative_time", "0.1 s"},
+                                      {"derivative_on", "error"}},
+                                     t);
   const auto parallel = response(
       source, none, "pid",
       {{"kp", "2 V/um"}, {"ki", "4 V/(um s)"}, {"kd", "0.2 V s/um"}, {"derivative_on", "error"}, {"filter", "10 ms"}},
@@ -120,8 +120,8 @@ TEST(PidBlock, BackCalculationApproachesTheLimitExponentially) {
   for (const double y : traces.values[0]) EXPECT_EQ(y, 2);
   // What has been wound up shows where the error turns to -0.2 um: y = I - 0.2 then.
   const auto turned =
-      response(block("step", {{"before", "1 um"}, {"after", "-0.2 um"}, {"time", "1 s"}}), none, "pid",
-               {{"kp", "1 V/um"}, {"ki", "3 V/(um s)"}, {"upper", "2 V"}, {"tracking_time", "0.2 s"}}, {1, 1.2});
+      pid_response(block("step", {{"before", "1 um"}, {"after", "-0.2 um"}, {"time", "1 s"}}), none, "pid",
+                   {{"kp", "1 V/um"}, {"ki", "3 V/(um s)"}, {"upper", "2 V"}, {"tracking_time", "0.2 s"}}, {1, 1.2});
   const double wound = 1.6 - 0.6 * std::exp(-(1 - 1.0 / 3) / 0.2);
   EXPECT_NEAR(turned.values[0][0], wound - 0.2, 1e-7);
   EXPECT_NEAR(turned.values[0][1], wound - 0.2 - 0.6 * 0.2, 1e-7);
@@ -129,8 +129,8 @@ TEST(PidBlock, BackCalculationApproachesTheLimitExponentially) {
 
 TEST(PidBlock, WithoutAntiWindupTheIntegralWindsUp) {
   const auto traces =
-      response(block("step", {{"before", "1 um"}, {"after", "-3 um"}, {"time", "1 s"}}), none, "pid",
-               {{"kp", "1 V/um"}, {"ki", "3 V/(um s)"}, {"upper", "2 V"}, {"anti_windup", "none"}}, {1, 1.1});
+      pid_response(block("step", {{"before", "1 um"}, {"after", "-3 um"}, {"time", "1 s"}}), none, "pid",
+                   {{"kp", "1 V/um"}, {"ki", "3 V/(um s)"}, {"upper", "2 V"}, {"anti_windup", "none"}}, {1, 1.1});
   EXPECT_NEAR(traces.values[0][0], 3 - 3, 1e-7);
   EXPECT_NEAR(traces.values[0][1], 3 - 3 - 9 * 0.1, 1e-7);
 }
@@ -171,17 +171,17 @@ TEST(PidBlock, TheIntegralFollowsWhatCommandsInItsPlace) {
   // commander without a bump.
   const auto other = level(1.7, "V");
   const auto t = tools::grid(0, 1, 20);
-  const auto traces = response(level(3), level(3), "pid_tracking",
-                               {{"kp", "2 V/um"}, {"ki", "3 V/(um s)"}, {"tracking_time", "0.1 s"}}, t, &other);
+  const auto traces = pid_response(level(3), level(3), "pid_tracking",
+                                   {{"kp", "2 V/um"}, {"ki", "3 V/(um s)"}, {"tracking_time", "0.1 s"}}, t, &other);
   for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(traces.values[0][k], 1.7 * (1 - std::exp(-t[k] / 0.1)), 1e-7);
   EXPECT_NEAR(traces.values[0].back(), 1.7, 1.7 * std::exp(-10.0) + 1e-7);
 }
 
 TEST(PidBlock, ACommandOfLimitedRateIsARamp) {
   const auto traces =
-      response(level(1), none, "pid",
-               {{"kp", "3 V/um"}, {"output_rate", "limited"}, {"rate", "10 V/s"}, {"follow_time", "1 ms"}},
-               {0.1, 0.2, 0.29, 0.4});
+      pid_response(level(1), none, "pid",
+                   {{"kp", "3 V/um"}, {"output_rate", "limited"}, {"rate", "10 V/s"}, {"follow_time", "1 ms"}},
+                   {0.1, 0.2, 0.29, 0.4});
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(traces.values[0][k], 10 * traces.t[k], 1e-7);
   EXPECT_NEAR(traces.values[0][3], 3, 1e-7);
 }

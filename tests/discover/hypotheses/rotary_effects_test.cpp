@@ -42,7 +42,7 @@ std::vector<double> turned(const Shaft& s, const std::vector<double>& t, const s
   return y;
 }
 
-DataSet recordings(const Shaft& s, double white, double step, double seconds) {
+DataSet turned_recordings(const Shaft& s, double white, double step, double seconds) {
   std::vector<Recording> list;
   std::uint64_t seed = 4100;
   const auto t = rows(static_cast<int>(seconds / step), step);
@@ -95,7 +95,7 @@ double friction_torque(const Discovery& d) {
 
 TEST_F(RotaryEffects, CoulombFrictionOfAnInertiaIsNamedWithItsTorque) {
   const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 8, .coulomb = 0.05};
-  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-5, 0.01, 20),
+  const Discovery d = diagnosed(shaft(s), turned_recordings(s, 1e-5, 0.01, 20),
                                 {"friction", "quadratic_drag", "cogging", "backlash", "saturation", "asymmetry"});
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
@@ -108,7 +108,7 @@ TEST_F(RotaryEffects, CoulombFrictionOfAnInertiaIsNamedWithItsTorque) {
 
 TEST_F(RotaryEffects, CoulombFrictionOfAShaftThatTurnsFreelyIsSeenInItsSpeed) {
   const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .coulomb = 0.05, .of_velocity = true};
-  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-3, 0.01, 20));
+  const Discovery d = diagnosed(shaft(s), turned_recordings(s, 1e-3, 0.01, 20));
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
   EXPECT_NEAR(friction_torque(d), 0.05, 2.5e-3);
@@ -116,7 +116,7 @@ TEST_F(RotaryEffects, CoulombFrictionOfAShaftThatTurnsFreelyIsSeenInItsSpeed) {
 
 TEST_F(RotaryEffects, CoggingIsNamedWithItsTorqueAndItsPeriodsInATurn) {
   const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.02, .periods = 12, .gain = 0.05};
-  const Discovery d = diagnosed(shaft(s), recordings(s, 1e-4, 0.005, 20),
+  const Discovery d = diagnosed(shaft(s), turned_recordings(s, 1e-4, 0.005, 20),
                                 {"friction", "quadratic_drag", "cogging", "backlash", "sensor_nonlinearity"});
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
