@@ -58,7 +58,7 @@ const Node none = level(0);
 
 TEST(PidBlock, ParallelOnARampOfTheErrorIsItsThreeParts) {
   const auto t = tools::grid(0, 2, 40);
-  const auto traces = response(
+  const auto traces = pid_response(
       block("ramp", {{"slope", "1 um/s"}}), none, "pid",
       {{"kp", "2 V/um"}, {"ki", "3 V/(um s)"}, {"kd", "0.5 V s/um"}, {"filter", "0.3 s"}, {"derivative_on", "error"}},
       t);
@@ -104,7 +104,7 @@ TEST(PidBlock, StandardIsParallelWithItsTimes) {
                                       {"derivative_time", "0.1 s"},
                                       {"derivative_on", "error"}},
                                      t);
-  const auto parallel = response(
+  const auto parallel = pid_response(
       source, none, "pid",
       {{"kp", "2 V/um"}, {"ki", "4 V/(um s)"}, {"kd", "0.2 V s/um"}, {"derivative_on", "error"}, {"filter", "10 ms"}},
       t);
@@ -115,7 +115,7 @@ TEST(PidBlock, BackCalculationApproachesTheLimitExponentially) {
   // e = 1: above upper = 2 from t = 1/3 s on. There dI/dt = ki e - (kp e + I - upper)/T_t: I goes to upper - kp + ki
   // T_t = 1.6 with T_t, from 1.
   const auto t = tools::grid(0.4, 3, 26);
-  const auto traces = response(
+  const auto traces = pid_response(
       level(1), none, "pid", {{"kp", "1 V/um"}, {"ki", "3 V/(um s)"}, {"upper", "2 V"}, {"tracking_time", "0.2 s"}}, t);
   for (const double y : traces.values[0]) EXPECT_EQ(y, 2);
   // What has been wound up shows where the error turns to -0.2 um: y = I - 0.2 then.
