@@ -95,6 +95,7 @@ TEST_P(BadDiagram, IsToldWithCodePointerLineAndCure) {
   folder.write("p/good.json", "{\"format\": 1, \"blocks\": {}}");
   folder.write("p/broken.csv", "t [s],u [V]\n0,1\n0,2\n");
   folder.write("p/good.csv", "t [s],u [V]\n0,1\n1,2\n");
+  folder.write("p/words.csv", "at,values\n0,1\n1,two\n");
   folder.write("p/volts.csv", "t [V],u [V]\n0,1\n1,2\n");
   const std::string file = folder.write("p/d.json", GetParam().content);
   expect_problem(GetParam(), file, [&] { read_diagram(file); });
@@ -228,9 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
              "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"gain\",\n\"parameters\": "
              "\"not_there/../../outside.json\"}}}",
              "outside_project", "/blocks/a/parameters", 2},
-        Case{"ParameterSetIsACsv",
-             "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"gain\",\n\"parameters\": \"good.csv\"}}}", "bad_json",
-             "column 2", 1},
+        Case{"ParameterTableHoldsWords",
+             "{\"format\": 1, \"blocks\": {\"a\": {\"type\": \"lookup\",\n\"parameters\": \"words.csv\"}}}",
+             "bad_number", "values", 3},
         Case{"RecordedWithoutColumn",
              "{\"format\": 1, \"blocks\": {\n\"a\": {\"type\": \"recorded\", \"file\": \"good.csv\"}}}", "missing_key",
              "/blocks/a", 2},

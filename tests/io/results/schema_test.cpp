@@ -117,6 +117,9 @@ TEST(DiagramSchema, EveryBlockTypeIsKnownWithItsRequiredParameters) {
       EXPECT_NE(diagrams().refuses(with_block("{\"type\": \"" + type + "\"}")), "") << type;
     }
     block["no_such_parameter"] = 1;
+    const bool names_its_own = !d.names_from.empty();
+    EXPECT_EQ(diagrams().refuses(with_block(block.dump())) == "", names_its_own) << type;
+    block["no_such_parameter"] = true;
     EXPECT_NE(diagrams().refuses(with_block(block.dump())), "") << type;
   }
 }
