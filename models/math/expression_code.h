@@ -219,7 +219,7 @@ inline T value(const T& a, const T& b, const T& c) {
   if constexpr (op == Op::max) return b > a ? b : a;
   if constexpr (op == Op::floor) return floor(a);
   if constexpr (op == Op::ceil) return -floor(-a);
-  if constexpr (op == Op::round) return floor(a + half);
+  if constexpr (op == Op::round) return T(std::round(hysteron::plain(a)));
   if constexpr (op == Op::mod) return a - b * floor(a / b);
   if constexpr (op == Op::sqrt) return sqrt(a);
   if constexpr (op == Op::cbrt) return cbrt(a);

@@ -86,6 +86,13 @@ TEST(Expression, MeansWhatTheLanguageCMeansByIt) {
     }
 }
 
+TEST(Expression, RoundsHalvesAwayFromZeroAndCountsModuloFromBelow) {
+  EXPECT_EQ(evaluated<double>("round(a)", {-2.5}), -3);
+  EXPECT_EQ(evaluated<double>("round(a)", {2.5}), 3);
+  EXPECT_EQ(evaluated<double>("mod(a, b)", {-1, 3}), 2);
+  EXPECT_EQ(evaluated<double>("sign(a)", {0}), 0);
+}
+
 /// The slopes of the kinds that the engine asks for, against central differences.
 TEST(Expression, HasTheSlopesThatDifferencesShow) {
   constexpr double h = 1e-6;
