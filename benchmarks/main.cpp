@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   hysteron::benchmarks::register_evaluation();
   hysteron::benchmarks::register_expression();
   hysteron::benchmarks::register_sampled_loop();
+  hysteron::benchmarks::register_single_blocks();
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   Ratios ratios;

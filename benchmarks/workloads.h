@@ -8,14 +8,15 @@
 namespace hysteron::benchmarks {
 
 // Each registers its groups; the entry "by hand" of a group counts as one.
-void register_closed_loop();   ///< WORKLOADS W1: CVODE, and Runge-Kutta with a fixed step
-void register_open_loop();     ///< W2: 10 and 80 play operators on a recorded input
-void register_chains();        ///< W3: chains of 10, 100, 1000 lags
-void register_creep();         ///< a plant with relaxations on 20 000 recorded rows
-void register_lanes();         ///< value and slopes of a law on a recording, runs side by side
-void register_evaluation();    ///< one evaluation of a diagram, per block
-void register_expression();    ///< a law that the diagram writes, against the same law in C++
-void register_sampled_loop();  ///< 10 kHz PI, Jiles-Atherton inverse, plant
+void register_closed_loop();    ///< WORKLOADS W1: CVODE, and Runge-Kutta with a fixed step
+void register_open_loop();      ///< W2: 10 and 80 play operators on a recorded input
+void register_chains();         ///< W3: chains of 10, 100, 1000 lags
+void register_creep();          ///< a plant with relaxations on 20 000 recorded rows
+void register_lanes();          ///< value and slopes of a law on a recording, runs side by side
+void register_evaluation();     ///< one evaluation of a diagram, per block
+void register_expression();     ///< a law that the diagram writes, against the same law in C++
+void register_sampled_loop();   ///< 10 kHz PI, Jiles-Atherton inverse, plant
+void register_single_blocks();  ///< one block on recorded rows, each against a loop for its law
 
 /// The closed loop of W1 written by hand on stock CVODE: BDF, own dense Jacobian, plant states scaled. [um, V]
 struct ClosedLoop {
