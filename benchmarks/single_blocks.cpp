@@ -308,6 +308,48 @@ std::vector<Case> sampled_cases() {
   return all;
 }
 
+/// A law of two inputs without states.
+template <class Law>
+std::function<void(std::vector<double>&)> two_row_by_row(Law law) {
+  return [law](std::vector<double>& y) {
+    const auto &u = input(0), &v = input(1);
+    for (std::size_t k = 0; k < samples; ++k) y[k] = law(u[k], v[k]);
+  };
+}
+
+std::vector<Case> static_cases() {
+  std::vector<Case> all;
+  all.push_back({"abs", node("abs", {}), {""}, "", row_by_row([](double u) { return std::abs(u); })});
+  all.push_back({"min_max", node("min_max", {}), {"", ""}, "", two_row_by_row([](double u, double v) {
+                   return std::max(u, v);
+                 })});
+  all.push_back({"compare", node("compare", {{"is", "less"}}), {"", ""}, "", two_row_by_row([](double u, double v) {
+                   return u < v ? 1.0 : 0.0;
+                 })});
+  all.push_back({"trigonometry", node("trigonometry", {{"function", "sin"}}), {""}, "", row_by_row([](double u) {
+                   return std::sin(u);
+                 })});
+  all.push_back({"expression",
+                 node("expression", {{"y", "a*sin(b*u) + max(u, 0)"}, {"a", 0.7}, {"b", 3.0}}),
+                 {""},
+                 "",
+                 row_by_row([](double u) { return 0.7 * std::sin(3 * u) + std::max(u, 0.0); })});
+  const std::array<double, 7> at{-1, -0.6, -0.3, 0, 0.3, 0.6, 1}, values{0.2, 0.5, 0.8, 0.9, 0.7, 0.4, 0.1};
+  all.push_back(
+      {"lookup (7 knots)",
+       node("lookup", {{"at", numbers({at.begin(), at.end()})}, {"values", numbers({values.begin(), values.end()})}}),
+       {""},
+       "",
+       row_by_row([=](double u) {
+         if (u <= at.front()) return values.front();
+         if (u >= at.back()) return values.back();
+         std::size_t k = 1;
+         while (u > at[k]) ++k;
+         return values[k - 1] + (u - at[k - 1]) / (at[k] - at[k - 1]) * (values[k] - values[k - 1]);
+       })});
+  return all;
+}
+
 std::vector<Case> machine_cases() {
   std::vector<Case> all;
   all.push_back({"pendulum",
@@ -392,7 +434,7 @@ std::vector<Case> machine_cases() {
 }  // namespace
 
 void register_single_blocks() {
-  for (const auto& cases : {linear_cases(), sampled_cases(), machine_cases()})
+  for (const auto& cases : {static_cases(), linear_cases(), sampled_cases(), machine_cases()})
     for (const auto& c : cases) register_case(c);
 }
 
