@@ -2,11 +2,11 @@
 // leads back to a block on the way is feedback. Where a walk begins decides which wire of a loop that is; every source
 // is tried as the first, and the one is kept whose feedback ends most often at a minus of a sum, as an engineer would
 // draw it.
+#include "draw/columns.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
-
-#include "draw/layout.h"
 
 namespace hysteron::draw {
 namespace {

@@ -1,13 +1,14 @@
 // Rows. Graphviz orders the cells of each column so that few wires cross and proposes heights; here the wires between
 // neighbouring columns are made straight where that is possible, as one draws by hand: cells that are joined by
 // straight wires form a line, lines never cross, and each line moves as near as it can to what it is wired to.
+#include "draw/place.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "draw/graphviz.h"
-#include "draw/layout.h"
 
 namespace hysteron::draw {
 namespace {

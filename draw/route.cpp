@@ -3,13 +3,13 @@
 // of different nets never lie on each other and cross as little as may be. Feedback leaves its block to the right, goes
 // down to a row below everything that it passes, returns to the left, and comes up: into a sum from below, into
 // anything else from the left. Short loops lie above long ones.
+#include "draw/route.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-
-#include "draw/layout.h"
 
 namespace hysteron::draw {
 namespace {
@@ -423,27 +423,6 @@ class Router {
 
 void route(Sheet& sheet, const std::vector<Net>& nets, const std::vector<std::vector<Cell>>& columns) {
   Router(sheet, nets, columns).run();
-}
-
-void lay_out(Sheet& sheet) {
-  for (auto& item : sheet.items) {
-    if (!item.inside) continue;
-    lay_out(*item.inside);
-    item.symbol.width = item.inside->width;
-    item.symbol.height = item.inside->height + header_height;
-  }
-  find_feedback(sheet);
-  // Two loops that end at one sum do not both come from below: such a sum is a box.
-  std::vector<int> returns(sheet.items.size(), 0);
-  for (const auto& wire : sheet.wires) returns[static_cast<std::size_t>(wire.to)] += wire.feedback ? 1 : 0;
-  for (std::size_t i = 0; i < sheet.items.size(); ++i) {
-    Symbol& symbol = sheet.items[i].symbol;
-    if (symbol.outline == Outline::circle && returns[i] > 1)
-      make_sum_box(symbol, static_cast<int>(sheet.items[i].in.size()));
-  }
-  assign_columns(sheet);
-  const auto nets = nets_of(sheet);
-  route(sheet, nets, place_rows(sheet, nets));
 }
 
 }  // namespace hysteron::draw

@@ -11,7 +11,7 @@
 #include "draw/drawing.h"
 #include "fit/signals/features.h"
 #include "io/diagram/diagram_file.h"
-#include "report/page/report.h"
+#include "report/page/figure_file.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {

@@ -12,6 +12,7 @@
 #include "discover/hypotheses/bounds.h"
 #include "discover/hypotheses/effect.h"
 #include "engine/diagram/error.h"
+#include "report/page/figure_file.h"
 #include "report/page/report.h"
 #include "report/pages/effect_picture.h"
 

@@ -10,7 +10,7 @@
 #include "discover/placement/visible.h"
 #include "discover/search/books.h"
 #include "discover/structure/residual_parts.h"
-#include "discover/structure/structures.h"
+#include "discover/structure/structure_lines.h"
 #include "discover/wiring/wiring.h"
 
 namespace hysteron {

@@ -10,7 +10,8 @@
 #include <functional>
 
 #include "discover/structure/residual_parts.h"
-#include "discover/structure/structures.h"
+#include "discover/structure/structure_breaks.h"
+#include "discover/structure/structure_lines.h"
 
 namespace hysteron {
 namespace {

@@ -1,10 +1,10 @@
-// Decides where a structure breaks in: at a level, at instants, for a while. See structures.h.
+#include "discover/structure/structure_breaks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "discover/structure/residual_parts.h"
-#include "discover/structure/structures.h"
 #include "fit/numerics/median.h"
 
 namespace hysteron {

@@ -1,4 +1,5 @@
-// Decides where a structure repeats: over time or over a level. See structures.h.
+#include "discover/structure/structure_lines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -7,7 +8,6 @@
 #include <span>
 
 #include "discover/structure/residual_parts.h"
-#include "discover/structure/structures.h"
 #include "fit/signals/excitation.h"
 
 namespace hysteron {

@@ -1,4 +1,5 @@
-// Decides how one figure becomes a picture file of its own. Draws nothing itself (figure_svg.h).
+#include "report/page/figure_file.h"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -7,7 +8,6 @@
 #include "report/page/assets.h"
 #include "report/page/canvas.h"
 #include "report/page/figure_svg.h"
-#include "report/page/report.h"
 
 namespace hysteron {
 namespace {

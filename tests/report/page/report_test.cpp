@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "report/page/figure_file.h"
 #include "tests/report/example.h"
 
 namespace hysteron {

@@ -1,5 +1,5 @@
-// Decides which kinds of generic structure are sought, one function each. Internal to discover; structure.cpp lets them
-// compete. Each fills `fall` with the fall of chi2 less what its own numbers cost.
+// Decides where a structure repeats: over time or over a level. Internal to discover; structure.cpp lets the kinds of
+// structure compete. Each fills `fall` with the fall of chi2 less what its own numbers cost.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,5 @@ std::vector<double> strongest_lines(const ResidualParts& parts, const std::vecto
                                     std::size_t most);
 /// Fringes, gear teeth: a ripple over a level, one shape for all recordings, 3 to 130 periods over the range.
 std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t level);
-/// A step and another slope beyond a level.
-std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t level);
-/// Jumps at which the drive does not jump, with constant levels between; where they share a level, at that level.
-std::optional<Structure> jumps(const ResidualParts& parts);
-/// Stretches of a recording in which something shakes that is silent elsewhere. They only tell when: as explanation
-/// they cost one number per row.
-std::optional<Structure> bursts(const ResidualParts& parts);
 
 }  // namespace hysteron
