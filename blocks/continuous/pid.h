@@ -20,7 +20,7 @@ void describe_pid(Declaration& d);
 void describe_windup(Declaration& d, bool tracks);
 /// The inputs, and what they are for.
 void describe_pid_ports(Declaration& d, bool tracks);
-/// "" or what is wrong with them, and the cure. `clamps`: in continuous time.
+/// "" or what is wrong with them, and the cure.
 std::string check_pid(const PidNumbers& p, pid::AntiWindup windup, double tracking_time);
 
 template <bool tracks>

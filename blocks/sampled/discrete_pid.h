@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "blocks/continuous/pid.h"
 #include "engine/block/block.h"

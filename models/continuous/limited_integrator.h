@@ -63,8 +63,8 @@ Mode next(Reset kind, const Mode& m, const Limits<T>& limit, const T& x, const T
   return {limit.upper - x < x - limit.lower ? at_upper : at_lower, m.on};
 }
 
-/// The integral behind a step of h [s] while u goes straight from `begin` to `end`, held between the limits: exact, for
-/// u turns once at most.
+/// The integral behind a step of h [s] while u goes straight from `begin` to `end`, held between the limits: exact,
+/// since u changes its sign once at most.
 inline double after(const Limits<double>& limit, double x, double begin, double end, double h) {
   const auto held = [&](double y) { return std::max(limit.lower, std::min(limit.upper, y)); };
   if (begin * end >= 0) return held(x + 0.5 * h * (begin + end));
