@@ -12,7 +12,7 @@
 namespace hysteron {
 namespace {
 
-Node node(const char* type, std::vector<Wire> in) {
+Node typed_node(const char* type, std::vector<Wire> in) {
   Node n;
   n.type = type;
   n.in = std::move(in);
@@ -23,11 +23,11 @@ Node node(const char* type, std::vector<Wire> in) {
 Diagram linear_stage() {
   Diagram d;
   d.inputs["u"].unit = "V";
-  d.blocks["stage"] = node("transfer_function", {{"", "u"}});
+  d.blocks["stage"] = typed_node("transfer_function", {{"", "u"}});
   d.blocks["stage"].parameters["gain"] = Value("1.2 um/V");
   d.blocks["stage"].parameters["num"] = Value(NumberList{Number{1, {}}});
   d.blocks["stage"].parameters["den"] = Value(NumberList{Number{1e-3, {}}, Number{1, {}}});
-  d.blocks["sensor"] = node("calibration", {{"", "stage"}});
+  d.blocks["sensor"] = typed_node("calibration", {{"", "stage"}});
   d.blocks["sensor"].parameters["gain"] = Value("1");
   d.blocks["sensor"].parameters["offset"] = Value("0.4 um");
   d.outputs["y"] = "sensor";
@@ -36,7 +36,7 @@ Diagram linear_stage() {
 
 Diagram hysteretic_stage() {
   Diagram d = linear_stage();
-  d.blocks["stage"] = node("prandtl_ishlinskii", {{"", "u"}});
+  d.blocks["stage"] = typed_node("prandtl_ishlinskii", {{"", "u"}});
   d.blocks["stage"].parameters["thresholds"] = Value(NumberList{Number{0, "V"}, Number{1, "V"}});
   d.blocks["stage"].parameters["weights"] = Value(NumberList{Number{1, "um/V"}, Number{0.2, "um/V"}});
   return d;
@@ -239,7 +239,7 @@ TEST_F(Places, OfABundleAreThoseOfItsWires) {
   Diagram d = linear_stage();
   d.blocks["second"] = *linear_stage().blocks.find("sensor");
   d.blocks["second"].in = {{"", "stage"}};
-  d.blocks["both"] = node("mux", {{"", "sensor"}, {"", "second"}});
+  d.blocks["both"] = typed_node("mux", {{"", "sensor"}, {"", "second"}});
   d.outputs = {};
   d.outputs["y"] = "both";
   EXPECT_EQ(where("calibration", d), (std::vector<std::string>{"sensor", "second"}));

@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double white = 1e-3;  // [m] of a stroke of 1 m
+constexpr double noise_of_stroke = 1e-3;  // [m] of a stroke of 1 m
 
 /// tau y' = u - y for u straight between rows, exactly; y = u at the start.
 std::vector<double> lagged(const std::vector<double>& t, const std::vector<double>& u, double tau) {
@@ -67,13 +67,13 @@ DataSet recorded(const Plant& plant, std::uint64_t seed, double zero = 0, bool o
       const auto t = rows(600, steps ? 0.05 : 0.01);
       const auto u = steps ? levels(t, {0.5, 1, 0.2, 0.7}) : several_sines(t, 1, {0.4, 1.7});
       auto y = plant(t, u);
-      const auto n = noise(t.size(), white, 0, ++seed);
+      const auto n = noise(t.size(), noise_of_stroke, 0, ++seed);
       for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k] + zero * static_cast<double>(list.size());
       list.push_back(
           recording(std::to_string(list.size()) + ".csv", one_role ? Role::validate : role, t, u, std::move(y)));
     }
   }
-  return data_set(std::move(list), white, 0);
+  return data_set(std::move(list), noise_of_stroke, 0);
 }
 
 class Checks : public ::testing::Test {
@@ -103,11 +103,11 @@ TEST_F(Checks, TheMainsOfTheModelHasAnotherPhaseInEachRecording) {
   for (int r = 0; r < 4; ++r) {
     const auto t = rows(2000, 1e-3);
     const auto u = several_sines(t, 1, {1 + 0.3 * r, 3.1});
-    auto y = noise(t.size(), white, 0, 70 + static_cast<std::uint64_t>(r));
+    auto y = noise(t.size(), noise_of_stroke, 0, 70 + static_cast<std::uint64_t>(r));
     for (std::size_t k = 0; k < t.size(); ++k) y[k] += u[k] + 5e-3 * std::sin(2 * std::numbers::pi * 50 * t[k] + r);
     list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, y));
   }
-  const DataSet data = data_set(std::move(list), white, 0);
+  const DataSet data = data_set(std::move(list), noise_of_stroke, 0);
   const Check with = checked(with_mains, data), without = checked(plain_gain(), data);
   EXPECT_TRUE(with.explained) << with.sentence;
   EXPECT_EQ(without.named, std::vector<std::string>{"mains_interference"}) << without.sentence;

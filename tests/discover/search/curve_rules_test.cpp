@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double white =
+constexpr double curve_noise =
     1e-4;  // [m] against a stroke of 1 m: what the curves below leave is 20 times as large and more
 
 class Curves : public ::testing::Test {
@@ -32,11 +32,11 @@ class Curves : public ::testing::Test {
                                       {Role::validate, {1.7, 5.2}}}) {
       const auto t = rows(800, 0.005);
       const auto u = several_sines(t, role == Role::train ? 1 : 0.6, hertz);
-      auto y = noise(t.size(), white, 0.1 * white, seed++);
+      auto y = noise(t.size(), curve_noise, 0.1 * curve_noise, seed++);
       for (std::size_t k = 0; k < y.size(); ++k) y[k] += curve(u[k]);
       list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, std::move(y)));
     }
-    return data_set(std::move(list), white);
+    return data_set(std::move(list), curve_noise);
   }
   Discovery found(const DataSet& data, const std::vector<std::string>& only, std::vector<std::string> free = {}) {
     DiscoverOptions options;

@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t rows = 1000;
+constexpr std::size_t judged_rows = 1000;
 
 /// Two train and two validate recordings, slow and fast, with these chi2.
 ModelError error(double train_slow, double train_fast, double validate_slow, double validate_fast) {
@@ -23,16 +23,16 @@ ModelError error(double train_slow, double train_fast, double validate_slow, dou
     RecordingError r;
     r.role = role;
     r.output = "y";
-    r.rows = rows;
+    r.rows = judged_rows;
     r.chi2 = r.evidence = chi2;
-    r.plain = rows;
+    r.plain = judged_rows;
     (role == Role::train ? e.chi2_train : e.chi2_validate) += chi2;
-    (role == Role::train ? e.n_train : e.n_validate) += rows;
+    (role == Role::train ? e.n_train : e.n_validate) += judged_rows;
     e.recordings.push_back(r);
   }
   e.evidence_train = e.chi2_train;
   e.evidence_validate = e.chi2_validate;
-  e.effective_sample_size = 4 * rows;
+  e.effective_sample_size = 4 * judged_rows;
   return e;
 }
 

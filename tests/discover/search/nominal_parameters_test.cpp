@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double white = 1e-3;
+constexpr double nominal_noise = 1e-3;
 using Weights = std::vector<double>;
 const std::vector<double> thresholds{0, 0.5, 1};
 const Weights as_written{1, 0.3, 0.2};
@@ -65,7 +65,7 @@ class OwnNumbers : public Discoveries {
     for (const auto& [role, hertz] : {std::pair{Role::train, 0.4}, {Role::train, 0.9}, {Role::validate, 0.7}}) {
       const auto t = rows(1200, 0.005);
       const auto u = several_sines(t, 2, {hertz, 2.7 * hertz});
-      auto y = noise(t.size(), white, 0, seed++);
+      auto y = noise(t.size(), nominal_noise, 0, seed++);
       Plays stage{thresholds, weights};
       double v = 0;              // what the plays are driven by
       constexpr int parts = 20;  // turning points lie within rows
@@ -82,7 +82,7 @@ class OwnNumbers : public Discoveries {
       }
       list.push_back(recording(std::to_string(hertz) + ".csv", role, t, u, y));
     }
-    return data_set(std::move(list), white, 0);
+    return data_set(std::move(list), nominal_noise, 0);
   }
 };
 
@@ -100,8 +100,8 @@ TEST_F(OwnNumbers, WeightsThatAreOffAreToldAndNoEffectMakesUpForThem) {
   }
   EXPECT_NE(d.headline.find("stage.weights[0] is 2 % more than written"), std::string::npos) << d.headline;
   EXPECT_NE(d.headline.find("Adequate"), std::string::npos) << d.headline;
-  EXPECT_LT(d.base.rms_validate, 1.05 * white);
-  EXPECT_GT(d.as_given.rms_validate, 5 * white) << "what the user has is told, too";
+  EXPECT_LT(d.base.rms_validate, 1.05 * nominal_noise);
+  EXPECT_GT(d.as_given.rms_validate, 5 * nominal_noise) << "what the user has is told, too";
 }
 
 TEST_F(OwnNumbers, OfThoseThatDoTheSameTheFewestAreTold) {
@@ -178,7 +178,7 @@ TEST_F(OwnNumbers, AModeBehindWeightsThatAreFreeIsFound) {
   for (const auto& [role, hertz] : {std::pair{Role::train, 29.0}, {Role::train, 24.0}, {Role::validate, 27.0}}) {
     const auto t = rows(1200, 0.005);
     const auto u = several_sines(t, 2, {0.014 * hertz, 0.04 * hertz, hertz});
-    auto y = noise(t.size(), white, 0, seed++);
+    auto y = noise(t.size(), nominal_noise, 0, seed++);
     Plays stage{many, weights};
     double q = 0, speed = 0;
     constexpr int parts = 500;  // 3300 to a period: the rule below is half a step late, 1e-3 of the ringing
@@ -197,7 +197,7 @@ TEST_F(OwnNumbers, AModeBehindWeightsThatAreFreeIsFound) {
   }
   DiscoverOptions options;
   options.free_paths = {"stage.weights"};
-  const Discovery d = discovered(plays(many, weights), data_set(std::move(list), white, 0),
+  const Discovery d = discovered(plays(many, weights), data_set(std::move(list), nominal_noise, 0),
                                  {"structural_resonance", "sensor_lag", "asymmetry", "calibration"}, options);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(winner(d), "structural_resonance") << tried(d);

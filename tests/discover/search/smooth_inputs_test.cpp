@@ -11,10 +11,10 @@ namespace {
 
 using namespace testing;
 
-using Drive = std::function<double(double t)>;
+using SmoothDrive = std::function<double(double t)>;
 
 /// As `several_sines`, at any time.
-Drive sines(double top, std::vector<double> hertz) {
+SmoothDrive sines(double top, std::vector<double> hertz) {
   return [=](double t) {
     double sum = 0;
     for (const double f : hertz) sum += 0.5 * (1 - std::cos(2 * std::numbers::pi * f * t));
@@ -33,7 +33,7 @@ class SmoothInputs : public Discoveries {
                     cubic, straight, 1);
   }
   /// The same by these drives; the sensor reads so many times the motion.
-  DataSet measured(const std::vector<std::pair<Role, Drive>>& drives, double cubic, bool straight,
+  DataSet measured(const std::vector<std::pair<Role, SmoothDrive>>& drives, double cubic, bool straight,
                    double sensor_gain) const {
     std::vector<Recording> list;
     std::uint64_t seed = 5200;
