@@ -68,6 +68,8 @@ WorkOf<T>::WorkOf(const Program& program, bool with_loops)
       u(at(program.n_u)),
       du(at(program.n_u)),
       views(program.blocks.size()) {
+  // Not null: of a program without parameters, constants, memory and past the arrays of a run are null themselves.
+  bound_to[0] = this;
   std::size_t inputs = 0, states = 0, memory = 0, outputs = 0;
   for (const auto& b : program.blocks) {
     inputs = std::max(inputs, at(b.n_u));
