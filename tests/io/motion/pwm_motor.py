@@ -63,7 +63,7 @@ def main():
             rows.append([next_row, *moved(state, SUPPLY * switched, next_row - t)])
         state, t = moved(state, SUPPLY * switched, end - t), end
     with open("pwm_motor.csv", "w") as file:
-        file.write("t,current,velocity\n")
+        file.write("t,motor.current,motor.velocity\n")
         for row in rows:
             file.write(",".join(f"{x:.10g}" for x in row) + "\n")
 
