@@ -266,10 +266,12 @@ void conclude(Books& books) {
     books.d.verdict = Verdict::unexplained;
     withdraw(books);
   } else if (books.d.steps.empty()) {
-    books.d.verdict = left.is_unexplained() ? Verdict::unexplained : Verdict::adequate;
+    // Of a search by models that was broken off nobody knows what else would have explained what is left.
+    const bool open = left.is_unexplained() || (books.by_score && books.d.broken_off && left.more_than_noise);
+    books.d.verdict = open ? Verdict::unexplained : Verdict::adequate;
   } else {
-    const bool open = std::all_of(books.d.steps.begin(), books.d.steps.end(), leaves_the_question_open);
-    books.d.verdict = open ? Verdict::not_distinguishable : Verdict::missing_effect;
+    const bool tied = std::all_of(books.d.steps.begin(), books.d.steps.end(), leaves_the_question_open);
+    books.d.verdict = tied ? Verdict::not_distinguishable : Verdict::missing_effect;
     if (floor > rules::floor_gate) books.unless_stopped([&] { structure_behind_effects(books); });
   }
   books.d.remainder =

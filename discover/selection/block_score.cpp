@@ -37,22 +37,20 @@ std::size_t blocks_of(std::size_t pieces, std::size_t wanted) {
   return n;
 }
 
-struct PerOutput {
-  double squares = 0, scatter = 0, rows = 0;
-};
-
-std::vector<PerOutput> per_output(const Evidence& evidence, const std::vector<LeftRows>& left) {
-  std::vector<PerOutput> sums(evidence.model().outputs().size());
+/// Variance of the noise of each output as one model shows it, where nothing is stated: the geometric mean of scatter
+/// and mean square, which are the same where only white noise is left.
+std::vector<double> variance_shown(const Evidence& evidence, const LeftSums& left) {
+  const std::size_t outputs = evidence.model().outputs().size();
+  std::vector<double> squares(outputs), scatters(outputs), rows(outputs), variance(outputs);
   for (const auto& l : left) {
-    auto& s = sums[static_cast<std::size_t>(l.output)];
-    const auto n = static_cast<double>(l.rows.size());
-    s.squares += n * mean_square(l.rows);
-    s.scatter += n * scatter(l.rows);
-    s.rows += n;
+    const auto o = static_cast<std::size_t>(l.output);
+    squares[o] += l.all();
+    scatters[o] += l.scatter * static_cast<double>(l.rows);
+    rows[o] += static_cast<double>(l.rows);
   }
-  for (auto& s : sums)
-    if (s.rows > 0) s.squares /= s.rows, s.scatter /= s.rows;
-  return sums;
+  for (std::size_t o = 0; o < outputs; ++o)
+    if (rows[o] > 0) variance[o] = std::sqrt(squares[o] * scatters[o]) / rows[o];
+  return variance;
 }
 
 /// No instrument is better than rounding lets it be, and no logarithm is taken of zero [SI squared].
@@ -66,9 +64,9 @@ double floor_of(const Evidence& evidence, int output) {
 
 double PieceSums::all() const { return std::accumulate(squares.begin(), squares.end(), 0.0); }
 
-std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction) {
+std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction, const NoiseModel& weights) {
   const DataModel& model = evidence.model();
-  add_zeros(model, evidence.judge(), prediction);
+  add_zeros(model, Judge(model, weights), prediction);
   std::vector<LeftRows> list;
   for (const int r : evidence.recordings())
     for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o)
@@ -79,7 +77,7 @@ std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction)
 LeftSums left_sums(const std::vector<LeftRows>& left) {
   LeftSums list;
   for (const auto& l : left) {
-    PieceSums sums{l.recording, l.output, l.rows.size(), {}};
+    PieceSums sums{l.recording, l.output, l.rows.size(), {}, scatter(l.rows), correlation_rows(l.rows)};
     sums.squares.resize(std::max<std::size_t>(1, std::min(PieceSums::pieces, l.rows.size())));
     for (std::size_t i = 0; i < l.rows.size(); ++i)
       sums.squares[i * sums.squares.size() / l.rows.size()] += l.rows[i] * l.rows[i];
@@ -105,25 +103,31 @@ double correlation_rows(const Rows& rows) {
   return tau;
 }
 
-BlockScore::BlockScore(const Evidence& evidence, const std::vector<LeftRows>& best) {
-  const auto sums = per_output(evidence, best);
-  std::vector<double> s2(sums.size());
-  for (std::size_t o = 0; o < sums.size(); ++o) {
+BlockScore::BlockScore(const Evidence& evidence, const std::vector<LeftSums>& models) {
+  LeftSums least = models.front();
+  std::vector<double> s2 = variance_shown(evidence, least);
+  for (const auto& left : models) {
+    const auto shown = variance_shown(evidence, left);
+    for (std::size_t o = 0; o < s2.size(); ++o) s2[o] = std::min(s2[o], shown[o]);
+    for (std::size_t k = 0; k < least.size(); ++k)
+      least[k].correlation = std::min(least[k].correlation, left[k].correlation);
+  }
+  for (std::size_t o = 0; o < s2.size(); ++o) {
     const auto& noise = evidence.noise().outputs[o];
-    s2[o] = noise.white_is_stated() ? noise.white * noise.white : std::sqrt(sums[o].scatter * sums[o].squares);
+    if (noise.white_is_stated()) s2[o] = noise.white * noise.white;
     s2[o] = std::max(s2[o], floor_of(evidence, static_cast<int>(o)));
   }
-  for (std::size_t k = 0; k < best.size(); ++k) {
-    const auto& l = best[k];
+  for (std::size_t k = 0; k < least.size(); ++k) {
+    const auto& l = least[k];
     recording_.push_back(l.recording);
-    if (l.rows.empty()) continue;
-    const double tau = correlation_rows(l.rows), rows = static_cast<double>(l.rows.size());
-    const std::size_t pieces = std::min(PieceSums::pieces, l.rows.size());
+    if (l.rows == 0) continue;
+    const double tau = l.correlation, rows = static_cast<double>(l.rows);
+    const std::size_t pieces = l.squares.size();
     const auto fitting = static_cast<std::size_t>(std::max(1.0, std::floor(rows / (least_block * tau))));
     const std::size_t blocks = blocks_of(pieces, std::min(most_blocks, fitting));
     for (std::size_t b = 0; b < blocks; ++b) {
       Block block{k, b * pieces / blocks, (b + 1) * pieces / blocks, 0, 0, s2[static_cast<std::size_t>(l.output)]};
-      const auto row_at = [&](std::size_t piece) { return (piece * l.rows.size() + pieces - 1) / pieces; };
+      const auto row_at = [&](std::size_t piece) { return (piece * l.rows + pieces - 1) / pieces; };
       block.rows = static_cast<double>(row_at(block.last) - row_at(block.first));
       block.n = block.rows / tau;
       n_eff_ += block.n;
@@ -170,21 +174,28 @@ double BlockScore::over_noise(const LeftSums& left) const {
   return most;
 }
 
-NoiseModel weights_by(const Evidence& evidence, const std::vector<LeftRows>& left) {
+// No colour of noise that nobody stated.
+NoiseModel BlockScore::weights(const Evidence& evidence, const LeftSums& left) const {
   NoiseModel weights = evidence.noise();
-  std::vector<double> squares(weights.outputs.size()), rows(squares), witnesses(squares);
-  for (const auto& l : left) {
-    if (evidence.model().recording(l.recording).role != Role::train || l.rows.empty()) continue;
+  std::vector<double> rows(weights.outputs.size()), sure(rows);
+  for (const auto& b : blocks_) {
+    const auto& l = left[b.of];
     const auto o = static_cast<std::size_t>(l.output);
-    squares[o] += mean_square(l.rows) * static_cast<double>(l.rows.size());
-    rows[o] += static_cast<double>(l.rows.size());
-    witnesses[o] += static_cast<double>(l.rows.size()) / correlation_rows(l.rows);
+    auto& pieces = weights.outputs[o].pieces;
+    pieces.resize(static_cast<std::size_t>(evidence.model().n_recordings()));
+    auto& own = pieces[static_cast<std::size_t>(l.recording)];
+    own.resize(l.squares.size());
+    double rss = 0;
+    for (std::size_t i = b.first; i < b.last; ++i) rss += l.squares[i];
+    const double variance = (b.s2 + rss / b.rows) * b.rows / b.n;
+    for (std::size_t i = b.first; i < b.last; ++i) own[i] = std::sqrt(variance);
+    rows[o] += b.rows;
+    sure[o] += b.rows / variance;
   }
   for (std::size_t o = 0; o < weights.outputs.size(); ++o) {
     if (!(rows[o] > 0)) continue;
     auto& w = weights.outputs[o];
-    const double variance = std::max(squares[o] / rows[o], floor_of(evidence, static_cast<int>(o)));
-    w.white = std::sqrt(variance * rows[o] / witnesses[o]);
+    w.white = std::sqrt(rows[o] / sure[o]);
     w.one_over_f = 0;
     w.share_is_stated = true;
     w.left_out = {};

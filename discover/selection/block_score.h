@@ -25,6 +25,8 @@ struct PieceSums {
   int recording = -1, output = -1;
   std::size_t rows = 0;
   std::vector<double> squares;  ///< [piece] [SI squared]; fewer where there are fewer rows
+  double scatter = 0;           ///< half the mean square of the change from row to row: of white noise its variance
+  double correlation = 1;       ///< see correlation_rows()
   double all() const;
 };
 /// Of train and validate recordings, in one order for all models of a data set.
@@ -36,7 +38,8 @@ struct LeftRows {
   int recording = -1, output = -1;
   Rows rows;
 };
-std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction);
+/// At their best by these weights.
+std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction, const NoiseModel& weights);
 LeftSums left_sums(const std::vector<LeftRows>& left);
 
 /// 1 + 2 sum of the autocorrelations up to the first that is 0.05 or less: so many rows say as much as one independent
@@ -46,8 +49,9 @@ double correlation_rows(const Rows& rows);
 /// By which all models of one data set are measured.
 class BlockScore {
  public:
-  /// `best`: what the best model so far leaves.
-  BlockScore(const Evidence& evidence, const std::vector<LeftRows>& best);
+  /// `models`: what each of the models leaves that have been fitted so far, at least one. Noise is neither larger nor
+  /// does it last longer than in that of them which leaves least: what more is seen of it in others is their misfit.
+  BlockScore(const Evidence& evidence, const std::vector<LeftSums>& models);
   /// The first sum alone: no price of numbers.
   double fit_of(const LeftSums& left) const;
   /// The same of one recording.
@@ -55,6 +59,10 @@ class BlockScore {
   double price(int numbers) const;  ///< p/2 ln n_eff
   double n_eff() const { return n_eff_; }
   double n_eff(int recording) const;
+  /// Weights of a fit that raises the score: rows by 1/(s^2 + V) of their block, over its correlation time, so that
+  /// chi2 counts independent witnesses. The logarithm lies below each of its tangents, so what lowers that chi2 raises
+  /// the score by at least as much (Hunter and Lange, American Statistician 58 (2004) 30: iterations that majorize).
+  NoiseModel weights(const Evidence& evidence, const LeftSums& left) const;
   /// rms over the noise s, of the output where that is largest.
   double over_noise(const LeftSums& left) const;
 
@@ -68,9 +76,5 @@ class BlockScore {
   std::vector<int> recording_;
   double n_eff_ = 0;
 };
-
-/// Weights of a fit: each output by 1/V of what this model leaves of it, times its correlation time, so that chi2
-/// counts independent witnesses. White: no colour of noise that nobody stated.
-NoiseModel weights_by(const Evidence& evidence, const std::vector<LeftRows>& left);
 
 }  // namespace hysteron

@@ -30,14 +30,14 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
 /// Of the recordings that may move, those whose free start explains more than its states cost: by Schwarz's price in
 /// the recording's own witnesses.
 std::vector<std::string> worth_a_start(const Books& free, const DataSet& given, const TableModel& best) {
-  const BlockScore score(*free.evidence, left_rows(*free.evidence, best.model.prediction));
+  const BlockScore score(*free.evidence, {best.left});
   // The same model and numbers from rest.
   Workshop at_rest = free.shop;
   at_rest.data = std::make_shared<const DataSet>(given);
   DataModel from_rest(compile(best.model.diagram, free.registry), at_rest.data, accuracy(at_rest, Effort::full));
   const Prediction rest = from_rest.predict({}, free.evidence->recordings());
   if (!rest.ok) return {};
-  const LeftSums left = left_sums(left_rows(*free.evidence, rest));
+  const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
   const auto states = static_cast<double>(free.base_model->free_initial_states().size());
   std::vector<std::string> moving;
   for (const int r : free.evidence->recordings()) {
@@ -67,7 +67,7 @@ std::map<std::string, double> numbers_not_exact(const Books& books) {
 
 Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
-  nulls.written = measured(setting, setting.books.base, Numbers::written, {});
+  nulls.written = measured(setting, setting.books.base, Numbers::written, setting.books.evidence->noise(), {});
   if (TableModel again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
     nulls.written = std::move(again);
   if (!setting.numbers.empty())
@@ -86,7 +86,7 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   std::vector<std::string> moving;
   free.unless_stopped([&] {
     constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
-    const Nulls nulls = fit_nulls({free, numbers_not_exact(free)}, renewals);
+    const Nulls nulls = fit_nulls(FitSetting(free, numbers_not_exact(free)), renewals);
     moving = worth_a_start(free, data, nulls.best());
   });
   return moving;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "discover/selection/selection.h"
 #include "engine/diagram/stop.h"
@@ -26,9 +27,11 @@ Told to_be_told(Books& books, const Selection& selection) {
   TableModel best = selection.best();
   if (best.numbers == Numbers::let_go)
     books.unless_stopped([&] { best = with_fewest_numbers(setting, books.shop, selection.score(), best, told.kept); });
-  const FitSetting few{books, told.kept};
-  told.shop = workshop_for(few, books.shop, weights_of(few, best.model),
-                           told.kept.empty() ? Numbers::written : Numbers::let_go);
+  const FitSetting few = setting.with(told.kept);
+  told.shop =
+      workshop_for(few, books.shop, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
+  told.shop.data = books.data;  // others judge
+  const auto of_all = std::exchange(told.shop.notes, std::make_shared<Notebook>());
   Contender whole = best.model;
   books.unless_stopped([&] {
     Contender final = refit(told.shop, whole, Effort::final);
@@ -45,6 +48,7 @@ Told to_be_told(Books& books, const Selection& selection) {
     told.chain[k] = before.ok ? refit(told.shop, before, Effort::full) : before;
     if (!told.chain[k].ok) told.chain[k] = k == 0 ? books.base : told.chain[k + 1];
   }
+  of_all->count(told.shop.notes->runs());
   return told;
 }
 
@@ -107,7 +111,8 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   const int step = static_cast<int>(k) + 1;
   unless_it_fails(books, [&] {
     const Effect& effect = *whole.standing[term.front()].effect;
-    const auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
+    auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
+    for (auto& hidden : selection.hidden_in_place_of(term)) rivals.push_back(std::move(hidden));
     // Where others stand, too, it is compared as the last of them, as its rivals are.
     Tried last = w;
     TableModel winner = selection.best();

@@ -58,17 +58,6 @@ std::vector<Addition> at_like_places(const Books& books, const std::vector<Addit
   return at_all;
 }
 
-/// The better of two fits of one rival, and its law.
-void take_up(Addition& rival, TableModel fitted, std::size_t law, const BlockScore& score) {
-  if (!fitted.ok()) {
-    if (!rival.fitted.ok()) rival.fitted.model.error = fitted.model.error;
-    return;
-  }
-  if (rival.fitted.ok() && score_of(score, rival.fitted) >= score_of(score, fitted)) return;
-  rival.fitted = std::move(fitted);
-  rival.tried.law = law;
-}
-
 std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
   const auto here = std::find_if(laws.begin(), laws.end(), [&](const Law& l) { return l.name == name; });
   return here == laws.end() ? 0 : static_cast<std::size_t>(here - laws.begin());
@@ -119,11 +108,33 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
 }
 
 Selection::Selection(Books& books, std::map<std::string, double> numbers)
-    : books_(books), setting_{books, std::move(numbers)} {}
-
-void Selection::measure_by(const TableModel& best) {
-  score_.emplace(*books_.evidence, left_rows(*books_.evidence, best.model.prediction));
+    : books_(books), setting_(books, std::move(numbers)) {
+  const auto before = std::exchange(books_.shop.notes, std::make_shared<Notebook>());  // of other recordings
+  books_.shop.notes->count(before->runs());
 }
+
+void Selection::remember(const TableModel& fitted) {
+  if (fitted.ok()) left_.push_back(fitted.left);
+}
+
+/// The better of the fits of each rival, and its law. The table of all models grows first: by that they are compared.
+void Selection::take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> answers) {
+  for (const auto& list : answers)
+    for (const auto& a : list) remember(a.fitted);
+  measure();
+  for (auto& list : answers)
+    for (auto& a : list) {
+      Addition& rival = rivals[a.rival];
+      if (!a.fitted.ok()) {
+        if (!rival.fitted.ok()) rival.fitted.model.error = a.fitted.model.error;
+      } else if (!rival.fitted.ok() || score_of(rival.fitted) < score_of(a.fitted)) {
+        rival.fitted = std::move(a.fitted);
+        rival.tried.law = a.law;
+      }
+    }
+}
+
+void Selection::measure() { setting_.score = std::make_shared<const BlockScore>(*books_.evidence, left_); }
 
 void Selection::sort(std::vector<Addition>& rivals) const {
   std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
@@ -152,29 +163,34 @@ std::vector<Addition> Selection::list(int step) {
 }
 
 void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
+  for (std::size_t i = 0; i < rivals.size(); ++i)
+    for (std::size_t l = 0; l < rivals[i].tried.laws.size(); ++l)
+      if (l == 0 || rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);
   // Each answer of its own: the score that orders them is that of all.
-  std::vector<std::vector<TableModel>> answers(rivals.size());
-  books_.side_by_side(rivals.size(), [&](std::size_t i, const Workshop& shop) {
+  std::vector<FitsOfRival> answers(jobs.size());
+  books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
+    const auto [i, law] = jobs[j];
     const Tried& t = rivals[i].tried;
     books_.progress(
         fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
-        (step - 1 + 0.6 * static_cast<double>(i) / static_cast<double>(rivals.size())) / books_.options.max_steps);
+        (step - 1 + 0.6 * static_cast<double>(j) / static_cast<double>(jobs.size())) / books_.options.max_steps);
     const double tried = ln_tried(rivals, *t.effect);
-    const auto choice = term_of(rivals[i], 0);
+    const auto choice = term_of(rivals[i], law);
+    const auto add = [&](const TableModel& from, Effort effort) {
+      answers[j].push_back({i, law, with_term(setting_, shop, from, choice, tried, effort)});
+    };
     if (step == 1 && rivals[i].slowness > 0) {
-      const TableModel& from = nulls_.let_go.ok() ? nulls_.let_go : nulls_.written;
-      answers[i].push_back(with_term(setting_, shop, from, choice, tried, Effort::screen));
+      add(nulls_.let_go.ok() ? nulls_.let_go : nulls_.written, Effort::screen);
     } else if (step > 1) {
-      answers[i].push_back(with_term(setting_, shop, best_, choice, tried, Effort::screen));
+      add(best_, Effort::screen);
     } else {
-      answers[i].push_back(with_term(setting_, shop, nulls_.written, choice, tried, Effort::full));
-      if (nulls_.let_go.ok())
-        answers[i].push_back(with_term(setting_, shop, nulls_.let_go, choice, tried, Effort::full));
+      add(nulls_.written, Effort::full);
+      if (nulls_.let_go.ok()) add(nulls_.let_go, Effort::full);
     }
     return false;
   });
-  for (std::size_t i = 0; i < rivals.size(); ++i)
-    for (auto& f : answers[i]) take_up(rivals[i], std::move(f), 0, *score_);
+  take_up(rivals, std::move(answers));
 }
 
 /// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left.
@@ -183,18 +199,17 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
-    std::vector<TableModel> answers(n);
+    std::vector<FitsOfRival> answers(n);
     books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
       const Addition& rival = rivals[first + i];
-      if (rival.fitted.ok()) answers[i] = refitted(setting_, shop, rival.fitted, numbers, few_renewals);
+      if (rival.fitted.ok())
+        answers[i] = {{first + i, rival.tried.law, refitted(setting_, shop, rival.fitted, numbers, few_renewals)}};
       return false;
     });
-    double least = score_->over_noise(best_.left);
-    for (std::size_t i = 0; i < n; ++i) {
-      auto& rival = rivals[first + i];
-      take_up(rival, std::move(answers[i]), rival.tried.law, *score_);
-      if (rival.fitted.ok()) least = std::min(least, score_->over_noise(rival.fitted.left));
-    }
+    take_up(rivals, std::move(answers));
+    double least = score().over_noise(best_.left);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const TableModel& f = rivals[first + i].fitted; f.ok()) least = std::min(least, score().over_noise(f.left));
     if (least < near_noise) break;
   }
   sort(rivals);
@@ -203,13 +218,14 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
 /// Who may win is fitted until its weights are those of what it leaves.
 void Selection::settle_best(std::vector<Addition>& rivals) {
   const std::size_t n = std::min(finalists, rivals.size());
-  std::vector<TableModel> answers(n);
+  std::vector<FitsOfRival> answers(n);
   books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
     const TableModel& f = rivals[i].fitted;
-    if (f.ok() && f.numbers == Numbers::let_go) answers[i] = refitted(setting_, shop, f, f.numbers);
+    if (f.ok() && f.numbers == Numbers::let_go)
+      answers[i] = {{i, rivals[i].tried.law, refitted(setting_, shop, f, f.numbers)}};
     return false;
   });
-  for (std::size_t i = 0; i < n; ++i) take_up(rivals[i], std::move(answers[i]), rivals[i].tried.law, *score_);
+  take_up(rivals, std::move(answers));
   sort(rivals);
 }
 
@@ -223,7 +239,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     if (!names.insert(rivals[i].tried.effect->id).second) continue;  // at its best place
     for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l) jobs.emplace_back(i, l);
   }
-  std::vector<TableModel> answers(jobs.size());
+  std::vector<FitsOfRival> answers(jobs.size());
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
     const auto [i, law] = jobs[j];
@@ -234,11 +250,10 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     const TableModel bare = without_term(setting_, shop, rivals[i].fitted, last);
     if (!bare.ok()) return false;
     TableModel f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
-    if (f.ok()) answers[j] = refitted(setting_, shop, f, numbers, few_renewals);
+    if (f.ok()) answers[j] = {{i, law, refitted(setting_, shop, f, numbers, few_renewals)}};
     return false;
   });
-  for (std::size_t j = 0; j < jobs.size(); ++j)
-    take_up(rivals[jobs[j].first], std::move(answers[j]), jobs[j].second, *score_);
+  take_up(rivals, std::move(answers));
   sort(rivals);
 }
 
@@ -256,7 +271,7 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
     for (auto& r : rivals)
       if (r.slowness == slow) some.push_back(std::move(r));
     const bool only_noise =
-        !all.empty() && all.front().fitted.ok() && score_->over_noise(all.front().fitted.left) < near_noise;
+        !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < near_noise;
     if (!some.empty() && !only_noise && !books_.stopped()) {
       fit_first_laws(some, step);
       fit_with_numbers(some);
@@ -275,22 +290,19 @@ bool Selection::add_one(int step) {
   fit(rivals, step);
   const bool broken_off = books_.stopped();
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
-  if (rivals.front().fitted.ok()) measure_by(rivals.front().fitted);
-  sort(rivals);
   for (auto& r : rivals) r.tried.contender = r.fitted.model;
   rounds_.push_back({best_, std::move(rivals)});
   const Round& round = rounds_.back();
-  const TableModel& before = step == 1 ? nulls_.better(*score_) : best_;
+  const TableModel& before = step == 1 ? nulls_.better(score()) : best_;
   const double needed = score_of(before) + rules::by_score;
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
     // Where more than noise is left, who was not asked might have been the one.
-    if (broken_off && score_->over_noise(r.fitted.left) > near_noise) break;
+    if (broken_off && score().over_noise(r.fitted.left) > near_noise) break;
     best_ = r.fitted;
     return true;
   }
-  measure_by(before);
   best_ = before;
   return false;
 }
@@ -302,13 +314,49 @@ bool Selection::leave_out() {
     TableModel rest = without_term(setting_, books_.shop, best_, term);
     if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
     if (!rest.ok()) continue;
-    if (rest.model.standing.empty() && score_of(rest) > score_of(nulls_.better(*score_)))
+    remember(rest);
+    measure();
+    if (rest.model.standing.empty() && score_of(rest) > score_of(nulls_.better(score())))
       (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
     if (score_of(rest) + rules::by_score < score_of(best_)) continue;
     best_ = std::move(rest);
     return true;
   }
   return false;
+}
+
+void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
+  std::vector<FitsOfRival> answers(rivals.size());
+  books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
+    const std::size_t law = rivals[k].tried.law;
+    const TableModel f = with_term(setting_, shop, rest, term_of(rivals[k], law),
+                                   ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
+    if (f.ok()) answers[k] = {{k, law, refitted(setting_, shop, f, best_.numbers)}};
+    return false;
+  });
+  take_up(rivals, std::move(answers));
+  for (auto& r : rivals) r.tried.contender = r.fitted.model;
+}
+
+std::vector<Addition> Selection::hidden_in_place_of(const std::vector<std::size_t>& term) {
+  std::vector<Addition> rivals;
+  const Effect& leaving = *best_.model.standing[term.front()].effect;
+  const TableModel rest = without_term(setting_, books_.shop, best_, term);
+  if (!rest.ok()) return rivals;
+  const Contender was = std::exchange(books_.current, rest.model);
+  list_candidates(books_, 2);
+  books_.current = was;
+  for (auto& t : books_.hidden) {
+    if (!look_alike(*t.effect, leaving)) continue;
+    t.laws = t.effect->laws(t.excitation);
+    t.hidden = true;
+    Addition rival;
+    rival.tried = std::move(t);
+    if (!rival.tried.laws.empty()) rivals.push_back(std::move(rival));
+  }
+  books_.hidden.clear();
+  fit_on(rest, rivals);
+  return rivals;
 }
 
 std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
@@ -325,17 +373,7 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
     rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(r));
   }
   books_.current = was;
-  std::vector<TableModel> answers(rivals.size());
-  books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
-    const TableModel f = with_term(setting_, shop, rest, term_of(rivals[k], rivals[k].tried.law),
-                                   ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
-    if (f.ok()) answers[k] = refitted(setting_, shop, f, best_.numbers);
-    return false;
-  });
-  for (std::size_t k = 0; k < rivals.size(); ++k) {
-    take_up(rivals[k], std::move(answers[k]), rivals[k].tried.law, *score_);
-    rivals[k].tried.contender = rivals[k].fitted.model;
-  }
+  fit_on(rest, rivals);
   std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
     const auto rank = [&](const Addition& r) { return std::pair(r.tried.effect != leaving.effect, !r.fitted.ok()); };
     if (rank(a) != rank(b)) return rank(a) < rank(b);
@@ -359,8 +397,10 @@ bool Selection::exchange() {
 
 void Selection::run() {
   nulls_ = fit_nulls(setting_);
-  measure_by(nulls_.best());
-  best_ = nulls_.better(*score_);
+  remember(nulls_.written);
+  remember(nulls_.let_go);
+  measure();
+  best_ = nulls_.better(score());
   for (int step = 1; step <= books_.options.max_steps && !books_.stopped(); ++step) {
     if (!add_one(step)) break;
     while (!books_.stopped() && leave_out()) continue;

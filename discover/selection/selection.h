@@ -42,12 +42,15 @@ class Selection {
   const Nulls& nulls() const { return nulls_; }
   const TableModel& best() const { return best_; }
   const std::vector<Round>& rounds() const { return rounds_; }
-  const BlockScore& score() const { return *score_; }
+  const BlockScore& score() const { return *setting_.score; }
   const FitSetting& setting() const { return setting_; }
-  double score_of(const TableModel& f) const { return hysteron::score_of(*score_, f); }
+  double score_of(const TableModel& f) const { return hysteron::score_of(score(), f); }
   /// One term of the best model (see terms_of) and what looks like it in its place, each last in its model and fitted
   /// with the rest; that term first, the others by their score.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
+  /// The same of what these recordings cannot show and may have acted all the same: a gain that follows a temperature,
+  /// at one temperature.
+  std::vector<Addition> hidden_in_place_of(const std::vector<std::size_t>& term);
 
  private:
   bool add_one(int step);
@@ -57,9 +60,17 @@ class Selection {
   void fit_with_numbers(std::vector<Addition>& rivals);
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
+  void fit_on(const TableModel& rest, std::vector<Addition>& rivals);
   bool leave_out();
   bool exchange();
-  void measure_by(const TableModel& best);
+  struct FitOfRival {
+    std::size_t rival = 0, law = 0;
+    TableModel fitted;
+  };
+  using FitsOfRival = std::vector<FitOfRival>;
+  void take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> answers);
+  void remember(const TableModel& fitted);
+  void measure();
   std::vector<Addition> everywhere(int step);
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
@@ -68,7 +79,7 @@ class Selection {
   FitSetting setting_;
   Nulls nulls_;
   TableModel best_;
-  std::optional<BlockScore> score_;
+  std::vector<LeftSums> left_;  ///< by all models that were fitted
   std::vector<Round> rounds_;
 };
 

@@ -23,12 +23,17 @@ int numbers_of(const Contender& c, std::size_t recordings) {
   return n;
 }
 
+/// V of the one over that of the other, less one: the mean over all pieces.
 bool alike(const NoiseModel& a, const NoiseModel& b) {
-  for (std::size_t o = 0; o < a.outputs.size(); ++o) {
-    const double ratio = a.outputs[o].white / b.outputs[o].white;
-    if (std::abs(ratio * ratio - 1) > settled) return false;
-  }
-  return true;
+  double change = 0, n = 0;
+  for (std::size_t o = 0; o < a.outputs.size(); ++o)
+    for (std::size_t r = 0; r < a.outputs[o].pieces.size(); ++r)
+      for (std::size_t i = 0; i < a.outputs[o].pieces[r].size(); ++i) {
+        const double ratio = a.outputs[o].pieces[r][i] / b.outputs[o].pieces[r][i];
+        change += std::abs(ratio * ratio - 1);
+        n += 1;
+      }
+  return change <= settled * n;
 }
 
 /// Derivatives that another fit has found were weighed by other weights.
@@ -40,11 +45,12 @@ Contender refit_afresh(Workshop shop, const Contender& c, Effort effort) {
   return next;
 }
 
-double chi2_of(const NoiseModel& weights, const DataModel& model, const LeftSums& left) {
+double chi2_of(const NoiseModel& weights, const LeftSums& left) {
   double chi2 = 0;
-  for (const auto& l : left)
-    if (model.recording(l.recording).role == Role::train)
-      chi2 += l.all() / std::pow(weights.outputs[static_cast<std::size_t>(l.output)].white, 2);
+  for (const auto& l : left) {
+    const auto& rms = weights.outputs[static_cast<std::size_t>(l.output)].pieces[static_cast<std::size_t>(l.recording)];
+    for (std::size_t i = 0; i < l.squares.size(); ++i) chi2 += l.squares[i] / (rms[i] * rms[i]);
+  }
   return chi2;
 }
 
@@ -56,6 +62,19 @@ double all_tried(const TableModel& f) {
 
 }  // namespace
 
+FitSetting::FitSetting(const Books& of, std::map<std::string, double> let_go) : books(of), numbers(std::move(let_go)) {
+  DataSet data = *of.data;
+  for (auto& r : data.recordings)
+    if (r.role == Role::validate) r.role = Role::train;
+  all = std::make_shared<const DataSet>(std::move(data));
+}
+
+FitSetting FitSetting::with(std::map<std::string, double> other_numbers) const {
+  FitSetting other = *this;
+  other.numbers = std::move(other_numbers);
+  return other;
+}
+
 double score_of(const BlockScore& score, const TableModel& f) {
   return score.fit_of(f.left) - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
 }
@@ -64,16 +83,17 @@ double tie_score_of(const BlockScore& score, const TableModel& f) {
   return score.fit_of(f.left) - f.parameters - all_tried(f) - 0.5 * f.moved;
 }
 
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried) {
   TableModel f;
   f.numbers = numbers;
   f.model = std::move(model);
+  f.weights = std::move(weights);
   for (const auto& s : f.model.standing)
     if (const auto known = tried.find(s.effect->id); known != tried.end()) f.tried.insert(*known);
   if (!f.model.ok) return f;
   const Evidence& evidence = *setting.books.evidence;
-  f.left = left_sums(left_rows(evidence, f.model.prediction));
+  f.left = left_sums(left_rows(evidence, f.model.prediction, f.weights));
   f.parameters = numbers_of(f.model, evidence.recordings().size());
   for (const auto& e : f.model.fit.estimates)
     if (const auto n = setting.numbers.find(e.path); n != setting.numbers.end())
@@ -81,13 +101,16 @@ TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
   return f;
 }
 
-NoiseModel weights_of(const FitSetting& setting, const Contender& model) {
-  return weights_by(*setting.books.evidence, left_rows(*setting.books.evidence, model.prediction));
+NoiseModel weights_of(const FitSetting& setting, const TableModel& f) {
+  const Evidence& evidence = *setting.books.evidence;
+  return setting.score ? setting.score->weights(evidence, f.left)
+                       : BlockScore(evidence, {f.left}).weights(evidence, f.left);
 }
 
 Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers) {
   Workshop own = shop;
   own.weights = weights;
+  own.data = setting.all;
   // Whole models are compared by hundreds of fits: what needs more steps is too stiff for that, and integrating it
   // takes a hundred times as long.
   own.simulation_steps /= 4;
@@ -100,22 +123,20 @@ Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const Noi
 
 TableModel refitted(const FitSetting& setting, const Workshop& shop, const TableModel& from, Numbers numbers,
                     int renewals) {
-  Contender c = from.model;
-  std::optional<NoiseModel> before;
+  TableModel now = from;
   for (int i = 0; i < renewals; ++i) {
-    const NoiseModel weights = weights_of(setting, c);
-    if (before && alike(weights, *before)) break;
-    Contender next = refit_afresh(workshop_for(setting, shop, weights, numbers), c, Effort::full);
-    if (!next.ok) break;
-    before = weights;
-    c = std::move(next);
+    NoiseModel weights = weights_of(setting, now);
+    if (i > 0 && alike(weights, now.weights)) break;
+    Contender next = refit_afresh(workshop_for(setting, shop, weights, numbers), now.model, Effort::full);
+    if (!next.ok) return i > 0 ? now : TableModel{};
+    now = measured(setting, std::move(next), numbers, std::move(weights), from.tried);
   }
-  return before ? measured(setting, std::move(c), numbers, from.tried) : TableModel{};
+  return now;
 }
 
 TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
                      const std::vector<Choice>& term, double ln_tried, Effort effort) {
-  const NoiseModel weights = weights_of(setting, from.model);
+  const NoiseModel weights = weights_of(setting, from);
   const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
   Contender c = from.model;
   for (const auto& choice : term) {
@@ -124,11 +145,10 @@ TableModel with_term(const FitSetting& setting, const Workshop& shop, const Tabl
   }
   auto tried = from.tried;
   if (!term.empty()) tried[term.front().effect->id] = ln_tried;
-  TableModel f = measured(setting, std::move(c), from.numbers, tried);
+  TableModel f = measured(setting, std::move(c), from.numbers, weights, tried);
   if (!f.ok()) return f;
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
-  const DataModel& model = setting.books.evidence->model();
-  if (chi2_of(weights, model, f.left) > chi2_of(weights, model, from.left)) f.left = from.left;
+  if (chi2_of(weights, f.left) > chi2_of(weights, from.left)) f.left = from.left;
   return f;
 }
 
@@ -136,9 +156,9 @@ TableModel without_term(const FitSetting& setting, const Workshop& shop, const T
                         const std::vector<std::size_t>& term) {
   Contender rest = from.model;
   for (auto i = term.rbegin(); i != term.rend() && rest.ok; ++i) rest = without(shop, rest, *i);
-  if (rest.ok)
-    rest = refit(workshop_for(setting, shop, weights_of(setting, from.model), Numbers::written), rest, Effort::full);
-  return measured(setting, std::move(rest), from.numbers, from.tried);
+  NoiseModel weights = weights_of(setting, from);
+  if (rest.ok) rest = refit(workshop_for(setting, shop, weights, Numbers::written), rest, Effort::full);
+  return measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
 }
 
 double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimate) {
@@ -221,8 +241,8 @@ TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, 
   TableModel now = let_go;
   kept = setting.numbers;
   for (int round = 0; round < most_rounds && !kept.empty(); ++round) {
-    const FitSetting these{setting.books, kept};
-    const Workshop own = workshop_for(these, shop, weights_of(these, now.model), Numbers::let_go);
+    const FitSetting these = setting.with(kept);
+    const Workshop own = workshop_for(these, shop, weights_of(these, now), Numbers::let_go);
     const Contender c = refit_afresh(own, now.model, Effort::final);
     if (!c.ok) break;
     const auto few = worth_it(c.fit, kept, worth);
@@ -235,7 +255,7 @@ TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, 
     start.model.diagram = with_parameters(c.diagram, *c.program, written);
     std::erase_if(start.model.fit.estimates,
                   [&](const ParameterEstimate& e) { return kept.contains(e.path) && !few.contains(e.path); });
-    TableModel next = refitted({setting.books, few}, shop, start, few.empty() ? Numbers::written : Numbers::let_go);
+    TableModel next = refitted(setting.with(few), shop, start, few.empty() ? Numbers::written : Numbers::let_go);
     if (!next.ok()) break;
     kept = few;
     now = std::move(next);

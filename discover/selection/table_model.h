@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ enum class Numbers { written, let_go };
 struct TableModel {
   Contender model;
   Numbers numbers = Numbers::written;
+  NoiseModel weights;  ///< it was fitted by these
   LeftSums left;
   int parameters = 0;  ///< all free numbers of the laws
   /// Of each of its effects, by id: ln(places times laws that were tried of it).
@@ -30,8 +32,17 @@ struct TableModel {
 
 /// What all fits of one selection share.
 struct FitSetting {
+  FitSetting(const Books& books, std::map<std::string, double> numbers);
+  FitSetting with(std::map<std::string, double> other_numbers) const;
+
   const Books& books;
   std::map<std::string, double> numbers;  ///< that may be let go, as written [SI]
+  /// The data set with all recordings to fit to: what acts in one recording only is found wherever that stands, and a
+  /// score that pays for each number needs none that were not seen. What is told at the end is fitted to those meant
+  /// for it.
+  std::shared_ptr<const DataSet> all;
+  /// By all models that have been fitted; null: before there are any, each is weighed by what it leaves itself.
+  std::shared_ptr<const BlockScore> score{};
 };
 
 /// One standard deviation of the logarithm of what a user writes, where nothing is said of it: 10 %.
@@ -45,12 +56,13 @@ double score_of(const BlockScore& score, const TableModel& fitted);
 double tie_score_of(const BlockScore& score, const TableModel& fitted);
 
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
+TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers);
-NoiseModel weights_of(const FitSetting& setting, const Contender& model);
+/// By what the model leaves itself: see BlockScore::weights().
+NoiseModel weights_of(const FitSetting& setting, const TableModel& model);
 
 /// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
 /// truth all weights are wrong, and the user's numbers are held too firmly by what is written. At most `renewals`

@@ -1,5 +1,6 @@
 #include "fit/estimate/starts.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Left {
   bool ok = false;
   double chi2 = 0;
   std::vector<double> step;  ///< per free state [SI], to where it would be least if all were linear
+  double fall = 0;           ///< of chi2 there
 };
 
 Left left_at(DataModel& model, const Judge& judge, std::span<const ParameterValue> values, int r, bool with_step) {
@@ -44,6 +46,10 @@ Left left_at(DataModel& model, const Judge& judge, std::span<const ParameterValu
   Dense triangle(columns.cols, columns.cols);
   triangle.a = normal.r;
   left.step = minimum_norm(triangle, normal.d, combined).x;
+  std::vector<double> way(columns.rows);
+  for (std::size_t k = 0; k < scale.size(); ++k)
+    for (std::size_t i = 0; i < columns.rows; ++i) way[i] += left.step[k] * columns.col(k)[i];
+  left.fall = dot(way.data(), way.data(), way.size());
   for (std::size_t k = 0; k < scale.size(); ++k) left.step[k] *= scale[k];
   return left;
 }
@@ -59,7 +65,7 @@ bool improve_one(DataModel& model, const Judge& judge, std::span<const Parameter
   for (int step = 0; step < most_steps; ++step) {
     const auto begun = model.start_of(r);
     const Left now = left_at(model, judge, values, r, true);
-    if (!now.ok) return any;
+    if (!now.ok || now.fall <= improved * now.chi2) return any;
     double best = now.chi2, share = 1;
     bool better = false;
     for (int halving = 0; halving <= most_halvings && !better; ++halving, share /= 2) {
@@ -71,6 +77,8 @@ bool improve_one(DataModel& model, const Judge& judge, std::span<const Parameter
     if (!better) model.begin_at(r, begun);
     if (now.chi2 - best <= improved * now.chi2) return any;
     any = true;
+    // As much as a linear way promises: there is no more to be had.
+    if (std::abs(now.chi2 - best - now.fall) <= improved * now.chi2) return any;
   }
   return any;
 }

@@ -27,7 +27,10 @@ struct NoiseOfOutput {
   bool share_is_stated = false;  ///< by the data set
   bool share_estimated = false;  ///< from a residual (colour.h)
   std::string remark{};          ///< what the user must be told of it; "" = nothing
-  LeftOut left_out{};            ///< how a known line wanders: taken out of all that is whitened
+  /// rms [SI] of equal pieces of a recording, by recording: where a model leaves more of some than of others, and all
+  /// are weighed by what it leaves. Empty: `white` everywhere. White alone: one_over_f is 0.
+  std::vector<std::vector<double>> pieces{};
+  LeftOut left_out{};  ///< how a known line wanders: taken out of all that is whitened
   bool white_is_stated() const { return source == NoiseSource::data_sheet || source == NoiseSource::corrected; }
 };
 

@@ -36,10 +36,11 @@ void add_wandering(const DataModel& model, const NoiseModel& noise, int recordin
   }
 }
 
-double mean(const Rows& rows) {
-  double sum = 0;
-  for (const double x : rows) sum += x;
-  return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
+/// One rms for each row.
+Rows of_rows(const std::vector<double>& pieces, std::size_t rows) {
+  Rows rms(rows);
+  for (std::size_t i = 0; i < rows; ++i) rms[i] = pieces[i * pieces.size() / rows];
+  return rms;
 }
 
 }  // namespace
@@ -75,7 +76,11 @@ Judge::Judge(const DataModel& model, const NoiseModel& noise, Whitener::Order or
     std::vector<Whitener> list;
     for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o) {
       const auto& n = noise.outputs[static_cast<std::size_t>(o)];
-      list.emplace_back(model.measured(r, o).size(), n.white, n.one_over_f, model.zero_per_recording(o), order);
+      const std::size_t rows = model.measured(r, o).size();
+      if (!n.pieces.empty() && !n.pieces[static_cast<std::size_t>(r)].empty())
+        list.emplace_back(of_rows(n.pieces[static_cast<std::size_t>(r)], rows), model.zero_per_recording(o));
+      else
+        list.emplace_back(rows, n.white, n.one_over_f, model.zero_per_recording(o), order);
     }
     whiteners_.push_back(std::move(list));
     root_weight_.push_back(std::sqrt(model.recording(r).weight));
@@ -103,6 +108,10 @@ void Judge::whiten(int recording, const std::vector<Rows>& rows, double* out) co
     for (std::size_t i = 0; i < n && weight != 1; ++i) out[i] *= weight;
     out += n;
   }
+}
+
+double Judge::zero_of(int recording, int output, const Rows& rows) const {
+  return whiteners_[static_cast<std::size_t>(recording)][static_cast<std::size_t>(output)].zero_of(rows);
 }
 
 std::vector<double> Judge::residual(const DataModel& model, const Prediction& prediction, int recording) const {
@@ -174,8 +183,8 @@ std::vector<std::vector<double>> add_zeros(const DataModel& model, const Judge& 
     }
     for (std::size_t o = 0; o < y.size(); ++o) {
       if (!model.zero_per_recording(static_cast<int>(o))) continue;
-      // In the cosine domain a constant is coefficient 0 alone, so the whitened least-squares zero is the plain mean.
-      zeros[r][o] = mean(residual_rows(model, prediction, recording, static_cast<int>(o)));
+      const int output = static_cast<int>(o);
+      zeros[r][o] = judge.zero_of(recording, output, residual_rows(model, prediction, recording, output));
       for (double& value : y[o]) value += zeros[r][o];
     }
     add_wandering(model, judge.noise(), recording, y);

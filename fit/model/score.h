@@ -43,6 +43,8 @@ class Judge {
   std::size_t size(int recording) const;
   /// Whitens rows given per output (a residual, a response) into out[0 .. size(recording)).
   void whiten(int recording, const std::vector<Rows>& rows, double* out) const;
+  /// The zero [SI] that leaves least of these rows of an output.
+  double zero_of(int recording, int output, const Rows& rows) const;
   /// Measured minus predicted, whitened; initial states that are free in this recording are taken out.
   std::vector<double> residual(const DataModel& model, const Prediction& prediction, int recording) const;
   Score score(const DataModel& model, const Prediction& prediction, std::span<const int> recordings) const;

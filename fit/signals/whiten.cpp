@@ -69,9 +69,21 @@ Whitener::Whitener(std::size_t rows, double white, double share, bool drop_zero,
     weight_[k] = 1 / (white * std::sqrt(coloured(static_cast<double>(k), rows, share)));
 }
 
+Whitener::Whitener(std::span<const double> rms_of_rows, bool drop_zero)
+    : drop_zero_(drop_zero && !rms_of_rows.empty()), in_time_(true) {
+  double squares = 0;
+  for (const double rms : rms_of_rows) {
+    weight_.push_back(1 / rms);
+    squares += weight_.back() * weight_.back();
+  }
+  constant_ = weight_;
+  for (double& c : constant_) c /= std::sqrt(squares);
+}
+
 void Whitener::apply(std::span<const double> rows, double* out) const {
   if (weight_.empty()) return;
   look_up();  // every search in a residual comes by here, column after column
+  if (!constant_.empty()) return apply_by_rows(rows, out);
   if (in_time_) return apply_in_time(rows, out);
   std::vector<double> coefficients(rows.begin(), rows.end());
   cosine_transform(coefficients);
@@ -93,6 +105,29 @@ void Whitener::apply_in_time(std::span<const double> rows, double* out) const {
   // v = (1, ..., 1)/sqrt(n) - (1, 0, ..., 0); x - 2 v (v'x)/(v'v) with v'v = 2 - 2/sqrt(n)
   const double shift = rows.size() > 1 ? (sum / root - rows[0]) / (root - 1) : 0;
   for (std::size_t i = 1; i < rows.size(); ++i) *out++ = (rows[i] - shift) * weight;
+}
+
+/// The same reflection, of a constant whose rows are not all weighed alike: c = constant_, v = c - (1, 0, ..., 0).
+void Whitener::apply_by_rows(std::span<const double> rows, double* out) const {
+  if (!drop_zero_) {
+    for (std::size_t i = 0; i < rows.size(); ++i) *out++ = rows[i] * weight_[i];
+    return;
+  }
+  double along = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) along += constant_[i] * rows[i] * weight_[i];
+  const double shift = rows.size() > 1 ? (along - rows[0] * weight_[0]) / (1 - constant_[0]) : 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) *out++ = rows[i] * weight_[i] - shift * constant_[i];
+}
+
+// In the cosine domain a constant is coefficient 0 alone: then it is the mean.
+double Whitener::zero_of(std::span<const double> rows) const {
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double w = constant_.empty() ? 1 : constant_[i] * constant_[i];
+    sum += w * rows[i];
+    weights += w;
+  }
+  return weights > 0 ? sum / weights : 0;
 }
 
 std::size_t Whitener::upper_half() const { return weight_.size() / 2 - (drop_zero_ && weight_.size() > 1 ? 1 : 0); }

@@ -31,17 +31,24 @@ class Whitener {
   /// `white` rms [SI] > 0; `share` = rms of 1/f over white rms; `drop_zero`: the zero of this recording is free.
   Whitener(std::size_t rows, double white, double share, bool drop_zero, Order order = Order::by_frequency);
 
+  /// White noise that is not the same in all rows: the rms of each [SI] > 0. Written in the order of time.
+  Whitener(std::span<const double> rms_of_rows, bool drop_zero);
+
   std::size_t rows() const { return weight_.size(); }
   std::size_t size() const { return weight_.size() - (drop_zero_ ? 1 : 0); }  ///< numbers that apply() writes
   /// Whitened rows, size() numbers, written behind one another to `out`. `rows` is not changed.
   void apply(std::span<const double> rows, double* out) const;
+  /// The constant [SI] that leaves least of these rows, whitened.
+  double zero_of(std::span<const double> rows) const;
   /// Position of row-frequency half band in the output: indices >= this one belong to the upper half band.
   std::size_t upper_half() const;
 
  private:
   void apply_in_time(std::span<const double> rows, double* out) const;
+  void apply_by_rows(std::span<const double> rows, double* out) const;
 
   std::vector<double> weight_;
+  std::vector<double> constant_{};  ///< where rows differ in their weight: a constant, whitened, of length one
   bool drop_zero_ = false, in_time_ = false;
 };
 

@@ -57,6 +57,34 @@ TEST(CosineTransform, GivesTheSameNumbersInManyThreads) {
   for (const auto& g : got) EXPECT_EQ(g, expected);
 }
 
+// Rows that are not all as sure: lengths and products are those of the weighed rows without their weighed constant,
+// which is taken out here by Gram and Schmidt; and the zero is the weighed mean.
+TEST(Whitener, WeighsEachRowByItsOwnNoise) {
+  lab::Noise random(3);
+  for (const std::size_t n : {1U, 2U, 40U}) {
+    std::vector<double> rms(n), x(n), y(n);
+    for (std::size_t i = 0; i < n; ++i) rms[i] = std::exp(2 * random()), x[i] = random() + 5, y[i] = random() - 3;
+    double wx = 0, wy = 0, w = 0, xy = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double weight = 1 / (rms[i] * rms[i]);
+      w += weight, wx += weight * x[i], wy += weight * y[i], xy += weight * x[i] * y[i];
+    }
+    const auto product = [&](bool drop_zero) {
+      const Whitener whitener(rms, drop_zero);
+      std::vector<double> a(whitener.size()), b(whitener.size());
+      whitener.apply(x, a.data());
+      whitener.apply(y, b.data());
+      double sum = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+      return sum;
+    };
+    const double scale = std::abs(xy) + std::abs(wx * wy / w);  // rounding of the sums
+    EXPECT_NEAR(product(false), xy, 1e-12 * scale) << n;
+    EXPECT_NEAR(product(true), xy - wx * wy / w, 1e-11 * scale) << n;
+    EXPECT_NEAR(Whitener(rms, true).zero_of(x), wx / w, 1e-12 * std::abs(wx / w)) << n;
+  }
+}
+
 /// White noise of rms `s` plus noise whose variance in cosine coefficient k is s^2 A / (k + 1/2), as whiten.h assumes.
 std::vector<double> coloured(std::size_t n, double s, double share, unsigned seed) {
   lab::Noise random(seed);
