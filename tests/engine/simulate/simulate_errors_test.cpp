@@ -62,7 +62,7 @@ struct Sign {
     T y;
   };
   static void describe(BlockSpec<Sign>& spec) {
-    spec.name("sign", "for this test");
+    spec.name("sign_without_kink", "for this test");
     spec.input(&In<double>::u, "u", "s", "the signal");
     spec.output(&Out<double>::y, "y", "", "its sign");
   }
@@ -75,7 +75,7 @@ struct Sign {
 TEST(SimulateErrors, AStateThatChattersIsNamedInsteadOfTakingForEver) {
   auto all = all_blocks();
   all.add(kernel<Sign>());
-  const auto program = compile(diagram({{"sign", block("sign", {}, {"x"})},
+  const auto program = compile(diagram({{"sign", block("sign_without_kink", {}, {"x"})},
                                         {"back", block("gain", {{"gain", -1.0}}, {"sign"})},
                                         {"x", block("integrator", {{"initial", "0.1 s"}}, {"back"})}},
                                        {"x"}),
