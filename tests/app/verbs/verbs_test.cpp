@@ -444,12 +444,12 @@ TEST_F(Verbs, NamesOfNestedDiagramsAndOfNumbersBehindOthersAreTakenEverywhere) {
 }
 
 TEST_F(Verbs, ABlockTypeThatIsCalledOtherwiseElsewhereIsToldWithWhatToWrite) {
-  folder_.write("zone.json", R"({"format": 1, "title": "zone", "blocks": {"b": {"type": "constant", "value": 1},
-    "a": {"type": "dead_zone", "in": "b"}}, "record": ["a"]})");
-  const Outcome outcome = hysteron(folder_.path(), {"check", "zone.json"});
+  folder_.write("half.json", R"({"format": 1, "title": "half", "blocks": {"b": {"type": "constant", "value": 1},
+    "a": {"type": "half_wave", "in": "b"}}, "record": ["a"]})");
+  const Outcome outcome = hysteron(folder_.path(), {"check", "half.json"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("\"saturation\""), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find("dead_time"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("\"rectifier\""), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("half_sine"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("hysteron blocks"), std::string::npos) << outcome.err;
   EXPECT_LT(outcome.err.size(), 400U) << "no list of ninety types";
 }
