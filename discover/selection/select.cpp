@@ -112,7 +112,8 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   unless_it_fails(books, [&] {
     const Effect& effect = *whole.standing[term.front()].effect;
     auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
-    for (auto& hidden : selection.hidden_in_place_of(term)) rivals.push_back(std::move(hidden));
+    if (alone)
+      for (auto& hidden : selection.hidden_in_place_of(effect)) rivals.push_back(std::move(hidden));
     // Where others stand, too, it is compared as the last of them, as its rivals are.
     Tried last = w;
     TableModel winner = selection.best();

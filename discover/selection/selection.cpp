@@ -237,7 +237,8 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     if (!rivals[i].fitted.ok()) continue;
     if (names.size() >= enriched_names && !names.contains(rivals[i].tried.effect->id)) break;
     if (!names.insert(rivals[i].tried.effect->id).second) continue;  // at its best place
-    for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l) jobs.emplace_back(i, l);
+    for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l)
+      if (!rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);  // those stood among the first
   }
   std::vector<FitsOfRival> answers(jobs.size());
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
@@ -338,16 +339,11 @@ void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
   for (auto& r : rivals) r.tried.contender = r.fitted.model;
 }
 
-std::vector<Addition> Selection::hidden_in_place_of(const std::vector<std::size_t>& term) {
+/// Of what list_candidates() has just found hidden, what looks like this effect.
+std::vector<Addition> Selection::take_hidden(const Effect& effect) {
   std::vector<Addition> rivals;
-  const Effect& leaving = *best_.model.standing[term.front()].effect;
-  const TableModel rest = without_term(setting_, books_.shop, best_, term);
-  if (!rest.ok()) return rivals;
-  const Contender was = std::exchange(books_.current, rest.model);
-  list_candidates(books_, 2);
-  books_.current = was;
   for (auto& t : books_.hidden) {
-    if (!look_alike(*t.effect, leaving)) continue;
+    if (!look_alike(*t.effect, effect)) continue;
     t.laws = t.effect->laws(t.excitation);
     t.hidden = true;
     Addition rival;
@@ -355,7 +351,16 @@ std::vector<Addition> Selection::hidden_in_place_of(const std::vector<std::size_
     if (!rival.tried.laws.empty()) rivals.push_back(std::move(rival));
   }
   books_.hidden.clear();
-  fit_on(rest, rivals);
+  return rivals;
+}
+
+std::vector<Addition> Selection::hidden_in_place_of(const Effect& effect) {
+  const TableModel& null = nulls_.better(score());
+  const Contender was = std::exchange(books_.current, null.model);
+  list_candidates(books_, 2);
+  books_.current = was;
+  auto rivals = take_hidden(effect);
+  fit_on(null, rivals);
   return rivals;
 }
 
@@ -373,6 +378,7 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
     rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(r));
   }
   books_.current = was;
+  for (auto& hidden : take_hidden(*leaving.effect)) rivals.push_back(std::move(hidden));
   fit_on(rest, rivals);
   std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
     const auto rank = [&](const Addition& r) { return std::pair(r.tried.effect != leaving.effect, !r.fitted.ok()); };
@@ -387,8 +393,8 @@ bool Selection::exchange() {
   const auto terms = terms_of(best_.model);
   for (std::size_t i = 0; i + 1 < terms.size(); ++i)
     for (const auto& r : in_place_of(terms[i]))
-      if (r.fitted.ok() && r.tried.effect != best_.model.standing[terms[i].front()].effect && is_itself(r) &&
-          score_of(r.fitted) > score_of(best_) + rules::exchange) {
+      if (r.fitted.ok() && !r.tried.hidden && r.tried.effect != best_.model.standing[terms[i].front()].effect &&
+          is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
         best_ = r.fitted;
         return true;
       }

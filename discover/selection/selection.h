@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,11 +46,11 @@ class Selection {
   const FitSetting& setting() const { return setting_; }
   double score_of(const TableModel& f) const { return hysteron::score_of(score(), f); }
   /// One term of the best model (see terms_of) and what looks like it in its place, each last in its model and fitted
-  /// with the rest; that term first, the others by their score.
+  /// with the rest; that term first, the others by their score. Among them, as `hidden`, what these recordings cannot
+  /// show and may have acted all the same: a gain that follows a temperature, at one temperature.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
-  /// The same of what these recordings cannot show and may have acted all the same: a gain that follows a temperature,
-  /// at one temperature.
-  std::vector<Addition> hidden_in_place_of(const std::vector<std::size_t>& term);
+  /// Those that are hidden, in place of an effect that stands alone.
+  std::vector<Addition> hidden_in_place_of(const Effect& effect);
 
  private:
   bool add_one(int step);
@@ -60,6 +60,7 @@ class Selection {
   void fit_with_numbers(std::vector<Addition>& rivals);
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
+  std::vector<Addition> take_hidden(const Effect& effect);
   void fit_on(const TableModel& rest, std::vector<Addition>& rivals);
   bool leave_out();
   bool exchange();

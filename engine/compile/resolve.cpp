@@ -96,11 +96,14 @@ class Resolver {
                       "give at least one number");
       return result;
     }
+    std::string cure = p.kind == ParameterKind::list ? "write e.g. [1, 2] or [\"1 V\", \"2 V\"]"
+                                                     : "write a number, or a number with a unit such as \"5 Hz\"";
+    if (!declaration_.names_from.empty())
+      cure += fmt::format("; an input is wired under \"in\": {{\"{}\": ...}}", p.name);
     problems_.add("wrong_type", place(p.name),
                   fmt::format("\"{}\" of {} is {}, found {}", p.name, declaration_.type,
                               p.kind == ParameterKind::list ? "a list of numbers" : "a number", kind_of(value)),
-                  p.kind == ParameterKind::list ? "write e.g. [1, 2] or [\"1 V\", \"2 V\"]"
-                                                : "write a number, or a number with a unit such as \"5 Hz\"");
+                  cure);
     result.numbers.push_back({});
     return result;
   }

@@ -129,6 +129,9 @@ TEST(ExpressionBlock, TellsWhatIsWrongWithItsText) {
   EXPECT_NE(expression_problem(written("a*u", {})).find("input \"u\" of expression \"law\" is not connected"),
             std::string::npos);
   EXPECT_NE(expression_problem(written("a*u", {})).find("give the block a value for it"), std::string::npos);
+  EXPECT_NE(expression_problem(written("a*u", {{"a", Value("drive")}})).find("under \"in\": {\"a\": ...}"),
+            std::string::npos)
+      << "a wire that was written as a value";
 }
 
 TEST(ExpressionBlock, ATextThatBeginsWithANumberIsOne) {
