@@ -1,10 +1,10 @@
 // Decides the block "mass_with_mode": a mass on a spring that carries a second one by its own spring and damper. Does
 // not decide how the first mass moves: models/mechanics/mass_spring_damper.h, nor the second:
-// models/continuous/resonance.h.
+// models/linear/resonance.h.
 #pragma once
 
 #include "engine/block/block.h"
-#include "models/continuous/resonance.h"
+#include "models/linear/resonance.h"
 #include "models/mechanics/mass_spring_damper.h"
 
 namespace hysteron::blocks {

@@ -1,8 +1,8 @@
 // Decides the block "discrete_state_space": four matrices from instant to instant. What it shares with the continuous
-// one stands in blocks/continuous/state_space.h.
+// one stands in blocks/linear/state_space.h.
 #pragma once
 
-#include "blocks/continuous/state_space.h"
+#include "blocks/linear/state_space.h"
 
 namespace hysteron::blocks {
 

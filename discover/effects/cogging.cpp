@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "discover/effects/travel.h"
+#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "discover/effects/presliding.h"
-#include "discover/effects/travel.h"
+#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

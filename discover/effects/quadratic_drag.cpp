@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "discover/effects/travel.h"
+#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "discover/effects/travel.h"
+#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

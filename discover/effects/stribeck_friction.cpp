@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "discover/effects/presliding.h"
-#include "discover/effects/travel.h"
+#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/effects/room_temperature.h"
+#include "discover/hypotheses/room_temperature.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "discover/effects/room_temperature.h"
+#include "discover/hypotheses/room_temperature.h"
 #include "discover/experiment/experiment_menu.h"
 #include "discover/hypotheses/effect_terms.h"
 

@@ -101,7 +101,7 @@ class Declaration {
   std::string memory_port;     ///< the memory is in the unit of that port; "" = no memory that a diagram could give
   std::string memory_meaning;  ///< what its numbers are
   std::vector<VariationDeclaration> variations;
-  std::string group;       ///< "sources", "math", "continuous", "hysteresis", ...
+  std::string group;       ///< "sources", "math", "linear", "hysteresis", ...
   std::string place;       ///< where an effect of this kind would enter: "command", "core", "measured" ... ("" = none)
   bool is_linear = false;  ///< outputs and derivatives are affine in (states, inputs) for fixed parameters
   bool is_rate_independent = false;  ///< derivative is homogeneous of degree one in the rate where that is high, and

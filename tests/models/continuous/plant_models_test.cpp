@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/block/dual.h"
-#include "models/continuous/thermal_network.h"
+#include "models/linear/thermal_network.h"
 #include "models/mechanics/mass_spring_damper.h"
 #include "tests/models/modes.h"
 

@@ -1,0 +1,60 @@
+#include "blocks/linear/thermal_network.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hysteron::blocks {
+
+void ThermalNetwork::describe(Declaration& d) {
+  d.name("thermal_network", "temperatures of bodies that exchange heat").in_group("linear").linear();
+  d.law("capacities_i dT_i/dt = heat_i + to_ambient_i (ambient - T_i) + sum_j between_ij (T_j - T_i)")
+      .from("Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed. (2007), chapter 5 (lumped capacities)");
+  d.remark(
+      "One number per body in capacities, to_ambient and initial; between has one per pair: (1,2), (1,3) ... (2,3) ... "
+      "For "
+      "one body leave it out, for bodies that do not touch write 0.");
+  d.remark("heat is a vector with one element per body: join single signals with a mux.");
+  d.remark(
+      "Where a simulation starts at rest, initial has no effect; a body without any way to the ambient has no "
+      "rest.");
+  d.input("heat", "W", "heat that each body takes up").vector();
+  d.input("ambient", "K", "temperature of the surroundings");
+  d.output("temperature", "K", "temperature of each body").vector();
+  d.state("temperature", "K", "temperature of each body").nominal(300);
+  d.list("capacities", "J/K", "heat capacity of each body").positive().difference();
+  d.list("to_ambient", "W/K", "conductance of each body to the ambient")
+      .not_negative()
+      .difference()
+      .as_long_as("capacities");
+  d.list("between", "W/K", "conductance of each pair of bodies").optional("").not_negative().difference();
+  d.list("initial", "K", "temperature of each body at the start").as_long_as("capacities");
+}
+
+Sizes ThermalNetwork::sizes(const Shape& shape) {
+  Sizes s;
+  const int n = shape.length("capacities");
+  const auto pairs = static_cast<int>(thermal_network::pairs(static_cast<std::size_t>(n)));
+  s.states = s.outputs = n;
+  s.feedthrough = false;
+  s.output_lengths = {n};
+  s.input_lengths = {n, 1};
+  s.lengths_from = fmt::format("it has {} {}", n, n == 1 ? "body" : "bodies");
+  if (n < 1)
+    s.error = "\"capacities\" is empty; give one per body";
+  else if (shape.length("between") != pairs)
+    s.error = fmt::format("{} bodies have {} pairs, \"between\" has {} numbers; give one conductance per pair", n,
+                          pairs, shape.length("between"));
+  return s;
+}
+
+void ThermalNetwork::rest(const View<double>& v) {
+  const auto n = static_cast<std::size_t>(v.n_x);
+  thermal_network::rest(network(v), v.inputs().first(n), v.u[n], v.out);
+}
+
+void ThermalNetwork::initial_states(const View<double>& v) { std::copy_n(v.list(initial).data(), v.n_x, v.out); }
+
+Kernel thermal_network_block() { return kernel<ThermalNetwork>(); }
+
+}  // namespace hysteron::blocks
