@@ -128,6 +128,7 @@ class Maker {
     for (const auto& port : item.out) tell_signal(item, item.out.size() == 1 ? item.path : item.path + "." + port);
     const Values values = values_of(body, declaration, around);
     item.symbol = symbol_of(declaration, values, static_cast<int>(item.in.size()), static_cast<int>(item.out.size()));
+    keep_clear_of_port_names(item);
     item.caption = caption_lines(values, item.symbol.shown, lines_of_values);
     item.tip = fmt::format("{}: {} ({})", item.path, body.type, declaration.summary);
     if (!declaration.equation.empty()) item.tip += "\n" + declaration.equation;
@@ -160,10 +161,19 @@ class Maker {
     item.symbol = text_symbol({text}, static_cast<int>(item.in.size()), static_cast<int>(item.out.size()));
     item.symbol.outline = Outline::frame;
     item.symbol.port_names = true;
-    double left = 0, right = 0;
-    for (const auto& port : item.in) left = std::max(left, text_width(port, 9));
-    for (const auto& port : item.out) right = std::max(right, text_width(port, 9));
-    item.symbol.width = std::ceil(text_width(text, 12) + left + right) + 34;
+    keep_clear_of_port_names(item);
+  }
+
+  /// What stands in the middle is as far from either border as the longer names there reach.
+  static void keep_clear_of_port_names(Item& item) {
+    Symbol& s = item.symbol;
+    if (!s.port_names || !s.signs.empty()) return;
+    double middle = s.picture.empty() ? 0 : pictogram_width, names = 0;
+    for (const auto& line : s.text) middle = std::max(middle, text_width(line, 12));
+    for (const auto& port : item.in) names = std::max(names, text_width(port, 9));
+    if (item.out.size() > 1)
+      for (const auto& port : item.out) names = std::max(names, text_width(port, 9));
+    if (middle > 0) s.width = std::max(s.width, std::ceil(middle + 2 * names) + 22);
   }
 
   static Value resolved(const Value& value, const Surroundings& around) {

@@ -250,7 +250,8 @@ void draw_item(xml_node parent, const Sheet& sheet, int index) {
   } else {
     if (const Pictogram* picture = find_pictogram(item.symbol.picture)) {
       const double note = item.symbol.note.empty() ? 0 : 6;
-      draw_pictogram(group, *picture, item.x + item.width() / 2, item.y + item.height() / 2 - note, 24, 15);
+      draw_pictogram(group, *picture, item.x + item.width() / 2, item.y + item.height() / 2 - note, pictogram_width / 2,
+                     pictogram_height / 2);
     }
     if (!item.symbol.note.empty())
       text(group, item.x + item.width() / 2, item.y + item.height() - 4, "middle", item.symbol.note, "small");

@@ -38,5 +38,6 @@ double text_width(const std::string& text, double size);
 
 inline constexpr double port_distance = 22;  ///< between the ports of a box
 inline constexpr double sum_radius = 11;
+inline constexpr double pictogram_width = 48, pictogram_height = 30;
 
 }  // namespace hysteron::draw

@@ -3,11 +3,7 @@
 namespace hysteron::blocks {
 
 void Lag::describe(Declaration& d) {
-  d.name("lag", "one or more real poles in a row, gain one")
-      .in_group("linear")
-      .elementwise()
-      .linear()
-      .at("command");
+  d.name("lag", "one or more real poles in a row, gain one").in_group("linear").elementwise().linear().at("command");
   d.law("times[1] dx_1/dt = u - x_1, times[2] dx_2/dt = x_1 - x_2 ..., y = last x").from("definition");
   d.remark("An amplifier's bandwidth f (-3 dB, one pole) is the time constant 1/(2 pi f).");
   d.input("u", "$a", "the signal");

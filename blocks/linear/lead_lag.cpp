@@ -3,10 +3,7 @@
 namespace hysteron::blocks {
 
 void LeadLag::describe(BlockSpec<LeadLag>& spec) {
-  spec.name("lead_lag", "one zero and one pole by their corner frequencies")
-      .in_group("linear")
-      .elementwise()
-      .linear();
+  spec.name("lead_lag", "one zero and one pole by their corner frequencies").in_group("linear").elementwise().linear();
   spec.law("Y(s) = gain (1 + s/(2 pi zero))/(1 + s/(2 pi pole)) U(s)")
       .from("Franklin, Powell, Emami-Naeini, Feedback Control of Dynamic Systems, 8th ed. (2019), section 6.7");
   spec.remark(

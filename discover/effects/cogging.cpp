@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 namespace {

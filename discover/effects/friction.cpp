@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "discover/effects/presliding.h"
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 namespace {

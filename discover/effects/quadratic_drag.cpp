@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 namespace {

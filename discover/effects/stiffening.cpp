@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "discover/effects/presliding.h"
-#include "discover/hypotheses/travel.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/travel.h"
 
 namespace hysteron::effects {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/hypotheses/room_temperature.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/room_temperature.h"
 
 namespace hysteron::effects {
 namespace {

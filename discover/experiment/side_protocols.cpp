@@ -7,9 +7,9 @@
 #include <numbers>
 #include <optional>
 
-#include "discover/hypotheses/room_temperature.h"
 #include "discover/experiment/experiment_menu.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/room_temperature.h"
 
 namespace hysteron {
 namespace {

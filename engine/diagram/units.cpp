@@ -9,6 +9,7 @@
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
@@ -265,6 +266,22 @@ bool split_quantity(std::string_view text, double& number, std::string& unit) {
   return true;
 }
 
+namespace {
+
+/// What engineers call the units of what flows through their diagrams. A torque, and not an energy, is a signal.
+const std::vector<Unit>& named_units() {
+  static const std::vector<Unit> all = [] {
+    std::vector<Unit> units;
+    for (const char* text : {"Hz", "N", "V", "N m", "W", "Pa", "C", "ohm", "F", "H", "Wb", "T", "N/m", "N m/rad",
+                             "N m s/rad", "N/V", "N/A"})
+      units.push_back(parse_unit(text));
+    return units;
+  }();
+  return all;
+}
+
+}  // namespace
+
 Unit si_unit(const Dimension& d) {
   Unit unit;
   unit.dimension = d;
@@ -282,12 +299,8 @@ Unit si_unit(const Dimension& d) {
   unit.text = below.empty() ? above
                             : fmt::format("{}/{}", above.empty() ? "1" : above,
                                           below.find(' ') == std::string::npos ? below : "(" + below + ")");
-  static const Dimension hertz{{0, 0, -1, 0, 0, 0, 0, 0, 1}};
-  if (d == hertz) unit.text = "Hz";
-  static const Dimension volt{{2, 1, -3, -1, 0, 0, 0, 0, 0}};
-  if (d == volt) unit.text = "V";
-  static const Dimension newton{{1, 1, -2, 0, 0, 0, 0, 0, 0}};
-  if (d == newton) unit.text = "N";
+  for (const auto& named : named_units())
+    if (named.dimension == d) return named;
   return unit;
 }
 

@@ -68,7 +68,9 @@ class Builder {
   /// What comes late of a recording is a recording: where it turns is known. Sampled blocks hand their jumps on at
   /// points of their own.
   int recording_of(const BlockInstance& b) const {
-    if (b.kernel->reach_back == nullptr || b.sizes.feedthrough || b.source.size() != 1 || !program_.sampled_blocks.empty()) return -1;
+    if (b.kernel->reach_back == nullptr || b.sizes.feedthrough || b.source.size() != 1 ||
+        !program_.sampled_blocks.empty())
+      return -1;
     const int from = block_of(b.source.front());
     return block(from).series_index >= 0 ? from : -1;
   }

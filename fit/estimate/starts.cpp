@@ -11,7 +11,7 @@ namespace hysteron {
 namespace {
 
 constexpr int most_steps = 20, most_halvings = 6;
-constexpr double improved = 1e-6;   // of what is left
+constexpr double improved = 1e-6;  // of what is left
 constexpr double combined = 1e-8;  // states of which the outputs show only a combination move together
 
 /// What a recording leaves at its present start, and how each state moves that.

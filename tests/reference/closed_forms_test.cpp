@@ -8,6 +8,7 @@
 #include <numbers>
 #include <regex>
 
+#include "tests/io/temporary_folder.h"
 #include "tests/reference/reference.h"
 
 namespace reference {
@@ -17,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr double pi = std::numbers::pi;
 
 Result result_of(const std::string& blocks, const std::string& record, const std::string& name, double disturbed = 0) {
-  const fs::path file = fs::path(testing::TempDir()) / (name + ".json");
+  const hysteron::TemporaryFolder folder;
+  const fs::path file = folder.path(name + ".json");
   std::ofstream(file) << R"({"format": 1, "blocks": {)" << blocks << R"(}, "record": [)" << record
                       << R"(], "simulate": {"until": "3 s", "every": "10 ms"}})";
   Settings settings;

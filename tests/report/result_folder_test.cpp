@@ -19,6 +19,7 @@
 #include "io/files/folder_lock.h"
 #include "io/results/result.h"
 #include "tests/io/small_disk.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
@@ -42,8 +43,6 @@ void put(const fs::path& file, const std::string& text) { std::ofstream(file) <<
 
 class ResultFolder : public testing::Test {
  protected:
-  ResultFolder() { fs::create_directories(root_); }
-  ~ResultFolder() override { fs::remove_all(root_); }
   std::string out() const { return (root_ / "out").string(); }
   /// Names in the folder around the results: anything but "out" is something left behind.
   std::vector<std::string> names() const {
@@ -51,7 +50,8 @@ class ResultFolder : public testing::Test {
     for (const auto& entry : fs::directory_iterator(root_)) list.push_back(entry.path().filename());
     return list;
   }
-  const fs::path root_ = fs::temp_directory_path() / ("hysteron_folder_" + std::to_string(getpid()));
+  TemporaryFolder temporary_;
+  const fs::path root_ = temporary_.path();
 };
 
 TEST_F(ResultFolder, HoldsResultReportSchemaTracesAndFiles) {

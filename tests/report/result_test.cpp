@@ -2,7 +2,6 @@
 #include "io/results/result.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "engine/diagram/error.h"
 #include "example.h"
 #include "io/files/atomic_file.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 class ResultFile : public testing::Test {
  protected:
-  ResultFile() { fs::create_directories(folder_); }
-  ~ResultFile() override { fs::remove_all(folder_); }
   std::string code_of_reading(const std::string& text) {
     write_file((folder_ / "result.json").string(), text);
     try {
@@ -33,7 +31,8 @@ class ResultFile : public testing::Test {
     }
     return "";
   }
-  const fs::path folder_ = fs::temp_directory_path() / ("hysteron_result_" + std::to_string(getpid()));
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(ResultFile, ComesBackAsItWasWritten) {

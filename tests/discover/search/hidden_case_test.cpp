@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 #include "tests/discover/synthetic.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
@@ -25,10 +25,7 @@ using nlohmann::json;
 
 class HiddenCases : public ::testing::Test {
  protected:
-  HiddenCases() : folder_(std::filesystem::temp_directory_path() / fmt::format("hysteron_hidden_{}", getpid())) {
-    std::filesystem::create_directories(folder_ / "results");
-  }
-  ~HiddenCases() override { std::filesystem::remove_all(folder_); }
+  HiddenCases() { std::filesystem::create_directories(folder_ / "results"); }
 
   void write_task(const std::string& base, const json& parameters, const std::vector<std::string>& outputs,
                   const json& free = json::array()) {
@@ -50,7 +47,8 @@ class HiddenCases : public ::testing::Test {
       last.push_back(y.back());
     return last;
   }
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
   Registry registry_ = all_blocks();
 };
 

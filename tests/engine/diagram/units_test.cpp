@@ -104,6 +104,15 @@ TEST(Units, OthersAreReadFromTheTable) {
   EXPECT_DOUBLE_EQ(parse_unit("micrometer").to_si(1), 1e-6);
 }
 
+TEST(Units, OfValuesThatNobodyGaveOneAreCalledAsEngineersDo) {
+  for (const char* text : {"Hz", "N", "V", "N m", "W", "Pa", "ohm", "F", "H", "T", "N/m", "N m/rad", "N m s/rad"})
+    EXPECT_EQ(si_unit(parse_unit(text).dimension).text, text);
+  EXPECT_EQ(si_unit(parse_unit("mJ").dimension).text, "N m") << "a torque is a signal";
+  EXPECT_EQ(si_unit(parse_unit("um/s^2").dimension).text, "m/s^2") << "what has no name is made of base units";
+  for (const char* text : {"N m", "ohm", "N/A", "um/s^2", "kg/s"})
+    EXPECT_EQ(si_unit(parse_unit(text).dimension).scale, 1) << text;
+}
+
 TEST(Units, AQuantityIsSplitIntoNumberAndUnit) {
   double number = 0;
   std::string unit;

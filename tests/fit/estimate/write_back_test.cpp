@@ -7,6 +7,7 @@
 #include "fit/estimate/fit.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/fit/lab.h"
+#include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
@@ -143,12 +144,11 @@ TEST(ParameterFile, OfOneBlockIsASetThatTheBlockCanName) {
   DataModel model(program, lab::shared(data));
   const auto r = fit(model, noise_before_fit(model), free_parameters(*program, {"core.weights"}));
 
-  const std::string folder = testing::TempDir() + "/fit_parameter_set";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder + "/set.json") << parameter_file_text(r, *program, data);
-  std::ofstream(folder + "/diagram.json") << R"({"format": 1, "inputs": {"u": {"unit": "V"}}, "outputs": {"y": "core"},
-    "blocks": {"core": {"type": "prandtl_ishlinskii", "thresholds": ["0 V", "1 V"], "parameters": "set.json", "in": "u"}}})";
-  const auto again = compile(read_diagram(folder + "/diagram.json"), lab::registry());
+  const TemporaryFolder folder;
+  folder.write("set.json", parameter_file_text(r, *program, data));
+  folder.write("diagram.json", R"({"format": 1, "inputs": {"u": {"unit": "V"}}, "outputs": {"y": "core"},
+    "blocks": {"core": {"type": "prandtl_ishlinskii", "thresholds": ["0 V", "1 V"], "parameters": "set.json", "in": "u"}}})");
+  const auto again = compile(read_diagram(folder.path("diagram.json")), lab::registry());
   EXPECT_NEAR(again->find_parameter("core.weights[0]")->value, 1e-6, 1e-13);
   EXPECT_NEAR(again->find_parameter("core.weights[1]")->value, 0.25e-6, 1e-13);
 }

@@ -3,7 +3,6 @@
 #include "tests/report/browser.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 
 #include "io/files/atomic_file.h"
 #include "report/page/report.h"
+#include "tests/io/temporary_folder.h"
 #include "tests/report/example.h"
 
 namespace hysteron {
@@ -28,15 +28,14 @@ class Browser : public testing::Test {
  protected:
   void SetUp() override {
     if (browser::find().empty()) GTEST_SKIP() << "no Chromium on this machine (scripts/test installs one)";
-    fs::create_directories(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
   std::string dom_of(const std::string& page) {
     const std::string file = (folder_ / "report.html").string();
     write_file(file, page);
     return browser::dump_dom(file);
   }
-  const fs::path folder_ = fs::temp_directory_path() / ("hysteron_page_" + std::to_string(getpid()));
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Browser, DrawsEveryFigureWithoutAnError) {
