@@ -93,7 +93,7 @@ void add_verb_to(CLI::App& app, ParsedVerb& parsed, bool asked) {
       option->allow_extra_args(false);
       option->multi_option_policy(spec.repeated ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
       option->expected(1);
-      if (spec.repeated) option->expected(1, 1 << 20)->allow_extra_args(!spec.name.starts_with("-"));
+      if (spec.repeated) option->expected(1, 1 << 20)->allow_extra_args(spec.several || !spec.name.starts_with("-"));
     }
     parsed.parsed.push_back(option);
   }

@@ -4,7 +4,7 @@ namespace hysteron::options {
 
 OptionSpec diagram() { return {"diagram", "DIAGRAM.json", "the diagram file", true, false}; }
 OptionSpec data(bool required) {
-  return {"--data", "FILE", "the recordings: a data set (.json), or one recording (.csv)", required, false};
+  return {"--data", "FILE", "the recordings: a data set (.json), or one recording (CSV ...)", required, false};
 }
 OptionSpec output_folder() {
   return {"-o", "FOLDER", "where the results go; default: named after the diagram and the verb, e.g. stage.compare",

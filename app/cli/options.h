@@ -12,6 +12,7 @@ struct OptionSpec {
   std::string meaning;
   bool required = false;
   bool repeated = false;  ///< may be given several times
+  bool several = false;   ///< ... and takes all words up to the next option
 };
 
 /// Options that several verbs take, said once.

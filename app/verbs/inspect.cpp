@@ -24,7 +24,7 @@ constexpr char inspect_help[] =
     "  hysteron inspect lab.csv --input volts --output disp --json\n\n"
     "With --diagram, a shift in time, interference and the way of an input between its samples are looked for in what\n"
     "the diagram leaves over, its free parameters fitted first, and effects at every place of it. Without, a gain and\n"
-    "an offset stand for it, inputs and outputs are told by the names of the columns (u*, y*, x*, T*), and it says\n"
+    "an offset stand for it, inputs and outputs are told by the columns (u*, y*, x*, T*, what they measure), and it says\n"
     "so.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
     "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing\n"
@@ -75,19 +75,18 @@ Subject without_diagram(const Arguments& arguments) {
   subject.data = read_dataset(arguments.text("data"), arguments.list("--allow"));
   const CsvTable table = table_of(subject.data, subject.data.recordings.front());
   StarterRoles given;
-  given.inputs = arguments.list("--input");
-  given.outputs = arguments.list("--output");
+  for (const auto& written : arguments.list("--input")) given.add(given.inputs, "--input", written, table);
+  for (const auto& written : arguments.list("--output")) given.add(given.outputs, "--output", written, table);
   std::vector<std::string> guessed;
   const StarterRoles roles = guess_roles(table, given, guessed);
-  subject.diagram = make_starter(table, roles, subject.data.recordings.front().name).diagram;
+  subject.diagram = make_starter({{&table, subject.data.recordings.front().name}}, roles).diagram;
   for (const auto* list : {&roles.inputs, &roles.outputs})
-    for (const auto& name : *list) rename(subject.data, name, diagram_name(name));
-  subject.assumed.push_back(
-      fmt::format("No diagram was named: judged with a gain and an offset from {} to {}{}. What an effect needs of a "
-                  "diagram (a mass, a hysteresis) is not there, and whether an output is a sample late or early, or an "
-                  "input held between its samples, was not looked for; name yours with --diagram.",
-                  fmt::join(roles.inputs, ", "), fmt::join(roles.outputs, ", "),
-                  guessed.empty() ? "" : " (told by the names of the columns)"));
+    for (const auto& name : *list) rename(subject.data, name, roles.name_of(name));
+  subject.assumed.push_back(fmt::format(
+      "No diagram was named: judged with a gain and an offset from {} to {}{}. What an effect needs of a "
+      "diagram (a mass, a hysteresis) is not there, and whether an output is a sample late or early, or an "
+      "input held between its samples, was not looked for; name yours with --diagram.",
+      fmt::join(roles.inputs, ", "), fmt::join(roles.outputs, ", "), guessed.empty() ? "" : " (told by the columns)"));
   return subject;
 }
 
@@ -148,7 +147,7 @@ Verb inspect_verb() {
   return {"inspect",
           "what recordings can and cannot show, and what is wrong with them",
           inspect_help,
-          {{"data", "DATA", "a data set (.json), or one recording (.csv)", true, false},
+          {{"data", "DATA", "a data set (.json), or one recording (CSV, or a file of an instrument)", true, false},
            {"--diagram", "DIAGRAM.json", "the model that shall be judged on them", false, false},
            {"--input", "COLUMN", "this column drives (else guessed from the names)", false, true},
            {"--output", "COLUMN", "this column was measured (else guessed from the names)", false, true},

@@ -1,11 +1,10 @@
-// Decides what a starter diagram and data set look like for the columns of one recording, and says what it assumed.
+// Decides what a starter diagram and data set look like for the columns of recordings, and says what it assumed.
 // Does not read or write files.
 #include "app/verbs/starter.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -21,60 +20,6 @@ namespace hysteron {
 namespace {
 
 constexpr double train_share = 0.6;  // of the time, as for a single recording
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-bool is_one_of(const std::string& name, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return name == word; });
-}
-
-/// "u", "u1", "u_x" for the letter u.
-bool letter_with_index(const std::string& name, char letter) {
-  return !name.empty() && name[0] == letter &&
-         (name.size() == 1 || std::isdigit(static_cast<unsigned char>(name[1])) != 0 || name[1] == '_');
-}
-
-enum class Guess { none, input, output, maybe_output };
-
-Guess guess_of(const CsvColumn& column) {
-  const std::string name = lower_case(column.name);
-  if (letter_with_index(name, 'u') || is_one_of(name, {"input", "drive", "command", "voltage", "heater"}))
-    return Guess::input;
-  if (letter_with_index(name, 'y') || is_one_of(name, {"output", "displacement", "position", "measured", "sensor"}))
-    return Guess::output;
-  // A temperature or a position beside a y is a side channel; without one it is what was measured.
-  if (letter_with_index(name, 'x') || letter_with_index(name, 't') || is_one_of(name, {"temperature"}))
-    return Guess::maybe_output;
-  return Guess::none;
-}
-
-std::vector<std::string> columns_of(const CsvTable& table) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
-  return names;
-}
-
-std::string names_of(const CsvTable& table) { return fmt::format("{}", fmt::join(columns_of(table), ", ")); }
-
-void check_columns(const CsvTable& table, const std::vector<std::string>& wanted, const std::string& option) {
-  const auto known = columns_of(table);
-  for (const auto& name : wanted)
-    if (table.find(name) == nullptr)
-      fail("missing_column", table.file, fmt::format("{} names a column \"{}\" that is not there", option, name),
-           did_you_mean(name, known) + bracket_hint(name, known));
-}
-
-/// The time neither drives nor was measured, whatever the options say.
-void refuse_time(const StarterRoles& roles) {
-  const auto is_time = [&](const std::string& column) { return column == roles.time; };
-  for (const auto& [option, columns] : {std::pair("--input", &roles.inputs), {"--output", &roles.outputs}})
-    if (std::any_of(columns->begin(), columns->end(), is_time))
-      fail("bad_command_line", option, fmt::format("column \"{}\" is the time", roles.time),
-           fmt::format("name a column that {}", option == std::string("--input") ? "drives" : "was measured"));
-}
 
 /// In which unit a difference of this column is written: a temperature step in K.
 std::string difference_unit(const CsvColumn& column) { return column.unit.offset != 0 ? "K" : unit_text(column.unit); }
@@ -97,21 +42,31 @@ bool looks_held(const CsvColumn& column) {
   return changes > 0 && changes * 20 < column.values.size();
 }
 
-/// y = sum of slopes times inputs + offset, least squares over the first 60 % of the time. Numbers as written in the
-/// file.
-std::vector<double> straight_line(const CsvTable& table, const StarterRoles& roles, const CsvColumn& y) {
-  const auto& t = table.find(roles.time)->values;
+/// Rows of a recording that train: of a single one the first 60 % of its time, of several all but those of the last.
+std::size_t training_rows(const StarterRecordings& recordings, std::size_t index) {
+  const auto& t = recordings[index].table->find("t")->values;
+  if (recordings.size() > 1) return index + 1 < recordings.size() ? t.size() : 0;
   const double until = t.front() + train_share * (t.back() - t.front());
-  const auto rows = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
+  return static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
+}
+
+/// y = sum of slopes times inputs + offset, least squares over the rows that train. Numbers as written in the files.
+std::vector<double> straight_line(const StarterRecordings& recordings, const StarterRoles& roles,
+                                  const std::string& output) {
   const std::size_t n = roles.inputs.size() + 1;
-  std::vector<double> columns;
-  for (const auto& input : roles.inputs) {
-    const auto& u = table.find(input)->values;
-    columns.insert(columns.end(), u.begin(), u.begin() + static_cast<std::ptrdiff_t>(rows));
-  }
-  columns.resize(n * rows, 1.0);  // the last column: the offset
   NormalForm problem(static_cast<int>(n));
-  problem.add(columns, std::span(y.values).first(rows));
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    const CsvTable& table = *recordings[k].table;
+    const std::size_t rows = training_rows(recordings, k);
+    if (rows == 0) continue;
+    std::vector<double> columns;
+    for (const auto& input : roles.inputs) {
+      const auto& u = table.find(input)->values;
+      columns.insert(columns.end(), u.begin(), u.begin() + static_cast<std::ptrdiff_t>(rows));
+    }
+    columns.resize(n * rows, 1.0);  // the last column: the offset
+    problem.add(columns, std::span(table.find(output)->values).first(rows));
+  }
   const std::vector<double> lower(n, -std::numeric_limits<double>::infinity());
   const std::vector<double> upper(n, std::numeric_limits<double>::infinity());
   // Smallest solution: an input that does not move in these rows gets a gain only as far as the rows say.
@@ -132,16 +87,18 @@ std::string block_name(const Diagram& diagram, std::string name) {
 }
 
 /// One output: a gain for each input, their sum, an offset.
-void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& roles, const std::string& output) {
+void add_output(Diagram& diagram, const StarterRecordings& recordings, const StarterRoles& roles,
+                const std::string& output) {
+  const CsvTable& table = *recordings.front().table;
   const CsvColumn& y = *table.find(output);
   const bool alone = roles.outputs.size() == 1;
   const bool single = alone && roles.inputs.size() == 1;
-  const std::string name = diagram_name(output);
+  const std::string name = roles.name_of(output);
   const std::string of_output = alone ? "" : "_" + name;
-  const auto line = straight_line(table, roles, y);
+  const auto line = straight_line(recordings, roles, output);
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < roles.inputs.size(); ++k) {
-    const std::string input = diagram_name(roles.inputs[k]);
+    const std::string input = roles.name_of(roles.inputs[k]);
     const std::string gain = single ? "gain" : "gain" + of_output + "_" + input;
     const std::string unit = quotient(difference_unit(y), difference_unit(*table.find(roles.inputs[k])));
     diagram.parameters[gain] = free_parameter(in_difference_unit(y, line[k]), unit);
@@ -180,96 +137,63 @@ void add_output(Diagram& diagram, const CsvTable& table, const StarterRoles& rol
   diagram.outputs[name] = sensor_name;
 }
 
-std::string dataset_text(const CsvTable& table, const StarterRoles& roles, const std::string& csv_name,
-                         std::vector<std::string>& assumed) {
+/// The columns of a data set: how each is bound.
+std::string column_entries(const StarterRecordings& recordings, const StarterRoles& roles,
+                           std::vector<std::string>& assumed) {
   std::vector<std::string> columns;
   for (const auto& input : roles.inputs) {
-    const bool held = looks_held(*table.find(input));
+    const bool held = looks_held(*recordings.front().table->find(input));
     columns.push_back(fmt::format("{}: {{\"to\": \"{}\", \"between_samples\": \"{}\"}}", json_quoted(input),
-                                  diagram_name(input), held ? "hold" : "linear"));
+                                  roles.name_of(input), held ? "hold" : "linear"));
     assumed.push_back(held ? fmt::format("{} seldom changes: held between samples", input)
                            : fmt::format("{} moves along a straight line between samples", input));
   }
   for (const auto& output : roles.outputs)
-    columns.push_back(fmt::format("{}: {{\"to\": \"{}\"}}", json_quoted(output), diagram_name(output)));
-  const auto& t = table.find(roles.time)->values;
-  const double cut = t.front() + train_share * (t.back() - t.front());
-  const auto first = std::upper_bound(t.begin(), t.end(), cut);
-  const double edge =
-      first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
-  const std::string unit = unit_text(table.find(roles.time)->unit);
-  const std::string at =
-      fmt::format("{:.9g} {}", edge - t.front(), unit.empty() ? "s" : unit);  // counted from the first row
-  assumed.push_back(fmt::format("the first 60 % of the time ({}) train, the rest validates", at));
+    columns.push_back(fmt::format("{}: {{\"to\": \"{}\"}}", json_quoted(output), roles.name_of(output)));
+  return fmt::format("{}", fmt::join(columns, ",\n              "));
+}
+
+/// Its recordings: a single one is cut in time, of several the last one validates.
+std::string recording_entries(const StarterRecordings& recordings, std::vector<std::string>& assumed) {
+  std::vector<std::string> entries;
+  if (recordings.size() > 1) {
+    for (const auto& recording : recordings)
+      entries.push_back(fmt::format("{{\"file\": {}, \"role\": \"{}\"}}", json_quoted(recording.file),
+                                    &recording == &recordings.back() ? "validate" : "train"));
+    assumed.push_back(fmt::format("{} validates, the other recording{} train{}", recordings.back().file,
+                                  recordings.size() > 2 ? "s" : "", recordings.size() > 2 ? "" : "s"));
+  } else {
+    const CsvColumn& time = *recordings.front().table->find("t");
+    const auto& t = time.values;
+    const double cut = t.front() + train_share * (t.back() - t.front());
+    const auto first = std::upper_bound(t.begin(), t.end(), cut);
+    const double edge =
+        first == t.end() ? cut : 0.5 * (*(first - 1) + *first);  // between two rows: no row is in both parts
+    const std::string unit = unit_text(time.unit);
+    const std::string at =
+        fmt::format("{:.9g} {}", edge - t.front(), unit.empty() ? "s" : unit);  // counted from the first row
+    assumed.push_back(fmt::format("the first 60 % of the time ({}) train, the rest validates", at));
+    const std::string file = json_quoted(recordings.front().file);
+    entries.push_back(fmt::format("{{\"file\": {}, \"role\": \"train\", \"until\": \"{}\"}}", file, at));
+    entries.push_back(fmt::format("{{\"file\": {}, \"role\": \"validate\", \"skip\": \"{}\"}}", file, at));
+  }
+  return fmt::format("{}", fmt::join(entries, ",\n    "));
+}
+
+std::string dataset_text(const StarterRecordings& recordings, const StarterRoles& roles,
+                         std::vector<std::string>& assumed) {
+  const std::string columns = column_entries(recordings, roles, assumed);
   return fmt::format(
-      "{{\n  \"format\": 1,\n  \"title\": {0},\n  \"columns\": {{{1}}},\n  \"recordings\": [\n"
-      "    {{\"file\": {0}, \"role\": \"train\", \"until\": \"{2}\"}},\n"
-      "    {{\"file\": {0}, \"role\": \"validate\", \"skip\": \"{2}\"}}\n  ]\n}}\n",
-      json_quoted(csv_name), fmt::join(columns, ",\n              "), at);
+      "{{\n  \"format\": 1,\n  \"title\": {},\n  \"columns\": {{{}}},\n  \"recordings\": [\n    {}\n  ]\n}}\n",
+      json_quoted(recordings.front().file), columns, recording_entries(recordings, assumed));
 }
-
-}  // namespace
-
-std::string diagram_name(const std::string& column) {
-  std::string name;
-  for (const char c : lower_case(column)) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (plain)
-      name += c;
-    else if (!name.empty() && name.back() != '_')
-      name += '_';
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
-  if (name.empty() || !(name.front() >= 'a' && name.front() <= 'z')) name = "column_" + name;
-  return name;
-}
-
-StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<std::string>& assumed) {
-  check_columns(table, given.inputs, "--input");
-  check_columns(table, given.outputs, "--output");
-  const Dimension second = parse_unit("s").dimension;
-  const CsvColumn* time = table.find("t");
-  if (time == nullptr || !(time->unit.dimension == second))
-    fail("missing_column", table.file, "no column is the time",
-         "name one \"t [s]\" in the header line; the columns are " + names_of(table) + "." +
-             bracket_hint("t", columns_of(table)));
-  given.time = "t";
-  refuse_time(given);
-
-  std::vector<std::string> inputs, outputs, maybe;
-  for (const auto& column : table.columns) {
-    if (column.name == given.time) continue;
-    const Guess guess = guess_of(column);
-    if (guess == Guess::input) inputs.push_back(column.name);
-    if (guess == Guess::output) outputs.push_back(column.name);
-    if (guess == Guess::maybe_output) maybe.push_back(column.name);
-  }
-  if (outputs.empty()) outputs = maybe;
-  if (given.inputs.empty() && !inputs.empty())
-    assumed.push_back(fmt::format("inputs, by their names: {}", fmt::join(inputs, ", ")));
-  if (given.outputs.empty() && !outputs.empty())
-    assumed.push_back(fmt::format("measured outputs, by their names: {}", fmt::join(outputs, ", ")));
-  if (given.inputs.empty()) given.inputs = inputs;
-  if (given.outputs.empty()) given.outputs = outputs;
-  if (given.inputs.empty() || given.outputs.empty())
-    fail("unclear_columns", table.file,
-         fmt::format("nothing tells which column is the {}", given.inputs.empty() ? "input" : "measured output"),
-         fmt::format("say so with --input NAME and --output NAME; the columns are {}", names_of(table)));
-  for (const auto& name : given.inputs)
-    if (std::find(given.outputs.begin(), given.outputs.end(), name) != given.outputs.end())
-      fail("bad_command_line", "--output", fmt::format("column \"{}\" cannot be input and output", name),
-           "give each column one role");
-  return given;
-}
-
-namespace {
 
 /// Two columns that differ only by case or by signs would get one name in the diagram.
 void check_names(const CsvTable& table, const StarterRoles& roles) {
   std::vector<std::string> names;
   for (const auto* list : {&roles.inputs, &roles.outputs})
     for (const auto& column : *list) {
-      const std::string name = diagram_name(column);
+      const std::string name = roles.name_of(column);
       if (std::find(names.begin(), names.end(), name) != names.end())
         fail("unclear_columns", table.file, fmt::format("two columns would both be called \"{}\" in the diagram", name),
              "rename one of them in the header line, or choose with --input NAME and --output NAME");
@@ -277,28 +201,61 @@ void check_names(const CsvTable& table, const StarterRoles& roles) {
     }
 }
 
+/// Every recording has the columns of the first, in units that fit.
+void check_alike(const StarterRecordings& recordings, const StarterRoles& roles) {
+  const CsvTable& first = *recordings.front().table;
+  std::vector<std::string> wanted{"t"};
+  wanted.insert(wanted.end(), roles.inputs.begin(), roles.inputs.end());
+  wanted.insert(wanted.end(), roles.outputs.begin(), roles.outputs.end());
+  for (const auto& recording : recordings) {
+    check_times(*recording.table);
+    std::vector<std::string> known;
+    for (const auto& column : recording.table->columns) known.push_back(column.name);
+    for (const auto& name : wanted) {
+      const CsvColumn* column = recording.table->find(name);
+      if (column == nullptr)
+        fail("missing_column", recording.table->file,
+             fmt::format("{} has no column \"{}\", which {} has", recording.file, name, recordings.front().file),
+             did_you_mean(name, known));
+      const Unit &here = column->unit, &there = first.find(name)->unit;
+      if (!(here.dimension == there.dimension))
+        fail("wrong_unit", name,
+             fmt::format("{} is in [{}] in {} and in [{}] in {}", name, unit_text(here), recording.file,
+                         unit_text(there), recordings.front().file),
+             fmt::format("say which it is: --unit {}={}", name, unit_text(there)));
+      if (here.scale != there.scale || here.offset != there.offset)
+        fail("wrong_unit", name,
+             fmt::format("{} is in [{}] in {} and in [{}] in {}: a starter needs one unit", name, unit_text(here),
+                         recording.file, unit_text(there), recordings.front().file),
+             "make a starter from those of one unit, and list the others in its dataset.json");
+    }
+    if (recording.table->rows() < 3)
+      fail("too_few_rows", recording.table->file,
+           fmt::format("{} cannot show a straight line", count_text(static_cast<long>(recording.table->rows()), "row")),
+           "record at least three rows");
+  }
+}
+
 }  // namespace
 
-Starter make_starter(const CsvTable& table, const StarterRoles& given, const std::string& csv_name) {
+Starter make_starter(const StarterRecordings& recordings, const StarterRoles& given) {
   Starter starter;
+  const CsvTable& table = *recordings.front().table;
   const StarterRoles roles = guess_roles(table, given, starter.assumed);
   check_names(table, roles);
-  if (table.rows() < 3)
-    fail("too_few_rows", table.file,
-         fmt::format("{} cannot show a straight line", count_text(static_cast<long>(table.rows()), "row")),
-         "record at least three rows");
+  check_alike(recordings, roles);
   Diagram& diagram = starter.diagram;
   diagram.title = "Starter: gain and offset";
-  diagram.source = "a straight line through " + csv_name;
-  for (const auto& input : roles.inputs) diagram.inputs[diagram_name(input)].unit = unit_text(table.find(input)->unit);
-  for (const auto& output : roles.outputs) add_output(diagram, table, roles, output);
+  diagram.source = "a straight line through " + recordings.front().file;
+  for (const auto& input : roles.inputs) diagram.inputs[roles.name_of(input)].unit = unit_text(table.find(input)->unit);
+  for (const auto& output : roles.outputs) add_output(diagram, recordings, roles, output);
   for (const auto& [name, signal] : diagram.outputs) diagram.record.push_back(signal);
   for (const auto& input : roles.inputs) {
     const auto& u = table.find(input)->values;
     if (std::all_of(u.begin(), u.end(), [&](double value) { return value == u.front(); }))
       starter.assumed.push_back(fmt::format("{} never moves: its gain cannot be told from the offset", input));
   }
-  starter.dataset_text = dataset_text(table, roles, csv_name, starter.assumed);
+  starter.dataset_text = dataset_text(recordings, roles, starter.assumed);
   std::vector<std::string> side;
   for (const auto& column : table.columns)
     if (column.name != roles.time &&

@@ -1,20 +1,22 @@
-// Decides what a starter diagram and data set look like for the columns of one recording, and says what it assumed.
+// Decides what a starter diagram and data set look like for the columns of recordings, and says what it assumed.
 // Does not read or write files.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "app/verbs/column_roles.h"
 #include "engine/diagram/diagram.h"
 #include "io/data/csv.h"
 
 namespace hysteron {
 
-/// Columns by name; empty lists = guess from names and units.
-struct StarterRoles {
-  std::string time;
-  std::vector<std::string> inputs, outputs;
+/// A recording and the name under which its file will lie beside the data set.
+struct StarterRecording {
+  const CsvTable* table = nullptr;
+  std::string file;
 };
+using StarterRecordings = std::vector<StarterRecording>;
 
 struct Starter {
   Diagram diagram;                   ///< gain and offset per output, from a straight line through the rows
@@ -22,13 +24,7 @@ struct Starter {
   std::vector<std::string> assumed;  ///< everything that was guessed, for the user
 };
 
-/// A column's name as a diagram may write it: [a-z][a-z0-9_]*.
-std::string diagram_name(const std::string& column);
-
-/// Which columns are time, inputs and outputs. Throws Error "unclear_columns" where nothing tells, "missing_column".
-StarterRoles guess_roles(const CsvTable& table, StarterRoles given, std::vector<std::string>& assumed);
-
-/// The starter for `table`, whose file will lie beside the data set under `csv_name`.
-Starter make_starter(const CsvTable& table, const StarterRoles& given, const std::string& csv_name);
+/// The starter for recordings with the same columns, their roles guessed in the first one.
+Starter make_starter(const StarterRecordings& recordings, const StarterRoles& given);
 
 }  // namespace hysteron

@@ -12,6 +12,8 @@
 #include "engine/diagram/stop.h"
 #include "io/files/atomic_file.h"
 #include "io/files/encoding.h"
+#include "io/formats/file_format.h"
+#include "io/formats/heading.h"
 
 namespace hysteron {
 namespace {
@@ -118,11 +120,39 @@ bool parse_number(std::string_view text, double& value) {
   return length > 0 && length == text.size() && std::isfinite(value);
 }
 
+/// "y [um]" as name and unit; "tilt[1]" is an element of a vector, "tilt[1] [V]" one with a unit.
+struct PlainHeading {
+  std::string name, unit;
+  bool has_unit = false;
+};
+PlainHeading plain_heading(const std::string& heading) {
+  const auto open = heading.rfind('[');
+  const bool is_index = open != heading.npos && open > 0 && heading[open - 1] != ' ' && open + 2 < heading.size() &&
+                        heading.find_first_not_of("0123456789", open + 1) == heading.size() - 1;
+  if (open == heading.npos || heading.back() != ']' || is_index) return {std::string(trimmed(heading)), "", false};
+  const std::string_view text = heading;
+  return {std::string(trimmed(text.substr(0, open))),
+          std::string(trimmed(text.substr(open + 1, text.size() - open - 2))), true};
+}
+
+/// A file that holds no text is named as what it is.
+void refuse_binary(const std::string& file, std::string_view text) {
+  const auto begin = text.substr(0, 8192);
+  if (begin.find('\0') == begin.npos) return;
+  const KnownFile known = known_file(begin, file);
+  throw Error(
+      Fault::input,
+      {{"unknown_file_type", file,
+        known.what.empty() ? "this is no text" : fmt::format("this is {}, and no CSV", known.what),
+        known.cure.empty() ? "export the columns as CSV with a header t [s],u [V],y [um]" : known.cure, file, 0}});
+}
+
 class Reader {
  public:
   explicit Reader(const std::string& file) : text_(read_file(file)), records_(text_) {
     table_.file = file;
     refuse_utf16(file, text_);
+    refuse_binary(file, text_);
   }
 
   CsvTable read() {
@@ -161,12 +191,8 @@ class Reader {
 
   void column(const std::string& heading) {
     CsvColumn column;
-    const auto open = heading.rfind('[');
-    // "tilt[1]" is an element of a vector, "tilt[1] [V]" one with a unit.
-    const bool is_index = open != heading.npos && open > 0 && heading[open - 1] != ' ' && open + 2 < heading.size() &&
-                          heading.find_first_not_of("0123456789", open + 1) == heading.size() - 1;
-    const bool has_unit = open != heading.npos && heading.back() == ']' && !is_index;
-    column.name = trimmed(std::string_view(heading).substr(0, has_unit ? open : heading.npos));
+    const PlainHeading read = plain_heading(heading);
+    column.name = read.name;
     if (column.name.empty()) {
       const bool other_separator = heading.find_first_of(";\t") != heading.npos;
       add("no_header", line_of_header_, table_.file, fmt::format("column {} has no name", table_.columns.size() + 1),
@@ -180,9 +206,7 @@ class Reader {
           "separate columns by commas (and write decimals with a point)");
     }
     try {
-      if (has_unit)
-        column.unit =
-            parse_unit(trimmed(std::string_view(heading).substr(open + 1, heading.size() - open - 2)), column.name);
+      if (read.has_unit) column.unit = parse_unit(read.unit, column.name);
     } catch (const Error& error) {
       for (const auto& p : error.problems) add(p.code, line_of_header_, column.name, p.what, p.cure);
     }
@@ -238,16 +262,38 @@ const CsvColumn* CsvTable::find(const std::string& name) const {
   return nullptr;
 }
 
+bool has_plain_header(std::string_view text) {
+  Records records(text);
+  std::vector<Field> fields;
+  int line = 0;
+  if (!records.next(fields, line)) return false;
+  bool has_time = false;
+  std::unordered_set<std::string> names;
+  for (const auto& field : fields) {
+    const PlainHeading heading = plain_heading(unquoted(field));
+    if (heading.name.empty() || heading.name.find_first_of(";\t") != heading.name.npos) return false;
+    if (!names.insert(heading.name).second) return false;
+    try {
+      const Unit unit = heading.has_unit ? parse_unit(heading.unit) : Unit{};
+      has_time = has_time || (heading.name == "t" && unit.dimension == parse_unit("s").dimension);
+    } catch (const Error&) {
+      return false;
+    }
+    if (!heading.has_unit && !heading_of(heading.name).unit.empty()) return false;  // "y (um)"
+  }
+  return has_time;
+}
+
 CsvTable read_csv(const std::string& file) { return Reader(file).read(); }
 
-void write_csv(const std::string& file, const CsvTable& table, const std::vector<std::string>& comments) {
+std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments) {
   fmt::memory_buffer out;
   for (const auto& comment : comments) fmt::format_to(std::back_inserter(out), "# {}\n", comment);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto& column = table.columns[i];
     if (column.values.size() != table.rows())
       fail(
-          "row_length", file,
+          "row_length", table.file,
           fmt::format("column \"{}\" has {} values, the first has {}", column.name, column.values.size(), table.rows()),
           "give every column one value per row");
     fmt::format_to(std::back_inserter(out), "{}{}", i > 0 ? "," : "", heading_text(column));
@@ -262,7 +308,11 @@ void write_csv(const std::string& file, const CsvTable& table, const std::vector
     }
     out.push_back('\n');
   }
-  write_file(file, {out.data(), out.size()});
+  return {out.data(), out.size()};
+}
+
+void write_csv(const std::string& file, const CsvTable& table, const std::vector<std::string>& comments) {
+  write_file(file, csv_text(table, comments));
 }
 
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/diagram/units.h"
@@ -25,6 +26,13 @@ struct CsvTable {
 /// Reads a CSV. Throws Error naming file, line and column: "no_file", "is_directory", "empty_file", "no_header",
 /// "bad_number" (text, NaN, infinity or an empty cell), "row_length", "duplicate_column", "bad_unit".
 CsvTable read_csv(const std::string& file);
+
+/// Whether the text begins with the header of such a file that holds a recording: names apart by commas, units in
+/// square brackets that are known, and a column t in a unit of time.
+bool has_plain_header(std::string_view text);
+
+/// The text of a CSV. Throws Error "row_length"; Stopped (engine/diagram/stop.h).
+std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments = {});
 
 /// Writes a CSV, whole or not at all (temporary file, then rename; a device such as /dev/full fails with
 /// "cannot_write"). Ends early where work is asked to stop (engine/diagram/stop.h).

@@ -1,6 +1,7 @@
 // Decides how a data set file, or a single CSV, becomes a DataSet: columns bound by name, roles, what is
 // judged. Does not know the diagram: dataset_bind.cpp compares both.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@
 #include "io/data/same_rows.h"
 #include "io/files/atomic_file.h"
 #include "io/files/project_path.h"
+#include "io/formats/file_format.h"
+#include "io/formats/instrument_unit.h"
 #include "io/json/json_reader.h"
 #include "io/json/quantity.h"
 #include "io/json/value_text.h"
@@ -58,6 +61,10 @@ std::string unique_name(const std::string& file, const std::vector<Recording>& b
   return name;
 }
 
+std::string how_it_was_read(const std::string& file, const std::vector<std::string>& assumed) {
+  return fmt::format("{} was read so: {}.", file, fmt::join(assumed, "; "));
+}
+
 /// One recording only: its first 60 % train, the rest validates, and the user is told.
 void cut_single(DataSet& data) {
   data.single = true;
@@ -66,8 +73,9 @@ void cut_single(DataSet& data) {
 
 class DataSetReader {
  public:
-  DataSetReader(const std::string& file, const std::vector<std::string>& allowed)
-      : file_(file), paths_(file, allowed) {}
+  DataSetReader(const std::string& file, const std::vector<std::string>& allowed) : file_(file), paths_(file, allowed) {
+    choices_.units_may_miss = true;
+  }
 
   DataSet read() {
     const JsonPlace root = file_.root();
@@ -94,12 +102,13 @@ class DataSetReader {
  private:
   void column(const std::string& name, const JsonPlace& place) {
     if (!place.expect_object("{\"to\": \"y\", \"noise\": \"2 nm\"}")) return;
-    place.only({"to", "between_samples", "noise", "zero", "delay", "optional", "remark"});
+    place.only({"to", "unit", "between_samples", "noise", "zero", "delay", "optional", "remark"});
     text_member(place, "remark");
     Noted noted{name, place, {}};
     noted.note.to = place.find("to") ? text_member(place, "to") : name;
     if (name == "t" || noted.note.to == "t")
       return place.add("bad_value", "t is the time and cannot be bound", "take this entry out");
+    if (const auto unit = place.find("unit")) read_unit(name, *unit);
     if (const auto choice = one_of(place, "between_samples", {"linear", "hold", "smooth"}))
       noted.note.between = between_of(*choice);
     if (const auto choice = one_of(place, "zero", {"shared", "per_recording"}))
@@ -111,6 +120,19 @@ class DataSetReader {
                        "bind one of them to another name");
     data_.notes[noted.note.to] = noted.note;
     noted_.push_back(std::move(noted));
+  }
+
+  /// What stands in the file in its place; known before the files are read.
+  void read_unit(const std::string& column, const JsonPlace& place) {
+    const auto text = place.text();
+    if (!text) return;
+    const InstrumentUnit unit = instrument_unit(*text, column);
+    if (unit.answer == UnitAnswer::known)
+      choices_.units[column] = *text;
+    else
+      place.add(
+          "bad_unit", unit.note.empty() ? fmt::format("{} is not a unit", json_quoted(*text)) : unit.note,
+          unit.cure.empty() ? "write a unit such as \"um\", \"V\", \"rpm\", or \"1\" for a plain number" : unit.cure);
   }
 
   /// Once, however many files lack it.
@@ -261,7 +283,9 @@ class DataSetReader {
     }
     if (const auto known = files_.find(*path); known != files_.end()) return &known->second;
     try {
-      return &files_.emplace(*path, read_recording_file(*path, fewest_rows)).first->second;
+      const auto& read = files_.emplace(*path, read_measured_recording(*path, fewest_rows, choices_)).first->second;
+      if (!read.assumed.empty()) data_.remarks.push_back(how_it_was_read(written, read.assumed));
+      return &read;
     } catch (const Error& error) {
       if (error.problems.front().file.empty())
         place.add(error.problems.front().code, error.problems.front().what, error.problems.front().cure);
@@ -347,10 +371,11 @@ class DataSetReader {
   std::vector<Noted> noted_;
   std::vector<std::string> bound_by_name_;
   std::map<std::string, RecordingFile> files_;
+  ReadingChoices choices_;
 };
 
 DataSet from_single_file(const std::string& file) {
-  RecordingFile content = read_recording_file(file, fewest_rows);
+  RecordingFile content = read_measured_recording(file, fewest_rows, {});
   DataSet data;
   data.file = file;
   data.title = std::filesystem::path(file).filename().string();
@@ -363,13 +388,14 @@ DataSet from_single_file(const std::string& file) {
   recording.units = std::move(content.units);
   for (const auto& name : content.names) data.notes[name].to = name;
   data.recordings.push_back(std::move(recording));
+  if (!content.assumed.empty()) data.remarks.push_back(how_it_was_read(data.title, content.assumed));
   cut_single(data);
   return data;
 }
 
 bool is_json(const std::string& file) {
   if (std::filesystem::path(file).extension() == ".json") return true;
-  if (is_binary_table(file)) return false;  // which begins with a line of JSON
+  if (is_binary_table(file) || !is_text_file(file)) return false;  // the first begins with a line of JSON
   const std::string text = read_file(file);
   const auto begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   return begin != text.npos && text[begin] == '{';

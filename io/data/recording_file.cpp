@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "engine/diagram/error.h"
 #include "engine/program/breakpoints.h"
+#include "io/data/measured_file.h"
 #include "io/data/table_file.h"
 #include "io/json/value_text.h"
 
@@ -15,6 +15,7 @@ namespace hysteron {
 namespace {
 
 constexpr double largest_measured = 1e100;  // squares and sums of squares stay numbers
+constexpr double rounded_share = 0.1;       // of the rows that repeat a time: no slip, the clock was rounded
 constexpr double shortest_spacing = 1e-18;  // [s] no instrument samples so fast; rates between rows stay numbers
 
 [[noreturn]] void fail_in(const std::string& file, int line, std::string code, std::string path, std::string what,
@@ -38,7 +39,27 @@ const CsvColumn& time_column(const CsvTable& table) {
   return *time;
 }
 
-void check_times(const CsvTable& table, const CsvColumn& time) {
+/// Times that never go back, and stand still where they should not have been rounded.
+void refuse_rounded_times(const CsvTable& table, const CsvColumn& time) {
+  const auto& t = time.values;
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if (t[i] < t[i - 1]) return;
+    repeated += t[i] == t[i - 1] ? 1U : 0U;
+  }
+  if (repeated < 3 || static_cast<double>(repeated) < rounded_share * static_cast<double>(t.size())) return;
+  const auto first = std::adjacent_find(t.begin(), t.end());
+  const auto last = std::find_if(first, t.end(), [&](double v) { return v != *first; });
+  const auto line = [&](auto at) { return table.lines.at(static_cast<std::size_t>(at - t.begin())); };
+  fail_in(table.file, line(first), "decreasing_time", "t",
+          fmt::format("the times were written with too few digits: {} [{}] stands in lines {} to {}",
+                      number_text(*first), time.unit.text, line(first), line(last - 1)),
+          "export them with more digits, or give the sample interval of the instrument: hysteron new --from FILE "
+          "--interval \"...\" -o FOLDER");
+}
+
+void check_order(const CsvTable& table, const CsvColumn& time) {
+  refuse_rounded_times(table, time);
   std::vector<Problem> problems;
   for (std::size_t i = 1; i < time.values.size() && problems.size() < 20; ++i)
     if (!(time.values[i] > time.values[i - 1]))
@@ -92,21 +113,21 @@ void check_sizes(const CsvTable& table) {
   if (!problems.empty()) throw Error(Fault::input, problems);
 }
 
-RecordingFile read_recording_file(const std::string& file, std::size_t fewest_rows) {
-  if (std::filesystem::path(file).extension() == ".mat")
-    fail_in(file, 0, "unknown_file_type", file, "MAT files are not read yet",
-            "export the columns as CSV with a header t [s],u [V],y [um]");
-  const CsvTable table = read_table(file);
+void check_times(const CsvTable& table) { check_order(table, time_column(table)); }
+
+namespace {
+
+RecordingFile recording_of(const CsvTable& table, std::size_t fewest_rows) {
   check_sizes(table);
   const CsvColumn& time = time_column(table);
-  check_times(table, time);
+  check_order(table, time);
   if (table.rows() < fewest_rows)
-    fail_in(file, table.lines.back(), "too_few_rows", file,
+    fail_in(table.file, table.lines.empty() ? 0 : table.lines.back(), "too_few_rows", table.file,
             fmt::format("there {} {}, at least {} are needed", table.rows() == 1 ? "is" : "are",
                         rows_text(table.rows()), fewest_rows),
             "record longer, or name another file");
   RecordingFile recording;
-  recording.file = file;
+  recording.file = table.file;
   for (const auto& column : table.columns) {
     std::vector<double> si;
     si.reserve(column.values.size());
@@ -119,6 +140,20 @@ RecordingFile read_recording_file(const std::string& file, std::size_t fewest_ro
     recording.units[column.name] = column.unit;
     recording.columns[column.name] = std::move(si);
   }
+  return recording;
+}
+
+}  // namespace
+
+RecordingFile read_recording_file(const std::string& file, std::size_t fewest_rows) {
+  return recording_of(read_table(file), fewest_rows);
+}
+
+RecordingFile read_measured_recording(const std::string& file, std::size_t fewest_rows, const ReadingChoices& choices) {
+  const MeasuredFile read = read_measured_file(file, choices);
+  RecordingFile recording = recording_of(read.table, fewest_rows);
+  recording.file = file;
+  recording.assumed = read.assumed;
   return recording;
 }
 

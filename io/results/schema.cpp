@@ -16,6 +16,7 @@ Json column() {
       "how a column is meant",
       {{"to",
         text("input or output of the diagram, or the name under which effects find the column; default: its own name")},
+       {"unit", text("the unit of its numbers, whatever its header says: um, rpm, or 1 for plain numbers")},
        {"between_samples", choice_of("how it moves between samples; default linear", {"linear", "hold", "smooth"})},
        {"noise",
         {{"description", "rms of white noise, or white, resolution and one_over_f"},
@@ -35,7 +36,7 @@ Json recording() {
   weight["exclusiveMinimum"] = 0;
   return object(
       "one measured file, or a part of it",
-      {{"file", text("CSV with a header such as t [s],u [V],y [um]")},
+      {{"file", text("CSV with a header such as t [s],u [V],y [um], or a file of an instrument (docs/recordings.md)")},
        {"role", choice_of("train fits, validate judges and chooses, test is read once, at the end",
                           {"train", "validate", "test"})},
        {"start", quantity("when it began [h], for ageing and drift", false)},

@@ -37,7 +37,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"blocks",
      {"sources", "math", "logic", "vectors", "linear", "continuous", "hysteresis", "compensators", "mechanics",
       "electrical", "sampled", "temperature", "disturbances", "measurement", ""}},
-    {"io", {"files", "json", "data", "diagram", "jobs", "results"}},
+    {"io", {"files", "json", "formats", "data", "diagram", "jobs", "results"}},
     {"fit", {"numerics", "signals", "model", "estimate", "inspect", "compare", "study", "thesis"}},
     {"discover",
      {"wiring", "hypotheses", "effects", "placement", "demonstration", "experiment", "models", "structure", "search",

@@ -200,7 +200,7 @@ std::vector<Case> cases() {
        "a.csv",
        "u [V],y [um]\n0,0\n1,1\n2,0\n3,1\n",
        "missing_column",
-       "a.csv",
+       "t",
        "t [s]"},
       {"NewWithUnclearColumns",
        {"new", "--from", "a.csv", "-o", "made"},

@@ -324,7 +324,12 @@ TEST(WordsOfBadFiles, NameTheCureOfCommonMistakes) {
   says(told_of("d.json", "{\"format\": 1,\n# why\n\"blocks\": {}}", diagram), "JSON knows no comments");
   says(told_of("d.json", R"({"format": 1, "blocks": {"a": {"type": "lag", "times": ["$tau"]}}})", diagram),
        "in place of the whole list");
-  says(told_of("x.csv", "t (ms),u\n0,1\n1,2\n2,3\n", data), "square brackets: t [ms]");
+  says(told_of("d.json", R"({"format": 1, "blocks": {"a": {"type": "recorded", "file": "x.csv", "column": "u"}}})",
+               [&](const std::string& file) {
+                 std::ofstream(std::filesystem::path(file).parent_path() / "x.csv") << "t (ms),u\n0,1\n1,2\n2,3\n";
+                 diagram(file);
+               }),
+       "square brackets: t [ms]");
   says(told_of("x.csv", "t [s],u\n0,1\n", data), "there is 1 row,");
   says(told_of("x.csv", "t [s],u\n0,1\n1,2\n", data), "there are 2 rows,");
 }
@@ -370,7 +375,8 @@ TEST_P(BadDataSet, IsToldWithCodePlaceLineAndCure) {
   folder.write("p/still.csv", "t [s],u [V],y [um]\n0,1,2\n0,2,3\n1,3,4\n");
   folder.write("p/short.csv", "t [s],u [V],y [um]\n0,1,2\n1,2,3\n");
   folder.write("p/text.csv", "t [s],u [V],y [um]\n0,1,2\n1,oops,3\n2,2,2\n");
-  folder.write("p/timeless.csv", "time [s],u [V],y [um]\n0,1,2\n1,2,3\n2,3,4\n");
+  folder.write("p/timeless.csv", "p [Pa],u [V],y [um]\n0,1,2\n1,2,3\n2,3,4\n");
+  folder.write("p/x.mat", std::string("MATLAB 4.9", 10) + std::string(200, '\0'));
   folder.write("p/volts.csv", "t [V],u [V],y [um]\n0,1,2\n1,2,3\n2,3,4\n");
   const std::string file = folder.write("p/data.json", GetParam().content);
   expect_problem(GetParam(), file, [&] { read_dataset(file); });

@@ -1,6 +1,7 @@
 // Files damaged at random: read or refused with a cure, never a crash, never another exception.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <random>
 
@@ -8,9 +9,11 @@
 #include "io/data/binary_table.h"
 #include "io/data/csv.h"
 #include "io/data/dataset.h"
+#include "io/data/recording_file.h"
 #include "io/diagram/diagram_file.h"
 #include "io/jobs/claims_file.h"
 #include "io/jobs/runs_job.h"
+#include "tests/io/formats/instrument_files.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -101,6 +104,29 @@ TEST(DamagedFiles, DataSetsAreReadOrRefused) {
 }
 TEST(DamagedFiles, RecordingsAreReadOrRefused) {
   EXPECT_GT(refusals(csv, "x.csv", [](const std::string& file) { read_dataset(file); }), 100);
+}
+/// Files of instruments: nearly any damage leaves a table that can be read, and none may end the program.
+void damage_instruments(int times, unsigned seed) {
+  const TemporaryFolder folder;
+  std::mt19937 random(seed);
+  for (int i = 0; i < times; ++i)
+    for (const auto& file : instruments::all_files()) {
+      const std::string bytes = damaged(file.bytes, random);
+      try {
+        read_measured_recording(folder.write(file.name, bytes), 1, {});
+      } catch (const Error& error) {
+        EXPECT_FALSE(error.problems.empty());
+        for (const auto& p : error.problems) EXPECT_FALSE(p.code.empty() || p.what.empty() || p.cure.empty()) << bytes;
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << file.name << ": " << error.what();
+      }
+    }
+}
+TEST(DamagedFiles, FilesOfInstrumentsAreReadOrRefused) { damage_instruments(80, 20260504); }
+// Ten minutes of it under sanitizers: scripts/test --all.
+TEST(LongDamagedFiles, FilesOfInstrumentsAreReadOrRefused) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
+  for (unsigned seed = 1; std::chrono::steady_clock::now() < end; ++seed) damage_instruments(1, seed);
 }
 TEST(DamagedFiles, BinaryTablesAreReadOrRefused) {
   const TemporaryFolder folder;

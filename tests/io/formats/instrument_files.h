@@ -1,0 +1,32 @@
+// Decides which files stand for the instruments of a laboratory: written from their published layouts, with samples of
+// a closed form, so that tests know every number. Does not read them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hysteron::instruments {
+
+inline constexpr int rows = 40;
+inline constexpr double interval = 1e-3;  // [s]
+
+/// Samples of all files: a sine, and twice the sine with an offset.
+double drive(int row);     ///< [V]
+double response(int row);  ///< [V]
+
+struct InstrumentFile {
+  std::string name;                    ///< of the file
+  std::string bytes;                   ///< of the file
+  std::string drive, response;         ///< names of the columns as they come out
+  std::string unit;                    ///< of both columns; "" = the file has none
+  double start = 0;                    ///< [s] the time of the first row
+  double half_digit = 1e-5;            ///< what rounding took: half of the last digit that is written
+  std::vector<std::string> assumed{};  ///< facts that the reader must say
+};
+
+std::vector<InstrumentFile> text_files();
+
+/// Of every format.
+std::vector<InstrumentFile> all_files();
+
+}  // namespace hysteron::instruments
