@@ -42,9 +42,7 @@ void Lookup::describe(Declaration& d) {
 /// The value is affine in the values of a straight table only.
 Declaration Lookup::instance(const Declaration& type, const Node& block) {
   Declaration d = type;
-  const Value* given = block.parameters.find("between");
-  if (given == nullptr) given = block.parameters_from_file.find("between");
-  if (given == nullptr || written_text(*given) == "linear") d.parameters[values].linear();
+  if (written_text(block, "between").value_or("linear") == "linear") d.parameters[values].linear();
   return d;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "engine/block/block.h"
+#include "engine/block/instance.h"
 #include "models/math/akima.h"
 #include "models/sources/signals.h"
 
@@ -16,6 +17,7 @@ struct TimeTable {
   enum Between { linear, hold, akima };
 
   static void describe(Declaration& d);
+  static Declaration instance(const Declaration& type, const Node& block);
   static Sizes sizes(const Shape& shape);
 
   /// Which round the table makes at `time`, the first being 0; and the piece of it: -1 before the first point.

@@ -28,4 +28,10 @@ std::optional<std::string> written_text(const Value& value) {
   return std::nullopt;
 }
 
+std::optional<std::string> written_text(const Node& block, const std::string& parameter) {
+  const Value* value = block.parameters.find(parameter);
+  if (value == nullptr) value = block.parameters_from_file.find(parameter);
+  return value == nullptr ? std::nullopt : written_text(*value);
+}
+
 }  // namespace hysteron

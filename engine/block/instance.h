@@ -23,6 +23,9 @@ KernelPointer kernel_of(const Registry& registry, const Node& block);
 /// A value as a text, also where it looked like a number ("2", "2/u"). Nothing for lists, matrices, references.
 std::optional<std::string> written_text(const Value& value);
 
+/// The text that a block has for a parameter, at its place or in its parameter file. Nothing where it has none.
+std::optional<std::string> written_text(const Node& block, const std::string& parameter);
+
 /// Units inside one block: what is known before, and after Kernel::units also what follows. Absent: not known (zero
 /// without a unit fits any).
 struct InstanceUnits {
