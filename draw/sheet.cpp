@@ -43,6 +43,12 @@ class Maker {
       sheet.items.back().out_lengths = {length_of_path(prefix + name)};
       sheet.items.back().out_units = {with_length(input.unit, sheet.items.back().out_lengths[0])};
     }
+    for (const auto& [name, signal] : around.node == nullptr ? Signals{} : switching_wires(*around.node)) {
+      sheet.items.push_back(port(prefix + name, name, "input", "read from outside: " + signal));
+      sheet.items.back().out = {"y"};
+      sheet.items.back().out_lengths = {1};
+      sheet.items.back().out_units = {""};
+    }
     const auto reached = reached_inside(diagram, outputs);
     for (const auto& [name, node] : diagram.blocks) {
       at[name] = static_cast<int>(sheet.items.size());
@@ -60,6 +66,8 @@ class Maker {
   }
 
  private:
+  using Signals = std::vector<std::pair<std::string, std::string>>;  ///< port, what is wired to it
+
   static Item port(const std::string& path, const std::string& name, const std::string& type, const std::string& tip) {
     Item port;
     port.path = path;
@@ -73,6 +81,26 @@ class Maker {
     return port;
   }
 
+  /// What enables and triggers a nested diagram, as ports behind its inputs.
+  static Signals switching_wires(const Node& body) {
+    Signals list;
+    if (body.runs && !body.runs->enable.empty()) list.emplace_back("enable", body.runs->enable);
+    if (body.runs && !body.runs->trigger.empty()) list.emplace_back("trigger", body.runs->trigger);
+    return list;
+  }
+
+  /// What the picture cannot show of them.
+  static std::string switching_tip(const RunsWhen& runs) {
+    std::string tip;
+    if (!runs.enable.empty())
+      tip += fmt::format("\nruns while {} is true; else its outputs {}, and its states {}", runs.enable,
+                         runs.zeroes_outputs ? "are zero" : "stay", runs.resets_states ? "begin anew" : "stay");
+    if (!runs.trigger.empty())
+      tip += fmt::format("\nruns once at each {} of {}", runs.edge == "either" ? "edge" : runs.edge + " edge",
+                         runs.trigger);
+    return tip;
+  }
+
   /// Per nested diagram: the signals further inside that somebody outside reads ("play" of "stage/play").
   static std::map<std::string, std::set<std::string>> reached_inside(const Diagram& diagram,
                                                                      const Ordered<std::string>& outputs) {
@@ -83,8 +111,11 @@ class Maker {
     };
     for (const auto& [name, node] : diagram.blocks) {
       for (const auto& wire : node.in) look(wire.from);
+      for (const auto& [port, signal] : switching_wires(node)) look(signal);
       if (const Node* candidate = node.from.find(node.choose))
         for (const auto& wire : candidate->in) look(wire.from);
+      if (const Node* candidate = node.from.find(node.choose))
+        for (const auto& [port, signal] : switching_wires(*candidate)) look(signal);
     }
     for (const auto& [name, signal] : outputs) look(signal);
     return reached;
@@ -140,6 +171,7 @@ class Maker {
     const Diagram& inner = *body.nested;
     item.type = "diagram";
     item.in = inner.inputs.names();
+    for (const auto& [port, signal] : switching_wires(body)) item.in.push_back(port);
     Ordered<std::string> outputs = inner.outputs;
     for (const auto& signal : further) outputs[signal] = signal;
     item.out = outputs.names();
@@ -151,6 +183,7 @@ class Maker {
     if (item.caption.size() > lines_of_values) item.caption.resize(lines_of_values), item.caption.back() = "…";
     item.tip = fmt::format("{}: {}", item.path, inner.title.empty() ? "a diagram" : inner.title);
     if (!body.file.empty()) item.tip += "\n" + body.file;
+    if (body.runs) item.tip += switching_tip(*body.runs);
     if (depth > 0) {
       const Surroundings inside{&inner, &body, &around};
       item.inside = std::make_shared<Sheet>(make(inner, outputs, item.path + "/", inside, depth - 1));
@@ -219,6 +252,8 @@ class Maker {
         const int port = wires[i].port.empty() ? static_cast<int>(i) : index_of(names, wires[i].port);
         if (port >= 0 && port < static_cast<int>(names.size())) add_wire(sheet, at, wires[i].from, to, port, prefix);
       }
+      int port = static_cast<int>(names.size());
+      for (const auto& [name, signal] : switching_wires(body)) add_wire(sheet, at, signal, to, port++, prefix);
       return;
     }
     int port = 0;

@@ -198,7 +198,7 @@ bool Wiring::remembers(const Node* node) const {
 
 bool Wiring::is_linear(const std::string& block) const {
   const Node* node = body(block);
-  if (node == nullptr) return false;
+  if (node == nullptr || node->runs) return false;
   if (node->nested)
     return all_blocks(*node->nested, registry_, [](const Wiring& w, const std::string& b) { return w.is_linear(b); });
   const KernelPointer k = kernel_of(registry_, *node);

@@ -67,7 +67,7 @@ BlockSlopes LocalSlopes::operator()(int block) {
   const int n = b.hit_index >= 0 ? b.sizes.sampled_states : b.sizes.states, m = b.n_u, p = b.sizes.outputs;
   BlockSlopes s{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(n, m),
                 Eigen::MatrixXd::Zero(p, n), Eigen::MatrixXd::Zero(p, m)};
-  if (b.history_index >= 0) return s;
+  if (b.history_index >= 0 || is_off(program_, run_, b)) return s;
   const int columns = n + m + (b.kernel->derivative_wants_rate ? m : 0);
   for (int first = 0; first < columns; first += Jet::directions) {
     evaluate(block, first);

@@ -19,7 +19,9 @@ WiredSlopes::WiredSlopes(const Program& program, const Run& run, const Linearize
       options_(options),
       masked_(program.signals.size(), false),
       about_amplitude_(program.blocks.size(), false),
+      off_(program.blocks.size(), false),
       n_x_(program.n_x) {
+  for (std::size_t b = 0; b < off_.size(); ++b) off_[b] = is_off(program, run, program.blocks[b]);
   LocalSlopes local(program, run);
   for (const int s : options.open) masked_[at(s)] = true;
   for (std::size_t b = 0; b < program.blocks.size(); ++b) {
@@ -253,7 +255,8 @@ std::vector<int> WiredSlopes::cuts() const {
   for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
     const auto& block = program_.blocks[b];
     // A linear block of gain zero is meant so, a dead time answers later.
-    const bool may_cut = !block.kernel->declaration.is_linear && block.history_index < 0 && !about_amplitude_[b];
+    const bool may_cut =
+        off_[b] || (!block.kernel->declaration.is_linear && block.history_index < 0 && !about_amplitude_[b]);
     if (may_cut && arrives[b] && awaited[b] && slopes_[b].cuts()) list.push_back(static_cast<int>(b));
   }
   return list;

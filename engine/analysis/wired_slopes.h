@@ -72,6 +72,7 @@ class WiredSlopes {
   std::vector<Channel> channels_;
   std::vector<bool> masked_;            // per signal: its readers do not see what its block does
   std::vector<bool> about_amplitude_;   // per block
+  std::vector<bool> off_;               ///< per block: stands in a nested diagram that does not run
   std::vector<int> s_begin_, h_begin_;  // per sampled block
   int n_x_ = 0, n_s_ = 0, n_h_ = 0;
 };

@@ -2,6 +2,7 @@
 //
 // The stages, each a function that reports all its problems before the next begins:
 //   build_graph   choices, nested diagrams, names, types, values, wires
+//   check_enabled what cannot be switched off and on
 //   check_units   dimensions along the wires
 //   order_steps   loops, rates, schedule
 //   lay_out       offsets (here)
@@ -11,6 +12,7 @@
 
 #include <map>
 
+#include "engine/compile/enabled.h"
 #include "engine/compile/infinite.h"
 #include "engine/compile/loop_wishes.h"
 #include "engine/compile/order.h"
@@ -49,6 +51,11 @@ void lay_out_block(const GraphBlock& g, Program& program) {
   program.n_x += g.sizes.states;
   b.m_begin = program.n_m;
   program.n_m += b.memory_count();
+  b.enabling = g.enabling;
+  if (b.enabling >= 0) {
+    b.held_while_off = program.n_m;
+    program.n_m += g.sizes.outputs;
+  }
   b.u_begin = program.n_u;
   b.n_u = static_cast<int>(g.source.size());
   program.n_u += b.n_u;
@@ -89,6 +96,13 @@ void lay_out_block(const GraphBlock& g, Program& program) {
     program.state_initial.push_back(k < states.size() ? states[k].initial_value : 0.0);
   }
   program.blocks.push_back(std::move(b));
+}
+
+/// Which blocks are inside of what, at any depth.
+void list_enabled_blocks(Program& program) {
+  for (std::size_t b = 0; b < program.blocks.size(); ++b)
+    for (int e = program.blocks[b].enabling; e >= 0; e = program.enablings[static_cast<std::size_t>(e)].outer)
+      program.enablings[static_cast<std::size_t>(e)].inside.push_back(static_cast<int>(b));
 }
 
 /// Dimension of a parameter whose unit was not written: as declared, or plain.
@@ -249,12 +263,15 @@ ProgramPointer compile(const Diagram& diagram, const Registry& registry) {
 }
 
 ProgramPointer compile_graph(Graph graph, const Diagram& diagram) {
+  check_enabled(graph);
   check_units(graph);
   auto program = std::make_shared<Program>();
   program->kernels = graph.kernels;
   program->signals = graph.signals;
   program->n_y = static_cast<int>(graph.signals.size());
   for (const auto& block : graph.blocks) lay_out_block(block, *program);
+  program->enablings = graph.enablings;
+  list_enabled_blocks(*program);
   order_steps(graph, loop_wishes(diagram.simulate, *program), *program);
   ParameterTable(graph, *program).run();
   for (std::size_t i = 0; i < graph.inputs.size(); ++i) {

@@ -24,6 +24,7 @@ struct Entry {
   int leaf = -1;
   int scope = -1;
   std::string origin;
+  int enabled = -1, triggered = -1;  ///< of a nested diagram that does not always run: the blocks that tell
 };
 
 struct BuildScope {
@@ -31,6 +32,14 @@ struct BuildScope {
   std::map<std::string, Entry> entries;
   std::vector<std::string> order;
   std::string origin;  ///< JSON pointer of the node that holds it, "" at the top
+  int enabling = -1;   ///< into WiredDiagram::enablings: the innermost that it is inside of
+};
+
+/// A signal that enables or triggers, read where the nested diagram stands.
+struct EnablingWire {
+  int leaf = -1, scope = -1;
+  std::string from, place;
+  int outer = -1;  ///< the block that enables the diagram around it, if any
 };
 
 class Builder {
@@ -45,6 +54,7 @@ class Builder {
     collect(0);
     stop_if_wrong();  // names and types first: wires of unknown blocks would only repeat the message
     wire_all();
+    wire_enablings();
     name_outputs();
     find_unused();
     stop_if_wrong();
@@ -88,6 +98,7 @@ class Builder {
     BuildScope s;
     s.scope = {&diagram, prefix, parent < 0 ? nullptr : &scopes_[static_cast<std::size_t>(parent)].scope, node};
     s.origin = origin;
+    if (parent >= 0) s.enabling = scopes_[static_cast<std::size_t>(parent)].enabling;
     parents_.push_back(parent);
     scopes_.push_back(std::move(s));
     return static_cast<int>(scopes_.size()) - 1;
@@ -171,13 +182,14 @@ class Builder {
                         fmt::format("the diagram of \"{}\" has no parameter \"{}\"", name, key),
                         did_you_mean(key, body.nested->parameters.names()));
       entry.scope = add_scope(*body.nested, prefix + name + "/", index, &body, origin);
+      if (body.runs) enable(index, name, origin, entry);
       collect(entry.scope);
       return;
     }
     const Kernel* kernel = registry_.find(body.type);
-    if (kernel == nullptr || body.type == "input") {
+    if (kernel == nullptr || kernel->declaration.group == "internal") {
       auto types = registry_.types();
-      std::erase(types, "input");
+      std::erase_if(types, [&](const auto& type) { return registry_.find(type)->declaration.group == "internal"; });
       types.push_back("diagram");
       problems_.add("unknown_block", origin + "/type", fmt::format("there is no block type \"{}\"", body.type),
                     did_you_mean(body.type, types));
@@ -190,6 +202,58 @@ class Builder {
       kernel = wired_.kernels.emplace_back(std::move(own)).get();
     }
     entry.leaf = add_leaf(index, name, *kernel, body, origin);
+  }
+
+  /// A block for the signal that enables a nested diagram, and one for the signal that triggers it.
+  void enable(int index, const std::string& name, const std::string& origin, Entry& entry) {
+    const RunsWhen& runs = *entry.body->runs;
+    if (!runs.enable.empty()) {
+      entry.enabled = add_enabling(index, entry, name, "enabled", "enabled", runs.enable, origin + "/enable");
+      wired_.enablings.back().resets_states = runs.resets_states;
+      wired_.enablings.back().zeroes_outputs = runs.zeroes_outputs;
+    }
+    if (!runs.trigger.empty()) {
+      entry.triggered = add_enabling(index, entry, name, "triggered", runs.edge, runs.trigger, origin + "/trigger");
+      wired_.enablings.back().triggered = true;
+    }
+  }
+
+  int add_enabling(int index, const Entry& entry, const std::string& name, const std::string& port,
+                   const std::string& kind, const std::string& wire, const std::string& place) {
+    const Kernel* kernel = registry_.find("enabling");
+    if (kernel == nullptr) {
+      problems_.add("unknown_block", place, "the registry has no block \"enabling\"", "register it");
+      return -1;
+    }
+    Node& node = enabling_nodes_.emplace_back();
+    node.parameters["runs"].content = kind;
+    const int leaf = add_leaf(index, name + "." + port, *kernel, node, place);
+    if (leaf < 0) return -1;
+    BuildScope& inner = scopes_[static_cast<std::size_t>(entry.scope)];
+    wired_.blocks.back().enabling = -1;  // it says whether others run, and itself always does
+    const int outer = inner.enabling;
+    enabling_wires_.push_back(
+        {leaf, index, wire, place, outer < 0 ? -1 : wired_.enablings[static_cast<std::size_t>(outer)].block});
+    Enabling enabling;
+    enabling.block = leaf;
+    enabling.outer = outer;
+    enabling.path = scopes_[static_cast<std::size_t>(index)].scope.prefix + name;
+    inner.enabling = static_cast<int>(wired_.enablings.size());
+    wired_.enablings.push_back(std::move(enabling));
+    return leaf;
+  }
+
+  void wire_enablings() {
+    for (const auto& wire : enabling_wires_) {
+      WiredBlock& b = wired_.blocks[static_cast<std::size_t>(wire.leaf)];
+      PortEnd end = resolve(wire.scope, wire.from, wire.place);
+      if (end.block < 0) end = open_end(scopes_[static_cast<std::size_t>(wire.scope)].scope.prefix + wire.from);
+      b.place = wire.place;
+      b.wires.push_back(std::move(end));
+      if (wire.outer >= 0) b.wires.push_back({wire.outer, 0, -1, {}, wire.place});
+      b.port.assign(b.wires.size(), 0);
+      b.shape.inputs = static_cast<int>(b.wires.size());
+    }
   }
 
   /// Null where the text that names the ports of a block is wrong.
@@ -216,6 +280,7 @@ class Builder {
     b.origin = origin;
     b.kernel = &kernel;
     const std::size_t problems_before = problems_.list().size();
+    b.enabling = scopes_[static_cast<std::size_t>(index)].enabling;
     b.parameters = resolve_parameters(scope, body, kernel.declaration, origin, wired_.parameters, problems_);
     b.shape = shape_of(kernel.declaration, b.parameters);
     if (const Value* samples = body.parameters.find("samples"))
@@ -363,6 +428,8 @@ class Builder {
       target = inner.outputs.find(port);
     else if (inner.outputs.size() == 1)
       target = &inner.outputs.begin()->second;
+    if (target == nullptr && port == "enabled" && entry.enabled >= 0) return {entry.enabled, 0, -1, {}, {}};
+    if (target == nullptr && port == "triggered" && entry.triggered >= 0) return {entry.triggered, 0, -1, {}, {}};
     if (target == nullptr) {
       problems_.add("unknown_signal", place,
                     port.empty() ? fmt::format("\"{}\" has {} outputs; say which", block, inner.outputs.size())
@@ -556,6 +623,8 @@ class Builder {
   std::vector<int> parents_;
   std::map<std::string, int> inputs_;
   std::set<std::pair<int, std::string>> used_;
+  std::deque<Node> enabling_nodes_;  // a deque: nodes stay where they are
+  std::vector<EnablingWire> enabling_wires_;
   Problems problems_;
   WiredDiagram wired_;
 };

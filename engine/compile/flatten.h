@@ -33,7 +33,8 @@ struct WiredBlock {
   Sizes sizes{};
   std::vector<ResolvedParameter> parameters{};
   SeriesPointer series{};
-  Unit unit{};  ///< recorded: of the column; input of the diagram: as stated
+  int enabling = -1;  ///< into WiredDiagram::enablings
+  Unit unit{};        ///< recorded: of the column; input of the diagram: as stated
   bool unit_known = false;
   int stated_length = 0;         ///< input of the diagram (0 = open)
   std::vector<PortEnd> wires{};  ///< in the order of the ports
@@ -54,6 +55,7 @@ struct StatedLength {
 
 struct WiredDiagram {
   std::vector<WiredBlock> blocks;
+  std::vector<Enabling> enablings;                  ///< blocks: those above
   std::vector<KernelPointer> kernels;               ///< those that blocks have of their own
   std::vector<std::pair<std::string, int>> inputs;  ///< name, block
   std::vector<std::pair<std::string, int>> open;    ///< the same of the ends that a draft leaves open

@@ -56,6 +56,7 @@ struct GraphBlock {
   Sizes sizes;
   std::vector<ResolvedParameter> parameters;  ///< per declared parameter
   SeriesPointer series;
+  int enabling = -1;                ///< into Graph::enablings
   bool unit_known = false;          ///< recorded: its signal has the unit of the column
   std::vector<int> source;          ///< per input number: signal
   std::vector<PortElement> input;   ///< per input number
@@ -65,6 +66,7 @@ struct GraphBlock {
 
 struct Graph {
   std::vector<GraphBlock> blocks;
+  std::vector<Enabling> enablings;     ///< blocks: of this graph; what is inside is not listed yet
   std::vector<KernelPointer> kernels;  ///< those that blocks have of their own
   std::vector<SignalInfo> signals;
   std::vector<std::pair<std::string, int>> inputs, outputs;  ///< name, signal

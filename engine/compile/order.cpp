@@ -72,7 +72,7 @@ class Scheduler {
   std::vector<Smoothness> own_smoothness() const {
     std::vector<Smoothness> list;
     for (const auto& b : graph_.blocks) {
-      const bool held = (b.series && b.series->between == Between::hold) || b.kernel->is_sampled();
+      const bool held = (b.series && b.series->between == Between::hold) || b.kernel->is_sampled() || b.enabling >= 0;
       list.push_back(held ? Smoothness::jumps : b.sizes.smoothness);
     }
     return list;

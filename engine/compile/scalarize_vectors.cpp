@@ -32,6 +32,8 @@ class Apart {
         graph_.outputs.emplace_back(indexed(name, d_.length(end), k), element(end, k));
     for (const auto& end : d_.record)
       for (int k = 0; k < d_.length(end); ++k) graph_.record.push_back(element(end, k));
+    graph_.enablings = d_.enablings;
+    for (auto& enabling : graph_.enablings) enabling.block = graph_.signals[at(signal(enabling.block, 0, 0))].block;
     graph_.kernels = d_.kernels;
     graph_.parameters = d_.parameters;
     graph_.places = d_.places;
@@ -65,6 +67,7 @@ class Apart {
     b.sizes = own.sizes;
     b.parameters = own.parameters;
     b.series = own.series;
+    b.enabling = own.enabling;
     b.unit_known = own.unit_known;
     b.first_signal = static_cast<int>(graph_.signals.size());
     return b;

@@ -12,6 +12,8 @@ namespace {
 
 void collect_references(const Node& node, std::set<std::string>& wires, std::set<std::string>& references) {
   for (const auto& wire : node.in) wires.insert(head_of_wire(wire.from));
+  if (node.runs)
+    for (const auto& wire : {node.runs->enable, node.runs->trigger}) wires.insert(head_of_wire(wire));
   for (const auto* values : {&node.parameters, &node.parameters_from_file})
     for (const auto& [name, value] : *values)
       if (const auto* r = std::get_if<Reference>(&value.content)) references.insert(r->name);

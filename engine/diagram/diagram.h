@@ -104,6 +104,15 @@ struct Wire {
 
 struct Diagram;
 
+/// When a nested diagram runs that does not always: while a signal is true, when it becomes so, or both.
+struct RunsWhen {
+  std::string enable{};         ///< signal: runs while it is true; "" = always
+  bool resets_states = false;   ///< begins anew whenever it is enabled; else it goes on where it stopped
+  bool zeroes_outputs = false;  ///< its signals are zero while it is not enabled; else they stay as they were
+  std::string trigger{};        ///< signal: runs once at each of its edges; "" = all the time
+  std::string edge = "rising";  ///< "rising", "falling" or "either"
+};
+
 /// One block as written. Exactly one of: a type, a choice (`from` not empty), a nested diagram (type "diagram").
 struct Node {
   std::string type{};
@@ -118,6 +127,7 @@ struct Node {
 
   std::string file{};                       ///< nested diagram: the file as written
   std::shared_ptr<const Diagram> nested{};  ///< nested diagram: its content
+  std::optional<RunsWhen> runs{};           ///< nested diagram: when it runs; absent = always
   std::string parameter_file{};  ///< "parameters": the set as written; its values stand in `parameters_from_file`
   Ordered<Value> parameters_from_file{};
 };

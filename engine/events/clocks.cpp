@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/events/enabled.h"
 #include "engine/program/breakpoints.h"
 
 namespace hysteron {
@@ -44,8 +45,12 @@ Clocking clocking_of(const Program& program, const Run& run, int block) {
 
 Clocks::Clocks(const Program& program, const Run& run, double begin) {
   std::vector<Clocking> given;
+  std::vector<int> clocked;  // places in program.sampled_blocks: the others run at the edges of a trigger
   Problems problems;
-  for (const int block : program.sampled_blocks) {
+  for (std::size_t i = 0; i < program.sampled_blocks.size(); ++i) {
+    const int block = program.sampled_blocks[i];
+    if (runs_at_edges(program, program.blocks[static_cast<std::size_t>(block)])) continue;
+    clocked.push_back(static_cast<int>(i));
     given.push_back(clocking_of(program, run, block));
     for (const auto& f : {given.back().period, given.back().offset}) {
       const std::int64_t common = f.d == 0 ? 0 : ticks_per_second_ / std::gcd(ticks_per_second_, f.d);
@@ -66,10 +71,10 @@ Clocks::Clocks(const Program& program, const Run& run, double begin) {
       return c.period == clock.period && c.offset == clock.offset;
     });
     if (same != clocks_.end()) {
-      same->members.push_back(static_cast<int>(i));
+      same->members.push_back(clocked[i]);
       continue;
     }
-    clock.members = {static_cast<int>(i)};
+    clock.members = {clocked[i]};
     clock.next = clock.offset;
     const double late = (begin - time(clock.offset)) / time(clock.period);
     if (late > 0) clock.next += clock.period * static_cast<std::int64_t>(std::ceil(late * (1 - 1e-12)));

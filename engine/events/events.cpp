@@ -32,6 +32,7 @@ Events::Events(const Program& program, const Run& run, double begin, double unti
       span_(until - begin),
       milestone_(begin),
       ranks_(start_ranks(program)),
+      enabled_(program),
       changes_(program.modal_blocks.size(), 0) {}
 
 double Events::next() const { return std::min(breakpoints_.next(), clocks_.next()); }
@@ -46,29 +47,84 @@ void Events::take(double t, Run& run) {
   breakpoints_.jumped(t);
 }
 
-bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
-  bool moved = false;
+bool Events::pass_corners(Run& run, Work& work, double t, std::vector<double>& x) {
   evaluate_values(program_, run, work, t, x.data());
   before_ = work.y;
-  if (instant_.breakpoint) {
-    run.branch = breakpoints_.branch();
-    moved = follow(run, work, t, x, program_.time_blocks);
-  }
-  if (instant_.hits.empty()) return moved;
+  if (!instant_.breakpoint) return false;
+  run.branch = breakpoints_.branch();
+  return follow(run, work, t, x, program_.time_blocks);
+}
+
+/// Takes these samples. Returns true if the jumps of what they hold moved states.
+bool Events::sample(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> due) {
+  if (due.empty()) return false;
   evaluate_values(program_, run, work, t, x.data());
   before_ = work.y;
-  sampling_(run, work, t, x.data(), instant_.hits, program_.hit_values);
+  sampling_(run, work, t, x.data(), due, program_.hit_values);
   if (program_.n_histories > 0) run.branch = breakpoints_.branch();  // its echoes end pieces, too
   blocks_.clear();
-  for (const int i : instant_.hits) blocks_.push_back(program_.sampled_blocks[at(i)]);
-  return follow(run, work, t, x, blocks_) || moved;
+  for (const int i : due) blocks_.push_back(program_.sampled_blocks[at(i)]);
+  return follow(run, work, t, x, blocks_);
+}
+
+bool Events::cross(Run& run, Work& work, double t, std::vector<double>& x) {
+  const bool moved = pass_corners(run, work, t, x);
+  return sample(run, work, t, x, enabled_.running(run, instant_.hits)) || moved;
+}
+
+/// The same where samples may switch what is sampled.
+bool Events::cross_switching(Run& run, Work& work, double t, std::vector<double>& x) {
+  bool moved = pass_corners(run, work, t, x);
+  if (instant_.hits.empty()) return moved;
+  early_ = true;
+  moved = settle(run, work, t, x, {}) || moved;
+  early_ = false;
+  std::vector<double> memory = run.m, states = x;
+  for (int round = 0;; ++round) {
+    auto due = enabled_.running(run, instant_.hits);
+    for (const int i : enabled_.triggered_samples(run)) due.push_back(i);
+    const bool jumped = sample(run, work, t, x, due);
+    evaluate_guards(program_, run, work, t, x.data());
+    throw_if_unsolved(program_, work, t);
+    auto switching = due_guards(run, work, {});
+    std::erase_if(switching, [&](int i) { return !enabled_.enables(i) || enabled_.has_run(run, i); });
+    moved = moved || jumped || !switching.empty();
+    if (switching.empty()) break;
+    if (round == most_rounds) report_unsettled(t, switching);
+    const auto changes = find_changes(run, work, x, switching);
+    run.m = memory;
+    x = states;
+    change(run, work, t, x, changes);
+    memory = run.m;
+    states = x;
+  }
+  skipped_ = instant_.hits;
+  std::erase_if(skipped_,
+                [&](int i) { return !is_off(program_, run, program_.blocks[at(program_.sampled_blocks[at(i)])]); });
+  return moved;
+}
+
+/// Samples of this instant whose turn it is since these changes switched on what they stand in.
+bool Events::sample_what_runs_now(Run& run, Work& work, double t, std::vector<double>& x,
+                                  std::span<const ModeChange> changes) {
+  if (starting_ || !enabled_.any()) return false;  // begin() takes all of them again
+  auto due = enabled_.running(run, skipped_);
+  std::erase_if(skipped_, [&](int i) { return std::find(due.begin(), due.end(), i) != due.end(); });
+  std::vector<int> inside;
+  enabled_.list_inside(changes, inside);
+  for (const int i : enabled_.triggered_samples(run))
+    if (std::find(inside.begin(), inside.end(), program_.sampled_blocks[at(i)]) != inside.end()) due.push_back(i);
+  return sample(run, work, t, x, due);
 }
 
 bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
-  const bool moved = cross(run, work, t, x);
+  skipped_.clear();
+  const bool moved = enabled_.any() ? cross_switching(run, work, t, x) : cross(run, work, t, x);
   hits_ += static_cast<long>(instant_.hits.size());
   paths_ += moved ? 1 : 0;
-  return settle(run, work, t, x, {}) || moved;
+  const bool settled = settle(run, work, t, x, {});
+  skipped_.clear();
+  return settled || moved;
 }
 
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
@@ -104,34 +160,52 @@ bool Events::due(const Run& run, Work& work, double t, const std::vector<double>
   return std::any_of(work.guard.begin(), work.guard.end(), [](double g) { return g <= 0; });
 }
 
+/// Guards that are not positive or, where a step saw a root of them, `fired`. What was triggered stops last.
+std::vector<int> Events::due_guards(const Run& run, const Work& work, std::span<const int> fired) const {
+  std::vector<int> due;
+  bool others = false;
+  for (int i = 0; i < guards(); ++i) {
+    if (ranks_[at(i)] > settling_ || (early_ && !enabled_.comes_early(i))) continue;
+    if (work.guard[at(i)] > 0 && std::find(fired.begin(), fired.end(), i) == fired.end()) continue;
+    due.push_back(i);
+    others = others || !enabled_.has_run(run, i);
+  }
+  if (others) std::erase_if(due, [&](int i) { return enabled_.has_run(run, i); });
+  return due;
+}
+
 bool Events::settle(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> fired) {
   if (program_.modal_blocks.empty()) return false;
   bool changed = false;
   for (int round = 0;; ++round) {
     evaluate_guards(program_, run, work, t, x.data());
     throw_if_unsolved(program_, work, t);
-    std::vector<int> due;
-    for (int i = 0; i < guards(); ++i)
-      if (ranks_[at(i)] <= settling_ &&
-          (work.guard[at(i)] <= 0 || (round == 0 && std::find(fired.begin(), fired.end(), i) != fired.end())))
-        due.push_back(i);
+    const auto due = due_guards(run, work, round == 0 ? fired : std::span<const int>{});
     if (due.empty()) return changed;
-    if (round == most_rounds) {
-      std::vector<std::string> names;
-      for (const int i : due) names.push_back(program_.blocks[at(program_.modal_blocks[at(i)])].path);
-      fail_numerics("modes_do_not_settle", names.front(),
-                    fmt::format("after {} changes of mode at t = {:.9g} s these blocks still change: {}", most_rounds,
-                                t, fmt::join(names, ", ")),
-                    "they switch each other to and fro: give one of them hysteresis, or put a lag between them");
-    }
+    if (round == most_rounds) report_unsettled(t, due);
     const auto changes = find_changes(run, work, x, due);
     if (changes.empty()) return changed;
-    if (on_change && !starting_) on_change(changes);
-    paths_ += apply(run, work, t, x, changes) ? 1 : 0;
-    for (const auto& change : changes) ++changes_[at(change.modal)];
-    watch_chatter(t);
+    change(run, work, t, x, changes);
+    paths_ += sample_what_runs_now(run, work, t, x, changes) ? 1 : 0;
     changed = true;
   }
+}
+
+/// These changes, with all that goes with them.
+void Events::change(Run& run, Work& work, double t, std::vector<double>& x, std::span<const ModeChange> changes) {
+  if (on_change && !starting_) on_change(changes);
+  paths_ += apply(run, work, t, x, changes) ? 1 : 0;
+  for (const auto& change : changes) ++changes_[at(change.modal)];
+  watch_chatter(t);
+}
+
+void Events::report_unsettled(double t, std::span<const int> due) const {
+  std::vector<std::string> names;
+  for (const int i : due) names.push_back(program_.blocks[at(program_.modal_blocks[at(i)])].path);
+  fail_numerics("modes_do_not_settle", names.front(),
+                fmt::format("after {} changes of mode at t = {:.9g} s these blocks still change: {}", most_rounds, t,
+                            fmt::join(names, ", ")),
+                "they switch each other to and fro: give one of them hysteresis, or put a lag between them");
 }
 
 std::vector<ModeChange> Events::find_changes(const Run& run, Work& work, const std::vector<double>& x,
@@ -154,6 +228,7 @@ std::vector<ModeChange> Events::find_changes(const Run& run, Work& work, const s
         fmt::format("{} \"{}\" may not stay in mode {} and names no other", b.kernel->declaration.type, b.path, before),
         "check the parameters of the block: two thresholds coincide");
   }
+  enabled_.complete(run, list, starting_);
   return list;
 }
 
@@ -174,8 +249,11 @@ bool Events::apply(Run& run, Work& work, double t, std::vector<double>& x, std::
     v.out = states_.data() + b.x_begin;
     b.kernel->reset(v);
   }
+  enabled_.switch_off(run, work, changes);
   for (const auto& change : changes) run.mode[at(change.modal)] = change.after;
   x = states_;
+  if (!starting_) enabled_.switch_on(run, x, changes);
+  enabled_.list_inside(changes, blocks_);
   return follow(run, work, t, x, blocks_);
 }
 

@@ -5,8 +5,10 @@
 //   3. modes whose guard is not positive any more change, all of them together from one evaluation, each resetting its
 //   own
 //      states; jumps of their outputs are paths; again, until every mode may stay.
-// Within a stage nothing depends on the order of blocks. Memory is committed before (by the caller, with the old
-// formulas), along paths, and behind (by the caller).
+// What enables or triggers nested diagrams (enabled.h) changes its mode in every stage: corners switch before samples
+// are taken, and where a sample switches, all samples of the instant are taken again, those of what runs then. Within a
+// stage nothing depends on the order of blocks. Memory is committed before (by the caller, with the old formulas),
+// along paths, and behind (by the caller).
 #pragma once
 
 #include <functional>
@@ -16,18 +18,13 @@
 #include <vector>
 
 #include "engine/events/clocks.h"
+#include "engine/events/enabled.h"
 #include "engine/events/path.h"
 #include "engine/events/sampling.h"
 #include "engine/program/breakpoints.h"
 #include "engine/program/program.h"
 
 namespace hysteron {
-
-/// One block leaves a mode for another.
-struct ModeChange {
-  int modal, block;  ///< place in program.modal_blocks, in program.blocks
-  int before, after;
-};
 
 class Events {
  public:
@@ -67,6 +64,14 @@ class Events {
   long paths() const { return paths_; }
 
  private:
+  bool pass_corners(Run& run, Work& work, double t, std::vector<double>& x);
+  bool cross_switching(Run& run, Work& work, double t, std::vector<double>& x);
+  bool sample(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> due);
+  bool sample_what_runs_now(Run& run, Work& work, double t, std::vector<double>& x,
+                            std::span<const ModeChange> changes);
+  void change(Run& run, Work& work, double t, std::vector<double>& x, std::span<const ModeChange> changes);
+  std::vector<int> due_guards(const Run& run, const Work& work, std::span<const int> fired) const;
+  [[noreturn]] void report_unsettled(double t, std::span<const int> due) const;
   bool follow(Run& run, Work& work, double t, std::vector<double>& x, std::span<const int> jumping);
   std::vector<ModeChange> find_changes(const Run& run, Work& work, const std::vector<double>& x,
                                        std::span<const int> due) const;
@@ -84,6 +89,9 @@ class Events {
   bool starting_ = false;
   std::vector<int> ranks_;                          // per guard, see start_order.h
   int settling_ = std::numeric_limits<int>::max();  // guards up to this rank
+  EnabledDiagrams enabled_;
+  bool early_ = false;        // only what comes before the samples settles
+  std::vector<int> skipped_;  // samples of this instant that were not taken, since what they stand in was off
   struct Instant {
     bool breakpoint = false;
     std::vector<int> hits;  // places in program.sampled_blocks

@@ -84,7 +84,7 @@ class RestProblem {
         const long row = program_.n_x + block.history_index;
         r[row] = (inputs_.front() - z[row]) * rate_of_size_one_;
       }
-      if (block.kernel->derivative == nullptr) continue;
+      if (block.kernel->derivative == nullptr || is_off(program_, trial_, block)) continue;
       auto view = view_at(b, z);
       view.out = r.data() + block.x_begin;
       block.kernel->derivative(view);
@@ -153,6 +153,7 @@ class RestProblem {
     gather_inputs(block);
     if (block.history_index >= 0) z[program_.n_x + block.history_index] = inputs_.front();
     if (block.kernel->rest == nullptr || block.kernel->is_sampled() || block.sizes.states == 0) return;
+    if (is_off(program_, trial_, block)) return;
     std::vector<double> x(static_cast<std::size_t>(block.sizes.states));
     auto view = view_at(b, z);
     view.out = x.data();
@@ -238,9 +239,27 @@ Settled settle_from(RestProblem& problem, Eigen::VectorXd z) {
   return {std::move(z), std::move(rate), std::move(relative)};
 }
 
-}  // namespace
+/// Nested diagrams are on or off as the signals that enable them say. Returns true if one of them changed.
+bool enable_for(const Program& program, Run& run, double t) {
+  if (program.enablings.empty()) return false;
+  bool changed = false;
+  Work work(program);
+  for (std::size_t depth = 0; depth <= program.enablings.size(); ++depth) {  // the outer ones first
+    evaluate_guards(program, run, work, t, run.x.data());
+    throw_if_unsolved(program, work, t);
+    for (const auto& enabling : program.enablings) {
+      const auto i = static_cast<std::size_t>(program.blocks[static_cast<std::size_t>(enabling.block)].mode_index);
+      if (work.guard[i] > 0) continue;
+      const int next = program.blocks[static_cast<std::size_t>(enabling.block)].kernel->next_mode(
+          work.views[static_cast<std::size_t>(enabling.block)]);
+      run.mode[i] = enabling.triggered ? next % enabled_mode : next;  // the start is no edge
+      changed = true;
+    }
+  }
+  return changed;
+}
 
-void settle_at_rest(const Program& program, Run& run, double t) {
+void settle_what_runs(const Program& program, Run& run, double t) {
   RestProblem problem(program, run, t);
   Settled end = settle_from(problem, problem.start());
   if (!end.reached_rest())
@@ -248,6 +267,16 @@ void settle_at_rest(const Program& program, Run& run, double t) {
   if (!end.finite()) problem.check_loops(end.z);
   if (!end.reached_rest()) no_rest(program, t, end.rate, end.relative);
   problem.finish(end.z, run);
+}
+
+}  // namespace
+
+void settle_at_rest(const Program& program, Run& run, double t) {
+  enable_for(program, run, t);
+  settle_what_runs(program, run, t);
+  // What the equilibrium itself switches: again, as long as each switching leads on to another.
+  for (std::size_t i = 0; i <= program.enablings.size() && enable_for(program, run, t); ++i)
+    settle_what_runs(program, run, t);
 }
 
 }  // namespace hysteron

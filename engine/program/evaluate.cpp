@@ -48,7 +48,8 @@ void list_calls(const Program& program, WorkOf<T>& work) {
     call.y_begin = b.y_begin;
     call.p_begin = b.p_begin;
     call.parameters = b.p_at.back();
-    call.plain = b.hit_index < 0 && b.sizes.memory == 0;
+    call.plain = b.hit_index < 0 && b.sizes.memory == 0 && b.enabling < 0;
+    if (b.enabling >= 0) call.enabled_by = program.enablings[at(b.enabling)].block;
     call.wants_rate = b.kernel->derivative_wants_rate;
     call.source_only = is_source_of_time(b);
     work.calls.push_back(call);

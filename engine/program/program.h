@@ -36,6 +36,8 @@ struct BlockInstance {
   int sides_index = -1;       ///< into Run::sides
   int hit_index = -1;         ///< into Run::hits (sampled blocks)
   std::uint64_t key = 0;      ///< made of the path, the same in every program that has it
+  int enabling = -1;          ///< into Program::enablings: the innermost that it is inside of; -1: it always runs
+  int held_while_off = -1;    ///< in Run::m: its outputs while that is off
   int adjacent = -1;          ///< first of the signals that it reads where these stand side by side in Work::y, else -1
 
   /// Numbers in the memory arena: memory, or of a sampled block its sampled states and then its held outputs.
@@ -106,8 +108,24 @@ struct Past {
   std::vector<double> memory{};
 };
 
+/// The content of a nested diagram that runs only while, or only when, a signal says so. What is off holds its outputs,
+/// states, modes and memory, and is not sampled.
+struct Enabling {
+  int block = 0;           ///< whose mode tells (runs_in_mode)
+  int outer = -1;          ///< into Program::enablings: the one that it is inside of
+  bool triggered = false;  ///< runs at edges only, for that instant
+  bool resets_states = false, zeroes_outputs = false;
+  std::string path{};         ///< of the nested diagram
+  std::vector<int> inside{};  ///< all blocks, with those of enablings further in
+};
+
+/// Of the block that enables: a side of its level, plus this number while what it enables runs.
+inline constexpr int enabled_mode = 3;
+inline bool runs_in_mode(int mode) { return mode >= enabled_mode; }
+
 struct Program {
   std::vector<BlockInstance> blocks;
+  std::vector<Enabling> enablings;
   std::vector<KernelPointer> kernels;  ///< those that blocks have of their own (engine/block/instance.h)
   std::vector<SignalInfo> signals;
   std::vector<Step> all_values;        ///< every value
@@ -245,6 +263,7 @@ struct WorkOf {
     bool wants_rate = false;   ///< derivative does
     bool source_only = false;  ///< plain, of time and parameters alone
     bool timed = false;        ///< sees time, a series or a history
+    int enabled_by = -1;       ///< the block whose mode says whether it runs; -1: it always does
   };
   std::vector<Call> calls;
   std::vector<int> lists;             // of all blocks, side by side: their sources, then their p_at
@@ -278,6 +297,14 @@ void accept(const Program& program, Run& run, Work& work, double t, const double
 
 /// Commits the trial memory of the last evaluation of values, and where its loops stand.
 void commit_memory(const Program& program, Run& run, const Work& work);
+
+/// Is the block inside of something that is switched off?
+inline bool is_off(const Program& program, const Run& run, const BlockInstance& block) {
+  if (block.enabling < 0) return false;
+  const auto& enabling = program.enablings[static_cast<std::size_t>(block.enabling)];
+  const auto& by = program.blocks[static_cast<std::size_t>(enabling.block)];
+  return !runs_in_mode(run.mode[static_cast<std::size_t>(by.mode_index)]);
+}
 
 /// View of one block's committed numbers; inputs are gathered into `inputs`.
 View<double> view_of(const Program& program, const Run& run, int block);

@@ -132,12 +132,27 @@ void between(const BlockInstance& b, const PathPoint& path, std::vector<T>& y) {
     y[at(i)] = path.from[i] + path.s * (path.to[i] - path.from[i]);
 }
 
+/// Is the block switched off in this evaluation?
+template <class T>
+bool is_off(const WorkOf<T>& work, int block) {
+  const int by = work.calls[at(block)].enabled_by;
+  return by >= 0 && !runs_in_mode(work.views[at(by)].mode);
+}
+
+/// Outputs and memory of a block that is switched off: as they were.
+template <class T>
+void stay(const BlockInstance& b, WorkOf<T>& work, const T* committed) {
+  std::copy_n(committed + (b.held_while_off - b.m_begin), b.sizes.outputs, work.y.data() + b.y_begin);
+  std::copy_n(committed, b.sizes.memory, work.m.data() + b.m_begin);
+}
+
 /// The value of a block that remembers, is sampled, or may be on the path of a jump.
 template <class T>
 void special_value(const Program& program, WorkOf<T>& work, int block, const T* x) {
   const BlockInstance& b = program.blocks[at(block)];
   View<T>& v = work.views[at(block)];
   if (work.path != nullptr && work.path->jumping[block] != 0) return between(b, *work.path, work.y);
+  if (is_off(work, block)) return stay(b, work, v.m);
   if (b.hit_index >= 0 && (work.due == nullptr || work.due[b.hit_index] == 0)) {  // holds its outputs
     std::copy_n(v.m + b.sizes.sampled_states, b.sizes.outputs, work.y.data() + b.y_begin);
     return;
@@ -177,7 +192,7 @@ void derivative(WorkOf<T>& work, int block, const T* x) {
   const auto& call = work.calls[at(block)];
   View<T>& v = work.views[at(block)];
   T* dx = work.dx.data() + call.x_begin;
-  if (work.path != nullptr && work.path->rate_independent[block] == 0) {
+  if ((work.path != nullptr && work.path->rate_independent[block] == 0) || is_off(work, block)) {
     std::fill_n(dx, v.n_x, T(0.0));
     return;
   }
@@ -192,7 +207,7 @@ void derivative(WorkOf<T>& work, int block, const T* x) {
   call.derivative(v);
 }
 
-/// The rates of a block that jumps or holds, on the path of a jump and between instants.
+/// The rates of a block that jumps or holds, on the path of a jump, between instants and where it is switched off.
 template <class T>
 bool special_rate(const Program& program, WorkOf<T>& work, int block) {
   const BlockInstance& b = program.blocks[at(block)];
@@ -202,7 +217,9 @@ bool special_rate(const Program& program, WorkOf<T>& work, int block) {
       work.rate[at(i)] = (work.path->to[i] - work.path->from[i]) / jump_duration;
     return true;
   }
-  if (b.hit_index < 0) return false;
+  const bool off = is_off(work, block);
+  if (off) stay(b, work, work.views[at(block)].m);
+  if (b.hit_index < 0 && !off) return false;
   std::fill_n(work.rate.data() + b.y_begin, b.sizes.outputs, T(0.0));
   return true;
 }
@@ -280,6 +297,10 @@ void guards(const Program& program, WorkOf<T>& work, const T* x) {
     const int block = program.modal_blocks[i];
     const BlockInstance& b = program.blocks[at(block)];
     View<T>& v = work.views[at(block)];
+    if (is_off(work, block)) {
+      work.guard[i] = T(1.0);
+      continue;
+    }
     gather(b, work.y, work.u.data() + b.u_begin);
     if (b.kernel->guard_wants_rate) gather(b, work.rate, work.du.data() + b.u_begin);
     v.x = x + b.x_begin;

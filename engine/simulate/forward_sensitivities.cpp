@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/diagram/index.h"
+#include "engine/events/enabled.h"
 
 namespace hysteron {
 namespace {
@@ -33,10 +34,37 @@ bool shifts_instants(const Program& program, const Run& up, const Run& down) {
   return false;
 }
 
+/// What is sampled where it is switched or triggered follows no slope: its instants are chosen by signals.
+void refuse_switched_samples(const Program& program) {
+  for (const auto& block : program.blocks) {
+    if (block.enabling < 0 || (block.hit_index < 0 && !runs_at_edges(program, block))) continue;
+    const std::string& path = program.enablings[at(block.enabling)].path;
+    fail("no_slope", path,
+         fmt::format("\"{}\" is sampled inside of \"{}\", which does not always run: there are no slopes through it",
+                     block.path, path),
+         "leave the slopes out (differences of runs tell them), or take the sampled blocks out of it");
+  }
+}
+
+/// A signal that jumps does not tell how much later it would.
+void refuse_jump_that_enables(const Program& program, int block, int parameter) {
+  const auto& path = program.parameters[at(parameter)].path;
+  for (const auto& enabling : program.enablings)
+    if (const auto& signal = program.signals[at(program.blocks[at(block)].source.front())];
+        enabling.block == block && signal.smoothness != Smoothness::smooth)
+      fail("no_slope", enabling.path,
+           fmt::format("\"{}\" enables \"{}\" by a jump, whose instant hangs on \"{}\": there is no slope with respect "
+                       "to it",
+                       signal.path, enabling.path, path),
+           "enable it by a signal that crosses 1/2 smoothly (an expression in place of a comparator), or leave the "
+           "parameter out");
+}
+
 }  // namespace
 
 ForwardSensitivities::ForwardSensitivities(const Program& program, const Run& run, std::vector<int> parameters)
     : program_(program) {
+  refuse_switched_samples(program);
   for (const int index : parameters) {
     const ParameterInfo& info = program.parameters[at(index)];
     const double value = run.p[at(info.slots.front())];
@@ -191,7 +219,9 @@ void ForwardSensitivities::change_modes(Events& events, const Run& run, double t
       evaluate_guards(program_, twin.up.run, *twin.up.work, t + sign * step, there.data());
       along_time += sign * twin.up.work->guard[at(guard)] / (2 * step);
     }
-    const double later = -along_parameter / along_time;
+    if (along_parameter != 0) refuse_jump_that_enables(program_, changes.front().block, twin.parameter);
+    // Where the parameter does not move the guard, the instant is not its own.
+    const double later = along_parameter != 0 ? -along_parameter / along_time : 0;
     if (!std::isfinite(later))
       fail_numerics(
           "grazing", program_.blocks[at(changes.front().block)].path,

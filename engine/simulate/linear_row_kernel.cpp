@@ -37,7 +37,7 @@ struct Form {
 
 bool is_row(const BlockInstance& b) {
   return b.kernel->declaration.is_linear && b.n_u > 0 && b.hit_index < 0 && b.mode_index < 0 && b.history_index < 0 &&
-         b.series_index < 0 && b.sizes.memory == 0 && !b.kernel->uses_time;
+         b.series_index < 0 && b.sizes.memory == 0 && b.enabling < 0 && !b.kernel->uses_time;
 }
 
 /// Slopes of the outputs or derivatives of one block with respect to its states and inputs, eight at a time.

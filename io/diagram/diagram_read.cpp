@@ -156,7 +156,10 @@ class DiagramReader {
         place.need("type", is_block ? "write \"type\": \"...\" (hysteron blocks lists them), or \"choose\" and \"from\""
                                     : "write \"type\": \"...\" (hysteron blocks lists them)");
     if (type) node.type = type->text().value_or("");
-    if (node.type == "diagram") nest(place, node);
+    if (node.type == "diagram") {
+      nest(place, node);
+      node.runs = runs_when(place);
+    }
     if (!is_block) {
       node.effect = text_member(place, "effect");
       node.upon = text_member(place, "upon");
@@ -170,7 +173,7 @@ class DiagramReader {
   void node_member(Node& node, const std::string& key, const JsonPlace& member) {
     if (key == "type" || key == "in") return;
     if (key == "parameters") return parameter_set(node, member);
-    if (key == "file" && node.type == "diagram") return;
+    if ((key == "file" || key == "enable" || key == "trigger") && node.type == "diagram") return;
     if (node.type == "recorded" && (key == "file" || key == "column")) {
       // Names of files and columns are text, also where they look like a number ("5 Hz").
       Value value;
@@ -180,6 +183,42 @@ class DiagramReader {
       return;
     }
     if (auto value = read_value(member, origin(member))) node.parameters[key] = std::move(*value);
+  }
+
+  /// "enable" and "trigger" of a nested diagram: a signal, or an object with the signal and what goes with it.
+  static std::optional<RunsWhen> runs_when(const JsonPlace& place) {
+    const auto enable = place.find("enable"), trigger = place.find("trigger");
+    if (!enable && !trigger) return {};
+    RunsWhen runs;
+    if (enable) {
+      runs.enable = signal_member(*enable, {"in", "states", "outputs"});
+      runs.resets_states = word_member(*enable, "states", {"hold", "reset"}) == "reset";
+      runs.zeroes_outputs = word_member(*enable, "outputs", {"hold", "zero"}) == "zero";
+    }
+    if (trigger) {
+      runs.trigger = signal_member(*trigger, {"in", "edge"});
+      runs.edge = word_member(*trigger, "edge", {"rising", "falling", "either"});
+    }
+    return runs;
+  }
+
+  /// "drive", or "in" of an object that has these keys.
+  static std::string signal_member(const JsonPlace& place, const std::vector<std::string>& keys) {
+    if (place.is_text()) return place.text().value_or("");
+    if (!place.expect_object("a signal \"on\", or {\"in\": \"on\", ...}")) return "";
+    place.only(keys);
+    const auto in = place.need("in", "write the signal: \"in\": \"on\"");
+    return in ? in->text().value_or("") : "";
+  }
+
+  /// One of the words, the first where none is written.
+  static std::string word_member(const JsonPlace& place, const char* key, const std::vector<std::string>& words) {
+    const auto member = place.is_object() ? place.find(key) : std::nullopt;
+    const auto text = member ? member->text() : std::nullopt;
+    if (!text) return words.front();
+    if (std::find(words.begin(), words.end(), *text) != words.end()) return *text;
+    member->add("bad_value", fmt::format("\"{}\" cannot be \"{}\"", key, *text), did_you_mean(*text, words));
+    return words.front();
   }
 
   Node choice(const JsonPlace& place, Node node) {

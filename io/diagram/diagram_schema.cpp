@@ -100,6 +100,37 @@ std::vector<std::string> type_names(const Registry& registry) {
   return names;
 }
 
+Json signal(const char* what) { return text(fmt::format("{}: 1 = true, 0 = false", what)); }
+
+/// When a nested diagram runs that does not always.
+Json enable() {
+  const char* while_true = "the signal while which it runs";
+  return {
+      {"description", "it runs while a signal is true"},
+      {"anyOf",
+       Json::array(
+           {signal(while_true),
+            object(
+                "the signal, and what else holds",
+                {{"in", signal(while_true)},
+                 {"states",
+                  {{"description", "when it is enabled again they go on, or begin anew"}, {"enum", {"hold", "reset"}}}},
+                 {"outputs",
+                  {{"description", "while it is not enabled they stay, or are zero"}, {"enum", {"hold", "zero"}}}}},
+                {"in"})})}};
+}
+
+Json trigger() {
+  const char* at_edges = "the signal at whose edges it runs";
+  return {{"description", "it runs once at each edge of a signal"},
+          {"anyOf", Json::array({signal(at_edges), object("the signal, and which edges",
+                                                          {{"in", signal(at_edges)},
+                                                           {"edge",
+                                                            {{"description", "rising: from false to true"},
+                                                             {"enum", {"rising", "falling", "either"}}}}},
+                                                          {"in"})})}};
+}
+
 Json wires() {
   const Json one = text("a signal: block, block.port, or an input of the diagram; with [0] one element of it");
   const Json some{{"anyOf", Json::array({one, list_of("several signals", one)})}};
@@ -222,6 +253,8 @@ void add_definitions(Json& definitions, const Registry& registry) {
        {{"type", {{"const", "diagram"}}},
         {"file", text("the diagram's file")},
         {"in", true},
+        {"enable", enable()},
+        {"trigger", trigger()},
         {"effect", true},
         {"upon", true}}},
       {"required", {"file"}}};

@@ -185,7 +185,23 @@ class DiagramWriter {
       m.emplace_back(key, value_text(value));
     }
     if (with_inputs && !node.in.empty()) m.emplace_back("in", wires(name, node.in));
+    if (node.runs) runs_when(*node.runs, m);
     return m;
+  }
+
+  /// A signal alone where all else is as it is without a word.
+  static void runs_when(const RunsWhen& runs, Members& m) {
+    Members enable, trigger;
+    if (runs.resets_states) enable.emplace_back("states", json_quoted("reset"));
+    if (runs.zeroes_outputs) enable.emplace_back("outputs", json_quoted("zero"));
+    if (runs.edge != RunsWhen{}.edge) trigger.emplace_back("edge", json_quoted(runs.edge));
+    const auto add = [&m](const char* key, const std::string& signal, Members& with) {
+      if (signal.empty()) return;
+      with.insert(with.begin(), {"in", json_quoted(signal)});
+      m.emplace_back(key, with.size() == 1 ? json_quoted(signal) : one_line(with));
+    };
+    add("enable", runs.enable, enable);
+    add("trigger", runs.trigger, trigger);
   }
 
   static std::string wires(const std::string& block, const std::vector<Wire>& in) {

@@ -270,6 +270,21 @@ TEST(Drawing, ANestedDiagramIsABoxWithItsPortsUntilItIsOpened) {
   EXPECT_TRUE(find_wire(open, "stage/spring", "stage/force")->feedback);
 }
 
+TEST(Drawing, WhatEnablesANestedDiagramIsAPortOfItsOwn) {
+  Diagram d = nested();
+  d.blocks["on"] = block("constant");
+  d.blocks["on"].parameters["value"] = Value(1.0);
+  d.blocks["stage"].runs = RunsWhen{.enable = "on", .resets_states = true};
+  const Picture closed = drawn(d);
+  EXPECT_EQ(closed.find("stage")->texts, "p753\nu\nd\nenable\nposition\npush\nspring\nstage\nstiffness 3\nV\nV\n");
+  EXPECT_NE(find_wire(closed, "on", "stage"), nullptr);
+  for (const int depth : {0, 1}) EXPECT_EQ(faults(drawn(d, depth)), "");
+  const Picture open = drawn(d, 1);
+  EXPECT_NE(svg(d, 1).find("data-block=\"stage/enable\""), std::string::npos);
+  EXPECT_NE(find_wire(open, "on", "stage"), nullptr);
+  EXPECT_NE(svg(d).find("runs while on is true; else its outputs stay, and its states begin anew"), std::string::npos);
+}
+
 TEST(Drawing, AVectorIsAThickWireWithItsLength) {
   Diagram d;
   for (const char* name : {"a", "b"}) {

@@ -10,6 +10,7 @@ const Samples logic{
     {"compare", {{"is", {4}}}},
     {"comparator", {{"level", {0.2}}, {"above", {3}}, {"below", {-1}}}},
     {"logic", {{"is", {4}}}, 3},
+    {"enabling", {}, 2},
     {"switch", {{"level", {0.2}}}},
     {"manual_switch", {{"position", {1}}}},
     {"sample_and_hold", {{"initial", {0.3}}}},

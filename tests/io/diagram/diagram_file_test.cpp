@@ -5,6 +5,7 @@
 #include "blocks/register_all.h"
 #include "engine/diagram/error.h"
 #include "engine/program/program.h"
+#include "engine/simulate/simulate.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -158,6 +159,58 @@ TEST(DiagramFile, ListsComeFromTheColumnsOfATable) {
   EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("at")->content)[1], (Number{2, "mm"}));
   EXPECT_EQ(std::get<NumberList>(force.parameters_from_file.find("values")->content).size(), 3U);
   EXPECT_EQ(force.parameters_from_file.find("values")->origin, folder.path("curve.csv") + "#values");
+}
+
+TEST(DiagramFile, PointsOverTimeComeFromTheColumnsOfATable) {
+  const TemporaryFolder folder;
+  const std::string diagram = folder.write("d.json", R"({"format": 1, "record": ["way"], "blocks":
+          {"way": {"type": "time_table", "parameters": "way.csv"}}})");
+  folder.write("way.csv", "times [ms],values [mV]\n0,0\n10,1000\n30,3000\n");
+  const Registry registry = all_blocks();
+  const auto program = compile(read_diagram(diagram), registry);
+  const auto traces = simulate(*program, start(*program), {.until = 0.04, .every = 0.005});
+  for (std::size_t i = 0; i < traces.t.size(); ++i)
+    EXPECT_NEAR(traces.values[0][i], std::min(100 * traces.t[i], 3.0), 1e-12) << traces.t[i];  // rounding
+  EXPECT_TRUE(program->find_parameter("way.values[1]")->linear);
+  folder.write("way.csv", "times [ms],values [mV]\n0,0\n10,1000\n10,3000\n");
+  EXPECT_THROW(compile(read_diagram(diagram), registry), Error);  // instants rise
+}
+
+TEST(DiagramFile, WhenANestedDiagramRunsIsReadAndWritten) {
+  const TemporaryFolder folder;
+  folder.write("part.json", R"({"format": 1, "inputs": {"u": {}}, "outputs": {"y": "same"},
+          "blocks": {"same": {"type": "gain", "gain": 1, "in": "u"}}})");
+  const auto with = [&](const std::string& runs) {
+    return read_diagram(folder.write("d.json", R"({"format": 1, "blocks": {"on": {"type": "constant", "value": 1},
+          "part": {"type": "diagram", "file": "part.json", "in": "on", )" +
+                                                   runs + "}}}"));
+  };
+  for (const std::string runs :
+       {R"("enable": "on")", R"("trigger": "on")", R"("enable": "on", "trigger": {"in": "on", "edge": "either"})",
+        R"("enable": {"in": "on", "states": "reset"})",
+        R"("enable": {"in": "on", "states": "reset", "outputs": "zero"})",
+        R"("trigger": {"in": "on", "edge": "falling"})"})
+    EXPECT_NE(diagram_text(with(runs)).find(runs), std::string::npos) << diagram_text(with(runs));
+  const RunsWhen runs =
+      *with(R"("enable": {"in": "on", "outputs": "zero"}, "trigger": {"in": "on"})").blocks.find("part")->runs;
+  EXPECT_EQ(runs.enable, "on");
+  EXPECT_TRUE(runs.zeroes_outputs);
+  EXPECT_FALSE(runs.resets_states);
+  EXPECT_EQ(runs.trigger, "on");
+  EXPECT_EQ(runs.edge, "rising");
+  EXPECT_FALSE(with(R"("remark": "always")").blocks.find("part")->runs);
+  const auto told = [&](const std::string& text) {
+    try {
+      with(text);
+    } catch (const Error& error) {
+      return error.problems.front().code + " " + error.problems.front().path;
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(told(R"("enable": {"in": "on", "states": "rest"})"), "bad_value /blocks/part/enable/states");
+  EXPECT_EQ(told(R"("enable": {"states": "reset"})"), "missing_key /blocks/part/enable");
+  EXPECT_EQ(told(R"("trigger": {"in": "on", "edges": "rising"})"), "unknown_key /blocks/part/trigger/edges");
+  EXPECT_EQ(told(R"("enable": 1)"), "wrong_type /blocks/part/enable");
 }
 
 TEST(DiagramFile, ATableOverTwoAxesIsAGridWhateverTheOrderOfItsRows) {
