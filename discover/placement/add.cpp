@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "discover/placement/wire_places.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/error.h"
 #include "engine/program/loop_plan.h"
@@ -46,6 +47,13 @@ Spot spot_before(const Wiring& w, const std::string& at) {
     if (ports[i] == port || (port == "in" && in.size() == 1) || port == fmt::format("in[{}]", i))
       return {w.signal(in[i].from), in[i].from, {{block, static_cast<int>(i), ""}}};
   fail("unknown_place", at, fmt::format("\"{}\" has no input \"{}\"", block, port), did_you_mean(port, ports));
+}
+
+/// Before one output alone. What is put there is called by the output.
+Spot spot_of_reading(const Wiring& w, const std::string& at) {
+  const std::string output = at.substr(at.find('.') + 1);
+  const std::string& from = *output_of_reading(w.diagram(), at);
+  return {output, from, {{"", 0, output, ""}}};
 }
 
 /// A name for a block, made of the signal that it stands on: inputs may hold capital letters, blocks may not.
@@ -93,9 +101,11 @@ std::string insert(Diagram& diagram, const Registry& registry, const Effect& eff
                    const std::string& at, const Place& place, Added& added) {
   const Wiring w(diagram, registry);
   const std::string signal = w.signal(at);
-  const Spot spot = signal.empty() ? spot_before(w, at) : spot_behind(w, signal);
-  for (const auto& name : w.chain(spot.wire))
-    if (diagram.blocks.find(name)->effect == effect.id && !signal.empty())
+  const Spot spot = !signal.empty()                             ? spot_behind(w, signal)
+                    : output_of_reading(diagram, at) != nullptr ? spot_of_reading(w, at)
+                                                                : spot_before(w, at);
+  for (const auto& name : signal.empty() ? std::vector<std::string>{} : w.chain(spot.wire))
+    if (diagram.blocks.find(name)->effect == effect.id)
       fail("effect_there", at, fmt::format("{} stands on \"{}\" already, as \"{}\"", effect.id, spot.wire, name),
            fmt::format("change \"{}\", or remove it first", name));
   Node choice;

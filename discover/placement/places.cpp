@@ -33,7 +33,7 @@ class Finder {
 
  private:
   void add(Place place) {
-    set_groups(w_, place);
+    if (place.reading.empty()) set_groups(w_, place);
     for (const auto& p : places_)
       if (p.kind == place.kind && p.at == place.at && p.behind_core == place.behind_core) return;
     places_.push_back(std::move(place));
@@ -68,8 +68,8 @@ class Finder {
   }
 
   void measured() {
-    for (const auto& s : measured_wires(w_))
-      add(on_wire(w_, registry_, "measured", start_of_chain(w_, before_offset(w_, s))));
+    for (const auto& reading : readings(w_))
+      for (auto& place : measured_places(w_, registry_, reading, false)) add(std::move(place));
   }
 
   /// Before and behind each block of the user's with memory; where there is none, before and behind the whole chain.
@@ -92,8 +92,14 @@ class Finder {
     }
     if (any) return;
     for (const auto& s : drives()) add(on_wire(w_, registry_, "core", s));
-    for (const auto& s : measured_wires(w_)) {
-      Place behind = on_wire(w_, registry_, "core", start_of_chain(w_, before_offset(w_, s)));
+    for (const auto& reading : readings(w_)) {
+      for (auto& place : measured_places(w_, registry_, reading, false)) {
+        if (place.reading.empty()) continue;
+        place.kind = "core";  // between what moves and where it is read
+        place.behind_core = true;
+        add(std::move(place));
+      }
+      Place behind = on_wire(w_, registry_, "core", start_of_chain(w_, before_offset(w_, reading.wire)));
       behind.behind_core = true;
       add(std::move(behind));
     }
@@ -128,6 +134,8 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
   Place p;
   p.at = at;
   const std::string signal = w.signal(at);
+  if (signal.empty() && output_of_reading(diagram, at) != nullptr)
+    return place_of_reading(w, at.substr(at.find('.') + 1));
   if (!signal.empty()) {
     const auto chain = w.chain(signal);
     p.wire = chain.empty() ? signal : chain.back();

@@ -41,6 +41,12 @@ std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
   const auto collect = [&](const std::string& wire) {
     for (const auto& name : w.chain(wire)) ids.push_back(w.diagram().blocks.find(name)->effect);
   };
+  if (!place.reading.empty())  // between the wire and who reads it
+    for (std::string s = place.wire; ids.size() < 64 && w.is_inserted(w.source(s));) {
+      const Node& inserted = *w.diagram().blocks.find(w.source(s));
+      ids.push_back(inserted.effect);
+      s = w.signal(inserted.in.front().from);
+    }
   collect(start_of_chain(w, w.signal(place.wire)));
   return ids;
 }
@@ -209,12 +215,11 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
        effect.block_type == "rounding") &&
       diagram.places.find("measured") == nullptr) {
     list.clear();
-    for (const auto& s : measured_wires(w)) {
-      Place p = on_wire(w, registry, "measured", start_of_chain(w, s));
-      set_groups(w, p);
-      const auto there = standing_at(w, p);
-      if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));
-    }
+    for (const auto& reading : readings(w))
+      for (auto& p : measured_places(w, registry, reading, true)) {
+        const auto there = standing_at(w, p);
+        if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));
+      }
   }
   return list;
 }

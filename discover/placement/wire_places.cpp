@@ -1,7 +1,11 @@
 #include "discover/placement/wire_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <initializer_list>
+#include <set>
+#include <string_view>
 
 #include "discover/effects/all.h"
 #include "discover/hypotheses/effect.h"
@@ -83,19 +87,117 @@ std::string start_of_chain(const Wiring& w, const std::string& signal) {
   return signal;
 }
 
-std::vector<std::string> measured_wires(const Wiring& w) {
-  std::vector<std::string> list;
+std::vector<Reading> readings(const Wiring& w) {
+  std::vector<Reading> list;
   for (const auto& [name, from] : w.diagram().outputs) {
     const std::string s = w.signal(from);
     if (s.empty()) continue;
     const std::string begin = start_of_chain(w, s);
     const Node* node = w.outputs_of(begin).empty() ? nullptr : w.body(begin);
-    if (node != nullptr && node->type == "mux")
-      for (const auto& wire : w.diagram().blocks.find(begin)->in) list.push_back(w.signal(wire.from));
-    else
-      list.push_back(s);
+    if (node != nullptr && node->type == "mux") {
+      const auto& in = w.diagram().blocks.find(begin)->in;
+      for (std::size_t i = 0; i < in.size(); ++i)
+        list.push_back({w.signal(in[i].from), {begin, static_cast<int>(i), ""}});
+    } else {
+      list.push_back({s, {"", 0, name}});
+    }
   }
   return list;
+}
+
+std::vector<std::string> measured_wires(const Wiring& w) {
+  std::vector<std::string> list;
+  for (auto& reading : readings(w)) list.push_back(std::move(reading.wire));
+  return list;
+}
+
+namespace {
+
+constexpr std::string_view outputs_prefix = "outputs.";
+
+/// The signal without the effects that stand between it and who reads it.
+std::string without_effects(const Wiring& w, std::string signal) {
+  for (int depth = 0; depth < 64 && w.is_inserted(w.source(signal)); ++depth)
+    signal = w.signal(w.diagram().blocks.find(w.source(signal))->in.front().from);
+  return signal;
+}
+
+/// A block that holds its input between samples, or one of the controllers that do not.
+bool is_controller(const Wiring& w, const Registry& registry, const std::string& block) {
+  const Node* node = w.body(block);
+  if (node == nullptr || node->nested) return false;
+  const auto types = {"pid", "pid_tracking", "pi_controller"};
+  const KernelPointer k = kernel_of(registry, *node);
+  return (k != nullptr && k->is_sampled()) || std::find(types.begin(), types.end(), node->type) != types.end();
+}
+
+/// Does a controller of the diagram act on this wire?
+bool is_controlled(const Wiring& w, const Registry& registry, const std::string& wire) {
+  std::set<std::string> seen;
+  std::vector<std::string> open{wire};
+  while (!open.empty()) {
+    const std::string now = std::move(open.back());
+    open.pop_back();
+    for (const auto& reader : w.followers(now)) {
+      if (reader.block.empty() || !seen.insert(reader.block).second) continue;
+      if (is_controller(w, registry, reader.block)) return true;
+      for (auto& next : w.outputs_of(reader.block)) open.push_back(std::move(next));
+    }
+  }
+  return false;
+}
+
+/// Blocks beside who reads it there go on from this wire.
+bool moves_blocks(const Wiring& w, const std::string& wire) {
+  const auto followers = w.followers(wire);
+  return followers.size() > 1 && std::any_of(followers.begin(), followers.end(), [&](const Reader& r) {
+           return !r.block.empty() && !w.is_inserted(r.block) && w.body(r.block)->type != "mux";
+         });
+}
+
+}  // namespace
+
+const std::string* output_of_reading(const Diagram& diagram, const std::string& at) {
+  if (!at.starts_with(outputs_prefix)) return nullptr;
+  for (const auto& [name, from] : diagram.outputs)
+    if (name == at.substr(outputs_prefix.size())) return &from;
+  return nullptr;
+}
+
+Place place_of_reading(const Wiring& w, const std::string& output) {
+  Place p;
+  p.kind = "measured";
+  p.at = p.reading = std::string(outputs_prefix) + output;
+  p.wire = w.signal(*w.diagram().outputs.find(output));
+  for (auto& group : p.group) group = p.at;
+  return p;
+}
+
+std::vector<Place> measured_places(const Wiring& w, const Registry& registry, const Reading& reading,
+                                   bool behind_offset) {
+  const std::string wire = without_effects(w, reading.wire);
+  if (wire.find('[') == std::string::npos && moves_blocks(w, wire)) {
+    Place p;
+    if (reading.by.block.empty()) {
+      p = place_of_reading(w, reading.by.output);
+    } else {
+      p.kind = "measured";
+      p.at = fmt::format("{}.in[{}]", reading.by.block, reading.by.index);
+      p.wire = reading.wire;
+      p.reading = reading.by.block;
+      for (auto& group : p.group) group = p.at;
+    }
+    std::vector<Place> both{std::move(p)};
+    if (is_controlled(w, registry, wire)) {
+      both.push_back(on_wire(w, registry, "measured", wire));
+      set_groups(w, both.back());
+    }
+    return both;
+  }
+  Place p = on_wire(w, registry, "measured",
+                    start_of_chain(w, behind_offset ? reading.wire : before_offset(w, reading.wire)));
+  set_groups(w, p);
+  return {std::move(p)};
 }
 
 void set_groups(const Wiring& w, Place& place) {

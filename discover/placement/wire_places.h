@@ -20,8 +20,24 @@ std::string before_offset(const Wiring& w, const std::string& signal);
 /// A signal that is the end of a chain of effects, told as the wire on which they stand: "u" rather than
 /// "u_hysteresis".
 std::string start_of_chain(const Wiring& w, const std::string& signal);
-/// The wires that are measured: that of each output, or those that a mux bundles for it, each with a law of its own.
+/// A wire that is measured, and who reads it there: an output of the diagram, or a mux that bundles it for one.
+struct Reading {
+  std::string wire;
+  Reader by;
+};
+/// Of each output, or of what a mux bundles for it, each with a law of its own.
+std::vector<Reading> readings(const Wiring& w);
 std::vector<std::string> measured_wires(const Wiring& w);
+/// Where an effect of a sensor enters that reads `reading`. Of a wire that moves other blocks as well (the speed of a
+/// motor, which makes its back-EMF) it is what is read: the speed itself knows nothing of the sensor. Where a
+/// controller of the diagram acts on it the wire is a second one, for the controller may read the sensor, too.
+/// `behind_offset`: also behind the zero of the sensor.
+std::vector<Place> measured_places(const Wiring& w, const Registry& registry, const Reading& reading,
+                                   bool behind_offset);
+/// "outputs.x" names what is read off a signal for an output; nothing else.
+const std::string* output_of_reading(const Diagram& diagram, const std::string& at);
+/// The place there.
+Place place_of_reading(const Wiring& w, const std::string& output);
 /// Marks with which other places it would be one finding (Place::group).
 void set_groups(const Wiring& w, Place& place);
 

@@ -8,6 +8,7 @@
 #include "discover/models/parts.h"
 #include "discover/placement/excitation.h"
 #include "discover/placement/visible.h"
+#include "discover/placement/wire_places.h"
 #include "discover/search/books.h"
 #include "discover/structure/residual_parts.h"
 #include "discover/structure/structure_lines.h"
@@ -24,7 +25,7 @@ bool contains(const Names& names, const std::string& name) {
 
 /// The place moves something that was measured, and of that none but these outputs; any will do where none is named.
 bool may_stand(const Books& books, const Place& place, const Names& outputs) {
-  auto moved = outputs_moved(books, books.current, place.wire);
+  auto moved = outputs_moved(books, books.current, place.moves_from());
   if (moved.empty()) return outputs.empty();
   std::erase_if(moved, [&](const std::string& o) { return !contains(books.base_model->outputs(), o); });
   return !moved.empty() && (outputs.empty() || std::all_of(moved.begin(), moved.end(),
@@ -72,10 +73,10 @@ bool standing(const Books& books, const Effect& e) {
 
 bool standing_before(const Books& books, const Contender& model, const Effect& e, const Place& place) {
   if (e.side == Side::other_axis) return false;
-  const auto here = outputs_moved(books, model, place.wire);
+  const auto here = outputs_moved(books, model, place.moves_from());
   return std::any_of(model.standing.begin(), model.standing.end(), [&](const Standing& s) {
     if (s.effect->family != e.family || in_another_block(*s.effect, s.place, e, place)) return false;
-    const auto there = outputs_moved(books, model, s.place.wire);
+    const auto there = outputs_moved(books, model, s.place.moves_from());
     return there.empty() || here.empty() ||
            std::any_of(here.begin(), here.end(), [&](const std::string& o) { return contains(there, o); });
   });
@@ -103,7 +104,7 @@ Names outputs_not_moved(const Books& books, const Chosen& chosen) {
   Names list = books.base_model->outputs();
   for (const auto& s : books.current.standing) {
     if (!chosen(s)) continue;
-    const auto by_it = outputs_moved(books, books.current, s.place.wire);
+    const auto by_it = outputs_moved(books, books.current, s.place.moves_from());
     if (by_it.empty()) return {};  // nobody knows which
     std::erase_if(list, [&](const std::string& o) { return contains(by_it, o); });
   }
@@ -179,6 +180,11 @@ std::vector<std::string> outputs_moved(const Books& books, const Contender& mode
   std::vector<std::string> list;
   if (written.find('/') == std::string::npos) {
     const Wiring w(model.diagram, *books.shop.registry);
+    if (output_of_reading(model.diagram, written) != nullptr) {
+      std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
+                   [&](const std::string& name) { return is_of_output(name, written.substr(written.find('.') + 1)); });
+      return list;
+    }
     for (const auto& output : w.outputs_on_the_way(w.signal(written)))
       std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
                    [&](const std::string& name) { return is_of_output(name, output); });
@@ -221,7 +227,7 @@ std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std
   }
   for (auto* list_of : {&kept, &books.hidden})
     for (auto& t : *list_of) {
-      t.outputs = outputs_moved(books, books.current, t.place.wire);
+      t.outputs = outputs_moved(books, books.current, t.place.moves_from());
       begin_at_lines(books, t);
     }
   return kept;

@@ -183,7 +183,7 @@ std::vector<double> left_by_laws_of(const Books& books, const Contender& model) 
   Prediction begun = books.base.prediction;
   for (const auto& s : model.standing)
     if (calibrates(s))
-      for (const int o : measured_moved(books, model, s.place.wire))
+      for (const int o : measured_moved(books, model, s.place.moves_from()))
         begun = books.evidence->calibrated(std::move(begun), o);
   const auto base = books.evidence->chi2_beside_lines(begun);
   const auto now = books.evidence->chi2_beside_lines(model.prediction);

@@ -55,7 +55,7 @@ std::string holds_too_little(const Structure& s) {
 bool has_a_rival(const Books& books, const Structure& s) {
   const auto& outputs = books.base_model->outputs();
   return std::any_of(books.current.standing.begin(), books.current.standing.end(), [&](const Standing& standing) {
-    const auto moved = measured_moved(books, books.current, standing.place.wire);
+    const auto moved = measured_moved(books, books.current, standing.place.moves_from());
     return std::any_of(moved.begin(), moved.end(),
                        [&](int o) { return outputs[static_cast<std::size_t>(o)] == s.output; });
   });

@@ -51,7 +51,7 @@ std::vector<std::optional<WanderingLine>> lines_of(const Books& books, const Con
       // A cosine and a sine of each harmonic are found anew in each recording.
       const auto& free = model.standing[i].law.free;
       const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
-      for (const int o : measured_moved(books, model, model.standing[i].place.wire))
+      for (const int o : measured_moved(books, model, model.standing[i].place.moves_from()))
         lines[static_cast<std::size_t>(o)] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2), false};
     }
   return lines;

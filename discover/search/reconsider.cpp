@@ -132,12 +132,12 @@ std::vector<Tried> fitted_in_place(
 
 /// Does this effect stand on another axis than the member?
 bool stands_on_another_axis(const Books& books, const Standing& member, const std::string& id) {
-  const auto own = measured_moved(books, books.current, member.place.wire);
+  const auto own = measured_moved(books, books.current, member.place.moves_from());
   const auto is_own = [&](int output) { return std::find(own.begin(), own.end(), output) != own.end(); };
   const auto& standing = books.current.standing;
   return std::any_of(standing.begin(), standing.end(), [&](const Standing& s) {
     if (s.effect->id != id) return false;
-    const auto moved = measured_moved(books, books.current, s.place.wire);
+    const auto moved = measured_moved(books, books.current, s.place.moves_from());
     return std::none_of(moved.begin(), moved.end(), is_own);
   });
 }

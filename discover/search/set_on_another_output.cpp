@@ -26,7 +26,7 @@ std::optional<Tried> with_effect_on(const Books& books, const Contender& model, 
       books, model, [&](const Effect& e) { return &e == &effect; },
       [&](const Effect& e, const Excitation& at) { return laws_as_found(books, e, e.laws(at)); });
   std::erase_if(list, [&](const Choice& c) {
-    const auto moved = measured_moved(books, model, c.place.wire);
+    const auto moved = measured_moved(books, model, c.place.moves_from());
     return moved.size() != 1 || books.base_model->outputs()[static_cast<std::size_t>(moved.front())] != output;
   });
   std::vector<Tried> fitted(list.size());

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
 constexpr double near_noise = 1.1;  // rms over the noise: nothing is left that another effect could take away
+constexpr int slowest = 2;          // see slowness()
 constexpr int few_renewals = 3;     // of weights, for rivals that may not win
 constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
 constexpr std::size_t finalists = 3;       // that are fitted until their weights are those of what they leave
@@ -83,12 +84,12 @@ bool is_in_a_loop(const Wiring& w, const std::string& signal) {
 /// and so are several elements of memory in a block that moves.
 int slowness(const Books& books, const Tried& t) {
   constexpr std::size_t several = 4;
-  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? 2 : 0;
-  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
+  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? slowest : 0;
+  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert && t.place.reading.empty();
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
   if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire)) return 0;
   const Kernel* law = books.registry.find(t.laws.front().block.type);
-  return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr) ? 2 : 1;
+  return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
 }
 
 }  // namespace
@@ -267,7 +268,8 @@ bool Selection::is_itself(const Addition& rival) const {
 /// Those that are quick first; the others where these leave more than noise.
 void Selection::fit(std::vector<Addition>& rivals, int step) {
   std::vector<Addition> all;
-  for (const int slow : {0, 1, 2}) {
+  asked_ = -1;
+  for (int slow = 0; slow <= slowest; ++slow) {
     std::vector<Addition> some;
     for (auto& r : rivals)
       if (r.slowness == slow) some.push_back(std::move(r));
@@ -277,6 +279,7 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
       fit_first_laws(some, step);
       fit_with_numbers(some);
     }
+    if (!books_.stopped()) asked_ = slow;
     all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     sort(all);
   }
@@ -299,8 +302,9 @@ bool Selection::add_one(int step) {
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
-    // Where more than noise is left, who was not asked might have been the one.
-    if (broken_off && score().over_noise(r.fitted.left) > near_noise) break;
+    // Where more than noise is left, who was not asked might have been the one. Not asked of the slowest, which stand
+    // inside loops, is told as all that was broken off.
+    if (broken_off && asked_ < slowest - 1 && score().over_noise(r.fitted.left) > near_noise) break;
     best_ = r.fitted;
     return true;
   }
