@@ -41,7 +41,7 @@ struct Device {
   std::string name, diagram, data;
 };
 
-/// In the order of the table in docs/discovery.md.
+/// In the order of the table in docs/discovery-by-steps.md.
 std::vector<Device> devices() {
   std::vector<Device> list;
   for (const char* name : {"piezo_stack", "piezo_stack_more", "silverbox", "silverbox_held", "mr_damper_a",

@@ -107,7 +107,7 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   wish.diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(wish.diagram);
   wish.is_check = arguments.has("--check");
-  const std::string how = arguments.has("--search") ? arguments.text("--search") : "steps";
+  const std::string how = arguments.has("--search") ? arguments.text("--search") : wish.is_check ? "steps" : "models";
   if (how != "steps" && how != "models")
     fail("bad_command_line", "--search", json_quoted(how) + " is no way to search", "\"steps\" or \"models\"");
   wish.by_models = how == "models";
@@ -217,7 +217,7 @@ std::vector<OptionSpec> look_options() {
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
           {"--search", "HOW",
-           "\"steps\" (default): one effect after the other, by rules; \"models\": whole models by one score", false,
+           "\"models\" (default): whole models by one score; \"steps\": one effect after the other, by rules", false,
            false},
           {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
            false},

@@ -157,6 +157,7 @@ Effect creep() {
   e.implausible = why_no_creep;
   e.summary = creep_summary;
   e.laws = [](const Excitation& at) { return std::vector<Law>{by_the_logarithm(at), by_relaxations(at)}; };
+  e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double needed = 100 * at.step_at_longest_hold;

@@ -64,8 +64,8 @@ Effect cross_coupling() {
     LawParameter c;
     c.path = "coefficient";
     c.start = 0.01 * own;
-    c.plausible_lower = -0.1 * own;
-    c.plausible_upper = 0.1 * own;
+    c.plausible_lower = -own;  // what does more than its own drive is a second input, not a coupling
+    c.plausible_upper = own;
     law.free = {c};
     return std::vector<Law>{law, late(law, at)};
   };

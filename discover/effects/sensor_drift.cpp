@@ -43,6 +43,7 @@ Effect sensor_drift() {
     more.free.push_back(zero);
     return std::vector<Law>{law, more};
   };
+  e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data || at.longest_recording >= 600) return "";
     return fmt::format("the longest recording lasts {}, a drift needs 10 min", time_text(at.longest_recording));

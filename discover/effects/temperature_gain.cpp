@@ -124,6 +124,7 @@ Effect temperature_gain() {
     return "it rises and falls within the temperatures recorded: strokes of ceramics rise steadily from -30 to 125 "
            "degC";
   };
+  e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;

@@ -99,6 +99,7 @@ Effect thermal_expansion() {
     return std::abs(per_kelvin) * another_day;
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
+  e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
     const double span = at.side_highest - at.side_lowest;

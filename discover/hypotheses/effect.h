@@ -182,6 +182,9 @@ struct Effect {
   /// Why it can be seen in this data but not well told from others, or not in full: which of its needs are not met; ""
   /// = they are. May be empty.
   std::function<std::string(const Excitation&)> unsure{};
+  /// What `unseen` tells is how little is seen, not that nothing can be: a score that compares whole models asks what
+  /// the recordings say all the same.
+  bool seen_by_degrees = false;
   /// Where it cannot be seen: true if it may have acted all the same, alike in all recordings, so that a look-alike
   /// would be taken for it. May be empty: then it has not.
   std::function<bool(const Excitation&)> may_hide;

@@ -115,7 +115,8 @@ std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, cons
     if (effect.side == Side::use || use) return use && effect.side == Side::use;
     if (effect.side == Side::force) return unit.dimension == parse_unit("N").dimension;
     if (effect.side == Side::temperature) return is_temperature(unit);
-    return !is_temperature(unit) && !unit.dimension.none();
+    // A bare number is a count or a mark, "%" of a heater is a drive.
+    return !is_temperature(unit) && (!unit.dimension.none() || unit.text == "%");
   };
   std::vector<SideSignal> list;
   for (const auto& [name, input] : w.diagram().inputs)

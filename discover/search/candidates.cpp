@@ -208,12 +208,23 @@ std::vector<int> measured_moved(const Books& books, const Contender& model, cons
   return list;
 }
 
+namespace {
+
+/// Little is seen of it, and the score says what that is worth.
+bool seen_a_little(const Books& books, const Tried& t) {
+  const bool beside_what_rests =
+      t.effect->side != Side::none && !(t.excitation.side_highest > t.excitation.side_lowest);
+  return books.by_score && t.effect->seen_by_degrees && !beside_what_rests;
+}
+
+}  // namespace
+
 std::vector<Tried> list_candidates(Books& books, int step, const std::vector<std::string>& outputs,
                                    const std::vector<const Effect*>& only) {
   books.hidden.clear();
   std::vector<Tried> kept;
   for (auto& t : everywhere(books, step, outputs, only)) {
-    if (const std::string why = t.effect->unseen(t.excitation); !why.empty()) {
+    if (const std::string why = t.effect->unseen(t.excitation); !why.empty() && !seen_a_little(books, t)) {
       if (step == 1) books.d.refused.push_back({t.effect->id, t.place.where(), why});
       if (t.effect->may_hide && t.effect->may_hide(t.excitation)) books.hidden.push_back(std::move(t));
       continue;

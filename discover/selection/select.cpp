@@ -12,6 +12,9 @@
 namespace hysteron {
 namespace {
 
+/// A number found within this part of what it is known to is as the user wrote it, however sure the difference is.
+constexpr double as_written = 0.1;
+
 /// The model that is told: with the fewest of the user's numbers let go, with intervals, and what it is without its
 /// last terms.
 struct Told {
@@ -164,7 +167,8 @@ void tell_candidates(Books& books, const Selection& selection, const Told& told)
 void tell_numbers(Books& books, const Told& told) {
   const FitResult& fit = told.chain.back().fit;
   for (const auto& e : fit.estimates)
-    if (const auto n = told.kept.find(e.path); n != told.kept.end())
+    if (const auto n = told.kept.find(e.path);
+        n != told.kept.end() && std::abs(e.used / n->second - 1) > as_written * known_to)
       books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
   std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);

@@ -19,9 +19,9 @@ using process::Outcome;
 
 class DiscoverVerb : public LabTest {
  protected:
-  json looked_for_a_lag() const {
-    const Outcome out = hysteron(
-        folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag", "-o", "out"});
+  json looked_for_a_lag(const std::string& search = "models") const {
+    const Outcome out = hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only",
+                                                  "amplifier_lag", "--search", search, "-o", "out"});
     EXPECT_EQ(out.code, 0) << out.err;
     return result("out");
   }
@@ -89,7 +89,7 @@ TEST_F(DiscoverVerb, ATieHasTheMenuAmongWhichItsExperimentWasChosen) {
 
 TEST_F(DiscoverVerb, StructuresThatCompetedSayWhatTheyTakeAwayAndWhyTheyDoNotCount) {
   record(3, 0.02);
-  const json structures = looked_for_a_lag()["facts"]["structures"];
+  const json structures = looked_for_a_lag("steps")["facts"]["structures"];
   ASSERT_FALSE(structures.empty());
   for (const auto& s : structures) {
     EXPECT_FALSE(s["told"]) << s["kind"];
@@ -98,7 +98,7 @@ TEST_F(DiscoverVerb, StructuresThatCompetedSayWhatTheyTakeAwayAndWhyTheyDoNotCou
     EXPECT_EQ(s["left_by"], "base") << s["kind"];
   }
   record(1);
-  EXPECT_TRUE(looked_for_a_lag()["facts"]["structures"].empty()) << "only noise is left: none is looked for";
+  EXPECT_TRUE(looked_for_a_lag("steps")["facts"]["structures"].empty()) << "only noise is left: none is looked for";
 }
 
 TEST_F(DiscoverVerb, DiscoverSaysFirstOfAllThatARowIsFarFromAllOthers) {
@@ -129,6 +129,9 @@ TEST_F(DiscoverVerb, SearchSaysHowAndRefusesWhatItDoesNotKnow) {
     const json facts = result(verb + std::string(".out"))["facts"];
     EXPECT_EQ(facts["effects"].at(0), "amplifier_lag") << verb;
     EXPECT_NE(facts["candidates"].at(0)["reason"].get<std::string>().find("score"), std::string::npos) << verb;
+    ASSERT_EQ(searched(verb, {"--only", "amplifier_lag,calibration"}).code, 0);
+    EXPECT_EQ(result(verb + std::string(".out"))["facts"]["candidates"], facts["candidates"])
+        << "as nobody asks for it";
   }
   const Outcome cut = searched("discover", {"--search", "models", "--within", "1 us"});
   EXPECT_EQ(cut.code, 0) << cut.err;

@@ -6,6 +6,7 @@
 #include "discover/effects/all.h"
 #include "discover/placement/add.h"
 #include "discover/placement/places.h"
+#include "io/data/dataset.h"
 #include "io/diagram/diagram_file.h"
 
 namespace hysteron {
@@ -67,7 +68,7 @@ TEST_F(Readings, AreOneOfTwoPlacesWhereAControllerActsOnTheWire) {
 }
 
 TEST_F(Readings, AreAPlaceOfWhatLiesBetweenMotionAndSensorBesideTheWireItself) {
-  EXPECT_EQ(where("backlash", motor()), (std::vector<std::string>{"u", "outputs.w", "speed"}));
+  EXPECT_EQ(where("backlash", motor()), (std::vector<std::string>{"outputs.w", "speed"}));
 }
 
 TEST_F(Readings, AreNoPlacesOfTheirOwnWhereNobodyElseReads) {
@@ -105,6 +106,31 @@ TEST_F(Readings, OfABundleStandBeforeItsMux) {
   const Added a = add_effect(d, registry, effects.get("quantization"), "both.in[0]");
   EXPECT_EQ(a.diagram.blocks.find("both")->in.front().from, a.name);
   EXPECT_EQ(a.diagram.blocks.find("back_emf")->in.front().from, "speed");
+}
+
+/// What a data set holds beside what the diagram reads.
+DataSet with_column(const std::string& name, const char* unit) {
+  DataSet data;
+  data.notes[name].to = name;
+  Recording r;
+  r.t = {0, 1};
+  r.columns[name] = {0, 1};
+  r.units[name] = parse_unit(unit);
+  data.recordings.push_back(std::move(r));
+  return data;
+}
+
+TEST_F(Readings, AreCoupledToAColumnInTheUnitOfADriveThatNobodyBound) {
+  Diagram d = motor();
+  d.inputs["u"].unit = "%";
+  const auto sides = [&](const DataSet& data) {
+    std::vector<std::string> list;
+    for (const auto& p : places_of(effects.get("cross_coupling"), d, registry, &data)) list.push_back(p.side);
+    return list;
+  };
+  EXPECT_EQ(sides(with_column("heater2", "%")), (std::vector<std::string>{"heater2", "heater2"}))
+      << "behind the core: what is read, and the wire";
+  EXPECT_TRUE(sides(with_column("row", "1")).empty()) << "a count is no drive";
 }
 
 }  // namespace
