@@ -8,7 +8,7 @@ void Tank::describe(BlockSpec<Tank>& spec) {
   spec.name("tank", "level in a tank with an outlet and a brim").in_group("continuous");
   spec.law(
           "area dh/dt = inflow - outflow; linear: outflow = outlet h/reference; square_root: outflow = outlet "
-          "sqrt(h/reference); at the brim the surplus is spilled, below 0 the level does not go")
+          "sqrt(h/reference); power: outflow = outlet (h/reference)^exponent; at the brim the surplus is spilled, below 0 the level does not go")
       .from("Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465");
   spec.remark("outlet is the flow that leaves at the level \"reference\": any level at which it was measured.");
   spec.remark("Spilled water is missing afterwards, unlike with a saturated sensor.");
@@ -22,7 +22,10 @@ void Tank::describe(BlockSpec<Tank>& spec) {
   spec.param(&Params<double>::area, "area", "$b*s/$a", "area of the surface").positive();
   spec.param(&Params<double>::outlet, "outlet", "$b", "outflow at the reference level").optional("0").not_negative();
   spec.param(&Params<double>::reference, "reference", "$a", "level for which outlet holds").positive();
-  spec.text("law", {"linear", "square_root"}, "outflow grows with the level, or with its root");
+  spec.text("law", {"linear", "square_root", "power"}, "outflow grows with the level, its root, or a power of it");
+  spec.param(&Params<double>::exponent, "exponent", "1", "of law power: 1/2 an orifice, 1 a long narrow pipe")
+      .optional("1")
+      .positive();
   spec.param(&Params<double>::brim, "brim", "$a", "level at which it runs over; 0 = never")
       .optional("0")
       .not_negative();

@@ -12,7 +12,7 @@ namespace hysteron::blocks {
 struct Tank {
   template <class T>
   struct Params {
-    T area, outlet, reference, law, brim, initial;
+    T area, outlet, reference, law, exponent, brim, initial;
   };
   template <class T>
   struct In {
@@ -29,11 +29,12 @@ struct Tank {
   static void describe(BlockSpec<Tank>& spec);
   template <class T>
   static tank::Outlet outlet_of(const Params<T>& p) {
-    return value_of(p.law) == 0 ? tank::Outlet::linear : tank::Outlet::square_root;
+    return tank::Outlet(static_cast<int>(value_of(p.law)));
   }
   template <class T>
   static tank::Params<T> numbers(const Params<T>& p) {
-    return {p.area, p.outlet, p.reference, p.brim > T{0} ? p.brim : T{std::numeric_limits<double>::infinity()}};
+    return {p.area, p.outlet, p.reference, p.brim > T{0} ? p.brim : T{std::numeric_limits<double>::infinity()},
+            p.exponent};
   }
   template <class T>
   static Out<T> output(const Params<T>& p, const State<T>& s) {

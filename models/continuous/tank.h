@@ -7,7 +7,7 @@
 namespace hysteron::tank {
 
 enum Mode { open, full, empty };
-enum class Outlet { linear, square_root };
+enum class Outlet { linear, square_root, power };
 
 /// How far a level passes brim or bottom before it counts [m]: open may then begin exactly there.
 inline constexpr double film = 1e-9;
@@ -18,16 +18,19 @@ struct Params {
   T outlet{0};     ///< [m^3/s] flow through the outlet at the reference level
   T reference{1};  ///< [m]
   T height{1};     ///< [m] brim; may be infinite
+  T exponent{1};   ///< of the level, in Outlet::power
 };
 
-/// Flow through the outlet [m^3/s] at a level [m]: q_r h/h_r (a long narrow pipe) or q_r sqrt(h/h_r) (an orifice); none
-/// at h <= 0.
+/// Flow through the outlet [m^3/s] at a level [m]: q_r h/h_r (a long narrow pipe), q_r sqrt(h/h_r) (an orifice) or
+/// q_r (h/h_r)^n (what has of both, n between 1/2 and 1); none at h <= 0.
 /// Source: Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465 (four tanks).
 template <class T>
 T outflow(Outlet law, const Params<T>& p, const T& level) {
+  using std::pow;
   using std::sqrt;
   if (!(level > T{0})) return T{0};
   const T share = level / p.reference;
+  if (law == Outlet::power) return p.outlet * T{pow(share, p.exponent)};
   return p.outlet * (law == Outlet::linear ? share : T{sqrt(share)});
 }
 
@@ -91,7 +94,10 @@ inline Filled after(Outlet law, const Params<double>& p, const Filled& before, d
 inline double rest(Outlet law, const Params<double>& p, double inflow) {
   if (inflow <= 0) return 0;
   const double ratio = inflow / p.outlet;
-  return std::min(p.height, p.reference * (law == Outlet::linear ? ratio : ratio * ratio));
+  const double share = law == Outlet::linear        ? ratio
+                       : law == Outlet::square_root ? ratio * ratio
+                                                    : std::pow(ratio, 1 / p.exponent);
+  return std::min(p.height, p.reference * share);
 }
 
 }  // namespace hysteron::tank

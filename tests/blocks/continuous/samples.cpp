@@ -44,6 +44,8 @@ const Samples continuous{
     {"slew_limit", {{"rate", {4}}, {"fall", {2}}, {"time", {0.05}}}},
     {"current_limit", {{"source", {0.4}}, {"sink", {0.2}}, {"capacitance", {0.1}}, {"time", {0.05}}}},
     {"tank", {{"area", {2}}, {"outlet", {0.6}}, {"reference", {1}}, {"brim", {4}}, {"initial", {1}}}},
+    {"tank",
+     {{"area", {2}}, {"outlet", {0.6}}, {"reference", {1}}, {"law", {2}}, {"exponent", {0.8}}, {"initial", {1}}}},
     {"tank", {{"area", {2}}, {"outlet", {0.6}}, {"reference", {1}}, {"law", {1}}, {"brim", {9}}, {"initial", {1}}}},
     {"thermal_network",
      {{"capacities", {4, 3}}, {"to_ambient", {0.2, 0.3}}, {"between", {0.7}}, {"initial", {300, 310}}},

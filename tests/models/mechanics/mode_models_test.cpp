@@ -287,6 +287,23 @@ TEST(TankModel, LinearOutletDrainsExponentially) {
   EXPECT_NEAR(walk.x[0], 5 * std::exp(-1.2), 1e-9);  // RK4 with 0.003 of the time constant
 }
 
+TEST(TankModel, OutletByAPowerOfTheLevelLiesBetweenPipeAndOrifice) {
+  // h^(1-n) = h0^(1-n) - (1-n) c t/A: h^(1/4) = 1 - 0.25 behind t = 2.
+  Walk walk = filled(
+      tank::Outlet::power, {.area = 2, .outlet = 1, .height = no_brim, .exponent = 0.75}, [](double) { return 0.0; },
+      1);
+  walk.until(2);
+  EXPECT_NEAR(walk.x[0], std::pow(0.75, 4), 1e-10);
+  for (const double level : {0.1, 0.9, 4.0}) {
+    EXPECT_NEAR(tank::outflow<double>(tank::Outlet::power, {.outlet = 3, .reference = 2, .exponent = 1}, level),
+                tank::outflow<double>(tank::Outlet::linear, {.outlet = 3, .reference = 2}, level), 1e-15);
+    EXPECT_NEAR(tank::outflow<double>(tank::Outlet::power, {.outlet = 3, .reference = 2, .exponent = 0.5}, level),
+                tank::outflow<double>(tank::Outlet::square_root, {.outlet = 3, .reference = 2}, level), 1e-15);
+  }
+  const tank::Params<double> p{.outlet = 3, .reference = 2, .height = no_brim, .exponent = 0.7};
+  EXPECT_NEAR(tank::outflow(tank::Outlet::power, p, tank::rest(tank::Outlet::power, p, 1.3)), 1.3, 1e-14);
+}
+
 TEST(TankModel, OrificeDrainsInFiniteTime) {
   // sqrt(h) = sqrt(h0) - c t/(2 A): 1 - 0.25 t, empty at 4 s.
   Walk walk = filled(
