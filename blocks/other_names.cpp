@@ -114,9 +114,10 @@ const std::vector<OtherNames>& table() {
        "\"prandtl_ishlinskii\", \"bouc_wen\" or \"jiles_atherton\""},
       {{"signum"}, "the direction of a signal is \"sign\""},
       {{"coulomb", "coulombfriction", "coulomb&viscousfriction", "coulombandviscousfriction", "stribeck"},
-       "friction is \"sliding_friction\", of a mass \"mass_with_friction\""},
+       "friction is \"bearing_friction\" before the gain that is the damping, of a mass \"mass_with_friction\""},
       {{"friction", "lugre", "dahl", "stiction"},
-       "friction is \"sliding_friction\", of a mass \"mass_with_friction\" or \"mass_with_presliding\""},
+       "friction is \"bearing_friction\" before the gain that is the damping, of a mass \"mass_with_friction\" or "
+       "\"mass_with_presliding\""},
       {{"spring", "damper", "mass", "springmassdamper", "msd"},
        "a mass on spring and damper is \"mass_spring_damper\""},
       {{"deadplay", "lostmotion", "freeplay"},

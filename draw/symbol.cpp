@@ -63,6 +63,7 @@ const Look* find_look(const std::string& type) {
       {"coulomb_friction", {"friction", true}},
       {"stribeck_friction", {"friction", true}},
       {"friction", {"friction", true}},
+      {"bearing_friction", {"friction", true}},
       {"hard_stop", {"hard_stop", true}},
       {"rate_limiter", {"rate_limiter", true}},
       {"calibration", {"calibration"}},

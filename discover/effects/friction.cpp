@@ -1,5 +1,5 @@
-// The effect friction: in the guide of a mass or the bearings of an inertia, on a wire that carries a speed, behind a
-// motion without a mass.
+// The effect friction: in the guide of a mass or the bearings of an inertia, beside a damping, on a wire that carries a
+// speed, behind a motion without a mass.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,24 +30,13 @@ Law on_a_speed(const Excitation& at, bool flows) {
   Law law;
   law.name = flows ? "sticks, flows and slides" : "sticks and slides (Dahl)";
   law.block.type = "sliding_friction";
-  const double fast = std::max({std::abs(at.lowest), std::abs(at.highest), 1e-30});
-  // The way in one row at full speed: what is much shorter is a switch between two rows.
-  const double way = fast * at.shortest_step;
-  const Unit distance = parse_unit(fmt::format("({})*s", unit_text(at.unit)));
+  const double fast = fastest(at);
   LawParameter level;
   level.path = "level";
   level.start = 0.1 * fast;
   level.lower = 0;  // it takes energy
   give(law.block, "level", with_unit(level.start, at.unit));
-  LawParameter slip;
-  slip.path = "slip_distance";
-  slip.start = way;
-  slip.lower = 1e-3 * way;
-  slip.upper = 1e3 * way;
-  slip.log_scale = true;
-  slip.scan = per_decade(0.03 * way, 10 * way, 2);
-  give(law.block, "slip_distance", with_unit(slip.start, distance));
-  law.free = {level, slip};
+  law.free = {level, give_slip_distance(law, at)};
   if (!flows) return law;
   LawParameter crossover;
   crossover.path = "crossover";
@@ -75,7 +64,7 @@ Effect friction() {
   e.equation =
       "F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips at "
       "stiffness*distance; without a mass "
-      "y = u - level*z/distance, v of y";
+      "y = u - level*z/distance, v of y; beside a damping b: F = b*(v + level*z/distance)";
   e.source =
       "Dahl, AIAA J. 14 (1976) 1675; richer: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 "
       "(1995) 419";
@@ -83,7 +72,7 @@ Effect friction() {
   e.needs = "Several reversals, slow and fast ones.";
   e.way = Way::insert;
   e.block_type = "sliding_friction";
-  e.places = {"command", "core"};
+  e.places = {"command", "core", "damping"};
   e.behind_core = true;
   e.variation = "presliding";
   e.else_a_block = true;
@@ -95,7 +84,9 @@ Effect friction() {
       {"stribeck_velocity", "m/s, rad/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
       {"contact_time", "s", "richest law: damping over stiffness of the contact while it sticks", ""},
       {"level", "unit of the wire",
-       "on a wire that carries a speed: friction over the damping behind it; a motion: what is held back", ""},
+       "beside a damping, or on a wire that carries a speed: friction over the damping behind it; a motion: what is held "
+       "back",
+       ""},
       {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},
                    {"saturation", "triangle", "friction has a loop where the motion turns, a clamp has none"},
@@ -103,6 +94,7 @@ Effect friction() {
                    {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
+    if (at.damping) return told_beside_damping(values, at);
     if (at.by.empty() && is_motion(at.unit))
       return fmt::format(
           "{:.3g} {} held back, after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
@@ -119,6 +111,7 @@ Effect friction() {
                        values[1] * 1e6);
   };
   e.laws = [](const Excitation& at) {
+    if (at.damping) return std::vector<Law>{beside_damping(at), beside_damping_with_excess(at)};
     if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
     const Law sticky = presliding_with_excess(at);
@@ -136,13 +129,17 @@ Effect friction() {
     // Dry friction without presliding and a gap obey one law, the play operator.
     return slip < 0.1 * level ? "it sticks fully until it slides: that is lost motion" : "";
   };
-  e.unsure = [](const Excitation& at) { return one_speed(at, 3, "tell it from what grows with the speed"); };
+  e.unsure = [](const Excitation& at) -> std::string {
+    if (at.damping) return "";  // a speed passes all that are below it
+    return one_speed(at, 3, "tell it from what grows with the speed");
+  };
   e.unseen = [](const Excitation& at) -> std::string {
     if (at.by.empty() && is_motion(at.unit) && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
                          fmt::join(at.memory_blocks, ", "));
-    if (at.by.empty() && !is_speed(at.unit) && !is_motion(at.unit))
-      return "friction needs a mass or an inertia, or a wire that carries a motion or a speed";
+    if (at.damping && *at.damping == 0) return no_damping;
+    if (at.by.empty() && !at.damping && !is_speed(at.unit) && !is_motion(at.unit))
+      return "friction needs a mass or an inertia, a damping, or a wire that carries a motion or a speed";
     return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";
   };
   return e;

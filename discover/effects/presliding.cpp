@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/hypotheses/travel.h"
@@ -10,12 +11,15 @@
 namespace hysteron::effects {
 namespace {
 
-/// Holds more before it slides fast. `range`: of the motion. An excess at no speed at all is none, and looks best to
-/// begin with: a search from there ends at an excess without bound that nothing shows.
-Law with_excess(Law law, double range, const Excitation& at, const Unit& speed_unit) {
-  // Largest speed of the motion, if that is as quick as what drives it; at most the whole range in a row.
-  const double row_rate = 1 / std::max(at.shortest_step, 1e-9);                                // [1/s]
-  const double fast = range * (at.quickest > 0 ? std::min(at.quickest, row_rate) : row_rate);  // in speed_unit's SI
+/// Largest speed of a motion over `range`, if that is as quick as what drives it; at most the whole range in a row.
+double largest_speed(double range, const Excitation& at) {
+  const double row_rate = 1 / std::max(at.shortest_step, 1e-9);  // [1/s]
+  return range * (at.quickest > 0 ? std::min(at.quickest, row_rate) : row_rate);
+}
+
+/// Holds more before it slides fast. `fast`: the largest speed, in speed_unit's SI. An excess at no speed at all is
+/// none, and looks best to begin with: a search from there ends at an excess without bound that nothing shows.
+Law with_excess(Law law, double fast, const Unit& speed_unit) {
   give(law.block, "excess", 0.0);
   LawParameter excess;
   excess.path = "excess";
@@ -73,7 +77,7 @@ Law presliding(const Excitation& at) {
 }
 
 Law presliding_with_excess(const Excitation& at) {
-  Law law = with_excess(presliding(at), travel(at), at, parse_unit(turns(at) ? "rad/s" : "m/s"));
+  Law law = with_excess(presliding(at), largest_speed(travel(at), at), parse_unit(turns(at) ? "rad/s" : "m/s"));
   law.name = "presliding with Stribeck's excess (LuGre)";
   return law;
 }
@@ -105,9 +109,58 @@ Law guided(const Excitation& at) {
 
 Law guided_with_excess(const Excitation& at) {
   const double range = at.range() > 0 ? at.range() : 1;
-  Law law = with_excess(guided(at), range, at, parse_unit(fmt::format("({})/s", unit_text(at.unit))));
+  Law law = with_excess(guided(at), largest_speed(range, at), parse_unit(fmt::format("({})/s", unit_text(at.unit))));
   law.name = "holds the motion back, with Stribeck's excess (LuGre)";
   return law;
+}
+
+double fastest(const Excitation& at) { return std::max({std::abs(at.lowest), std::abs(at.highest), 1e-30}); }
+
+LawParameter give_slip_distance(Law& law, const Excitation& at) {
+  const double way = fastest(at) * at.shortest_step;
+  LawParameter slip;
+  slip.path = "slip_distance";
+  slip.start = way;
+  slip.lower = 1e-3 * way;
+  slip.upper = 1e3 * way;
+  slip.log_scale = true;
+  slip.scan = per_decade(0.03 * way, 10 * way, 2);
+  give(law.block, "slip_distance", with_unit(slip.start, parse_unit(fmt::format("({})*s", unit_text(at.unit)))));
+  return slip;
+}
+
+Law beside_damping(const Excitation& at) {
+  Law law;
+  law.name = "sticks and slides beside the damping (Dahl)";
+  law.block.type = "bearing_friction";
+  const double fast = fastest(at);
+  LawParameter level;
+  level.path = "level";
+  level.start = 0.3 * fast;
+  level.lower = 0;  // it takes energy
+  // Bearings of small machines brake more by dry friction than by their damping at any speed that they reach, guides
+  // that float in oil hardly.
+  level.scan = {0.03 * fast, 0.3 * fast, 3 * fast, 30 * fast};
+  give(law.block, "level", with_unit(level.start, at.unit));
+  law.free = {level, give_slip_distance(law, at)};
+  return law;
+}
+
+Law beside_damping_with_excess(const Excitation& at) {
+  Law law = with_excess(beside_damping(at), fastest(at), at.unit);
+  law.name = "sticks and slides beside the damping, with Stribeck's excess";
+  return law;
+}
+
+std::string told_beside_damping(const std::vector<double>& values, const Excitation& at) {
+  const bool rotates = dimension_factor(at.unit.dimension, parse_unit("rad/s").dimension) != 0;
+  std::string text = fmt::format("as much as the damping at {:.3g} {}: {:.3g} {} by the gain of the diagram",
+                                 at.unit.difference_from_si(values[0]), at.unit.text, values[0] * std::abs(*at.damping),
+                                 rotates ? "N m" : "N");
+  if (values.size() > 3)
+    text += fmt::format(", {:.2g} % more below {:.3g} {}", 100 * values[2], at.unit.difference_from_si(values[3]),
+                        at.unit.text);
+  return text;
 }
 
 }  // namespace hysteron::effects

@@ -1,5 +1,9 @@
-// Decides what a guide does that sticks before it slides, as laws of effects: of a mass, and of a motion without one.
+// Decides what a guide does that sticks before it slides, as laws of effects: of a mass, of a motion without one, and
+// of a bearing beside its damping.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "discover/hypotheses/effect.h"
 
@@ -14,6 +18,21 @@ Law presliding_with_excess(const Excitation& at);
 /// it.
 Law guided(const Excitation& at);
 Law guided_with_excess(const Excitation& at);
+
+/// Before a damping, on the speed: dry friction beside it (Dahl), and with Stribeck's excess.
+Law beside_damping(const Excitation& at);
+Law beside_damping_with_excess(const Excitation& at);
+/// What these say, values as Law::free; `at` has a damping.
+std::string told_beside_damping(const std::vector<double>& values, const Excitation& at);
+
+/// Why it cannot be seen beside a damping of 0, over which it is told.
+inline constexpr const char* no_damping = "the damping there is 0, and friction is told over it: give the gain a value";
+
+/// Of a wire that carries a speed: its largest [SI], never 0.
+double fastest(const Excitation& at);
+/// There the way from sticking to sliding, written into the law's block. What is much shorter than the way in one row
+/// at full speed is a switch between two rows.
+LawParameter give_slip_distance(Law& law, const Excitation& at);
 
 /// A length or an angle.
 bool is_motion(const Unit& unit);

@@ -23,7 +23,7 @@ Effect stribeck_friction() {
   e.needs = "Steady motion at six speeds or more of both signs, some below the one at which the excess is gone.";
   e.way = Way::insert;
   e.block_type = "guide_friction";
-  e.places = {"core"};
+  e.places = {"core", "damping"};
   e.behind_core = true;
   e.variation = "presliding";
   e.else_a_block = true;
@@ -31,15 +31,18 @@ Effect stribeck_friction() {
   e.parameters = {{"contact_stiffness", "N/m, N*m/rad",
                    "of a mass or an inertia: while it sticks; times slip_distance: the level", ""},
                   {"slip_distance", "m", "after which it slides", "0.1 .. 50 um"},
-                  {"level", "unit of the wire", "of a motion without a mass: what is held back of it", ""},
+                  {"level", "unit of the wire",
+                   "of a motion without a mass: what is held back of it; beside a damping: over that", ""},
                   {"excess", "", "breakaway over the friction of fast sliding, less one", "0 .. 1"},
-                  {"stribeck_velocity", "m/s", "at which the excess is gone", "0.1 .. 10 mm/s"}};
+                  {"stribeck_velocity", "m/s, rad/s", "at which the excess is gone", "0.1 .. 10 mm/s"}};
   e.look_alikes = {{"friction", "triangle", "without the excess it holds as much at every speed"},
                    {"quadratic_drag", "triangle", "a drag rises with the speed, it falls"}};
   e.laws = [](const Excitation& at) {
+    if (at.damping) return std::vector<Law>{beside_damping_with_excess(at)};
     return std::vector<Law>{at.by.empty() ? guided_with_excess(at) : presliding_with_excess(at)};
   };
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
+    if (at.damping) return told_beside_damping(values, at);
     const std::string level = at.by.empty()
                                   ? fmt::format("{:.3g} {}", at.unit.difference_from_si(values[0]), at.unit.text)
                                   : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
@@ -47,10 +50,15 @@ Effect stribeck_friction() {
     return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} {}/s", level, 100 * values[2],
                        1e3 * values[3], turns(at) ? "mrad" : "mm");
   };
-  e.unsure = [](const Excitation& at) { return one_speed(at, 10, "tell what falls with it"); };
+  e.unsure = [](const Excitation& at) -> std::string {
+    if (at.damping) return "";  // a speed passes all that are below it
+    return one_speed(at, 10, "tell what falls with it");
+  };
   e.unseen = [](const Excitation& at) -> std::string {
-    if (at.by.empty() && !is_motion(at.unit)) return "it needs a mass or an inertia, or a wire that carries a motion";
-    if (at.by.empty() && !at.memory_blocks.empty())
+    if (at.damping && *at.damping == 0) return no_damping;
+    if (at.by.empty() && !at.damping && !is_motion(at.unit))
+      return "it needs a mass or an inertia, a damping, or a wire that carries a motion";
+    if (at.by.empty() && !at.damping && !at.memory_blocks.empty())
       return fmt::format("the diagram has memory already ({}): another shape of it would be an asymmetry",
                          fmt::join(at.memory_blocks, ", "));
     return at.from_data && at.reversals < 2 ? "the motion does not turn twice" : "";

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,7 +59,10 @@ struct Excitation {
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
   double reference = 0;     ///< that block's parameter of this name (level at which its flow is told); 0 = it has none
   bool springless = false;  ///< that block is a mass whose stiffness is 0, and not free
-  double largest_jump = 0;  ///< largest change between two rows
+  /// The gain [SI] of the damping that makes a force or a torque of the speed on the wire; none = it stands before
+  /// none.
+  std::optional<double> damping{};
+  double largest_jump = 0;             ///< largest change between two rows
   double shortest_step = 1e-3;         ///< [s] between rows, smallest over the train recordings
   double longest_step = 1e-3;          ///< [s]
   double longest_recording = 100;      ///< [s] of any recording, validation included
@@ -149,7 +153,7 @@ struct Effect {
   std::string file{};      ///< where a user's own effect was read from (effect_file.h); "" = of the library
   /// A block that offers this variation may be replaced by its richer type besides: the law is then that type.
   std::string variation;
-  std::vector<std::string> places;  ///< kinds of place: "command", "core", "measured" (with "core": see `behind_core`)
+  std::vector<std::string> places;  ///< kinds of place (place_kinds; with "core": see `behind_core`)
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
   bool else_a_block = false;        ///< a block of its own at the core only where no block offers the variation

@@ -15,12 +15,11 @@
 #include "engine/diagram/number_text.h"
 #include "engine/program/program.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/place_kinds.h"
 #include "io/json/json_reader.h"
 
 namespace hysteron {
 namespace {
-
-const std::vector<std::string> kinds{"command", "core", "force", "motion", "measured"};
 
 /// The words of the menu of experiments.
 const std::vector<std::string> experiments{"zero_run",
@@ -156,14 +155,14 @@ class EffectReader {
   }
 
   void enters_at(const JsonPlace& place) {
-    const auto list =
-        place.need("enters_at", "write \"enters_at\": [\"command\"], of: " + fmt::format("{}", fmt::join(kinds, ", ")));
+    const auto list = place.need(
+        "enters_at", "write \"enters_at\": [\"command\"], of: " + fmt::format("{}", fmt::join(place_kinds, ", ")));
     if (!list || !list->expect_array("[\"command\", \"measured\"]")) return;
     for (const auto& one : list->elements()) {
       const auto kind = one.text();
       if (!kind) continue;
-      if (std::find(kinds.begin(), kinds.end(), *kind) == kinds.end())
-        one.add("bad_value", fmt::format("\"{}\" is no kind of place", *kind), did_you_mean(*kind, kinds));
+      if (std::find(place_kinds.begin(), place_kinds.end(), *kind) == place_kinds.end())
+        one.add("bad_value", fmt::format("\"{}\" is no kind of place", *kind), did_you_mean(*kind, place_kinds));
       effect_.places.push_back(*kind);
     }
     if (effect_.places.empty())

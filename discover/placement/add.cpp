@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "discover/placement/excitation.h"
 #include "discover/placement/wire_places.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/error.h"
@@ -200,11 +201,16 @@ std::string add_at(Diagram& diagram, const Registry& registry, const Effect& eff
   return name;
 }
 
-/// As far as the diagram says: thresholds of a law that enters there have it. None where the place is a block.
-Unit unit_on(const Diagram& diagram, const Registry& registry, const std::string& wire) {
+/// What the diagram says of a place without data: the unit of its wire, in which a law that enters there has its
+/// thresholds, and what damping is behind it.
+Excitation without_data(const Diagram& diagram, const Registry& registry, const Place& place) {
+  Excitation c;
+  c.by = place.by;
   const auto program = compile(diagram, registry);
-  const int signal = program->find_signal(wire);
-  return signal < 0 ? Unit{} : program->signals[static_cast<std::size_t>(signal)].unit;
+  if (const int signal = program->find_signal(place.wire); signal >= 0)
+    c.unit = program->signals[static_cast<std::size_t>(signal)].unit;
+  c.damping = damping_behind(*program, place, c.unit);
+  return c;
 }
 
 }  // namespace
@@ -224,10 +230,7 @@ Added add_effect(const Diagram& diagram, const Registry& registry, const Effect&
 Added add_effect(const Diagram& diagram, const Registry& registry, const Effect& effect, const std::string& at,
                  const Excitation* excitation, const DataSet* data) {
   const Place place = place_for(effect, diagram, registry, at, data);
-  Excitation none;
-  none.by = place.by;
-  if (excitation == nullptr) none.unit = unit_on(diagram, registry, place.wire);
-  const auto laws = effect.laws(excitation != nullptr ? *excitation : none);
+  const auto laws = effect.laws(excitation != nullptr ? *excitation : without_data(diagram, registry, place));
   Added added = add_effect(diagram, registry, effect, laws.front(), place);
   if (excitation == nullptr)
     added.remarks.push_back(fmt::format(

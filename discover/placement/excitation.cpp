@@ -231,6 +231,7 @@ class Observer {
       c.resolution = resolution_at(*program_, data_, signal);
       c.roughness = roughness_at(*program_, data_, signal);
       c.by = places_[i].by;
+      c.damping = damping_behind(*program_, places_[i], c.unit);
       const std::string stiffness = places_[i].at + ".stiffness";
       const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
       c.springless = spring != nullptr && spring->value == 0 && !spring->free &&
@@ -412,6 +413,15 @@ class Observer {
 };
 
 }  // namespace
+
+std::optional<double> damping_behind(const Program& program, const Place& place, const Unit& of_wire) {
+  const auto is = [&](const char* unit) {
+    return dimension_factor(of_wire.dimension, parse_unit(unit).dimension) != 0;
+  };
+  if (place.kind != "damping" || !(is("m/s") || is("rad/s"))) return {};  // kg/s makes a mass flow of a plain number
+  const auto* gain = program.find_parameter(place.reading + ".gain");
+  return gain == nullptr ? std::nullopt : std::optional(gain->value);
+}
 
 std::vector<Excitation> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,
                                          const std::vector<Place>& places, const std::vector<std::string>& free_paths) {

@@ -2,12 +2,18 @@
 // Does not judge whether that suffices (each effect does).
 #pragma once
 
+#include <optional>
+
 #include "discover/hypotheses/effect.h"
 #include "discover/placement/places.h"
 #include "engine/block/kernel.h"
+#include "engine/program/program.h"
 #include "io/data/dataset.h"
 
 namespace hysteron {
+
+/// Excitation::damping of a place in a diagram, compiled.
+std::optional<double> damping_behind(const Program& program, const Place& place, const Unit& of_wire);
 
 /// Drives the diagram with the recordings and looks at the wires of `places`, one simulation per recording.
 /// `free_paths`: parameters that are free beside those that the diagram declares free ("stage.gain").

@@ -9,6 +9,7 @@
 #include "discover/placement/wire_places.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/error.h"
+#include "io/diagram/place_kinds.h"
 
 namespace hysteron {
 namespace {
@@ -18,7 +19,7 @@ class Finder {
   Finder(const Diagram& diagram, const Registry& registry) : w_(diagram, registry), registry_(registry) {}
 
   std::vector<Place> find() {
-    for (const std::string kind : {"command", "core", "force", "motion", "measured"}) {
+    for (const auto& kind : place_kinds) {
       if (const auto* named = w_.diagram().places.find(kind))
         from_diagram(kind, *named);
       else if (kind == "command")
@@ -27,6 +28,8 @@ class Finder {
         cores();
       else if (kind == "measured")
         measured();
+      else if (kind == "damping")
+        for (auto& place : damping_places(w_, registry_)) add(std::move(place));
     }
     return std::move(places_);
   }
@@ -125,11 +128,7 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
     if (node == nullptr || !node->nested)
       fail("unknown_place", at, fmt::format("there is no nested diagram \"{}\"", head),
            did_you_mean(head, diagram.blocks.names()));
-    Place p = place_at(*node->nested, registry, at.substr(slash + 1));
-    p.at = at;
-    p.wire = head + "/" + p.wire;
-    for (auto& group : p.group) group = head + "/" + group;
-    return p;
+    return seen_from_outside(place_at(*node->nested, registry, at.substr(slash + 1)), head);
   }
   Place p;
   p.at = at;
@@ -148,6 +147,7 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
     for (std::size_t i = 0; i < in.size() && p.wire.empty(); ++i)
       if (ports[i] == port || (port == "in" && in.size() == 1) || port == fmt::format("in[{}]", i))
         p.wire = w.signal(in[i].from);
+    if (!p.wire.empty() && is_damping(w, block)) return place_of_damping(w, block);
   }
   if (p.wire.empty()) {
     auto known = w.signals();

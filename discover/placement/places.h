@@ -14,7 +14,7 @@ namespace hysteron {
 
 /// A place: `at` is what a user would write behind --at.
 struct Place {
-  std::string kind;  ///< "command", "core", "force", "motion", "measured"; "" = named by the user
+  std::string kind;  ///< one of place_kinds; "" = named by the user
   std::string at;    ///< a signal ("drive", "stage.x": behind it, for all readers), an input port ("stage.in") or what
                      ///< is read off a signal ("outputs.x": behind it, for that output alone), or (vary) a block
   std::string wire;  ///< the signal that passes there
@@ -26,7 +26,8 @@ struct Place {
   std::string group[4]{};    ///< by Commutes: places with one mark cannot be told apart by such a law
   /// The place as it is called whatever else stands there.
   const std::string& where() const { return on.empty() ? at : on; }
-  std::string reading{};  ///< of a place before one reader of a wire: "outputs.x", or the mux that bundles it; "" = all
+  std::string reading{};  ///< of a place before one reader of a wire: "outputs.x", the mux that bundles it, a damping;
+                          ///< "" = all
   /// Where what it moves begins.
   const std::string& moves_from() const { return reading.empty() ? wire : reading; }
   const std::string& group_for(const Effect& effect) const { return group[static_cast<int>(effect.commutes)]; }

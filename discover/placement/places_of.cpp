@@ -36,7 +36,13 @@ void collect_vary(const Diagram& diagram, const Registry& registry, const std::s
 }
 
 /// The effect ids that already stand on a wire, and on the wire that leads to an input port.
-std::vector<std::string> standing_at(const Wiring& w, const Place& place) {
+std::vector<std::string> standing_at(const Wiring& w, const Registry& registry, const Place& place) {
+  if (const auto slash = place.wire.find('/'); slash != std::string::npos) {
+    Place inside = place;
+    inside.wire = place.wire.substr(slash + 1);
+    if (!place.reading.empty()) inside.reading = place.reading.substr(slash + 1);
+    return standing_at(Wiring(*w.body(place.wire.substr(0, slash))->nested, registry), registry, inside);
+  }
   std::vector<std::string> ids;
   const auto collect = [&](const std::string& wire) {
     for (const auto& name : w.chain(wire)) ids.push_back(w.diagram().blocks.find(name)->effect);
@@ -199,7 +205,7 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     if (std::find(effect.places.begin(), effect.places.end(), place.kind) == effect.places.end()) continue;
     if (place.kind == "core" && effect.behind_core && !place.behind_core) continue;
     if (place.kind == "core" && effect.else_a_block && varied) continue;
-    const auto there = standing_at(w, place);
+    const auto there = standing_at(w, registry, place);
     if (std::find(there.begin(), there.end(), effect.id) != there.end()) continue;
     // "core" before and behind may be one wire: one place.
     const bool known = std::any_of(list.begin(), list.end(), [&](const Place& p) { return p.at == place.at; });
@@ -218,7 +224,7 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
     list.clear();
     for (const auto& reading : readings(w))
       for (auto& p : measured_places(w, registry, reading, true)) {
-        const auto there = standing_at(w, p);
+        const auto there = standing_at(w, registry, p);
         if (std::find(there.begin(), there.end(), effect.id) == there.end()) list.push_back(std::move(p));
       }
   }

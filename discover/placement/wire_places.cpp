@@ -200,6 +200,66 @@ std::vector<Place> measured_places(const Wiring& w, const Registry& registry, co
   return {std::move(p)};
 }
 
+namespace {
+
+/// The unit in which a number of a block is written, be it a parameter of the diagram; "" = none.
+std::string unit_written(const Diagram& diagram, const Node& body, const std::string& parameter) {
+  const Value* given = body.parameters.find(parameter);
+  if (given == nullptr) given = body.parameters_from_file.find(parameter);
+  for (int depth = 0; given != nullptr && depth < 64; ++depth) {
+    if (const auto* number = std::get_if<Number>(&given->content)) return number->unit.value_or("");
+    const auto* reference = std::get_if<Reference>(&given->content);
+    const auto* named = reference == nullptr ? nullptr : diagram.parameters.find(reference->name);
+    given = named == nullptr ? nullptr : &named->value;
+  }
+  return "";
+}
+
+}  // namespace
+
+bool is_damping(const Wiring& w, const std::string& block) {
+  const Node* body = w.body(block);
+  if (body == nullptr || body->type != "gain" || w.diagram().blocks.find(block)->in.size() != 1) return false;
+  const Dimension of_gain = parse_unit(unit_written(w.diagram(), *body, "gain")).dimension;
+  const auto is = [&](const char* unit) { return dimension_factor(of_gain, parse_unit(unit).dimension) != 0; };
+  return is("N s/m") || is("N m s/rad");
+}
+
+Place place_of_damping(const Wiring& w, const std::string& block) {
+  Place p;
+  p.kind = "damping";
+  p.at = block + ".in";
+  p.wire = w.signal(w.diagram().blocks.find(block)->in.front().from);
+  p.reading = block;
+  for (auto& group : p.group) group = p.at;
+  return p;
+}
+
+Place seen_from_outside(Place place, const std::string& block) {
+  place.at = block + "/" + place.at;
+  place.wire = block + "/" + place.wire;
+  if (!place.reading.empty()) place.reading = block + "/" + place.reading;
+  for (auto& group : place.group) group = block + "/" + group;
+  return place;
+}
+
+std::vector<Place> damping_places(const Wiring& w, const Registry& registry) {
+  std::vector<Place> list;
+  for (const auto& [block, node] : w.diagram().blocks) {
+    const Node* body = w.body(block);
+    const auto outputs = w.outputs_of(block);
+    if (body == nullptr ||
+        std::none_of(outputs.begin(), outputs.end(), [&](const std::string& s) { return w.reaches_output(s); }))
+      continue;
+    if (body->nested)
+      for (auto& place : damping_places(Wiring(*body->nested, registry), registry))
+        list.push_back(seen_from_outside(std::move(place), block));
+    else if (is_damping(w, block))
+      list.push_back(place_of_damping(w, block));
+  }
+  return list;
+}
+
 void set_groups(const Wiring& w, Place& place) {
   for (const auto law : {Commutes::nothing, Commutes::gains, Commutes::linear, Commutes::time_invariant})
     place.group[static_cast<int>(law)] = w.root(w.signal(place.wire), law);

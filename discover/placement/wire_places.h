@@ -38,6 +38,15 @@ std::vector<Place> measured_places(const Wiring& w, const Registry& registry, co
 const std::string* output_of_reading(const Diagram& diagram, const std::string& at);
 /// The place there.
 Place place_of_reading(const Wiring& w, const std::string& output);
+/// Is the block a gain that makes a force of a speed, or a torque of that of a rotation, by its unit?
+bool is_damping(const Wiring& w, const std::string& block);
+/// Beside the damping `block`: what enters there brakes as it does, and whoever else reads the speed knows nothing of
+/// it.
+Place place_of_damping(const Wiring& w, const std::string& block);
+/// Beside every damping that moves an output, of nested diagrams, too.
+std::vector<Place> damping_places(const Wiring& w, const Registry& registry);
+/// A place inside the nested diagram `block`, told from outside.
+Place seen_from_outside(Place place, const std::string& block);
 /// Marks with which other places it would be one finding (Place::group).
 void set_groups(const Wiring& w, Place& place);
 

@@ -66,6 +66,7 @@ std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
 
 /// Does what the place moves come back to it?
 bool is_in_a_loop(const Wiring& w, const std::string& signal) {
+  if (w.signal(signal).empty()) return false;  // what is read off a wire
   std::set<std::string> seen;
   std::vector<std::string> next{w.signal(signal)};
   while (!next.empty()) {
@@ -85,9 +86,10 @@ bool is_in_a_loop(const Wiring& w, const std::string& signal) {
 int slowness(const Books& books, const Tried& t) {
   constexpr std::size_t several = 4;
   if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? slowest : 0;
-  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert && t.place.reading.empty();
+  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
-  if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.wire)) return 0;
+  if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.moves_from()))
+    return 0;
   const Kernel* law = books.registry.find(t.laws.front().block.type);
   return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
 }

@@ -12,6 +12,7 @@
 #include "io/data/recording_file.h"
 #include "io/diagram/diagram_file.h"
 #include "io/diagram/parameter_table.h"
+#include "io/diagram/place_kinds.h"
 #include "io/files/project_path.h"
 #include "io/json/json_reader.h"
 #include "io/json/value_text.h"
@@ -374,7 +375,7 @@ class DiagramReader {
   void places(const JsonPlace& root) {
     const auto place = root.find("places");
     if (!place || !place->expect_object("{\"core\": \"drive\"}")) return;
-    place->only({"command", "core", "force", "motion", "measured"});
+    place->only(place_kinds);
     for (const auto& [kind, wires] : place->members()) diagram_.places[kind] = texts(wires, "[\"drive\"]");
   }
 

@@ -6,6 +6,7 @@
 
 #include "engine/simulate/simulate.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/place_kinds.h"
 #include "io/json/schema_parts.h"
 
 namespace hysteron {
@@ -219,7 +220,7 @@ Json places() {
   const Json wire = text("a signal");
   const Json some{{"anyOf", Json::array({wire, list_of("signals", wire)})}};
   Json properties;
-  for (const char* kind : {"command", "core", "force", "motion", "measured"}) properties[kind] = some;
+  for (const auto& kind : place_kinds) properties[kind] = some;
   return object("where effects may enter, by kind", std::move(properties));
 }
 

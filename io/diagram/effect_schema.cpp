@@ -1,5 +1,6 @@
 // Decides the JSON Schema of an effect file: that of a diagram, and the member "effect".
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/place_kinds.h"
 #include "io/json/schema_parts.h"
 
 namespace hysteron {
@@ -44,7 +45,7 @@ Json free_number() {
 }
 
 Json effect_member() {
-  const Json kind = choice_of("a kind of place", {"command", "core", "force", "motion", "measured"});
+  const Json kind = choice_of("a kind of place", place_kinds);
   Json at = list_of("kinds of place where it may enter", kind);
   at["minItems"] = 1;
   Json free{{"type", "object"},

@@ -52,6 +52,7 @@ const Samples mechanics{
       {"lower", {-2}},
       {"upper", {3}}}},
     {"sliding_friction", {{"level", {0.7}}, {"slip_distance", {0.3}}, {"crossover", {0.4}}}},
+    {"bearing_friction", {{"level", {0.7}}, {"slip_distance", {0.3}}, {"excess", {0.5}}, {"stribeck_velocity", {0.6}}}},
     {"guide_friction", {{"level", {0.2}}, {"slip_distance", {0.3}}, {"excess", {0.5}}, {"stribeck_velocity", {0.7}}}},
     {"backlash", {{"gap", {0.7}}, {"before", {1}}}},
     {"mass_spring_damper", {{"mass", {2}}, {"damping", {0.8}}, {"stiffness", {50}}, {"initial_position", {0.3}}}},
