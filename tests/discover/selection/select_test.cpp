@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/discover/discoveries.h"
+#include "tests/discover/motor.h"
 #include "tests/discover/synthetic.h"
 
 namespace hysteron {
@@ -114,6 +115,41 @@ TEST_F(Selected, FrictionIsFoundBesideANumberThatIsOff) {
   EXPECT_NEAR(value(d, "contact_stiffness[0]") * value(d, "slip_distance[0]"), 0.1, 0.005);
   ASSERT_EQ(d.other_numbers.size(), 1u);
   EXPECT_NEAR(d.other_numbers.front().found, 430, 2);
+}
+
+TEST_F(Selected, FrictionBesideADampingIsFoundWithItsTorque) {
+  constexpr double noise_of_speed = 0.05;  // [rad/s] of some 100
+  constexpr double dry = 2e-3;             // [N m] of 25 mN m/V
+  std::vector<Recording> list;
+  for (int r = 0; r < 3; ++r) {
+    const auto t = rows(400, 2e-3);
+    auto u = several_sines(t, 8, {1.1 + 0.4 * r, 2.3, 5.7});
+    for (std::size_t k = 250; k < t.size(); ++k) u[k] -= 4;  // it turns both ways
+    auto w = motor_speed(t, u, dry);
+    const auto n = noise(t.size(), noise_of_speed, 0, 17 + static_cast<std::uint64_t>(r));
+    for (std::size_t k = 0; k < t.size(); ++k) w[k] += n[k];
+    Recording one = recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, {});
+    one.columns.erase("y");
+    one.units.erase("y");
+    one.columns["w"] = std::move(w);
+    one.units["w"] = parse_unit("rad/s");
+    list.push_back(std::move(one));
+  }
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["w"].to = "w";
+  data.notes["w"].noise.white = noise_of_speed;
+  data.notes["w"].noise.one_over_f = 0;
+  data.recordings = std::move(list);
+  DiscoverOptions options;
+  options.only = {"friction"};  // beside the damping, on the speed for all who read it, on what is read
+  const Discovery d = select_model(motor(), data, registry, effects, options);
+  EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(winner(d), "friction") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.place, "bearing.in");
+  // Dahl's law slides as Coulomb's and sticks otherwise, like a spring, for some rows at each turn: 3 % are for that.
+  EXPECT_NEAR(value(d, "level") * 3e-4, dry, 0.03 * dry);
 }
 
 TEST_F(Selected, DoesNotDependOnTheNumberOfThreads) {
