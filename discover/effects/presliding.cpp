@@ -140,9 +140,14 @@ Law beside_damping(const Excitation& at) {
   level.lower = 0;  // it takes energy
   // Bearings of small machines brake more by dry friction than by their damping at any speed that they reach, guides
   // that float in oil hardly.
-  level.scan = {0.03 * fast, 0.3 * fast, 3 * fast, 30 * fast};
+  level.scan = {0.03 * fast, 0.3 * fast, 3 * fast};
   give(law.block, "level", with_unit(level.start, at.unit));
-  law.free = {level, give_slip_distance(law, at)};
+  LawParameter slip = give_slip_distance(law, at);
+  // It stands in the loop that it brakes, which is solved in steps within a row: what slips much sooner than in a row
+  // at full speed is a switch between two rows, stiff, and no row tells it from a softer one.
+  slip.lower = slip.start;
+  slip.scan = per_decade(slip.start, 10 * slip.start, 2);
+  law.free = {level, slip};
   return law;
 }
 
