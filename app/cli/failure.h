@@ -9,9 +9,6 @@
 
 namespace hysteron {
 
-/// {"exit_code": 2, "problems": [{"code", "path", "what", "cure", "file", "line"}]}
-std::string problems_json(const std::vector<Problem>& problems, int code);
-
 /// The JSON Schema of problems_json().
 std::string failure_schema();
 
