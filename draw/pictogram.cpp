@@ -197,8 +197,13 @@ std::map<std::string, Pictogram> make_all() {
 
 }  // namespace
 
-const Pictogram* find_pictogram(const std::string& name) {
+const std::map<std::string, Pictogram>& all_pictograms() {
   static const std::map<std::string, Pictogram> all = make_all();
+  return all;
+}
+
+const Pictogram* find_pictogram(const std::string& name) {
+  const auto& all = all_pictograms();
   const auto found = all.find(name);
   return found == all.end() ? nullptr : &found->second;
 }

@@ -2,6 +2,7 @@
 // Does not know where the box stands.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@ struct Pictogram {
   std::vector<Curve> curves{};
   std::vector<std::pair<Curve, double>> arrows{};  ///< direction marks: a curve of two points, tip last; and its size
 };
+
+const std::map<std::string, Pictogram>& all_pictograms();
 
 /// nullptr for a name that has none.
 const Pictogram* find_pictogram(const std::string& name);

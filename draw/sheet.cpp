@@ -29,7 +29,9 @@ int index_of(const std::vector<std::string>& list, const std::string& name) {
 /// One diagram becomes one sheet; nested ones that are open become sheets of their own.
 class Maker {
  public:
-  Maker(const Program& program, const Registry& registry) : program_(program), registry_(registry) {}
+  /// `draft`: what is wrong or unfinished is drawn as far as it goes; else it is an error.
+  Maker(const Program* program, const Registry& registry, bool draft)
+      : program_(program), registry_(registry), draft_(draft) {}
 
   /// `outputs`: names of the sheet's outputs and what they read; `prefix`: "stage/" inside the block stage.
   Sheet make(const Diagram& diagram, const Ordered<std::string>& outputs, const std::string& prefix,
@@ -56,11 +58,12 @@ class Maker {
       sheet.items.push_back(item(name, node, prefix, around, depth,
                                  further == reached.end() ? std::set<std::string>{} : further->second));
     }
-    for (const auto& [name, node] : diagram.blocks) connect(sheet, at, at.at(name), node, prefix);
+    for (const auto& [name, node] : diagram.blocks) connect(sheet, at, at.at(name), prefix);
     for (const auto& [name, signal] : outputs) {
       sheet.items.push_back(port(prefix + name, name, "output", ""));
       sheet.items.back().in = {"u"};
-      add_wire(sheet, at, signal, static_cast<int>(sheet.items.size()) - 1, 0, prefix);
+      sheet.items.back().reads = {signal};
+      connect(sheet, at, static_cast<int>(sheet.items.size()) - 1, prefix);
     }
     return sheet;
   }
@@ -130,7 +133,9 @@ class Maker {
     item.candidates = static_cast<int>(node.from.size());
     item.chosen = node.choose;
     if (body.nested)
-      nested(item, body, around, depth, further);
+      nested(item, node, around, depth, further);
+    else if (draft_)
+      draft_block(item, node, body, around);
     else
       block(item, node, body, around);
     if (item.candidates > 1)
@@ -138,9 +143,10 @@ class Maker {
     return item;
   }
 
-  static const Node& body_of(const Node& node, const std::string& path) {
+  const Node& body_of(const Node& node, const std::string& path) const {
     if (node.from.empty()) return node;
     const Node* candidate = node.from.find(node.choose);
+    if (candidate == nullptr && draft_) return node.from.begin()->second;
     if (candidate == nullptr)
       fail("bad_choice", path, fmt::format("there is no candidate \"{}\"", node.choose),
            did_you_mean(node.choose, node.from.names()));
@@ -154,7 +160,10 @@ class Maker {
            did_you_mean(body.type, registry_.types()));
     const Declaration& declaration = kernel->declaration;
     item.type = body.type;
-    for (const auto& [port, wire] : ports_of(declaration, wires_of(node, body))) item.in.push_back(port);
+    for (const auto& [port, from] : ports_of(declaration, wires_of(node, body))) {
+      item.in.push_back(port);
+      item.reads.push_back(from);
+    }
     item.out = output_names(declaration, body);
     for (const auto& port : item.out) tell_signal(item, item.out.size() == 1 ? item.path : item.path + "." + port);
     const Values values = values_of(body, declaration, around);
@@ -166,12 +175,43 @@ class Maker {
     for (const auto& line : caption_lines(values, {}, 100)) item.tip += "\n" + line;
   }
 
-  void nested(Item& item, const Node& body, const Surroundings& around, int depth,
+  /// Of a block that cannot be drawn as its type says, what can be said: a box with the name of its type.
+  void draft_block(Item& item, const Node& node, const Node& body, const Surroundings& around) {
+    const Item named = item;
+    try {
+      block(item, node, body, around);
+    } catch (const Error& error) {
+      item = named;
+      item.type = body.type;
+      for (const auto& wire : wires_of(node, body)) {
+        item.in.push_back(wire.port);
+        item.reads.push_back(wire.from);
+      }
+      item.out = {"y"};
+      item.out_lengths = {1};
+      item.out_units = {""};
+      item.symbol = text_symbol({body.type.empty() ? "?" : body.type}, static_cast<int>(item.in.size()), 1);
+      item.tip = error.problems.front().what;
+    }
+  }
+
+  void nested(Item& item, const Node& node, const Surroundings& around, int depth,
               const std::set<std::string>& further) {
+    const Node& body = body_of(node, item.path);
     const Diagram& inner = *body.nested;
     item.type = "diagram";
     item.in = inner.inputs.names();
-    for (const auto& [port, signal] : switching_wires(body)) item.in.push_back(port);
+    item.reads.resize(item.in.size());
+    const auto& wires = wires_of(node, body);
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+      const int port = wires[i].port.empty() ? static_cast<int>(i) : index_of(item.in, wires[i].port);
+      if (port >= 0 && port < static_cast<int>(item.in.size()))
+        item.reads[static_cast<std::size_t>(port)] = wires[i].from;
+    }
+    for (const auto& [port, signal] : switching_wires(body)) {
+      item.in.push_back(port);
+      item.reads.push_back(signal);
+    }
     Ordered<std::string> outputs = inner.outputs;
     for (const auto& signal : further) outputs[signal] = signal;
     item.out = outputs.names();
@@ -224,8 +264,9 @@ class Maker {
   }
 
   /// Port names and their wires in the order of the declaration. What the chosen candidate has no port for is left out.
-  static std::vector<std::pair<std::string, std::string>> ports_of(const Declaration& declaration,
-                                                                   const std::vector<hysteron::Wire>& wires) {
+  /// In a draft also ports that nothing is wired to: their wire is "".
+  std::vector<std::pair<std::string, std::string>> ports_of(const Declaration& declaration,
+                                                            const std::vector<hysteron::Wire>& wires) const {
     std::vector<std::vector<std::string>> per_port(declaration.inputs.size());
     std::size_t next = 0;
     for (const auto& wire : wires) {
@@ -237,33 +278,23 @@ class Maker {
       if (port < per_port.size()) per_port[port].push_back(wire.from);
     }
     std::vector<std::pair<std::string, std::string>> result;
-    for (std::size_t i = 0; i < per_port.size(); ++i)
+    for (std::size_t i = 0; i < per_port.size(); ++i) {
+      if (draft_ && per_port[i].empty()) per_port[i].emplace_back();
       for (const auto& from : per_port[i]) result.emplace_back(declaration.inputs[i].name, from);
+    }
     return result;
   }
 
-  void connect(Sheet& sheet, const std::map<std::string, int>& at, int to, const Node& node,
-               const std::string& prefix) {
-    const Node& body = body_of(node, sheet.items[static_cast<std::size_t>(to)].path);
-    const auto& wires = wires_of(node, body);
-    if (body.nested) {
-      const auto names = body.nested->inputs.names();
-      for (std::size_t i = 0; i < wires.size(); ++i) {
-        const int port = wires[i].port.empty() ? static_cast<int>(i) : index_of(names, wires[i].port);
-        if (port >= 0 && port < static_cast<int>(names.size())) add_wire(sheet, at, wires[i].from, to, port, prefix);
-      }
-      int port = static_cast<int>(names.size());
-      for (const auto& [name, signal] : switching_wires(body)) add_wire(sheet, at, signal, to, port++, prefix);
-      return;
-    }
-    int port = 0;
-    for (const auto& [name, from] : ports_of(kernel_of(registry_, body)->declaration, wires))
-      add_wire(sheet, at, from, to, port++, prefix);
+  void connect(Sheet& sheet, const std::map<std::string, int>& at, int to, const std::string& prefix) {
+    const std::vector<std::string> reads = sheet.items[static_cast<std::size_t>(to)].reads;
+    for (std::size_t i = 0; i < reads.size(); ++i)
+      if (!reads[i].empty()) add_wire(sheet, at, reads[i], to, static_cast<int>(i), prefix);
   }
 
   void add_wire(Sheet& sheet, const std::map<std::string, int>& at, const std::string& signal, int to, int in,
                 const std::string& prefix) {
     const Source source = source_of(sheet, at, signal);
+    if (source.item < 0) return;
     Wire wire;
     wire.from = source.item;
     wire.out = source.out;
@@ -273,10 +304,12 @@ class Maker {
     sheet.wires.push_back(std::move(wire));
   }
 
-  /// The item and output that a signal's name means: "drive", "stage.displacement", "stage/play", "tilt[1]".
-  static Source source_of(const Sheet& sheet, const std::map<std::string, int>& at, const std::string& signal) {
+  /// The item and output that a signal's name means: "drive", "stage.displacement", "stage/play", "tilt[1]". In a
+  /// draft nothing, where there is none.
+  Source source_of(const Sheet& sheet, const std::map<std::string, int>& at, const std::string& signal) const {
     const std::string name = signal.substr(0, signal.find_first_of("./["));
     const auto found = at.find(name);
+    if (found == at.end() && draft_) return {};
     if (found == at.end())
       fail("unknown_signal", signal, fmt::format("there is no signal \"{}\"", signal),
            "check the diagram with hysteron check");
@@ -297,17 +330,18 @@ class Maker {
   /// Elements of a vector stand in the program as "tilt[0]", "tilt[1]" ...
   int length_of_path(const std::string& path) const {
     int n = 0;
-    while (program_.find_signal(fmt::format("{}[{}]", path, n)) >= 0) ++n;
+    while (program_ != nullptr && program_->find_signal(fmt::format("{}[{}]", path, n)) >= 0) ++n;
     return std::max(n, 1);
   }
 
   /// "" also where the elements of a vector have different units.
   std::string unit_of_path(const std::string& path) const {
+    if (program_ == nullptr) return "";
     const auto unit = [&](const std::string& name) -> std::string {
-      const int signal = program_.find_signal(name);
-      return signal < 0 ? "" : program_.signals[static_cast<std::size_t>(signal)].unit.text;
+      const int signal = program_->find_signal(name);
+      return signal < 0 ? "" : program_->signals[static_cast<std::size_t>(signal)].unit.text;
     };
-    if (program_.find_signal(path) >= 0) return unit(path);
+    if (program_->find_signal(path) >= 0) return unit(path);
     const std::string first = unit(path + "[0]");
     for (int k = 1; k < length_of_path(path); ++k)
       if (unit(fmt::format("{}[{}]", path, k)) != first) return "";
@@ -319,8 +353,9 @@ class Maker {
     return unit.empty() ? fmt::format("[{}]", length) : fmt::format("{} [{}]", unit, length);
   }
 
-  const Program& program_;
+  const Program* program_;
   const Registry& registry_;
+  bool draft_;
 };
 
 double from_middle(int port, std::size_t ports) {
@@ -331,7 +366,12 @@ double from_middle(int port, std::size_t ports) {
 
 Sheet sheet_of(const Diagram& diagram, const Program& program, const Registry& registry, int depth) {
   const Surroundings around{&diagram, nullptr, nullptr};
-  return Maker(program, registry).make(diagram, diagram.outputs, "", around, depth);
+  return Maker(&program, registry, false).make(diagram, diagram.outputs, "", around, depth);
+}
+
+Sheet draft_sheet(const Diagram& diagram, const Program* program, const Registry& registry, int depth) {
+  const Surroundings around{&diagram, nullptr, nullptr};
+  return Maker(program, registry, true).make(diagram, diagram.outputs, "", around, depth);
 }
 
 namespace {

@@ -32,6 +32,7 @@ struct Item {
   Symbol symbol;                         ///< how it looks; its size
   std::vector<std::string> caption{};    ///< lines below the name: key values with units
   std::vector<std::string> in{}, out{};  ///< names of the ports, one per wire that can end there
+  std::vector<std::string> reads{};      ///< per input: the signal, as it is written; "" where there is none
   std::vector<std::string> out_units{};  ///< per output: "um", "" = dimensionless, "um [3]" of a vector
   std::vector<int> out_lengths{};        ///< per output: elements
   int candidates = 0;                    ///< > 0: the chosen one of so many
@@ -63,6 +64,11 @@ struct Sheet {
 
 /// The sheet of a diagram, with nested diagrams open down to `depth` levels. Nothing is placed yet.
 Sheet sheet_of(const Diagram& diagram, const Program& program, const Registry& registry, int depth);
+
+/// The same of a diagram that is still being written: every declared input has a port, also where nothing is wired to
+/// it; what cannot be read is a box with its name; wires that begin nowhere are left out. `program`: as much of it as
+/// compiles (engine/compile/draft.h), or null.
+Sheet draft_sheet(const Diagram& diagram, const Program* program, const Registry& registry, int depth);
 
 /// Places of the ports from the upper left corner of the symbol.
 Point in_port(const Item& item, int port);

@@ -7,8 +7,8 @@
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
-#include <tuple>
 
+#include "draw/branches.h"
 #include "draw/pictogram.h"
 
 namespace hysteron::draw {
@@ -291,31 +291,10 @@ void draw_wire(xml_node parent, const Sheet& sheet, const Wire& wire) {
   arrow_head(group, wire.path[wire.path.size() - 2], wire.path.back(), head, nullptr);
 }
 
-/// Points at which wires of one signal part: three or more directions lead away from there.
 void draw_branches(xml_node parent, const Sheet& sheet) {
-  std::set<std::tuple<double, double>> dots;
-  for (const auto& wire : sheet.wires)
-    for (const Point& p : wire.path) {
-      bool leads[4] = {};  // left, right, up, down
-      for (const auto& other : sheet.wires) {
-        if (other.from != wire.from || other.out != wire.out) continue;
-        for (std::size_t i = 1; i < other.path.size(); ++i) {
-          const Point &a = other.path[i - 1], &b = other.path[i];
-          if (a.y == b.y && p.y == a.y && p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x)) {
-            leads[0] |= std::min(a.x, b.x) < p.x;
-            leads[1] |= std::max(a.x, b.x) > p.x;
-          }
-          if (a.x == b.x && p.x == a.x && p.y >= std::min(a.y, b.y) && p.y <= std::max(a.y, b.y)) {
-            leads[2] |= std::min(a.y, b.y) < p.y;
-            leads[3] |= std::max(a.y, b.y) > p.y;
-          }
-        }
-      }
-      if (leads[0] + leads[1] + leads[2] + leads[3] >= 3) dots.insert({p.x, p.y});
-    }
-  for (const auto& [x, y] : dots) {
+  for (const Point& p : branches_of(sheet)) {
     xml_node dot = add(parent, "circle", "branch");
-    set(dot, "cx", x), set(dot, "cy", y), set(dot, "r", 2.6);
+    set(dot, "cx", p.x), set(dot, "cy", p.y), set(dot, "r", 2.6);
   }
 }
 
