@@ -37,6 +37,11 @@ install_packages() {
     stop "apt-get install failed (its reason stands above)"
 }
 
+# npm, which builds the page of hysteron studio. It may come from elsewhere; without it the page is left out.
+install_npm() {
+  command -v npm >/dev/null || (install_packages studio) || say "without npm: hysteron studio will have no page"
+}
+
 # configure_and_build FOLDER [cmake options]; builds the targets in $build_targets, or everything
 build_targets=()
 configure_and_build() {

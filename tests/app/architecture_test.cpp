@@ -23,7 +23,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"discover", {"engine", "io", "fit"}},
     {"report", {"io", "engine", "fit", "discover", "draw"}},
     {"draw", {"engine"}},
-    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw"}},
+    {"studio", {"engine", "io", "draw"}},
+    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw", "studio"}},
 };
 
 /// The rooms of each folder, from the ground up: a room includes only what stands before it. "" are the files that lie
@@ -44,6 +45,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
       "selection", "narrate"}},
     {"report", {"page", "pages"}},
     {"draw", {""}},
+    {"studio", {""}},
     {"app", {"cli", "jobs", "cluster", "study", "verbs", ""}},
 };
 

@@ -1,0 +1,159 @@
+// People's ways through the second part: place, wire, set, undo, copy, and edits that come from elsewhere.
+
+import {afterAll, beforeAll, describe, expect, it} from 'vitest';
+import {Studio} from './studio';
+
+const small = `{
+  "format": 1,
+  "title": "Small",
+  "blocks": {
+    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"},
+    "force": {"type": "constant", "value": "1 N"},
+    "limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}
+  },
+  "record": ["drive", "force", "limit"],
+  "simulate": {"until": "1 s", "every": "1 ms"}
+}
+`;
+
+describe('editing', () => {
+  const studio = new Studio();
+  beforeAll(async () => {
+    studio.write('small.json', small);
+    await studio.serve();
+    await studio.open();
+    await studio.openDiagram('small.json');
+  });
+  afterAll(() => studio.close());
+  const text = () => studio.read('small.json');
+  const back = async () => {
+    while (text() !== small) {
+      const now = text();
+      await studio.page.click('[aria-label="undo"]');
+      await studio.until(() => text() !== now);
+    }
+    await studio.until(async () => (await studio.page.locator('.react-flow__edge').count()) === 0);
+  };
+
+  it('marks what is not wired, and refuses a wire of another unit in the words of check', async () => {
+    const {page} = studio;
+    expect(await studio.block('limit').locator('.port-in.free').count()).toBe(1);
+    await studio.wire('force', 'limit');
+    await page.waitForSelector('.banner.error');
+    const told = (await page.textContent('.banner.error'))!;
+    expect(text()).toBe(small);
+    studio.write('wrong.json', small.replace('"upper": "10 V"', '"upper": "10 V", "in": "force"'));
+    const check = studio.hysteron('check', 'wrong.json', '--json');
+    expect(told).toContain(JSON.parse(check.err).problems[0].what);
+    await page.click('.banner.error button');
+  });
+
+  it('wires by a drag: one line of the file changes', async () => {
+    await studio.wire('drive', 'limit');
+    await studio.until(() => text() !== small);
+    expect(text()).toBe(small.replace('"upper": "10 V"}', '"upper": "10 V", "in": "drive"}'));
+    await studio.until(async () => (await studio.page.locator('.react-flow__edge').count()) === 1);
+    await back();
+  });
+
+  it('adds a block by the keyboard alone, sets its value with a unit, and runs it', async () => {
+    const {page} = studio;
+    await studio.wire('drive', 'limit');
+    await studio.until(() => text() !== small);
+    const wired = text();
+    await studio.block('drive').focus();
+    await page.keyboard.press('Enter');
+    await studio.until(async () => (await page.inputValue('.inspector header input')) === 'drive');
+    await page.keyboard.press('/');
+    await page.keyboard.type('gain');
+    await page.keyboard.press('Enter');
+    await studio.until(() => text() !== wired);
+    await page.fill('.inspector input[aria-label="gain"]', '3 um/V');
+    await page.press('.inspector input[aria-label="gain"]', 'Enter');
+    const expected = wired.replace('"10 V", "in": "drive"}', '"10 V", "in": "drive"},\n    "gain": {"type": "gain", "gain": "3 um/V", "in": "drive"}');
+    await studio.until(() => text() === expected);
+    await page.click('.inspector .check input');
+    await studio.until(() => text().includes('"record": ["drive", "force", "limit", "gain"]'));
+    await page.keyboard.press('Control+Enter');
+    await page.waitForSelector('.signals label:has-text("gain")');
+    await back();
+  });
+
+  it('takes back 50 random edits to the byte, also after a reload', async () => {
+    const {page} = studio;
+    let state = 11;
+    const random = (below: number) => (state = (state * 1103515245 + 12345) % 2147483648) % below;
+    for (let i = 0; i < 50; ++i) {
+      const before = text();
+      const [block, field, values] = [['drive', 'amplitude', ['1 V', '2 V', '3 V', '40 mV']], ['limit', 'upper', ['5 V', '10 V', '12 V', '1 kV']], ['force', 'value', ['1 N', '2 N', '3 mN', '7 N']]][random(3)] as [string, string, string[]];
+      await studio.block(block).click();
+      const input = page.locator(`.inspector input[aria-label="${field}"]`);
+      await input.waitFor();
+      const value = values[(values.indexOf(await input.inputValue()) + 1 + random(3)) % 4];
+      await input.fill(value);
+      await input.press('Enter');
+      await studio.until(() => text() !== before);
+    }
+    await page.reload();
+    await page.waitForSelector('.react-flow__node');
+    for (let i = 0; i < 50; ++i) {
+      const now = text();
+      await page.click('[aria-label="undo"]');
+      await studio.until(() => text() !== now);
+    }
+    expect(text()).toBe(small);
+    await studio.until(() => page.isDisabled('[aria-label="undo"]'));
+  });
+
+  it('copies and pastes JSON, removes by Delete', async () => {
+    const {page} = studio;
+    await studio.block('drive').click();
+    await page.keyboard.press('Control+c');
+    await studio.until(async () => (await page.evaluate(() => navigator.clipboard.readText())).includes('sine'));
+    expect(JSON.parse(await page.evaluate(() => navigator.clipboard.readText()))).toEqual({drive: JSON.parse(small).blocks.drive});
+    await page.keyboard.press('Control+v');
+    await studio.until(() => text().includes('"drive_2"'));
+    await studio.until(async () => (await page.inputValue('.inspector header input')) === 'drive_2');
+    await page.keyboard.press('Delete');
+    await studio.until(() => text() === small);
+    await page.keyboard.press('Control+z');
+    await studio.until(() => text().includes('"drive_2"'));
+    await back();
+  });
+
+  it('follows edits from elsewhere, and undo goes on through them', async () => {
+    const {page} = studio;
+    studio.write('small.json', small.replace('"force"', '"push"'));
+    await studio.block('push').waitFor();
+    await page.locator('.canvas').press('Control+z');
+    await studio.until(() => text() === small);
+    await studio.block('force').waitFor();
+  });
+
+  it('asks whose text counts where both have changed it', async () => {
+    const {page} = studio;
+    await page.click('.tabs button:text-is("Text")');
+    const mine = small.replace('"Small"', '"Mine"');
+    await page.fill('[aria-label="text of the file"]', mine);
+    studio.write('small.json', small.replace('"Small"', '"Theirs"'));
+    await page.waitForTimeout(1500);
+    expect(await page.inputValue('[aria-label="text of the file"]')).toBe(mine);
+    await page.click('.panel-head button:text-is("Save")');
+    await studio.until(() => text() === mine);  // it was followed: what is saved stands on theirs, and undo brings that back
+    await page.locator('.canvas').press('Control+z');
+    await studio.until(() => text().includes('"Theirs"'));
+    await page.locator('.canvas').press('Control+z');
+    await studio.until(() => text() === small);
+  });
+
+  it('draws on while the text is no JSON, and tells the line', async () => {
+    const {page} = studio;
+    await page.fill('[aria-label="text of the file"]', small.replace('"2 V",', '"2 V"'));
+    await page.press('[aria-label="text of the file"]', 'Control+s');
+    await page.waitForSelector('.line-numbers .wrong:text-is("5")');
+    expect(await page.locator('.react-flow__node').count()).toBe(3);
+    await back();
+  });
+
+  it('leaves no complaint', () => expect(studio.complaints).toEqual([]));
+});

@@ -1,0 +1,16 @@
+import {chromium} from 'playwright-core';
+import {readFileSync} from 'node:fs';
+const [,, out, steps = '', size = '1280x800', theme = 'light', folder='/tmp/h/studio/try/f'] = process.argv;
+const {address} = JSON.parse(readFileSync(folder+'/.hysteron/studio.json','utf8'));
+const browser = await chromium.launch({executablePath:'/usr/bin/chromium', args:['--no-sandbox']});
+const [width,height]=size.split('x').map(Number);
+const page = await browser.newPage({viewport:{width,height}, colorScheme: theme});
+page.on('console', m => { if (m.type()!=='debug') console.log('console', m.type(), m.text()); });
+page.on('pageerror', e => console.log('pageerror', e.message));
+page.on('request', r => { if (!r.url().startsWith('http://127.0.0.1') && !r.url().startsWith('data:') && !r.url().startsWith('blob:')) console.log('foreign', r.url()); });
+const t=Date.now();
+await page.goto(address); await page.waitForSelector('.react-flow__node, .cover p'); console.log('first paint+nodes', Date.now()-t,'ms');
+await page.waitForTimeout(700);
+await eval('(async()=>{'+steps+'})()');
+await page.screenshot({path: out});
+await browser.close();

@@ -1,0 +1,243 @@
+// Decides what the canvas shows: the sheet as the server laid it out, what is selected, highlighted and wrong on it.
+
+import {
+  Background, BackgroundVariant, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
+  ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
+} from '@xyflow/react';
+import {memo, useCallback, useEffect, useMemo, useRef, useState} from 'react';
+import {api} from '../data/api';
+import {currentPath, useStudio} from '../data/store';
+import type {Item, Point, Problem, Sheet} from '../types';
+import {arrowHead, roundedPath} from './paths';
+import {SymbolView} from './SymbolView';
+import * as actions from '../edit/actions';
+
+const sides = {left: Position.Left, top: Position.Top, bottom: Position.Bottom} as const;
+const plainBelow = 0.35;  // zoom: symbols are no longer read
+
+type BlockData = {item: Item; problem: string; highlighted: boolean; fits: (string | null)[] | null; isNew: boolean};
+type BlockNode = Node<BlockData, 'block'>;
+type WireData = {path: Point[]; vector: boolean; tip: string};
+type WireEdge = Edge<WireData, 'wire'>;
+
+const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
+  const {item, problem, highlighted, fits, isNew} = data;
+  const plain = useStore((s) => s.transform[2] < plainBelow);
+  const pictures = useStudio((s) => s.library?.pictures) ?? {};
+  const css = ['block', selected && 'selected', problem && 'wrong', highlighted && 'highlighted', isNew && 'new'].filter(Boolean).join(' ');
+  return (
+    <div className={css} title={problem || item.tip}>
+      <svg width={item.width} height={item.height} className="symbol">
+        <SymbolView item={item} pictures={pictures} plain={plain} />
+        {problem && <circle className="alarm" cx={item.width} cy={0} r={5} />}
+      </svg>
+      {item.in.map((port, i) => (
+        <Handle key={`i${i}`} id={`i${i}`} type="target" position={sides[port.side]} title={fits?.[i] || port.name}
+                className={`port-in ${port.side} ${port.reads ? 'wired' : 'free'} ${fits ? (fits[i] === '' ? 'fits' : 'misfit') : ''}`}
+                style={{left: port.x, top: port.y}} />
+      ))}
+      {item.out.map((port, i) => (
+        <Handle key={`o${i}`} id={`o${i}`} type="source" position={Position.Right} title={port.unit ? `${port.name} [${port.unit}]` : port.name}
+                className="port-out" style={{left: port.x, top: port.y}} />
+      ))}
+    </div>
+  );
+});
+
+const WireLine = memo(function WireLine({data, selected}: EdgeProps<WireEdge>) {
+  if (!data) return null;
+  const {path} = data;
+  const d = roundedPath(path);
+  return (
+    <g className={`wire ${data.vector ? 'vector' : ''} ${selected ? 'selected' : ''}`}>
+      <title>{data.tip}</title>
+      <path className="touch react-flow__edge-interaction" d={d} />
+      <path d={d} />
+      <polygon points={arrowHead(path[path.length - 2], path[path.length - 1], 8)} />
+    </g>
+  );
+});
+
+const nodeTypes = {block: Block};
+const edgeTypes = {wire: WireLine};
+
+/// What is wrong at each block, by the JSON pointers and block paths of the problems.
+export function problemsByBlock(problems: Problem[]): Map<string, string> {
+  const found = new Map<string, string>();
+  for (const p of problems) {
+    const name = (/^\/(?:blocks|outputs|inputs)\/([^/]+)/.exec(p.path) ?? /^([a-zA-Z][a-zA-Z0-9_]*)/.exec(p.path))?.[1];
+    if (name) found.set(name, [found.get(name), p.what].filter(Boolean).join('\n'));
+  }
+  return found;
+}
+
+interface Wanting {
+  node: string;
+  out: number;
+  fits: Map<string, string> | null;
+}
+
+function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: string[], fresh: string[], wanting: Wanting | null): BlockNode[] {
+  return sheet.items.map((item, index) => ({
+    id: item.path,
+    type: 'block' as const,
+    position: {x: item.x, y: item.y},
+    width: item.width,
+    height: item.height,
+    ariaLabel: `${item.name}, ${item.type}`,
+    data: {
+      item,
+      problem: problems.get(item.name) ?? '',
+      highlighted: highlighted.includes(item.name),
+      isNew: fresh.includes(item.name),
+      fits: wanting?.fits ? item.in.map((_, i) => wanting.fits!.get(`${index}/${i}`) ?? null) : null,
+    },
+  }));
+}
+
+function edgesOf(sheet: Sheet, last: Map<string, string>): WireEdge[] {
+  return sheet.wires.map((w) => {
+    const from = sheet.items[w.from];
+    const to = sheet.items[w.to];
+    return {
+      id: `${w.signal}>${to.path}/${w.in}`,
+      type: 'wire' as const,
+      source: from.path,
+      target: to.path,
+      sourceHandle: `o${w.out}`,
+      targetHandle: `i${w.in}`,
+      ariaLabel: `wire from ${w.signal} to ${to.name}`,
+      data: {
+        path: w.path,
+        vector: w.length > 1,
+        tip: `${w.signal}${from.out[w.out].unit ? ` [${from.out[w.out].unit}]` : ''}${last.get(w.signal) ?? ''}`,
+      },
+    };
+  });
+}
+
+function Flow() {
+  const view = useStudio((s) => s.trial?.view ?? s.view);
+  const trial = useStudio((s) => s.trial);
+  const path = useStudio(currentPath);
+  const highlighted = useStudio((s) => s.highlighted);
+  const selected = useStudio((s) => s.selected);
+  const result = useStudio((s) => s.results[s.shownJob]);
+  const flow = useReactFlow();
+  const [nodes, setNodes] = useState<BlockNode[]>([]);
+  const [wanting, setWanting] = useState<Wanting | null>(null);
+  const fitted = useRef('');
+  const sheet = view?.sheet ?? null;
+
+  const problems = useMemo(() => problemsByBlock(view?.problems ?? []), [view]);
+  const fresh = useMemo(() => (trial ? trial.fresh : []), [trial]);
+  const last = useMemo(() => {
+    const found = new Map<string, string>();
+    for (const trace of Object.values(result?.facts.traces ?? {}))
+      for (const [name, s] of Object.entries(trace)) found.set(name, `, last ${Number(s.last.toPrecision(4))} ${s.unit}`);
+    return found;
+  }, [result]);
+
+  useEffect(() => {
+    if (!sheet) return;
+    setNodes(nodesOf(sheet, problems, highlighted, fresh, wanting));
+  }, [sheet, problems, highlighted, fresh, wanting]);
+
+  useEffect(() => {
+    const key = `${path}${trial ? trial.file : ''}`;
+    if (!sheet || fitted.current === key) return;
+    fitted.current = key;
+    requestAnimationFrame(() => flow.fitView({padding: 0.12, maxZoom: 1.25}));
+  }, [sheet, path, trial, flow]);
+
+  const edges = useMemo(() => (sheet ? edgesOf(sheet, last) : []), [sheet, last]);
+  const selectedWire = useStudio((s) => s.selectedWire);
+  const shownNodes = useMemo(() => nodes.map((n) => (selected.includes(n.id) ? {...n, selected: true} : n)), [nodes, selected]);
+  const shownEdges = useMemo(() => edges.map((e) => (e.id === selectedWire ? {...e, selected: true} : e)), [edges, selectedWire]);
+
+  // What is selected stands in the store; nodes and edges are drawn from there, so that nothing is told in circles.
+  const onNodesChange = useCallback((changes: NodeChange<BlockNode>[]) => {
+    const {selected: before, set} = useStudio.getState();
+    const after = new Set(before);
+    for (const c of changes) if (c.type === 'select') c.selected ? after.add(c.id) : after.delete(c.id);
+    if (after.size !== before.length || before.some((id) => !after.has(id))) set({selected: [...after]});
+    setNodes((now) => applyNodeChanges(changes.filter((c) => c.type !== 'select'), now));
+  }, []);
+
+  const onEdgesChange = useCallback((changes: EdgeChange<WireEdge>[]) => {
+    for (const c of changes) {
+      if (c.type !== 'select') continue;
+      const {selectedWire: now, set} = useStudio.getState();
+      if (c.selected) set({selectedWire: c.id});
+      else if (now === c.id) set({selectedWire: ''});
+    }
+  }, []);
+
+  const onConnectStart = useCallback(async (_: unknown, from: {nodeId: string | null; handleId: string | null; handleType: string | null}) => {
+    if (!sheet || from.handleType !== 'source') return;
+    const item = sheet.items.find((i) => i.path === from.nodeId);
+    const out = Number(from.handleId?.slice(1) ?? 0);
+    if (!item) return;
+    const start = {node: item.path, out, fits: null};
+    setWanting(start);
+    try {
+      const list = await api.fits(path, actions.signalOf(item, out));
+      setWanting((now) => (now?.node === start.node ? {...start, fits: new Map(list.map((f) => [`${f.item}/${f.in}`, f.why]))} : now));
+    } catch {
+      // the file cannot be read at the moment: every port stays as it is
+    }
+  }, [sheet, path]);
+
+  const onConnect = useCallback((c: Connection) => {
+    if (!sheet) return;
+    const from = sheet.items.find((i) => i.path === c.source);
+    const index = sheet.items.findIndex((i) => i.path === c.target);
+    if (!from || index < 0) return;
+    const to = Number(c.targetHandle?.slice(1) ?? 0);
+    const why = wanting?.fits?.get(`${index}/${to}`);
+    if (why) useStudio.getState().say(why, 'error');
+    else void actions.connect(from, Number(c.sourceHandle?.slice(1) ?? 0), sheet.items[index], to);
+  }, [sheet, wanting]);
+
+  const open = useCallback((_: unknown, node: BlockNode) => {
+    const {item} = node.data;
+    if (item.type === 'diagram') void actions.openNested(item);
+  }, []);
+
+  if (!view) return null;
+  return (
+    <ReactFlow<BlockNode, WireEdge>
+      nodes={shownNodes} edges={shownEdges} nodeTypes={nodeTypes} edgeTypes={edgeTypes}
+      onNodesChange={onNodesChange}
+      onEdgesChange={onEdgesChange}
+      onNodeDoubleClick={open}
+      onConnectStart={onConnectStart} onConnect={onConnect} onConnectEnd={() => setWanting(null)}
+      nodesDraggable={false} nodesConnectable={!trial} elementsSelectable
+      onlyRenderVisibleElements minZoom={0.05} maxZoom={4}
+      selectionOnDrag panOnDrag={[1, 2]} panOnScroll zoomOnDoubleClick={false}
+      deleteKeyCode={null} proOptions={{hideAttribution: true}} connectionRadius={24}
+      onDragOver={(e) => e.preventDefault()}
+      onDrop={(e) => {
+        const type = e.dataTransfer.getData('application/hysteron-block');
+        if (type) void actions.place(type, false);
+      }}
+    >
+      <Background variant={BackgroundVariant.Dots} gap={16} size={1} className="grid" />
+      <ViewportPortal>
+        <svg className="dots">
+          {sheet?.dots.map(([x, y], i) => <circle key={i} className="branch" cx={x} cy={y} r={2.6} />)}
+        </svg>
+      </ViewportPortal>
+      <Controls showInteractive={false} position="bottom-left" />
+      {(sheet?.items.length ?? 0) > 30 && <MiniMap pannable zoomable position="bottom-right" nodeStrokeWidth={2} />}
+    </ReactFlow>
+  );
+}
+
+export function Canvas() {
+  return (
+    <ReactFlowProvider>
+      <Flow />
+    </ReactFlowProvider>
+  );
+}

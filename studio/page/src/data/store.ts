@@ -1,0 +1,310 @@
+// Decides what the page knows: the open diagram, the jobs, and what is selected. Panels read it and call its actions;
+// the server's files are the truth, and are looked at again and again.
+
+import {create} from 'zustand';
+import {api, Conflict, Refused} from './api';
+import {emptyHistory, History, loadHistory, push, redoSplice, saveHistory, undoSplice, applySplice} from '../edit/history';
+import type {Edit, Job, JobOrder, Library, ListedFile, Problem, Result, Span, View} from '../types';
+
+export type BottomTab = 'scopes' | 'fails' | 'effects' | 'waterfall' | 'text' | 'problems';
+
+export interface Trail {
+  path: string;
+  label: string;
+}
+
+interface Studio {
+  ready: boolean;
+  lost: string;
+  folder: string;
+  files: ListedFile[];
+  library: Library | null;
+  trail: Trail[];
+  view: View | null;
+  document: any;
+  depth: number;
+  history: History;
+  selected: string[];
+  selectedWire: string;
+  highlighted: string[];
+  jobs: Job[];
+  results: Record<string, Result>;
+  shownJob: string;
+  pinnedJobs: string[];
+  data: string;
+  tab: BottomTab;
+  spans: {label: string; spans: Span[]} | null;
+  recording: string;
+  trial: {job: string; file: string; view: View; title: string; fresh: string[]; edits: Edit[]} | null;
+  notice: {text: string; kind: 'note' | 'error'} | null;
+  conflict: {text: string; hash: string; mine: string} | null;
+
+  start(): Promise<void>;
+  open(path: string, keepTrail?: boolean, label?: string): Promise<void>;
+  back(index: number): Promise<void>;
+  setDepth(depth: number): Promise<void>;
+  reload(): Promise<void>;
+  edit(edits: Edit[]): Promise<boolean>;
+  write(text: string): Promise<boolean>;
+  undo(): Promise<void>;
+  redo(): Promise<void>;
+  begin(order: JobOrder): Promise<void>;
+  show(job: string): Promise<void>;
+  cancel(job: string): Promise<void>;
+  poll(): Promise<void>;
+  set(values: Partial<Studio>): void;
+  say(text: string, kind?: 'note' | 'error'): void;
+  tell(error: unknown): void;
+}
+
+const dataKey = (path: string) => `hysteron.data.${path}`;
+
+function parsed(text: string): any {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
+/// The data set that lies nearest to a diagram: in its folder, a set before a single recording.
+export function nearestData(path: string, files: ListedFile[]): string {
+  const folder = path.slice(0, path.lastIndexOf('/') + 1);
+  const here = (kind: string) => files.find((f) => f.kind === kind && f.path.slice(0, f.path.lastIndexOf('/') + 1) === folder);
+  return (here('dataset') ?? here('recording'))?.path ?? '';
+}
+
+export const currentPath = (s: {trail: Trail[]}) => (s.trail.length ? s.trail[s.trail.length - 1].path : '');
+
+export const useStudio = create<Studio>()((set, get) => {
+  /// A view that the server gave: drawn where it can be; else what was drawn before stays, with the problems.
+  const take = (view: View) => {
+    const before = get().view;
+    const sheet = view.sheet ?? before?.sheet ?? null;
+    const there = new Set(sheet?.items.map((i) => i.path));
+    const selected = get().selected.every((path) => there.has(path)) ? get().selected : get().selected.filter((path) => there.has(path));
+    set({view: {...view, sheet}, document: parsed(view.text) ?? get().document, selected});
+  };
+
+  const changed = (view: View, record: boolean) => {
+    const before = get().view;
+    if (record && before && before.text !== view.text) {
+      const history = push(get().history, before.text, view.text);
+      set({history});
+      saveHistory(currentPath(get()), history, view.text);
+    }
+    take(view);
+  };
+
+  // One after the other: whoever is quicker than the server does not overtake himself.
+  let before: Promise<unknown> = Promise.resolve();
+  const inTurn = <T>(action: () => Promise<T>): Promise<T> => {
+    const turn = before.then(action);
+    before = turn.catch(() => undefined);
+    return turn;
+  };
+
+  /// `action` is given the text as it is in its turn.
+  const guarded = async (action: (now: View) => Promise<View>, record: boolean, mine: string): Promise<boolean> => {
+    const now = get().view;
+    if (!now) return false;
+    try {
+      changed(await action(now), record);
+      return true;
+    } catch (error) {
+      if (error instanceof Conflict) set({conflict: {text: error.text, hash: error.hash, mine}});
+      else get().tell(error);
+      return false;
+    }
+  };
+
+  /// Writes what an undo or redo makes of the text.
+  const step = (back: boolean) => inTurn(async () => {
+    const {history, view, depth} = get();
+    if (!view) return;
+    const found = back ? undoSplice(history) : redoSplice(history);
+    if (!found) return;
+    const text = applySplice(view.text, found.splice);
+    if (text === null) {
+      set({history: emptyHistory()});
+      get().say('the file was changed elsewhere: what was to be undone is not there any more', 'error');
+      return;
+    }
+    if (await guarded(() => api.write(currentPath(get()), text, view.hash, depth), false, text)) {
+      set({history: found.history});
+      saveHistory(currentPath(get()), found.history, text);
+    }
+  });
+
+  return {
+    ready: false,
+    lost: '',
+    folder: '',
+    files: [],
+    library: null,
+    trail: [],
+    view: null,
+    document: null,
+    depth: 0,
+    history: emptyHistory(),
+    selected: [],
+    selectedWire: '',
+    highlighted: [],
+    jobs: [],
+    results: {},
+    shownJob: '',
+    pinnedJobs: [],
+    data: '',
+    tab: 'scopes',
+    spans: null,
+    recording: '',
+    trial: null,
+    notice: null,
+    conflict: null,
+
+    async start() {
+      try {
+        const [hello, files, library] = await Promise.all([api.hello(), api.files(), api.library()]);
+        set({ready: true, folder: hello.name, files, library});
+        const remembered = sessionStorage.getItem('hysteron.open');
+        const diagrams = files.filter((f) => f.kind === 'diagram');
+        const first = diagrams.find((f) => f.path === remembered) ?? diagrams[0];
+        if (first) await get().open(first.path);
+      } catch (error) {
+        set({lost: error instanceof Refused ? error.message : 'the studio does not answer'});
+      }
+    },
+
+    async open(path, keepTrail = false, label = '') {
+      try {
+        const view = await api.view(path, get().depth);
+        const trail = keepTrail ? [...get().trail, {path, label: label || path}] : [{path, label: path}];
+        sessionStorage.setItem('hysteron.open', path);
+        set({
+          trail,
+          view,
+          document: parsed(view.text),
+          selected: [],
+          selectedWire: '',
+          highlighted: [],
+          trial: null,
+          spans: null,
+          history: loadHistory(path, view.text),
+          data: localStorage.getItem(dataKey(path)) ?? nearestData(path, get().files),
+          shownJob: '',
+          pinnedJobs: [],
+        });
+        await get().poll();
+        const newest = get().jobs.find((j) => j.diagram === path && j.state === 'done');
+        if (newest) await get().show(newest.id);
+      } catch (error) {
+        get().tell(error);
+      }
+    },
+
+    async back(index) {
+      const trail = get().trail.slice(0, index + 1);
+      const last = trail.pop()!;
+      set({trail});
+      await get().open(last.path, true, last.label);
+    },
+
+    async setDepth(depth) {
+      set({depth});
+      await get().reload();
+    },
+
+    reload: () =>
+      inTurn(async () => {
+        const path = currentPath(get());
+        if (path) await guarded(() => api.view(path, get().depth), true, '');
+      }),
+
+    edit: (edits) =>
+      edits.length === 0 ? Promise.resolve(false) : inTurn(() => guarded((now) => api.edit(currentPath(get()), edits, now.hash, get().depth), true, '')),
+
+    write: (text) => inTurn(() => guarded((now) => api.write(currentPath(get()), text, now.hash, get().depth), true, text)),
+
+    undo: () => step(true),
+    redo: () => step(false),
+
+    async begin(order) {
+      try {
+        const id = await api.begin(order);
+        set({shownJob: id});
+        await get().poll();
+      } catch (error) {
+        get().tell(error);
+      }
+    },
+
+    async show(id) {
+      const job = get().jobs.find((j) => j.id === id);
+      if (!job) return;
+      if (job.state === 'done' && !get().results[id]) {
+        try {
+          const result = JSON.parse(await api.read(`${job.folder}/result.json`)) as Result;
+          set({results: {...get().results, [id]: result}});
+        } catch (error) {
+          get().tell(error);
+        }
+      }
+      const tab: Partial<Record<string, BottomTab>> = {run: 'scopes', compare: 'fails', diagnose: 'effects', discover: 'effects'};
+      const result = get().results[id];
+      const known = result?.traces.includes(get().recording);
+      set({shownJob: id, tab: tab[job.verb] ?? get().tab, spans: null, recording: known ? get().recording : result?.traces[0] ?? ''});
+    },
+
+    async cancel(id) {
+      try {
+        await api.cancel(id);
+      } catch (error) {
+        get().tell(error);
+      }
+      await get().poll();
+    },
+
+    async poll() {
+      const path = currentPath(get());
+      try {
+        const state = await api.state(path ? [path] : []);
+        const before = get().jobs;
+        set({jobs: state.jobs, lost: ''});
+        if (path && state.files[path] && get().view && state.files[path] !== get().view!.hash && !get().conflict) await get().reload();
+        const shown = state.jobs.find((j) => j.id === get().shownJob);
+        const was = before.find((j) => j.id === get().shownJob);
+        if (shown && shown.state === 'done' && was?.state !== 'done') await get().show(shown.id);
+        if (shown && shown.state === 'failed' && was && was.state !== 'failed') set({tab: 'problems'});
+      } catch (error) {
+        set({lost: error instanceof Refused ? error.message : 'the studio does not answer: it was ended, or is being started anew'});
+      }
+    },
+
+    set: (values) => {
+      if (values.data !== undefined) localStorage.setItem(dataKey(currentPath(get())), values.data);
+      set(values);
+    },
+    say: (text, kind = 'note') => set({notice: {text, kind}}),
+    tell(error) {
+      const problems: Problem[] = error instanceof Refused ? error.problems : [];
+      get().say(problems.length ? problems.map((p) => `${p.what}: ${p.cure}`).join('\n') : String(error), 'error');
+    },
+  };
+});
+
+/// Looks at files and jobs: often while something runs, seldom while nobody sees the page.
+export function keepLooking(): () => void {
+  let timer = 0;
+  let ended = false;
+  const look = async () => {
+    await useStudio.getState().poll();
+    if (ended) return;
+    const busy = useStudio.getState().jobs.some((j) => j.state === 'running' || j.state === 'waiting');
+    timer = window.setTimeout(look, document.hidden ? 4000 : busy ? 150 : 800);
+  };
+  timer = window.setTimeout(look, 300);
+  return () => {
+    ended = true;
+    clearTimeout(timer);
+  };
+}

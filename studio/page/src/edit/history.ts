@@ -1,0 +1,76 @@
+// Decides what undo and redo are: texts spliced at one place, and their inverses, one entry per gesture.
+
+/// At `at`, `removed` became `inserted`.
+export interface Splice {
+  at: number;
+  removed: string;
+  inserted: string;
+}
+
+export interface History {
+  done: Splice[];
+  undone: Splice[];
+}
+
+const most = 200;
+
+export const emptyHistory = (): History => ({done: [], undone: []});
+
+/// The smallest splice that makes one text the other.
+export function spliceBetween(before: string, after: string): Splice {
+  const shorter = Math.min(before.length, after.length);
+  let head = 0;
+  while (head < shorter && before[head] === after[head]) ++head;
+  let tail = 0;
+  while (tail < shorter - head && before[before.length - 1 - tail] === after[after.length - 1 - tail]) ++tail;
+  return {at: head, removed: before.slice(head, before.length - tail), inserted: after.slice(head, after.length - tail)};
+}
+
+export const inverse = (s: Splice): Splice => ({at: s.at, removed: s.inserted, inserted: s.removed});
+
+/// Null where the text is not the one that the splice was made for.
+export function applySplice(text: string, s: Splice): string | null {
+  if (text.slice(s.at, s.at + s.removed.length) !== s.removed) return null;
+  return text.slice(0, s.at) + s.inserted + text.slice(s.at + s.removed.length);
+}
+
+export function push(history: History, before: string, after: string): History {
+  return {done: [...history.done, spliceBetween(before, after)].slice(-most), undone: []};
+}
+
+export function undoSplice(history: History): {splice: Splice; history: History} | null {
+  const last = history.done[history.done.length - 1];
+  if (!last) return null;
+  return {splice: inverse(last), history: {done: history.done.slice(0, -1), undone: [...history.undone, last]}};
+}
+
+export function redoSplice(history: History): {splice: Splice; history: History} | null {
+  const last = history.undone[history.undone.length - 1];
+  if (!last) return null;
+  return {splice: last, history: {done: [...history.done, last], undone: history.undone.slice(0, -1)}};
+}
+
+const key = (path: string) => `hysteron.history.${path}`;
+
+export function saveHistory(path: string, history: History, text: string): void {
+  try {
+    sessionStorage.setItem(key(path), JSON.stringify({history, text}));
+  } catch {
+    sessionStorage.removeItem(key(path));  // full: undo then begins anew after a reload
+  }
+}
+
+/// What was kept over a reload. What has changed since is one more edit: that of somebody else, or one whose answer
+/// came too late.
+export function loadHistory(path: string, text: string): History {
+  try {
+    return resumed(JSON.parse(sessionStorage.getItem(key(path)) ?? 'null'), text);
+  } catch {
+    return emptyHistory();
+  }
+}
+
+export function resumed(kept: {history: History; text: string} | null, text: string): History {
+  if (!kept) return emptyHistory();
+  return kept.text === text ? kept.history : push(kept.history, kept.text, text);
+}

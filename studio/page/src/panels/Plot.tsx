@@ -1,0 +1,124 @@
+// Decides how curves are drawn: uPlot with what the server gives, smallest and largest value per pixel, so that nothing
+// gets lost however many rows there are. Zooming asks the server anew.
+
+import {useEffect, useRef} from 'react';
+import uPlot from 'uplot';
+import type {Point} from '../types';
+import {zigzag} from './zigzag';
+
+export interface Curve {
+  label: string;
+  color: string;
+  dash?: number[];
+  x: Float64Array;
+  low: Float64Array;
+  high: Float64Array;
+}
+
+interface Props {
+  curves: Curve[];
+  unit: string;
+  spans?: Point[];
+  range: Point | null;          // what is shown; null: all of it
+  onZoom: (range: Point | null) => void;
+  onPixels?: (pixels: number) => void;
+  onCursor?: (at: number | null, values: Record<string, number>) => void;  // of the curves, by their labels
+  sync: string;
+  height: number;
+  hasTimes: boolean;            // the lowest of several: the others share its times
+}
+
+function dataOf(curves: Curve[]): uPlot.AlignedData {
+  const tables = curves.map((c) => zigzag(c.x, c.low, c.high) as unknown as uPlot.AlignedData);
+  if (tables.length === 0) return [[]] as unknown as uPlot.AlignedData;
+  const sameX = tables.every((t) => t[0].length === tables[0][0].length && t[0].every((v, i) => v === tables[0][0][i]));
+  if (sameX) return [tables[0][0], ...tables.map((t) => t[1])] as uPlot.AlignedData;
+  // Stretches of different lengths: one row per time of any of them.
+  const all = [...new Set(tables.flatMap((t) => t[0] as number[]))].sort((a, b) => a - b);
+  const rows = tables.map((t) => {
+    const at = new Map<number, number>();
+    (t[0] as number[]).forEach((x, i) => at.set(x, (t[1] as number[])[i]));
+    return all.map((x) => at.get(x) ?? undefined);
+  });
+  return [all, ...rows] as unknown as uPlot.AlignedData;
+}
+
+const colour = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export function Plot({curves, unit, spans, range, onZoom, onPixels, onCursor, sync, height, hasTimes}: Props) {
+  const holder = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const latest = useRef({spans, range, onZoom, onPixels, onCursor, curves});
+  latest.current = {spans, range, onZoom, onPixels, onCursor, curves};
+  const shape = curves.map((c) => `${c.label}|${c.color}|${c.dash ?? ''}`).join();
+
+  useEffect(() => {
+    const element = holder.current!;
+    const axis = {stroke: colour('--muted'), grid: {stroke: colour('--grid'), width: 1}, ticks: {show: false}, font: '12px system-ui, sans-serif'};
+    const make = () => new uPlot({
+      width: Math.max(120, element.clientWidth), height,
+      scales: {x: {time: false, range: (_, low, high) => latest.current.range ?? (low === high ? [low - 1, high + 1] : [low, high])}},
+      cursor: {sync: {key: sync}, drag: {x: true, y: false, setScale: false}, points: {size: 6}, y: false},
+      legend: {show: false},
+      axes: [{...axis, size: hasTimes ? 28 : 6, space: 60, values: (_, all) => all.map((v) => (v === null || !hasTimes ? '' : String(Number(v.toPrecision(6)))))},
+             {...axis, size: 64, label: unit ? `[${unit}]` : undefined, labelSize: 18, labelFont: axis.font, labelGap: 0, values: (_, all) => all.map((v) => (v === null ? '' : String(Number(v.toPrecision(5)))))}],
+      series: [{}, ...curves.map((c) => ({label: c.label, stroke: colour(c.color) || c.color, width: 1.5, dash: c.dash, spanGaps: true, points: {show: false}}))],
+      hooks: {
+        drawClear: [(u) => {
+          const {spans: shaded} = latest.current;
+          if (!shaded) return;
+          u.ctx.save();
+          u.ctx.fillStyle = colour('--span');
+          for (const [from, to] of shaded) {
+            const left = Math.max(u.bbox.left, u.valToPos(from, 'x', true));
+            const right = Math.min(u.bbox.left + u.bbox.width, u.valToPos(to, 'x', true));
+            if (right >= left) u.ctx.fillRect(left, u.bbox.top, Math.max(2, right - left), u.bbox.height);
+          }
+          u.ctx.restore();
+        }],
+        setCursor: [(u) => {
+          const row = u.cursor.idx;
+          if (row === null || row === undefined) return latest.current.onCursor?.(null, {});
+          const values: Record<string, number> = {};
+          latest.current.curves.forEach((c, i) => {
+            const value = u.data[i + 1]?.[u.cursor.idxs?.[i + 1] ?? row];
+            if (value != null) values[c.label] = value;
+          });
+          latest.current.onCursor?.(u.data[0][row], values);
+        }],
+        setSelect: [(u) => {
+          if (u.select.width < 4) return;
+          const [a, b] = [u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')];
+          u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
+          latest.current.onZoom([a, b]);
+        }],
+        ready: [(u) => u.over.addEventListener('dblclick', () => latest.current.onZoom(null))],
+      },
+    }, dataOf(curves), element);
+    plot.current = make();
+    latest.current.onPixels?.(Math.round(plot.current.bbox.width / devicePixelRatio));
+    const observer = new ResizeObserver(() => {
+      plot.current?.setSize({width: Math.max(120, element.clientWidth), height});
+      if (plot.current) latest.current.onPixels?.(Math.round(plot.current.bbox.width / devicePixelRatio));
+    });
+    observer.observe(element);
+    const themed = new MutationObserver(() => {
+      plot.current?.destroy();
+      plot.current = make();
+    });
+    themed.observe(document.documentElement, {attributes: true, attributeFilter: ['data-theme']});
+    return () => {
+      observer.disconnect();
+      themed.disconnect();
+      plot.current?.destroy();
+      plot.current = null;
+    };
+    // Made anew where the curves are others; their numbers are set below.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [shape, unit, sync, height, hasTimes]);
+
+  useEffect(() => plot.current?.setData(dataOf(curves)), [curves, range]);
+  useEffect(() => plot.current?.redraw(false), [spans]);
+
+  return <div className="plot" ref={holder} />;
+}

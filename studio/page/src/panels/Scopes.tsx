@@ -1,0 +1,134 @@
+// Decides which curves the scopes show: those of the run that is looked at, one plot per unit, pinned runs behind it.
+
+import {useEffect, useMemo, useState} from 'react';
+import {useStudio} from '../data/store';
+import type {Stretch} from '../data/api';
+import {short} from '../numbers';
+import type {Point} from '../types';
+import {Plot, type Curve} from './Plot';
+import {useHead, useStretch} from './traces';
+import {StartHint} from './StartHint';
+
+export const colours = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
+const shownAtFirst = 6;
+
+/// Of compare: what is measured, simulated and left over has the same colour everywhere.
+export function colourOf(name: string, index: number): string {
+  if (name.endsWith('_measured')) return '--measured';
+  if (name.endsWith('_simulated')) return '--simulated';
+  if (name.endsWith('_residual')) return '--residual';
+  return colours[index % colours.length];
+}
+
+export function curvesOf(stretch: Stretch | null, names: string[], order: string[], suffix = '', dash?: number[]): Curve[] {
+  if (!stretch) return [];
+  return names.flatMap((name) => {
+    const column = stretch.columns.find((c) => c.name === name);
+    if (!column) return [];
+    return [{label: name + suffix, color: colourOf(name, order.indexOf(name)), dash, x: stretch.x, low: column.low, high: column.high}];
+  });
+}
+
+function useSize(initial: number): [number, (element: HTMLDivElement | null) => void] {
+  const [height, setHeight] = useState(initial);
+  const [element, setElement] = useState<HTMLDivElement | null>(null);
+  useEffect(() => {
+    if (!element) return;
+    const observer = new ResizeObserver(() => setHeight(element.clientHeight));
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [element]);
+  return [height, setElement];
+}
+
+/// The rate of an input is told, and seldom looked at.
+const isAside = (name: string) => name.endsWith('_rate');
+/// What is left over is small: it has a scale of its own.
+const isResidual = (name: string) => name.endsWith('_residual');
+
+export function TraceView({path, spans, pinned = []}: {path: string; spans?: Point[]; pinned?: {path: string; label: string}[]}) {
+  const head = useHead(path);
+  const [hidden, setHidden] = useState<Set<string> | null>(null);
+  const [range, setRange] = useState<Point | null>(null);
+  const [pixels, setPixels] = useState(800);
+  const [height, holder] = useSize(220);
+  useEffect(() => {
+    setRange(null);
+    setHidden(null);
+  }, [path]);
+  const names = useMemo(() => head?.columns.slice(1).map((c) => c.name) ?? [], [head]);
+  const off = hidden ?? new Set([...names.filter(isAside), ...names.filter((n) => !isAside(n)).slice(shownAtFirst)]);
+  const [cursor, setCursor] = useState<{at: number | null; values: Record<string, number>}>({at: null, values: {}});
+  const shown = names.filter((n) => !off.has(n));
+  const stretch = useStretch(path, shown, range, pixels);
+  const other = useStretch(pinned[0]?.path ?? '', pinned.length ? shown : [], range, pixels);
+  if (!head) return <div className="panel-body" ref={holder} />;
+  const groupOf = (c: {name: string; unit: string}) => (isResidual(c.name) ? `residual ${c.unit}` : c.unit);
+  const groups = [...new Set(head.columns.slice(1).filter((c) => shown.includes(c.name)).map(groupOf))];
+  const each = Math.max(76, Math.floor((height - 28) / Math.max(1, groups.length)));
+  const time = head.columns[0];
+  const onCursor = (at: number | null, values: Record<string, number>) =>
+    setCursor((now) => (at === null ? (now.at === null ? now : {at: null, values: {}}) : {at, values: now.at === at ? {...now.values, ...values} : values}));
+  return (
+    <div className="scopes">
+      <ul className="signals" aria-label="signals">
+        {names.map((name, i) => (
+          <li key={name}>
+            <label title={name}>
+              <input type="checkbox" checked={!off.has(name)}
+                     onChange={() => setHidden(new Set(off.has(name) ? [...off].filter((n) => n !== name) : [...off, name]))} />
+              <span className="swatch" style={{background: `var(${colourOf(name, i)})`}} />
+              <span className="label">{name}</span>
+              <span className="now">{cursor.values[name] !== undefined && short(cursor.values[name])} <span className="muted">{head.columns[i + 1].unit}</span></span>
+            </label>
+          </li>
+        ))}
+        <li className="time"><span className="label">{time.name}</span><span className="now">{cursor.at !== null && short(cursor.at, 6)} <span className="muted">{time.unit}</span></span></li>
+        {range && <li><button className="quiet small" onClick={() => setRange(null)}>show all</button></li>}
+      </ul>
+      <div className="plots" ref={holder}>
+        {shown.length === 0 && <p className="empty">Tick a signal to see it.</p>}
+        {groups.map((group, k) => {
+          const here = head.columns.slice(1).filter((c) => shown.includes(c.name) && groupOf(c) === group);
+          const order = here.map((c) => c.name);
+          return (
+            <Plot key={group} unit={here[0].unit} height={k === groups.length - 1 ? each + 22 : each} hasTimes={k === groups.length - 1} sync={path} range={range} spans={spans} onZoom={setRange} onPixels={setPixels} onCursor={onCursor}
+                  curves={[...curvesOf(stretch, order, names), ...(pinned.length ? curvesOf(other, order, names, ` (${pinned[0].label})`, [5, 4]) : [])]} />
+          );
+        })}
+      </div>
+    </div>
+  );
+}
+
+export function Scopes() {
+  const job = useStudio((s) => s.jobs.find((j) => j.id === s.shownJob));
+  const jobs = useStudio((s) => s.jobs);
+  const result = useStudio((s) => s.results[s.shownJob]);
+  const recording = useStudio((s) => s.recording);
+  const pinnedIds = useStudio((s) => s.pinnedJobs);
+  const set = useStudio((s) => s.set);
+  if (!job || job.state !== 'done' || !result) return <StartHint verb="run" what="curves of the signals that the diagram records" />;
+  const file = result.traces.includes(recording) ? recording : result.traces[0];
+  const pinned = pinnedIds.filter((id) => id !== job.id).flatMap((id) => {
+    const other = jobs.find((j) => j.id === id);
+    return other && other.state === 'done' ? [{path: `${other.folder}/traces/${file}`, label: 'before'}] : [];
+  });
+  return (
+    <>
+      <div className="panel-head">
+        <span className="headline" title={job.headline}>{job.headline}</span>
+        {result.traces.length > 1 && (
+          <select aria-label="recording" value={file} onChange={(e) => set({recording: e.target.value})}>
+            {result.traces.map((t) => <option key={t}>{t}</option>)}
+          </select>
+        )}
+        {job.verb === 'run' && (
+          <button className={pinnedIds.includes(job.id) ? 'on' : ''} title="keep this run behind the next ones, dashed"
+                  onClick={() => set({pinnedJobs: pinnedIds.includes(job.id) ? [] : [job.id]})}>{pinnedIds.includes(job.id) ? 'Pinned' : 'Pin'}</button>
+        )}
+      </div>
+      <TraceView path={`${job.folder}/traces/${file}`} pinned={pinned} />
+    </>
+  );
+}
