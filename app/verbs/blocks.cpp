@@ -10,7 +10,7 @@
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
 #include "app/cli/terminal.h"
-#include "app/verbs/block_facts.h"
+#include "app/facts/block_facts.h"
 #include "engine/diagram/error.h"
 #include "report/pages/numbers.h"
 

@@ -5,7 +5,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
-#include "app/verbs/fact_shapes.h"
+#include "app/facts/fact_shapes.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "report/pages/inspection_page.h"

@@ -10,7 +10,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
-#include "app/verbs/fact_shapes.h"
+#include "app/facts/fact_shapes.h"
 #include "engine/analysis/small_motions.h"
 #include "engine/diagram/error.h"
 #include "engine/events/rest.h"

@@ -149,14 +149,16 @@ std::size_t column_of(const std::string& text, std::size_t at) {
 std::string gap_behind(const std::string& text, const JsonContainer& object, const std::string& quoted_key) {
   const auto& members = object.members;
   std::size_t column = 0;
-  bool lengths_differ = false;
+  bool is_column = false;  // keys of several lengths, or a gap that somebody made
   for (const auto& m : members) {
     const std::size_t here = column_of(text, m.value);
     if (blanks_before(text, m.begin).find('\n') == std::string::npos || (column > 0 && here != column)) return " ";
     column = here;
-    lengths_differ = lengths_differ || m.key_end - m.begin != members[0].key_end - members[0].begin;
+    const bool other_length = m.key_end - m.begin != members[0].key_end - members[0].begin;
+    const bool wide = text.substr(m.key_end, m.value - m.key_end).find("  ") != std::string::npos;
+    is_column = is_column || other_length || wide;
   }
-  if (!lengths_differ) return " ";
+  if (!is_column) return " ";
   const std::size_t used = column_of(text, members[0].begin) + quoted_key.size() + 1;
   return used < column ? std::string(column - used, ' ') : " ";
 }

@@ -46,7 +46,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"report", {"page", "pages"}},
     {"draw", {""}},
     {"studio", {""}},
-    {"app", {"cli", "jobs", "cluster", "study", "verbs", ""}},
+    {"app", {"cli", "facts", "jobs", "cluster", "study", "verbs", ""}},
 };
 
 bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }

@@ -1,4 +1,4 @@
-#include "app/verbs/program_facts.h"
+#include "app/facts/program_facts.h"
 
 #include <algorithm>
 #include <deque>

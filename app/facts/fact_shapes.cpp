@@ -1,4 +1,4 @@
-#include "app/verbs/fact_shapes.h"
+#include "app/facts/fact_shapes.h"
 
 #include <utility>
 

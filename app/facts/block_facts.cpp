@@ -1,4 +1,4 @@
-#include "app/verbs/block_facts.h"
+#include "app/facts/block_facts.h"
 
 #include <cmath>
 
