@@ -20,7 +20,7 @@ Node block(const char* type, std::vector<Wire> in) {
 }
 
 /// u - back-EMF -> torque -> speed, read as w.
-Diagram motor() {
+Diagram back_emf_motor() {
   Diagram d;
   d.title = "motor";
   d.inputs["u"].unit = "V";
@@ -37,7 +37,7 @@ Diagram motor() {
 
 /// The same under a controller that samples the speed.
 Diagram drive() {
-  Diagram d = motor();
+  Diagram d = back_emf_motor();
   d.inputs["ref"].unit = "rad/s";
   d.inputs.erase("u");
   d.blocks["controller"] = block("discrete_pid", {{"", "ref"}, {"", "speed"}});
@@ -60,7 +60,7 @@ class Readings : public ::testing::Test {
 
 TEST_F(Readings, OfAWireThatMovesOtherBlocksAreWhereASensorActs) {
   for (const char* effect : {"sensor_lag", "sensor_nonlinearity", "quantization", "calibration", "mains_interference"})
-    EXPECT_EQ(where(effect, motor()), std::vector<std::string>{"outputs.w"}) << effect;
+    EXPECT_EQ(where(effect, back_emf_motor()), std::vector<std::string>{"outputs.w"}) << effect;
 }
 
 TEST_F(Readings, AreOneOfTwoPlacesWhereAControllerActsOnTheWire) {
@@ -68,11 +68,11 @@ TEST_F(Readings, AreOneOfTwoPlacesWhereAControllerActsOnTheWire) {
 }
 
 TEST_F(Readings, AreAPlaceOfWhatLiesBetweenMotionAndSensorBesideTheWireItself) {
-  EXPECT_EQ(where("backlash", motor()), (std::vector<std::string>{"outputs.w", "speed"}));
+  EXPECT_EQ(where("backlash", back_emf_motor()), (std::vector<std::string>{"outputs.w", "speed"}));
 }
 
 TEST_F(Readings, AreNoPlacesOfTheirOwnWhereNobodyElseReads) {
-  Diagram d = motor();
+  Diagram d = back_emf_motor();
   d.blocks["sensor"] = block("gain", {{"", "speed"}});
   d.blocks["sensor"].parameters["gain"] = Value("1");
   d.outputs["w"] = "sensor";
@@ -80,7 +80,7 @@ TEST_F(Readings, AreNoPlacesOfTheirOwnWhereNobodyElseReads) {
 }
 
 TEST_F(Readings, KeepTheLoopAsItIsAndGiveBackTheDiagram) {
-  const Added a = add_effect(motor(), registry, effects.get("sensor_lag"), "outputs.w");
+  const Added a = add_effect(back_emf_motor(), registry, effects.get("sensor_lag"), "outputs.w");
   EXPECT_EQ(a.name, "w_sensor_lag");
   EXPECT_EQ(*a.diagram.outputs.find("w"), "w_sensor_lag");
   EXPECT_EQ(a.diagram.blocks.find("back_emf")->in.front().from, "speed") << "the motor feels its own speed";
@@ -92,11 +92,11 @@ TEST_F(Readings, KeepTheLoopAsItIsAndGiveBackTheDiagram) {
 
   const Diagram without = remove_effect(both.diagram, registry, "w_sensor_lag");
   EXPECT_EQ(without.blocks.find("w_quantization")->in.front().from, "speed");
-  EXPECT_EQ(diagram_text(remove_effect(without, registry, "w_quantization")), diagram_text(motor()));
+  EXPECT_EQ(diagram_text(remove_effect(without, registry, "w_quantization")), diagram_text(back_emf_motor()));
 }
 
 TEST_F(Readings, OfABundleStandBeforeItsMux) {
-  Diagram d = motor();
+  Diagram d = back_emf_motor();
   d.blocks["both"] = block("mux", {{"", "speed"}, {"", "acceleration"}});
   d.outputs = {};
   d.outputs["y"] = "both";
@@ -121,7 +121,7 @@ DataSet with_column(const std::string& name, const char* unit) {
 }
 
 TEST_F(Readings, AreCoupledToAColumnInTheUnitOfADriveThatNobodyBound) {
-  Diagram d = motor();
+  Diagram d = back_emf_motor();
   d.inputs["u"].unit = "%";
   const auto sides = [&](const DataSet& data) {
     std::vector<std::string> list;
