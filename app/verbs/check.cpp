@@ -51,7 +51,7 @@ Answer check(const Arguments& arguments, const Watch& watch) {
   DataSet data;
   behind(answer.text, [&] { data = load_data(arguments, *program); });
   long rows = 0;
-  for (const auto& recording : data.recordings) rows += static_cast<long>(recording.last - recording.first);
+  for (const auto& recording : data.recordings) rows += static_cast<long>(recording.count_judged());
   answer.text +=
       fmt::format("{}: ok: {}, {} judged\n", arguments.text("--data"),
                   count_text(static_cast<long>(data.recordings.size()), "recording"), count_text(rows, "row"));

@@ -68,8 +68,7 @@ void ResidualParts::read_levels(const std::vector<int>& recordings, const Predic
       const Recording& recording = model_.recording(r);
       const auto found = recording.columns.find(name);
       if (found == recording.columns.end()) return Rows{};
-      const Rows rows(found->second.begin() + static_cast<std::ptrdiff_t>(recording.first),
-                      found->second.begin() + static_cast<std::ptrdiff_t>(recording.last));
+      const Rows rows = recording.judged(found->second);
       const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
       return rows.empty() || *low == *high ? Rows{} : rows;
     });

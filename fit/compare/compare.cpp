@@ -81,8 +81,7 @@ std::vector<SplitSignal> signals_besides(const DataModel& model, const std::vect
       const auto column = recording.columns.find(name);
       if (column == recording.columns.end()) break;
       if (const auto unit = recording.units.find(name); unit != recording.units.end()) signal.unit = unit->second;
-      signal.rows.emplace_back(column->second.begin() + static_cast<std::ptrdiff_t>(recording.first),
-                               column->second.begin() + static_cast<std::ptrdiff_t>(recording.last));
+      signal.rows.push_back(recording.judged(column->second));
     }
     if (signal.rows.size() == recordings.size()) list.push_back(std::move(signal));
   }

@@ -54,8 +54,7 @@ void DataModel::Content::bind(int r) {
   for (const auto& input : program->input_names)
     bind_input(*program, b.run, input, input_series(*data, recording, input));
 
-  const auto first = static_cast<std::ptrdiff_t>(recording.first), last = static_cast<std::ptrdiff_t>(recording.last);
-  b.times.assign(recording.t.begin() + first, recording.t.begin() + last);
+  b.times = recording.judged(recording.t);
   b.measured.resize(outputs.size());
   b.at.resize(outputs.size());
   std::vector<std::vector<double>> wanted(outputs.size());
@@ -64,12 +63,10 @@ void DataModel::Content::bind(int r) {
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const auto column = recording.columns.find(outputs[o]);
     if (column == recording.columns.end()) continue;
-    b.measured[o].assign(column->second.begin() + first, column->second.begin() + last);
-    const auto instants = output_instants(*data, recording, outputs[o]);
-    for (auto i = first; i < last; ++i) {
-      // Before the start the model is where it starts: at rest there.
-      wanted[o].push_back(std::max(begin, instants[static_cast<std::size_t>(i)]));
-    }
+    b.measured[o] = recording.judged(column->second);
+    // Before the start the model is where it starts: at rest there.
+    for (const double t : recording.judged(output_instants(*data, recording, outputs[o])))
+      wanted[o].push_back(std::max(begin, t));
     b.instants.insert(b.instants.end(), wanted[o].begin(), wanted[o].end());
   }
   std::sort(b.instants.begin(), b.instants.end());

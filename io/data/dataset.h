@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/diagram/series.h"
@@ -32,6 +33,8 @@ struct ColumnNote {
   double delay_seconds = 0;         ///< the column shows the past by this much [s] ...
   int delay_samples = 0;            ///< ... and by this many samples
   bool optional = false;
+  std::optional<std::pair<double, double>> limits;  ///< [SI] at and beyond them the column shows no more than that
+  bool find_limits = false;                         ///< they are where rows pile up
 };
 
 /// One recording, cut to skip..until. Everything in SI.
@@ -42,7 +45,8 @@ struct Recording {
   double weight = 1;
   std::string remark;
   std::vector<double> t;            ///< [s] times of all rows in the file (the simulation runs through all of them)
-  std::size_t first = 0, last = 0;  ///< rows [first, last) are judged (skip, until)
+  std::size_t first = 0, last = 0;  ///< rows [first, last) are judged (skip, until) ...
+  std::vector<bool> left_out{};     ///< ... but for these (exclude, limits); empty: none
   std::map<std::string, std::vector<double>>
       columns;                                   ///< by ColumnNote::to (or file name of the column), one value per row
   std::map<std::string, Unit> units;             ///< of the columns, as in the file
@@ -52,6 +56,10 @@ struct Recording {
   std::map<std::string, double> initial_values;  ///< "initial": {"stage.x": "1 um"}
   std::optional<double> start_hours;             ///< [h]
   std::optional<double> cycles_before;
+
+  std::size_t count_judged() const;
+  /// What stands in the rows that are judged, of a column or of t.
+  std::vector<double> judged(const std::vector<double>& column) const;
 };
 
 /// What a data set says of the use before each recording stands there as columns too (one value in all rows), unless

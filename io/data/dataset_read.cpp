@@ -10,6 +10,7 @@
 #include "engine/diagram/error.h"
 #include "io/data/binary_table.h"
 #include "io/data/dataset.h"
+#include "io/data/left_out_rows.h"
 #include "io/data/recording_file.h"
 #include "io/data/same_rows.h"
 #include "io/files/atomic_file.h"
@@ -102,7 +103,7 @@ class DataSetReader {
  private:
   void column(const std::string& name, const JsonPlace& place) {
     if (!place.expect_object("{\"to\": \"y\", \"noise\": \"2 nm\"}")) return;
-    place.only({"to", "unit", "between_samples", "noise", "zero", "delay", "optional", "remark"});
+    place.only({"to", "unit", "between_samples", "noise", "zero", "delay", "optional", "limits", "remark"});
     text_member(place, "remark");
     Noted noted{name, place, {}};
     noted.note.to = place.find("to") ? text_member(place, "to") : name;
@@ -195,6 +196,26 @@ class DataSetReader {
     if (const auto share = place->find("one_over_f")) noise.one_over_f = size(*share, Unit{});
   }
 
+  /// [0, 10] or ["0 V", "10 V"]; "find" where rows pile up. Numbers are in the column's unit.
+  void read_limits(const Noted& noted, const Unit& unit) {
+    const auto place = noted.place.find("limits");
+    if (!place) return;
+    ColumnNote& note = data_.notes.at(noted.note.to);
+    if (place->is_text()) {
+      note.find_limits = place->text() == "find";
+      if (!note.find_limits)
+        place->add("bad_value", "limits are two numbers", "write [0, 10], or \"find\" for where rows pile up");
+      return;
+    }
+    if (!place->expect_array("[0, 10]")) return;
+    const auto ends = place->elements();
+    if (ends.size() != 2) return place->add("bad_value", "limits are two numbers", "write [0, 10]");
+    const auto low = read_si(ends[0], unit), high = read_si(ends[1], unit);
+    if (!low || !high) return;
+    if (!(*low < *high)) return place->add("bad_value", "the lower limit comes first", "write [0, 10]");
+    note.limits = std::pair(*low, *high);
+  }
+
   void recordings(const JsonPlace& root) {
     const auto list = root.need("recordings", "write \"recordings\": [{\"file\": \"01.csv\", \"role\": \"train\"}]");
     if (!list || !list->expect_array("[{\"file\": \"01.csv\", \"role\": \"train\"}]")) return;
@@ -207,7 +228,7 @@ class DataSetReader {
 
   void recording(const JsonPlace& place, bool alone) {
     if (!place.expect_object("{\"file\": \"01.csv\", \"role\": \"train\"}")) return;
-    place.only({"file", "role", "start", "cycles_before", "initial", "skip", "until", "weight", "remark"});
+    place.only({"file", "role", "start", "cycles_before", "initial", "skip", "until", "exclude", "weight", "remark"});
     Recording r;
     if (!alone) place.need("role", "write \"role\": \"train\", \"validate\" or \"test\"");
     if (const auto role = place.find("role")) read_role(*role, r);
@@ -229,6 +250,7 @@ class DataSetReader {
     bind(place, *content, r);
     note_use(r);
     read_span(place, r);
+    read_excluded(place, r);
     data_.recordings.push_back(std::move(r));
   }
 
@@ -298,7 +320,10 @@ class DataSetReader {
   void bind(const JsonPlace& place, const RecordingFile& content, Recording& recording) {
     for (auto& noted : noted_) {
       if (content.columns.contains(noted.column)) {
-        if (!noted.unit_seen) read_noise(noted, content.units.at(noted.column));
+        if (!noted.unit_seen) {
+          read_noise(noted, content.units.at(noted.column));
+          read_limits(noted, content.units.at(noted.column));
+        }
         noted.unit_seen = true;
       } else if (!noted.note.optional &&
                  std::find(noted.missing_in.begin(), noted.missing_in.end(), content.file) == noted.missing_in.end()) {
@@ -342,6 +367,31 @@ class DataSetReader {
                             number_text(recording.t.back() - recording.t.front())));
   }
 
+  /// [["2 s", "3.5 s"], ...], counted from the first row as skip and until are.
+  void read_excluded(const JsonPlace& place, Recording& recording) {
+    const auto list = place.find("exclude");
+    constexpr char example[] = "[[\"2 s\", \"3.5 s\"]]";
+    if (!list || !list->expect_array(example)) return;
+    std::vector<ExcludedSpan> spans;
+    for (const auto& entry : list->elements()) {
+      if (!entry.expect_array("[\"2 s\", \"3.5 s\"]")) continue;
+      const auto ends = entry.elements();
+      if (ends.size() != 2) {
+        entry.add("bad_value", "a span has a begin and an end", fmt::format("write {}", example));
+        continue;
+      }
+      const auto from = read_si(ends[0], parse_unit("s"), QuantityKind::difference);
+      const auto to = read_si(ends[1], parse_unit("s"), QuantityKind::difference);
+      if (!from || !to) continue;
+      if (!(*from >= 0) || !(*to > *from))
+        entry.add("bad_value", "a span begins at 0 s or later and ends behind its begin",
+                  fmt::format("write {}, counted from the first row", example));
+      else
+        spans.push_back({*from, *to});
+    }
+    leave_out_spans(recording, spans);
+  }
+
   /// Every row has the value that the recording has.
   void note_use(Recording& recording) {
     const auto column = [&](const char* name, const std::optional<double>& value, const char* unit) {
@@ -359,10 +409,16 @@ class DataSetReader {
     for (const auto& name : bound_by_name_)
       if (!data_.notes.contains(name)) data_.notes[name].to = name;
     skip_unknown_past(recording, data_.notes);
+    for (auto& sentence : leave_out_clipped(recording, data_.notes)) data_.remarks.push_back(std::move(sentence));
     if (recording.last < recording.first + fewest_rows)
       file_.add("too_few_rows", "/recordings",
                 fmt::format("the delays of the columns leave no row of {} to judge", recording.name),
                 "shorten the delay, or record longer");
+    else if (recording.count_judged() < fewest_rows)
+      file_.add("too_few_rows", "/recordings",
+                fmt::format("\"exclude\" and \"limits\" leave {} of {} to judge", rows_text(recording.count_judged()),
+                            recording.name),
+                "exclude less, widen the limits, or record longer");
   }
 
   JsonFile file_;

@@ -26,6 +26,9 @@ Json column() {
        {"delay",
         {{"type", {"string", "integer"}},
          {"description", "the column shows the past by this much: \"1 sample\", \"5 ms\""}}},
+       {"limits",
+        {{"description", "ends of its range: rows at or beyond them are not judged; or find, for where rows pile up"},
+         {"anyOf", Json::array({choice_of("", {"find"}), list_of("", {{"$ref", "#/definitions/quantity"}})})}}},
        {"optional", {{"type", "boolean"}, {"description", "some recordings may lack it"}}},
        {"remark", text("what a reader should know")}});
 }
@@ -47,6 +50,8 @@ Json recording() {
          {"anyOf", Json::array({choice_of("", {"rest", "per_recording"}), values})}}},
        {"skip", quantity("not judged at its beginning [s]", false)},
        {"until", quantity("judged until so long after its beginning [s]", false)},
+       {"exclude", list_of("spans that are not judged, counted from the first row: [[\"2 s\", \"3.5 s\"]]",
+                           list_of("begin and end", {{"$ref", "#/definitions/quantity"}}))},
        {"weight", std::move(weight)},
        {"remark", text("what a reader should know")}},
       {"file"});

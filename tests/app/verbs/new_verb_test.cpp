@@ -158,5 +158,27 @@ TEST_F(NewVerb, DataSetsReadTheFilesOfInstrumentsThemselvesAndSayHow) {
   EXPECT_SAYS(seen, "1 recording with 40 rows, 1 ms between rows");
 }
 
+TEST_F(NewVerb, RowsAtTheEndOfARangeAreLeftOutOfEveryVerdict) {
+  // y = 3 u + 0.5 behind a converter that ends at 2: the model is right, the rows at 2 are not.
+  std::string text = "t [s],u [V],y [um]\n";
+  for (int k = 0; k < 40; ++k) {
+    const double u = std::sin(0.3 * k);
+    text += fmt::format("{},{:.6f},{:.6f}\n", k, u, std::min(2.0, 3 * u + 0.5));
+  }
+  ASSERT_EQ(make("a.csv", "t [s],u [V],y [um]\n" + plain_rows()).code, 0);  // the model, from what is not clipped
+  folder_.write("clipped.csv", text);
+  const auto compared = [&](const std::string& columns) {
+    folder_.write("d.json", R"({"format": 1, "columns": {)" + columns + R"(},
+      "recordings": [{"file": "clipped.csv", "role": "train"}, {"file": "clipped.csv", "role": "validate"}]})");
+    return hysteron(folder_.path(),
+                    {"compare", "out/diagram.json", "--data", "d.json", "--tolerance", "0.001 um", "-o", "cmp"});
+  };
+  EXPECT_EQ(compared("").code, 1);
+  const Outcome declared = compared(R"("y": {"limits": [-10, 2]})");
+  EXPECT_EQ(declared.code, 0) << declared.out << declared.err;
+  EXPECT_SAYS(declared, "in which y is at the end of its range (-10 um, 2 um)");
+  EXPECT_EQ(compared(R"("y": {"limits": "find"})").code, 0);
+}
+
 }  // namespace
 }  // namespace hysteron

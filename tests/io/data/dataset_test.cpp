@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/diagram/error.h"
@@ -352,6 +353,53 @@ TEST(DataSet, ThatJudgesByWhatItFittedIsToldSo) {
   EXPECT_EQ(remarks(train, R"("role": "train", "file": "01.csv")"), Remarks{});
   EXPECT_EQ(remarks(train + R"(, "until": "10 s")", R"("role": "validate", "file": "01.csv", "skip": "10 s")"),
             Remarks{});
+}
+
+TEST(DataSet, ExcludedSpansAndRowsAtTheLimitsAreNotJudged) {
+  const TemporaryFolder folder;
+  folder.write("01.csv", rows(40));  // u = row, every 0.5 s; y = 10 um + row
+  const auto data = read_dataset(folder.write("data.json", R"({"format": 1,
+    "columns": {"u": {"limits": ["-1 V", "35 V"]}, "y": {"limits": [12, 100]}},
+    "recordings": [{"file": "01.csv", "role": "validate", "exclude": [["5 s", "7 s"], ["7 s", "8 s"]], "skip": "0.5 s"}]})"));
+  const Recording& r = data.recordings.front();
+  // Rows 0 (skip), 1 and 2 (y at 11 and 12 um), 10 to 16 (excluded), 35 to 39 (u).
+  EXPECT_EQ(r.count_judged(), 40U - 1 - 2 - 7 - 5);
+  std::vector<double> judged;
+  for (int k = 3; k < 35; ++k)
+    if (k < 10 || k > 16) judged.push_back(0.5 * k);
+  EXPECT_EQ(r.judged(r.t), judged);
+  using Remarks = std::vector<std::string>;
+  EXPECT_EQ(data.remarks,
+            (Remarks{"01.csv: 5 rows not judged, in which u is at the end of its range (-1 V, 35 V).",
+                     "01.csv: 3 rows not judged, in which y is at the end of its range (12 um, 100 um)."}));
+}
+
+TEST(DataSet, LimitsAreFoundWhereRowsPileUpAndOnlyThere) {
+  const TemporaryFolder folder;
+  std::string text = "t [s],u [V],y [um]\n";
+  for (int i = 0; i < 40; ++i)
+    text += std::to_string(i) + "," + std::to_string(i % 10) + "," + std::to_string(std::min(i % 10, 6)) + "\n";
+  folder.write("01.csv", text);
+  const auto data = read_dataset(folder.write("data.json", R"({"format": 1,
+    "columns": {"u": {"limits": "find"}, "y": {"limits": "find"}}, "recordings": [{"file": "01.csv", "role": "validate"}]})"));
+  EXPECT_EQ(data.recordings.front().count_judged(), 24U);  // 6, 7, 8 and 9 of each ten are written as 6
+  ASSERT_EQ(data.remarks.size(), 1U);
+  EXPECT_NE(data.remarks[0].find("16 rows not judged, in which y is at the end of its range (6 um)"), std::string::npos)
+      << data.remarks[0];
+}
+
+TEST(DataSet, TheUnitOfAColumnMayBeSaidInPlaceOfItsHeader) {
+  const TemporaryFolder folder;
+  folder.write("01.csv", "t [s],n [U/min],y\n0,60,1\n1,120,2\n2,180,3\n3,240,4\n");
+  folder.write("02.csv", "t [s],n [V],y [um]\n0,60,1\n1,120,2\n2,180,3\n3,240,4\n");
+  const auto data = read_dataset(folder.write("data.json", R"({"format": 1,
+    "columns": {"n": {"unit": "rev/min"}, "y": {"unit": "mm", "noise": 1}, "none": {"unit": "V", "optional": true}},
+    "recordings": [{"file": "01.csv", "role": "train"}, {"file": "02.csv", "role": "validate"}]})"));
+  for (const auto& r : data.recordings) {
+    EXPECT_NEAR(r.columns.at("n")[0], 2 * 3.14159265358979, 1e-9);  // 60 turns a minute in rad/s
+    EXPECT_DOUBLE_EQ(r.columns.at("y")[1], 2e-3);
+  }
+  EXPECT_DOUBLE_EQ(*data.notes.at("y").noise.white, 1e-3);
 }
 
 }  // namespace
