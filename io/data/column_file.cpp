@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "engine/diagram/error.h"
-#include "io/data/hdf5_library.h"
 #include "io/files/atomic_file.h"
 #include "io/files/sealed_file.h"
+#include "io/formats/hdf5_library.h"
 
 namespace hysteron {
 namespace {
@@ -21,21 +21,7 @@ constexpr unsigned truncate = 2, read_only = 0;  // as HDF5 has them, without th
 constexpr char names_fact[] = "columns";
 constexpr std::size_t largest_fact = 1 << 26;  // more is damage: a fact is kept in memory
 
-/// An open thing of the library, closed with its function. The mutex is held by whoever has one.
-class Id {
- public:
-  Id(hid_t id, herr_t (*closing)(hid_t)) : id_(id), close_(closing) {}
-  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Id& operator=(Id&&) = delete;
-  ~Id() { close(); }
-  operator hid_t() const { return id_; }  // NOLINT: as the library takes it
-  bool good() const { return id_ >= 0; }
-  bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
+using Id = Hdf5Id;
 
 std::string dataset_name(std::string name) {
   std::replace(name.begin(), name.end(), '/', ':');

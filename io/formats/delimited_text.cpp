@@ -1,5 +1,5 @@
-// Decides how the text of an instrument or a laboratory is read: CSV and its relatives, whatever stands above the table
-// and between its cells.
+#include "io/formats/delimited_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "engine/diagram/stop.h"
 #include "io/files/atomic_file.h"
 #include "io/formats/decoded_text.h"
-#include "io/formats/file_format.h"
 #include "io/formats/text_head.h"
 
 namespace hysteron {
@@ -28,12 +27,10 @@ struct CellColumn {
 
 class TextReader {
  public:
-  TextReader(const std::string& file, const ReadingChoices& choices) : choices_(choices) {
+  TextReader(const std::string& file, DecodedText content, const ReadingChoices& choices)
+      : choices_(choices), text_(std::move(content.text)), lines_(lines_of(text_)) {
     table_.file = file;
-    DecodedText content = decoded(read_file(file));
-    text_ = std::move(content.text);
     if (!content.assumed.empty()) table_.assumed.push_back("written in " + content.assumed);
-    lines_ = lines_of(text_);
     if (std::all_of(lines_.begin(), lines_.end(), says_nothing))
       throw Error(Fault::input,
                   {{"empty_file", file, "the file is empty", "record again, or name another file", file, 1}});
@@ -202,7 +199,11 @@ class TextReader {
 }  // namespace
 
 MeasuredTable read_delimited_text(const std::string& file, const ReadingChoices& choices) {
-  return TextReader(file, choices).read();
+  return TextReader(file, decoded(read_file(file)), choices).read();
+}
+
+MeasuredTable read_delimited_text(const std::string& file, const std::string& text, const ReadingChoices& choices) {
+  return TextReader(file, {text, ""}, choices).read();
 }
 
 }  // namespace hysteron

@@ -7,16 +7,15 @@
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 #include "io/formats/decoded_text.h"
+#include "io/formats/delimited_text.h"
 
 namespace hysteron {
 namespace {
 
 constexpr std::size_t bytes_of_a_begin = 8192;
 
-// Whoever is asked first is named first: what is looked for by its begin, then text.
 constexpr FileFormat formats[] = {
-    {"a table of text", nullptr, read_delimited_text},
-};
+    {is_lvm, read_lvm}, {is_xlsx, read_xlsx}, {is_mat, read_mat}, {is_hdf5, read_hdf5}, {is_tdms, read_tdms}};
 
 std::string begin_of_file(const std::string& file) {
   check_readable(file);
@@ -36,7 +35,7 @@ bool is_text_file(const std::string& file) { return is_text(begin_of_file(file))
 MeasuredTable read_measured_table(const std::string& file, const ReadingChoices& choices) {
   const std::string begin = begin_of_file(file);
   for (const auto& format : formats)
-    if (format.is != nullptr && format.is(begin)) return format.read(file, choices);
+    if (format.is(begin)) return format.read(file, choices);
   const KnownFile known = known_file(begin, file);
   const auto refuse = [&](const std::string& what, const std::string& cure) {
     throw Error(Fault::input, {{"unknown_file_type", file, what, cure, file, 0}});

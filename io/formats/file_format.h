@@ -10,7 +10,6 @@
 namespace hysteron {
 
 struct FileFormat {
-  const char* name;                                                  ///< "an Excel workbook (xlsx)"
   bool (*is)(std::string_view bytes);                                ///< judged by the first kilobytes
   MeasuredTable (*read)(const std::string&, const ReadingChoices&);  ///< may throw Error of any input fault
 };
@@ -23,8 +22,17 @@ MeasuredTable read_measured_table(const std::string& file, const ReadingChoices&
 /// Whether the file is text: neither a format of numbers as they lie in memory nor anything else that holds zero bytes.
 bool is_text_file(const std::string& file);
 
-// The readers; each stands in a source of its own.
-MeasuredTable read_delimited_text(const std::string& file, const ReadingChoices& choices);
+// The readers, each in a source of its own, and by what each knows its files.
+bool is_lvm(std::string_view bytes);
+MeasuredTable read_lvm(const std::string& file, const ReadingChoices& choices);
+bool is_xlsx(std::string_view bytes);
+MeasuredTable read_xlsx(const std::string& file, const ReadingChoices& choices);
+bool is_mat(std::string_view bytes);
+MeasuredTable read_mat(const std::string& file, const ReadingChoices& choices);
+bool is_hdf5(std::string_view bytes);
+MeasuredTable read_hdf5(const std::string& file, const ReadingChoices& choices);
+bool is_tdms(std::string_view bytes);
+MeasuredTable read_tdms(const std::string& file, const ReadingChoices& choices);
 
 /// What the file is where no reader reads it ("a PDF"), and what to do; empty where nobody knows.
 struct KnownFile {

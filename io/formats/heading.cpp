@@ -65,11 +65,14 @@ Heading heading_of(std::string_view text) {
 }
 
 bool is_time_name(std::string_view name) {
-  static constexpr std::array<std::string_view, 32> names{
-      "t",          "time",        "zeit",     "temps",     "tiempo",   "tempo",         "tid",          "timestamp",
-      "time stamp", "zeitstempel", "uhrzeit",  "date time", "datetime", "elapsed",       "elapsed time", "x value",
-      "seconds",    "second",      "sekunden", "sec",       "rel time", "relative time", "time rel",     "zeit relativ",
-      "zeitachse",  "time axis",   "timebase", "messzeit",  "time s",   "time ms",       "t s",          "t ms"};
+  static constexpr std::array<std::string_view, 33> names{
+      "t",         "time",      "zeit",          "temps",      "tiempo",
+      "tempo",     "tid",       "timestamp",     "time stamp", "zeitstempel",
+      "uhrzeit",   "date time", "datetime",      "elapsed",    "elapsed time",
+      "x value",   "trace x",   "seconds",       "second",     "sekunden",
+      "sec",       "rel time",  "relative time", "time rel",   "zeit relativ",
+      "zeitachse", "time axis", "timebase",      "messzeit",   "time s",
+      "time ms",   "t s",       "t ms"};
   return name != "T" && is_one_of(plain(name), names);  // which is a temperature
 }
 

@@ -122,7 +122,7 @@ void damage_instruments(int times, unsigned seed) {
       }
     }
 }
-TEST(DamagedFiles, FilesOfInstrumentsAreReadOrRefused) { damage_instruments(80, 20260504); }
+TEST(DamagedFiles, FilesOfInstrumentsAreReadOrRefused) { damage_instruments(30, 20260504); }
 // Ten minutes of it under sanitizers: scripts/test --all.
 TEST(LongDamagedFiles, FilesOfInstrumentsAreReadOrRefused) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);

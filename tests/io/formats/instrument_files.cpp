@@ -334,6 +334,10 @@ std::vector<InstrumentFile> text_files() {
           rate_in_settings()};
 }
 
-std::vector<InstrumentFile> all_files() { return text_files(); }
+std::vector<InstrumentFile> all_files() {
+  std::vector<InstrumentFile> files = text_files();
+  for (auto& file : binary_files()) files.push_back(std::move(file));
+  return files;
+}
 
 }  // namespace hysteron::instruments

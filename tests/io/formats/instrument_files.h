@@ -22,9 +22,16 @@ struct InstrumentFile {
   double start = 0;                    ///< [s] the time of the first row
   double half_digit = 1e-5;            ///< what rounding took: half of the last digit that is written
   std::vector<std::string> assumed{};  ///< facts that the reader must say
+  double time_digit = 1e-9;            ///< [s] half_digit of the times
 };
 
 std::vector<InstrumentFile> text_files();
+
+std::vector<InstrumentFile> binary_files();
+
+std::string tdms_of_daqmx();
+std::string tdms_of_scaling(const std::string& type);
+std::string mat_of_two_groups();
 
 /// Of every format.
 std::vector<InstrumentFile> all_files();

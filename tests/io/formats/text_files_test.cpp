@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/diagram/error.h"
+#include "io/data/column_file.h"
 #include "io/data/measured_file.h"
 #include "tests/io/formats/instrument_files.h"
 #include "tests/io/temporary_folder.h"
@@ -57,7 +59,7 @@ TEST_P(Instruments, FilesAreReadToTheLastDigitThatTheyHave) {
   for (int k = 0; k < instruments::rows; ++k) {
     const auto row = static_cast<std::size_t>(k);
     // Times are written with 1 ns and finer, or computed from the settings.
-    EXPECT_NEAR(t->unit.to_si(t->values[row]), file.start + k * instruments::interval, 1e-9) << k;
+    EXPECT_NEAR(t->unit.to_si(t->values[row]), file.start + k * instruments::interval, file.time_digit) << k;
     EXPECT_NEAR(u->unit.to_si(u->values[row]), instruments::drive(k), file.half_digit) << k;
     if (y == nullptr) continue;
     EXPECT_NEAR(y->unit.to_si(y->values[row]), instruments::response(k), file.half_digit) << k;
@@ -67,9 +69,11 @@ TEST_P(Instruments, FilesAreReadToTheLastDigitThatTheyHave) {
                                                                   << all_of(read.assumed);
 }
 std::string name_of_file(const ::testing::TestParamInfo<InstrumentFile>& test) {
-  return test.param.name.substr(0, test.param.name.find('.'));
+  std::string name = test.param.name;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
 }
-INSTANTIATE_TEST_SUITE_P(Files, Instruments, ::testing::ValuesIn(instruments::text_files()), name_of_file);
+INSTANTIATE_TEST_SUITE_P(Files, Instruments, ::testing::ValuesIn(instruments::all_files()), name_of_file);
 
 TEST(InstrumentText, AnEmptyCellOrAMarkOfOverloadLeavesItsRowOutAndIsSaid) {
   const MeasuredFile read = read_text(
@@ -214,6 +218,48 @@ TEST(KnownFiles, AreNamedAsWhatTheyAreWithWhatToDo) {
   EXPECT_NE(told("a.xls", std::string("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0\0", 10)).find("old Excel"),
             std::string::npos);
   EXPECT_NE(told("a.bin", std::string("\1\2\0\3abc", 7)).find("neither text nor"), std::string::npos);
+}
+
+TEST(BinaryFiles, WhatIsOpenOrUnknownIsSaid) {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& name, const std::string& bytes, const ReadingChoices& choices = {}) {
+    try {
+      read_measured_file(folder.write(name, bytes), choices);
+    } catch (const Error& error) {
+      const Problem& p = error.problems.front();
+      EXPECT_FALSE(p.cure.empty());
+      return p.code + ": " + p.what + "; " + p.cure;
+    }
+    return std::string("was read");
+  };
+  const auto says = [](const std::string& text, const char* words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  says(told("a.tdms", instruments::tdms_of_daqmx()), "a TDMS file with DAQmx scalings");
+  says(told("a.tdms", instruments::tdms_of_scaling("Thermocouple")), "a scaling \"Thermocouple\"");
+  const std::string two = instruments::mat_of_two_groups();
+  says(told("a.mat", two),
+       "ambiguous_group: 2 groups have times of their own: monday, tuesday; say which is meant: --group \"tuesday\"");
+  ReadingChoices choices;
+  choices.group = "tuesday";
+  EXPECT_EQ(read_measured_file(folder.path("a.mat"), choices).table.find("t")->values, (std::vector<double>{0, 2, 4}));
+  choices = {};
+  choices.sheet = "note";
+  for (const auto& file : instruments::binary_files())
+    if (file.name == "numbers.xlsx") says(told("a.xlsx", file.bytes, choices), "Did you mean \"notes\"");
+}
+
+TEST(BinaryFiles, Hdf5ColumnsComeWithTheUnitsOfTheirAttributes) {
+  const TemporaryFolder folder;
+  ColumnWriter writer(folder.path("a.h5"), {{"t", "ms"}, {"drive", "V"}, {"sensor", "um"}});
+  for (int k = 0; k < instruments::rows; ++k)
+    writer.append(std::vector<double>{1.0 * k, instruments::drive(k), instruments::response(k)});
+  writer.finish({});
+  const MeasuredFile read = read_measured_file(folder.path("a.h5"));
+  ASSERT_EQ(read.table.rows(), static_cast<std::size_t>(instruments::rows));
+  EXPECT_EQ(read.table.find("t")->unit.text, "ms");
+  EXPECT_EQ(read.table.find("sensor")->unit.text, "um");
+  EXPECT_EQ(read.table.find("sensor")->values[7], instruments::response(7));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "io/data/hdf5_library.h"
+#include "io/formats/hdf5_library.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
