@@ -7,17 +7,21 @@
 namespace reference {
 namespace {
 
+/// An inertia has the law of a mass and words of its own.
+bool turns(const Block& b) { return b.type.rfind("inertia", 0) == 0; }
+
 /// mass dv/dt = force - damping v - stiffness x - what an heir holds back.
 class Body : public Law {
  public:
   explicit Body(const Block& b)
-      : mass(b.number("mass")),
+      : rotates(turns(b)),
+        mass(b.number(rotates ? "inertia" : "mass")),
         damping(b.number("damping", 0)),
         stiffness(b.number("stiffness", 0)),
-        x0(b.number("initial_position", 0)),
+        x0(b.number(rotates ? "initial_angle" : "initial_position", 0)),
         v0(b.number("initial_velocity", 0)) {}
-  std::vector<std::string> inputs() const override { return {"force"}; }
-  std::vector<std::string> outputs() const override { return {"position", "velocity"}; }
+  std::vector<std::string> inputs() const override { return {rotates ? "torque" : "force"}; }
+  std::vector<std::string> outputs() const override { return {rotates ? "angle" : "position", "velocity"}; }
   int states() const override { return 2; }
   bool direct() const override { return false; }
   int smooths() const override { return 2; }
@@ -38,6 +42,7 @@ class Body : public Law {
  protected:
   virtual double held_back(const Point&) const { return 0; }
   double pull(const Point& p) const { return u(p) - stiffness * p.x[x]; }
+  bool rotates;
   double mass, damping, stiffness, x0, v0;
 };
 
@@ -186,9 +191,9 @@ class PreslidingBody : public StiffeningBody {
 }  // namespace
 
 LawPointer make_body(const Block& b) {
-  if (b.type == "mass_spring_damper") return std::make_unique<Body>(b);
+  if (b.type == "mass_spring_damper" || b.type == "inertia") return std::make_unique<Body>(b);
   if (b.type == "mass_on_stiffening_spring" || b.type == "mass_with_drag") return std::make_unique<StiffeningBody>(b);
-  if (b.type == "mass_with_friction") return std::make_unique<FrictionBody>(b);
+  if (b.type == "mass_with_friction" || b.type == "inertia_with_friction") return std::make_unique<FrictionBody>(b);
   if (b.type == "mass_with_stops") return std::make_unique<StoppedBody>(b);
   if (b.type == "mass_with_presliding") return std::make_unique<PreslidingBody>(b, false);
   if (b.type == "mass_on_hysteretic_spring") return std::make_unique<PreslidingBody>(b, true);

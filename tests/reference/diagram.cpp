@@ -18,9 +18,10 @@ double one_unit(const std::string& name) {
                                                       {"ms", 1e-3}, {"us", 1e-6}, {"Hz", 1},
                                                       {"kHz", 1e3}, {"rad", 1},   {"deg", std::numbers::pi / 180},
                                                       {"m", 1},     {"mm", 1e-3}, {"um", 1e-6},
-                                                      {"nm", 1e-9}, {"N", 1},     {"mN", 1e-3},
-                                                      {"kN", 1e3},  {"kg", 1},    {"g", 1e-3},
-                                                      {"V", 1}};
+                                                      {"nm", 1e-9}, {"ohm", 1},   {"H", 1},
+                                                      {"N", 1},     {"mN", 1e-3}, {"kN", 1e3},
+                                                      {"kg", 1},    {"g", 1e-3},  {"V", 1},
+                                                      {"A", 1}};
   const auto power = name.find('^');
   const auto at = units.find(name.substr(0, power));
   if (at == units.end()) throw Unknown("unit " + name);
@@ -217,7 +218,7 @@ std::string Block::text(const std::string& key, const std::string& otherwise) co
 }
 
 LawPointer make_law(const Block& block) {
-  for (const auto make : {make_source, make_static, make_hysteresis, make_linear, make_body, make_sampled})
+  for (const auto make : {make_source, make_static, make_hysteresis, make_linear, make_body, make_drive, make_sampled})
     if (LawPointer law = make(block)) return law;
   throw Unknown("block type " + block.type);
 }

@@ -57,6 +57,7 @@ Wire Generator::any() {
 }
 
 Wire Generator::grow(const Wire& u) {
+  if (draws_drives && random.chance(0.4)) return grow_drive(u);
   static const std::vector<Maker> makers = {&Generator::gain,         &Generator::sum,
                                             &Generator::sum,          &Generator::product,
                                             &Generator::saturation,   &Generator::dead_zone,
@@ -103,6 +104,7 @@ Wire Generator::gain_of(const Wire& u, double g) {
 }
 
 Wire Generator::grow_monotone(const Wire& u) {
+  if (draws_drives && random.chance(0.3)) return controller(u);
   static const std::vector<Maker> makers = {&Generator::saturation, &Generator::play,
                                             &Generator::plays,      &Generator::lag,
                                             &Generator::relay,      &Generator::pid,

@@ -27,7 +27,8 @@ struct Wire {
 
 class Generator {
  public:
-  explicit Generator(std::uint64_t seed) : random(seed), blocks(Json::object()) {}
+  explicit Generator(std::uint64_t seed)
+      : random(seed), draws_drives(seed >= first_seed_with_drives), blocks(Json::object()) {}
   RandomDiagram make();
 
  private:
@@ -92,6 +93,12 @@ class Generator {
   Wire smooth_curve(const Wire& u);
   /// A force drives it; of its motion a number remains.
   Wire body(const Wire& u);
+  // --- parts of drives
+  Wire grow_drive(const Wire& u);
+  Wire controller(const Wire& u);
+  Wire inertia(const Wire& u);
+  Wire motor(const Wire& u);
+  Wire geared(const Wire& u);
   // --- loops
   /// reference - k measured -> one or two blocks -> what makes it a loop with memory of the past -> measured.
   void loop();
@@ -107,6 +114,7 @@ class Generator {
   RandomDiagram written();
 
   Random random;
+  bool draws_drives;
   Json blocks, parameters = Json::object();
   std::vector<Wire> wires{};
   std::map<std::string, std::string> files{};

@@ -39,6 +39,7 @@ void Generator::nest_something() {
   if (!random.chance(0.25)) return;
   const std::string name = block_of_one_wire();
   if (name.empty() || blocks[name]["type"].get<std::string>().starts_with("mass")) return;
+  if (blocks[name]["type"].get<std::string>().starts_with("inertia")) return;
   Json inner = blocks[name];
   for (const auto& [key, value] : inner.items())
     if (value.is_string() && value.get<std::string>().starts_with("$")) return;

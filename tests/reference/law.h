@@ -83,6 +83,13 @@ class Law {
 
 using LawPointer = std::unique_ptr<Law>;
 
+/// What the forms of a PID controller come to: P and I see the error and `lead` times its filtered rate.
+struct PidGains {
+  double kp = 1, ki = 0, kd = 0, lead = 0;
+  double filter = 1, tracking = 0;  ///< [s]  tracking 0: there is no integral
+};
+PidGains pid_gains(const Block& block);
+
 /// The law of a block. Throws Unknown.
 LawPointer make_law(const Block& block);
 
@@ -92,6 +99,7 @@ LawPointer make_static(const Block& block);
 LawPointer make_hysteresis(const Block& block);
 LawPointer make_linear(const Block& block);
 LawPointer make_body(const Block& block);
+LawPointer make_drive(const Block& block);
 LawPointer make_sampled(const Block& block);
 
 }  // namespace reference

@@ -22,6 +22,10 @@ struct RandomDiagram {
   std::map<std::string, std::string> files{};  ///< what it names: nested diagrams, recordings
 };
 
+/// From this seed on parts of drives are drawn besides: controllers, inertias, motors, gears. What smaller seeds give
+/// stays what it was.
+constexpr std::uint64_t first_seed_with_drives = 1'000'000;
+
 RandomDiagram random_diagram(std::uint64_t seed, const Variant& variant = {});
 
 }  // namespace reference

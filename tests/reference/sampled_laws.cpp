@@ -171,6 +171,60 @@ class SampledPid : public Sampled {
   std::string rule, windup;
 };
 
+/// Reference and measured value; before its first instant all was as it is then.
+class DiscretePid : public Sampled {
+ public:
+  explicit DiscretePid(const Block& b)
+      : Sampled(b),
+        gains(pid_gains(b)),
+        weight(b.number("setpoint_weight", 1)),
+        lower(b.number("lower", -never)),
+        upper(b.number("upper", never)),
+        step(b.number("rate", 0) > 0 ? b.number("rate") * period : never),
+        tracking(b.number("tracking_time", 0) > 0 ? gains.tracking : std::max(gains.tracking, period)),
+        integral(b.number("initial", 0)),
+        of_error(b.text("derivative_on", "measured") == "error"),
+        rule(b.text("rule", "forward")),
+        windup(b.text("anti_windup", "back_calculation")) {}
+  std::vector<std::string> inputs() const override { return {"reference", "measured"}; }
+
+ protected:
+  double computed(const Point& p) const override { return command(p).given; }
+  void run(const Point& p) override {
+    const Command c = command(p);
+    const bool further = (c.wanted - c.given) * c.added > 0;
+    if (!(windup == "clamping" && further)) integral += c.added;
+    if (windup == "back_calculation" && gains.ki != 0) integral += period / tracking * (c.given - c.wanted);
+    slope = c.slope;
+    seen = differentiated(p);
+    error = c.error;
+    held = c.given;
+    begun = true;
+  }
+
+ private:
+  struct Command {
+    double slope, error, added, wanted, given;
+  };
+  double differentiated(const Point& p) const { return of_error ? u(p) - u(p, 1) : -u(p, 1); }
+  Command command(const Point& p) const {
+    Command c{};
+    c.slope = (gains.filter * slope + (begun ? differentiated(p) - seen : 0)) / (gains.filter + period);
+    c.error = u(p) - u(p, 1) + gains.lead * c.slope;
+    const double last = begun ? error : c.error;
+    c.added = gains.ki * period * (rule == "trapezoidal" ? (c.error + last) / 2 : c.error);
+    c.wanted = gains.kp * (weight * u(p) - u(p, 1) + gains.lead * c.slope) + gains.kd * c.slope + integral;
+    if (rule != "forward") c.wanted += c.added;
+    c.given = begun ? std::clamp(c.wanted, held - step, held + step) : c.wanted;
+    c.given = std::clamp(c.given, lower, upper);
+    return c;
+  }
+  PidGains gains;
+  double weight, lower, upper, step, tracking, integral, slope = 0, seen = 0, error = 0;
+  bool of_error, begun = false;
+  std::string rule, windup;
+};
+
 /// Sums over samples as difference equations.
 LawPointer difference_equation(const Block& b) {
   const auto made = [&](std::vector<double> num, std::vector<double> den) {
@@ -209,6 +263,7 @@ LawPointer make_sampled(const Block& b) {
   if (b.type == "delay_line") return std::make_unique<DelayLine>(b);
   if (b.type == "discrete_transfer_function") return std::make_unique<DiscreteTransferFunction>(b);
   if (b.type == "sampled_pid") return std::make_unique<SampledPid>(b);
+  if (b.type == "discrete_pid") return std::make_unique<DiscretePid>(b);
   if (b.type == "fir" || b.type == "moving_average" || b.type == "discrete_integrator" || b.type == "digital_filter")
     return difference_equation(b);
   return nullptr;
