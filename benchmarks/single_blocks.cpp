@@ -1,50 +1,20 @@
 // One block at a time on 100 001 recorded rows 0.1 ms apart, as a fit passes them, against a loop written for its law:
 // time per row. Linear laws by hand are recursions with matrix exponentials and straight inputs, as the advance has
 // them; other states go one step of Runge-Kutta a row; sampled blocks run at every row.
+#include "benchmarks/single_blocks.h"
+
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 
-#include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
 #include "engine/rowwise/advance.h"
 
 namespace hysteron::benchmarks {
 namespace {
-
-constexpr std::size_t samples = 100'001;
-constexpr double row = 1e-4;  // [s]
-constexpr double tau = 2 * std::numbers::pi;
-
-using Columns = std::vector<std::vector<double>>;
-
-/// Input i: between -1 and 1, from rest.
-const std::vector<double>& input(std::size_t i) {
-  static const Columns all = [] {
-    Columns columns(3, std::vector<double>(samples));
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      for (std::size_t k = 0; k < samples; ++k) {
-        const double t = static_cast<double>(k) * row;
-        columns[c][k] = 0.7 * std::sin(tau * (5 + 3.1 * static_cast<double>(c)) * t) + 0.3 * std::sin(tau * 17 * t);
-      }
-    return columns;
-  }();
-  return all[i];
-}
-
-/// A block, the units of its inputs, and its law: inputs, then where the first output goes.
-struct Case {
-  std::string name;
-  Node block;
-  std::vector<std::string> units;
-  std::string output;
-  std::function<void(std::vector<double>& y)> by_hand;
-};
 
 struct Model {
   ProgramPointer program;
@@ -73,6 +43,23 @@ Model model_of(const Case& c) {
   return m;
 }
 
+void tell_error(const Case& c, const std::vector<double>& values, benchmark::State& state) {
+  std::vector<double> y(samples);
+  c.by_hand(y);
+  double size = 0;
+  for (const double v : y) size = std::max(size, std::abs(v));
+  state.counters["error"] = largest_error(values, y) / size;
+}
+
+void simulated_rows(const Case& c, const Model& m, benchmark::State& state) {
+  SimulateOptions options;
+  options.instants = *m.instants;
+  options.signals = m.program->output_signals;
+  Traces traces;
+  for (auto _ : state) traces = simulate(*m.program, m.run, options);
+  tell_error(c, traces.values[0], state);
+}
+
 void register_case(const Case& c) {
   const std::string group = "rows of " + c.name;
   benchmark::RegisterBenchmark((group + "/by hand").c_str(), [c](benchmark::State& state) {
@@ -85,85 +72,14 @@ void register_case(const Case& c) {
   });
   benchmark::RegisterBenchmark((group + "/hysteron").c_str(), [c](benchmark::State& state) {
     const Model m = model_of(c);
+    if (c.simulated) return simulated_rows(c, m, state);
     Advance advance(m.program, m.program->output_signals);
     Columns values;
     AdvanceOptions options;
     options.at_rest = false;
     for (auto _ : state) advance(m.run, m.instants, options, values);
-    std::vector<double> y(samples);
-    c.by_hand(y);
-    double size = 0;
-    for (const double v : y) size = std::max(size, std::abs(v));
-    state.counters["error"] = largest_error(values[0], y) / size;
+    tell_error(c, values[0], state);
   });
-}
-
-/// x+ = A x + B u + R (u+ - u), y = C x + D u, of x' = a x + b u.
-template <int n>
-struct Recursion {
-  std::array<std::array<double, n>, n> a{};  // by columns
-  std::array<double, n> b{}, ramp{}, c{};
-  double d = 0;
-  Recursion(const Eigen::Matrix<double, n, n>& rates, const Eigen::Matrix<double, n, 1>& in,
-            const Eigen::Matrix<double, 1, n>& out, double direct)
-      : d(direct) {
-    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n + 2, n + 2);
-    m.topLeftCorner(n, n) = rates;
-    m.block(0, n, n, 1) = in;
-    m(n, n + 1) = 1 / row;
-    const Eigen::MatrixXd e = (m * row).exp();
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) a[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = e(i, j);
-      b[static_cast<std::size_t>(i)] = e(i, n);
-      ramp[static_cast<std::size_t>(i)] = e(i, n + 1);
-      c[static_cast<std::size_t>(i)] = out(i);
-    }
-  }
-  void operator()(const std::vector<double>& u, std::vector<double>& y) const {
-    std::array<double, n> x{}, next{};
-    for (std::size_t k = 0; k < samples; ++k) {
-      if (k > 0) {
-        const double before = u[k - 1], change = u[k] - before;
-        for (std::size_t i = 0; i < n; ++i) next[i] = b[i] * before + ramp[i] * change;
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t i = 0; i < n; ++i) next[i] += a[j][i] * x[j];
-        x = next;
-      }
-      double sum = d * u[k];
-      for (std::size_t i = 0; i < n; ++i) sum += c[i] * x[i];
-      y[k] = sum;
-    }
-  }
-};
-
-/// One step of Runge-Kutta a row: rates(x, u) with straight inputs; output(x).
-template <std::size_t n, std::size_t m, class Rates, class Output>
-void runge_kutta_rows(std::array<double, n> x, std::vector<double>& y, const Rates& rates, const Output& output) {
-  using State = std::array<double, n>;
-  using In = std::array<double, m>;
-  const auto at = [](std::size_t k) {
-    In u;
-    for (std::size_t i = 0; i < m; ++i) u[i] = input(i)[k];
-    return u;
-  };
-  const auto ahead = [](const State& s, double h, const State& k) {
-    State moved;
-    for (std::size_t i = 0; i < n; ++i) moved[i] = s[i] + h * k[i];
-    return moved;
-  };
-  In before = at(0);
-  for (std::size_t k = 0; k < samples; ++k) {
-    const In now = at(k);
-    if (k > 0) {
-      In middle;
-      for (std::size_t i = 0; i < m; ++i) middle[i] = 0.5 * (before[i] + now[i]);
-      const State k1 = rates(x, before), k2 = rates(ahead(x, row / 2, k1), middle),
-                  k3 = rates(ahead(x, row / 2, k2), middle), k4 = rates(ahead(x, row, k3), now);
-      for (std::size_t i = 0; i < n; ++i) x[i] += row / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
-    }
-    before = now;
-    y[k] = output(x, now);
-  }
 }
 
 /// A law of one input without states.
@@ -434,7 +350,7 @@ std::vector<Case> machine_cases() {
 }  // namespace
 
 void register_single_blocks() {
-  for (const auto& cases : {static_cases(), linear_cases(), sampled_cases(), machine_cases()})
+  for (const auto& cases : {static_cases(), linear_cases(), sampled_cases(), machine_cases(), drive_cases()})
     for (const auto& c : cases) register_case(c);
 }
 
