@@ -288,17 +288,16 @@ class Explanation {
   bool inputs_unbound() const { return !program_.input_names.empty(); }
 
   void states() {
-    constexpr int digits = 4;
     if (program_.n_x == 0) return;
     head("continuous states");
     TableRows rows;
     const auto sizes = inputs_unbound() ? NominalSizes{} : nominal_sizes(program_, run_);
     const auto options = simulate_options(program_);
     for (std::size_t i = 0; i < program_.state_names.size(); ++i) {
-      std::vector<std::string> row{program_.state_names[i], number_text(run_.x[i], digits)};
+      std::vector<std::string> row{program_.state_names[i], number_text(run_.x[i])};
       if (i < sizes.states.size()) {
-        row.push_back(number_text(sizes.states[i], digits));
-        row.push_back(number_text(sizes.states[i] * options.relative_tolerance * options.absolute_tolerance, digits));
+        row.push_back(number_text(sizes.states[i]));
+        row.push_back(number_text(sizes.states[i] * options.relative_tolerance * options.absolute_tolerance));
       } else {
         row.insert(row.end(), {"by the recording", "by the recording"});
       }

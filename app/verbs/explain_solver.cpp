@@ -60,10 +60,9 @@ void add_integrator_rows(std::vector<std::vector<std::string>>& rows, const Prog
     rows.push_back({"step", time_words(options.step), from_diagram(given.step.has_value())});
     return;
   }
-  constexpr int digits = 4;
-  rows.push_back({"relative tolerance", number_text(options.relative_tolerance, digits),
+  rows.push_back({"relative tolerance", number_text(options.relative_tolerance),
                   from_diagram(given.relative_tolerance.has_value())});
-  rows.push_back({"absolute tolerance", number_text(options.absolute_tolerance, digits),
+  rows.push_back({"absolute tolerance", number_text(options.absolute_tolerance),
                   from_diagram(given.absolute_tolerance.has_value()) +
                       "; times the relative one, times the nominal size of each state"});
   const auto [longest, why] = longest_step_and_why(program, run, options);

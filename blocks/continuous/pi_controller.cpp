@@ -5,6 +5,7 @@ namespace hysteron::blocks {
 void PiController::describe(BlockSpec<PiController>& spec) {
   spec.name("pi_controller", "proportional-integral controller, continuous")
       .in_group("continuous")
+      .controller()
       .elementwise()
       .linear();
   spec.law("y = kp u + x, dx/dt = ki u, x(0) = initial").from("thesis Eq. 2.48 with K_d = 0");

@@ -14,6 +14,7 @@ void describe_pid_ports(Declaration& d, bool tracks) {
 }
 
 void describe_pid(Declaration& d) {
+  d.controller();
   d.text("form", {"parallel", "standard", "series"}, "what the gains mean");
   d.parameter("kp", "$b/$a", "proportional gain; of standard and series that of all, e.g. \"1.2 V/um\"");
   d.parameter("ki", "$b/$a/s", "parallel: integral gain, e.g. \"7009 V/(um s)\"").optional("0");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/search/investigation.h"
@@ -18,13 +19,24 @@ std::string effect_words(const Effect& effect, const std::vector<std::string>& s
   return !same_effects.empty() && effect.family == "lag" ? "a lag, in the amplifier or in the sensor" : effect.title;
 }
 
+/// A place as a sentence says it: "outputs.w" is the reading of w.
+std::string spoken(const std::string& place) {
+  constexpr std::string_view outputs = "outputs.";
+  return place.starts_with(outputs) ? "the reading of " + place.substr(outputs.size()) : place;
+}
+
+std::vector<std::string> spoken(std::vector<std::string> places) {
+  for (auto& place : places) place = spoken(place);
+  return places;
+}
+
 std::string place_text(const Candidate& c) {
-  if (!c.also_at.empty()) return fmt::format("at {} and {}", c.place, fmt::join(c.also_at, " and "));
-  if (c.same_places.empty()) return "at " + c.place;
+  if (!c.also_at.empty()) return fmt::format("at {} and {}", spoken(c.place), fmt::join(spoken(c.also_at), " and "));
+  if (c.same_places.empty()) return "at " + spoken(c.place);
   std::vector<std::string> all{c.place};
   for (const auto& p : c.same_places)
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
-  return fmt::format("at {} (these places cannot be told apart)", fmt::join(all, " or "));
+  return fmt::format("at {} (these places cannot be told apart)", fmt::join(spoken(all), " or "));
 }
 
 /// What would tell effects apart that are one finding in these recordings; "" where nobody says.
@@ -93,7 +105,8 @@ struct Named {
 
 std::string names_of(const FoundStep& s) {
   std::vector<Named> list;
-  const auto add = [&](const std::string& effect, const std::string& place) {
+  const auto add = [&](const std::string& effect, const std::string& at) {
+    const std::string place = spoken(at);
     auto named = std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.effect == effect; });
     if (named == list.end()) named = list.insert(named, {effect, {}});
     if (!place.empty() && std::find(named->places.begin(), named->places.end(), place) == named->places.end())
@@ -229,7 +242,7 @@ std::string step_sentence(const FoundStep& s, const Effect& effect) {
   text += what_tells_places(effect, s.winner.same_effects) + "; " + error_fall(s.before, s.after);
   if (!s.ties.empty()) {
     std::vector<std::string> names;
-    for (const auto& tie : s.ties) names.push_back(fmt::format("{} at {}", tie.effect, tie.place));
+    for (const auto& tie : s.ties) names.push_back(fmt::format("{} at {}", tie.effect, spoken(tie.place)));
     text += fmt::format("; explained as well by {}", fmt::join(names, ", "));
   }
   return text;

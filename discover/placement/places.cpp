@@ -153,7 +153,9 @@ Place place_at(const Diagram& diagram, const Registry& registry, const std::stri
     auto known = w.signals();
     for (const auto& [name, node] : diagram.blocks)
       if (node.in.size() == 1) known.push_back(name + ".in");
-    fail("unknown_place", at, fmt::format("\"{}\" is neither a signal nor an input port of the diagram", at),
+    for (const auto& [name, from] : diagram.outputs) known.push_back("outputs." + name);
+    fail("unknown_place", at,
+         fmt::format("\"{}\" is neither a signal, an input port nor the reading of an output of the diagram", at),
          did_you_mean(at, known));
   }
   set_groups(w, p);

@@ -121,8 +121,9 @@ std::vector<SideSignal> side_signals(const Effect& effect, const Wiring& w, cons
     if (effect.side == Side::use || use) return use && effect.side == Side::use;
     if (effect.side == Side::force) return unit.dimension == parse_unit("N").dimension;
     if (effect.side == Side::temperature) return is_temperature(unit);
-    // A bare number is a count or a mark, "%" of a heater is a drive.
-    return !is_temperature(unit) && (!unit.dimension.none() || unit.text == "%");
+    // A bare number is a count or a mark; one with a unit is not, as the "%" of a heater.
+    const bool bare = unit.dimension.none() && (unit.text.empty() || unit.text == "1");
+    return !is_temperature(unit) && !bare;
   };
   std::vector<SideSignal> list;
   for (const auto& [name, input] : w.diagram().inputs)

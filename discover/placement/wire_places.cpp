@@ -122,13 +122,12 @@ std::string without_effects(const Wiring& w, std::string signal) {
   return signal;
 }
 
-/// A block that holds its input between samples, or one of the controllers that do not.
+/// What samples a wire is a computer that reads a sensor; what does not says that it is a controller.
 bool is_controller(const Wiring& w, const Registry& registry, const std::string& block) {
   const Node* node = w.body(block);
   if (node == nullptr || node->nested) return false;
-  const auto types = {"pid", "pid_tracking", "pi_controller"};
   const KernelPointer k = kernel_of(registry, *node);
-  return (k != nullptr && k->is_sampled()) || std::find(types.begin(), types.end(), node->type) != types.end();
+  return k != nullptr && (k->is_sampled() || k->declaration.is_controller);
 }
 
 /// Does a controller of the diagram act on this wire?

@@ -270,7 +270,6 @@ bool Selection::is_itself(const Addition& rival) const {
 /// Those that are quick first; the others where these leave more than noise.
 void Selection::fit(std::vector<Addition>& rivals, int step) {
   std::vector<Addition> all;
-  asked_ = -1;
   for (int slow = 0; slow <= slowest; ++slow) {
     std::vector<Addition> some;
     for (auto& r : rivals)
@@ -281,7 +280,6 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
       fit_first_laws(some, step);
       fit_with_numbers(some);
     }
-    if (!books_.stopped()) asked_ = slow;
     all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     sort(all);
   }
@@ -304,9 +302,8 @@ bool Selection::add_one(int step) {
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
-    // Where more than noise is left, who was not asked might have been the one. Not asked of the slowest, which stand
-    // inside loops, is told as all that was broken off.
-    if (broken_off && asked_ < slowest - 1 && score().over_noise(r.fitted.left) > near_noise) break;
+    // Where more than noise is left, who was not asked might have been the one.
+    if (broken_off && score().over_noise(r.fitted.left) > near_noise) break;
     best_ = r.fitted;
     return true;
   }

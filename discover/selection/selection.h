@@ -82,7 +82,6 @@ class Selection {
   TableModel best_;
   std::vector<LeftSums> left_;  ///< by all models that were fitted
   std::vector<Round> rounds_;
-  int asked_ = -1;  ///< the slowest of which all rivals of the round were asked
 };
 
 }  // namespace hysteron

@@ -108,6 +108,7 @@ class Declaration {
                                      ///< zero at rest: a jump of the input is the path of a fast ramp
   bool is_series = false;            ///< driven by a recorded series (parameter "samples")
   bool is_sampled = false;           ///< runs at offset + k period only, and holds its outputs between
+  bool is_controller = false;        ///< makes a command of what a sensor reads
   bool is_elementwise = false;       ///< on vectors: one such block per element, with the same parameters
   std::string names_from;  ///< the parameter whose text names inputs and further parameters of a block; "" = none
 
@@ -120,6 +121,7 @@ class Declaration {
   Declaration& from(std::string text) { return source = std::move(text), *this; }
   Declaration& remark(std::string text) { return remarks.push_back(std::move(text)), *this; }
   Declaration& linear() { return is_linear = true, *this; }
+  Declaration& controller() { return is_controller = true, *this; }
   Declaration& elementwise() { return is_elementwise = true, *this; }
   Declaration& named_by(std::string parameter) { return names_from = std::move(parameter), *this; }
   Declaration& rate_independent() { return is_rate_independent = true, *this; }

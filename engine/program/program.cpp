@@ -43,9 +43,11 @@ int Program::block_index(const std::string& path) const {
 
 std::vector<bool> Program::downstream_of(int from, bool between_samples) const {
   std::vector<std::vector<int>> readers(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (const int s : between_samples&& blocks[b].kernel->is_sampled() ? std::vector<int>{} : blocks[b].source)
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (between_samples && blocks[b].kernel->is_sampled()) continue;
+    for (const int s : blocks[b].source)
       readers[static_cast<std::size_t>(signals[static_cast<std::size_t>(s)].block)].push_back(static_cast<int>(b));
+  }
   std::vector<bool> reached(blocks.size(), false);
   std::vector<int> todo{from};
   while (!todo.empty()) {

@@ -364,7 +364,7 @@ class DataSetReader {
                             rows_text(recording.last > recording.first ? recording.last - recording.first : 0),
                             recording.t.size()),
                 fmt::format("the recording is {} s long; skip less or go on longer",
-                            number_text(recording.t.back() - recording.t.front())));
+                            exact_number_text(recording.t.back() - recording.t.front())));
   }
 
   /// [["2 s", "3.5 s"], ...], counted from the first row as skip and until are.

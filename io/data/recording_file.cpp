@@ -53,7 +53,7 @@ void refuse_rounded_times(const CsvTable& table, const CsvColumn& time) {
   const auto line = [&](auto at) { return table.lines.at(static_cast<std::size_t>(at - t.begin())); };
   fail_in(table.file, line(first), "decreasing_time", "t",
           fmt::format("the times were written with too few digits: {} [{}] stands in lines {} to {}",
-                      number_text(*first), time.unit.text, line(first), line(last - 1)),
+                      exact_number_text(*first), time.unit.text, line(first), line(last - 1)),
           "export them with more digits, or give the sample interval of the instrument: hysteron new --from FILE "
           "--interval \"...\" -o FOLDER");
 }
@@ -65,8 +65,8 @@ void check_order(const CsvTable& table, const CsvColumn& time) {
     if (!(time.values[i] > time.values[i - 1]))
       problems.push_back(
           {"decreasing_time", "t",
-           fmt::format("time does not increase: {} follows {} [{}]", number_text(time.values[i]),
-                       number_text(time.values[i - 1]), time.unit.text),
+           fmt::format("time does not increase: {} follows {} [{}]", exact_number_text(time.values[i]),
+                       exact_number_text(time.values[i - 1]), time.unit.text),
            "sort the rows and take out those that stand twice; two recordings in one file belong into two files",
            table.file, table.lines[i]});
   if (!problems.empty()) throw Error(Fault::input, problems);
@@ -103,12 +103,12 @@ void check_sizes(const CsvTable& table) {
     const auto first = std::find_if_not(v.begin(), v.end(), is_measured);
     if (first == v.end()) continue;
     const auto more = std::count_if(first + 1, v.end(), [&](double value) { return !is_measured(value); });
-    problems.push_back(
-        {"bad_number", column.name,
-         fmt::format("column \"{}\" holds {}{}: no instrument measures beyond {}", column.name, number_text(*first),
-                     more > 0 ? fmt::format(" (and {} more such)", more) : "", number_text(largest_measured)),
-         "take the row out, or cut the recording there: nothing is filled in silently", table.file,
-         table.lines[static_cast<std::size_t>(first - v.begin())]});
+    problems.push_back({"bad_number", column.name,
+                        fmt::format("column \"{}\" holds {}{}: no instrument measures beyond {}", column.name,
+                                    exact_number_text(*first), more > 0 ? fmt::format(" (and {} more such)", more) : "",
+                                    exact_number_text(largest_measured)),
+                        "take the row out, or cut the recording there: nothing is filled in silently", table.file,
+                        table.lines[static_cast<std::size_t>(first - v.begin())]});
   }
   if (!problems.empty()) throw Error(Fault::input, problems);
 }

@@ -107,7 +107,7 @@ class DiagramWriter {
       }
       Members m;
       if (number != nullptr && number->unit) {
-        m.emplace_back("value", number_text(number->value));
+        m.emplace_back("value", exact_number_text(number->value));
         m.emplace_back("unit", json_quoted(*number->unit));
       } else {
         m.emplace_back("value", value_text(p.value));
@@ -240,8 +240,8 @@ class DiagramWriter {
     if (s.until) m.emplace_back("until", value_text(*s.until));
     if (s.every) m.emplace_back("every", value_text(*s.every));
     if (s.method) solver.emplace_back("method", json_quoted(*s.method));
-    if (s.relative_tolerance) solver.emplace_back("relative_tolerance", number_text(*s.relative_tolerance));
-    if (s.absolute_tolerance) solver.emplace_back("absolute_tolerance", number_text(*s.absolute_tolerance));
+    if (s.relative_tolerance) solver.emplace_back("relative_tolerance", exact_number_text(*s.relative_tolerance));
+    if (s.absolute_tolerance) solver.emplace_back("absolute_tolerance", exact_number_text(*s.absolute_tolerance));
     if (s.step) solver.emplace_back("step", value_text(*s.step));
     if (s.max_step) solver.emplace_back("max_step", value_text(*s.max_step));
     if (!solver.empty()) m.emplace_back("solver", one_line(solver));

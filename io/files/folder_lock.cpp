@@ -62,7 +62,8 @@ FolderLock::~FolderLock() {
   remove_made();
 }
 
-void FolderLock::make_folders() {
+/// False where another process took one of them away this instant.
+bool FolderLock::make_folders() {
   fs::path path;
   for (const auto& part : unfinished()) {
     path /= part;
@@ -71,9 +72,13 @@ void FolderLock::make_folders() {
       continue;
     }
     const int error = errno;
+    if (error == ENOENT) return false;  // the one around it, which was there, is gone
     std::error_code code;
-    if (!fs::is_directory(path, code)) cannot_write(folder_, path, error == EEXIST ? ENOTDIR : error);
+    if (fs::is_directory(path, code)) continue;
+    if (error == EEXIST && fs::symlink_status(path, code).type() == fs::file_type::not_found) return false;
+    cannot_write(folder_, path, error == EEXIST ? ENOTDIR : error);
   }
+  return true;
 }
 
 void FolderLock::remove_made() {
@@ -83,7 +88,7 @@ void FolderLock::remove_made() {
 
 /// False, and by whom, while another process has the lock.
 bool FolderLock::take(std::string& holder) {
-  make_folders();
+  if (!make_folders()) return false;
   const std::string file = (unfinished() / "lock").string();
   const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (fd < 0 && errno == ENOENT) return false;  // the last one took its folder away this instant

@@ -29,7 +29,7 @@ class FolderLock {
   std::filesystem::path unfinished() const { return folder_ / unfinished_folder; }
 
  private:
-  void make_folders();
+  bool make_folders();
   bool take(std::string& holder);
   void remove_made();
 

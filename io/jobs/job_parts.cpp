@@ -78,7 +78,7 @@ std::vector<Override> settings_of(const JsonPlace& object, const char* key) {
   if (!place || !place->expect_object("{\"controller.kp\": \"0.5 V/um\"}")) return list;
   for (const auto& [name, value] : place->members()) {
     if (value.is_number())
-      list.push_back({name, number_text(*value.number())});
+      list.push_back({name, exact_number_text(*value.number())});
     else if (const auto text = value.text())
       list.push_back({name, *text});
   }

@@ -20,7 +20,7 @@ using namespace job_parts;
 /// A number with its unit as text, or a plain number.
 std::optional<WrittenText> quantity_of(const JsonPlace& object, const char* key) {
   const auto place = object.find(key);
-  if (place && place->is_number()) return WrittenText{number_text(*place->number()), place->pointer()};
+  if (place && place->is_number()) return WrittenText{exact_number_text(*place->number()), place->pointer()};
   return text_of(object, key);
 }
 
@@ -95,7 +95,7 @@ class RunsReader {
     if (!set || !set->expect_object("{\"controller.kp\": \"0.5 V/um\"}")) return;
     for (const auto& [name, place] : set->members()) {
       if (place.is_number()) {
-        run.set.push_back({name, number_text(*place.number())});
+        run.set.push_back({name, exact_number_text(*place.number())});
       } else if (place.is_object() && place.find("of")) {
         place.only({"of", "times"});
         run.set_of.push_back(

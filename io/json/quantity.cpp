@@ -41,9 +41,9 @@ std::optional<double> read_si_with_unit(const JsonPlace& place) {
   const auto number = read_number(place);
   if (!number) return {};
   if (!number->unit && number->value != 0) {
-    place.add("missing_unit", fmt::format("{} has no unit", number_text(number->value)),
+    place.add("missing_unit", fmt::format("{} has no unit", exact_number_text(number->value)),
               fmt::format("write it with its unit, such as \"{} um\" (\"{} 1\" if it has none)",
-                          number_text(number->value), number_text(number->value)));
+                          exact_number_text(number->value), exact_number_text(number->value)));
     return {};
   }
   const auto unit = unit_at(place, number->unit.value_or(""));

@@ -134,7 +134,7 @@ std::optional<Value> read_value(const JsonPlace& place, const std::string& origi
   return value;
 }
 
-std::string number_text(double value) {
+std::string exact_number_text(double value) {
   if (!std::isfinite(value))
     fail("not_finite", "", fmt::format("{} cannot be written as JSON", value), "give a finite number");
   std::string text = fmt::format("{}", value);  // shortest round trip
@@ -155,11 +155,11 @@ std::string json_quoted(const std::string& text) {
 }
 
 std::string value_text(const Number& number) {
-  if (!number.unit) return number_text(number.value);
-  const std::string text = number_text(number.value) + " " + *number.unit;
+  if (!number.unit) return exact_number_text(number.value);
+  const std::string text = exact_number_text(number.value) + " " + *number.unit;
   // The short form only where it reads back as the same number and unit ("5 " would not).
   if (number_from(text) == number) return json_quoted(text);
-  return fmt::format("{{\"value\": {}, \"unit\": {}}}", number_text(number.value), json_quoted(*number.unit));
+  return fmt::format("{{\"value\": {}, \"unit\": {}}}", exact_number_text(number.value), json_quoted(*number.unit));
 }
 
 namespace {
@@ -171,7 +171,7 @@ std::string list_text(const NumberList& list) {
       std::all_of(list.begin(), list.end(), [&](const Number& n) { return n.unit == list.front().unit; });
   const bool unit_once = list.size() > units_at_each && same_unit && list.front().unit.has_value();
   std::vector<std::string> elements;
-  for (const auto& n : list) elements.push_back(unit_once ? number_text(n.value) : value_text(n));
+  for (const auto& n : list) elements.push_back(unit_once ? exact_number_text(n.value) : value_text(n));
   const std::string text = fmt::format("[{}]", fmt::join(elements, ", "));
   return unit_once ? fmt::format("{{\"value\": {}, \"unit\": {}}}", text, json_quoted(*list.front().unit)) : text;
 }
@@ -185,7 +185,7 @@ std::string matrix_text(const NumberMatrix& matrix) {
   std::vector<std::string> rows;
   for (const auto& row : matrix.rows) {
     std::vector<std::string> elements;
-    for (const auto& n : row) elements.push_back(unit_once ? number_text(n.value) : value_text(n));
+    for (const auto& n : row) elements.push_back(unit_once ? exact_number_text(n.value) : value_text(n));
     rows.push_back(fmt::format("[{}]", fmt::join(elements, ", ")));
   }
   const std::string text = fmt::format("[{}]", fmt::join(rows, ", "));

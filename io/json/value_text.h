@@ -23,7 +23,7 @@ std::optional<NumberList> read_numbers(const JsonPlace& place);
 std::string numbers_text(const NumberList& list);
 
 /// Shortest text that reads back as the same double, as JSON wants it. Throws Error "not_finite".
-std::string number_text(double value);
+std::string exact_number_text(double value);
 /// "1 row", "5 rows".
 std::string rows_text(std::size_t count);
 /// A text in quotes.

@@ -132,6 +132,15 @@ TEST(Words, WhatTheTestRecordingsSayIsTold) {
       << all_of(d.sentences);
 }
 
+TEST(Words, WhatIsReadOfASignalIsToldAsAReading) {
+  FoundStep step;
+  step.winner = candidate("sensor_lag", "outputs.w");
+  step.winner.summary = "time constant 2 ms";
+  step.before = step.after = errors_of({error_of("w", "rad/s", 0.03)});
+  const std::string told = step_sentence(step, all_effects().get("sensor_lag"));
+  EXPECT_NE(told.find("at the reading of w: time constant 2 ms"), std::string::npos) << told;
+}
+
 TEST(Words, ANameThatStandsAtSeveralPlacesIsToldOnce) {
   FoundStep step;
   step.winner = candidate("sensor_nonlinearity", "stage");
