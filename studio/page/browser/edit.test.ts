@@ -26,6 +26,10 @@ describe('editing', () => {
   });
   afterAll(() => studio.close());
   const text = () => studio.read('small.json');
+  const textField = '[aria-label="text of the file"]';
+  /// The field shows what the file holds: an undo is in the file before it is in the page, and what is typed in between
+  /// would be typed into the text before.
+  const shown = () => studio.until(async () => (await studio.page.inputValue(textField)) === text());
   const back = async () => {
     while (text() !== small) {
       const now = text();
@@ -134,10 +138,11 @@ describe('editing', () => {
     const {page} = studio;
     await page.click('.tabs button:text-is("Text")');
     const mine = small.replace('"Small"', '"Mine"');
-    await page.fill('[aria-label="text of the file"]', mine);
+    await shown();
+    await page.fill(textField, mine);
     studio.write('small.json', small.replace('"Small"', '"Theirs"'));
     await page.waitForTimeout(1500);
-    expect(await page.inputValue('[aria-label="text of the file"]')).toBe(mine);
+    expect(await page.inputValue(textField)).toBe(mine);
     await page.click('.panel-head button:text-is("Save")');
     await studio.until(() => text() === mine);  // it was followed: what is saved stands on theirs, and undo brings that back
     await page.locator('.canvas').press('Control+z');
@@ -148,8 +153,9 @@ describe('editing', () => {
 
   it('draws on while the text is no JSON, and tells the line', async () => {
     const {page} = studio;
-    await page.fill('[aria-label="text of the file"]', small.replace('"2 V",', '"2 V"'));
-    await page.press('[aria-label="text of the file"]', 'Control+s');
+    await shown();
+    await page.fill(textField, small.replace('"2 V",', '"2 V"'));
+    await page.press(textField, 'Control+s');
     await page.waitForSelector('.line-numbers .wrong:text-is("5")');
     expect(await page.locator('.react-flow__node').count()).toBe(3);
     await back();
