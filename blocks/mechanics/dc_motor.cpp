@@ -26,7 +26,9 @@ void DcMotor::describe(BlockSpec<DcMotor>& spec) {
           "inductance di/dt = voltage - resistance i - back_emf w, inertia dw/dt = torque_constant i - damping w - load, "
           "d angle/dt = w")
       .from(source_of_motors);
-  spec.remark("Of a rotor with friction, or geared, or cogging, take \"dc_winding\" and \"inertia\".");
+  spec.remark("Of a rotor that is geared, or cogs, take \"dc_winding\" and \"inertia\".");
+  spec.variation("presliding", "dc_motor_with_presliding",
+                 {{"contact_stiffness", "0 N m/rad"}, {"slip_distance", "1 rad"}});
   spec.input(&In<double>::voltage, "voltage", "V", "at its clamps");
   spec.input(&In<double>::load, "load", "N*m", "torque that holds it back");
   spec.state(&State<double>::angle, "angle", "rad", "of the rotor");

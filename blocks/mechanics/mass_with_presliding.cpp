@@ -6,9 +6,7 @@
 
 namespace hysteron::blocks {
 
-void describe_elements(Declaration& d, const MotionWords& words) {
-  auto& stiffness = describe_motion(d, words);
-  if (words.body == rotation.body) stiffness.optional("0");  // a shaft turns freely
+void describe_contacts(Declaration& d, const MotionWords& words) {
   d.state("deflection", words.place_unit, "deflection of each element");
   d.list("contact_stiffness", words.per_place(), "stiffness of each element while it sticks").not_negative();
   d.list("slip_distance", words.place_unit,
@@ -22,6 +20,12 @@ void describe_elements(Declaration& d, const MotionWords& words) {
   d.parameter("stribeck_velocity", words.speed_unit(), "speed at which that is gone")
       .optional("1 " + words.speed_unit())
       .positive();
+}
+
+void describe_elements(Declaration& d, const MotionWords& words) {
+  auto& stiffness = describe_motion(d, words);
+  if (words.body == rotation.body) stiffness.optional("0");  // a shaft turns freely
+  describe_contacts(d, words);
   describe_start(d, words);
   describe_beyond_linear(d, words);
 }
@@ -59,6 +63,12 @@ void MassWithElements<SlipElement>::describe(Declaration& d) {
   describe_elements(d);
 }
 
+std::string elements_error(const Shape& shape) {
+  const int n = shape.length("contact_stiffness");
+  if (n >= 1 && n == shape.length("slip_distance")) return "";
+  return "\"contact_stiffness\" and \"slip_distance\" must be lists of one length; give one of each per element";
+}
+
 template <class Element>
 Sizes MassWithElements<Element>::sizes(const Shape& shape) {
   Sizes s;
@@ -66,8 +76,7 @@ Sizes MassWithElements<Element>::sizes(const Shape& shape) {
   s.states = 2 + n;
   s.outputs = 2;
   s.feedthrough = false;
-  if (n < 1 || n != shape.length("slip_distance"))
-    s.error = "\"contact_stiffness\" and \"slip_distance\" must be lists of one length; give one of each per element";
+  s.error = elements_error(shape);
   return s;
 }
 
@@ -144,16 +153,10 @@ void HeldByElements<Element>::move(double way, double* x) {
 }
 
 template <class Element>
-double time_of_contact(const View<double>& v) {
-  if constexpr (Element::damped) return v.parameter(MassWithElements<Element>::contact_time);
-  return 0;
-}
-
-template <class Element>
 MassWithElements<Element>::OwnStep::OwnStep(const View<double>& v)
     : StepUnderMemory<HeldByElements<Element>>(bent_law<MassWithElements>(v),
                                                {v.list(contact_stiffness), v.list(slip_distance), v.parameter(excess),
-                                                v.parameter(stribeck_velocity), time_of_contact<Element>(v)}) {}
+                                                v.parameter(stribeck_velocity), time_of_contact(v)}) {}
 
 template class HeldByElements<DahlElement>;  // of an inertia, too
 

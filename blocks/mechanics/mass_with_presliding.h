@@ -54,6 +54,22 @@ class HeldByElements {
   std::vector<typename Element::OnItsWay> elements_;
 };
 
+/// What elements at the deflections z hold a body back with at a velocity [N]; `rates` gets how these change. `level`:
+/// see stribeck_level.
+template <class Element, class T>
+T held_by_elements(std::span<const T> stiffness, std::span<const T> distance, const T& level, const T& contact_time,
+                   const T* z, const T& velocity, T* rates) {
+  T force{0};
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    rates[i] = Element::rate(T(distance[i] * level), T(z[i]), velocity);
+    force += stiffness[i] * z[i];
+    if constexpr (Element::damped) force += stiffness[i] * contact_time * rates[i];
+  }
+  return force;
+}
+/// As many elements as `stiffness` has, each with a distance; the error otherwise, "" if it is so.
+std::string elements_error(const Shape& shape);
+
 template <class Element>
 struct MassWithElements {
   enum Parameter {
@@ -82,18 +98,17 @@ struct MassWithElements {
   }
   template <class T>
   static void derivative(const View<T>& v) {
-    const auto k = v.list(contact_stiffness), distance = v.list(slip_distance);
     const T velocity = v.x[1];
     const T level = presliding::stribeck_level(v.parameter(excess), v.parameter(stribeck_velocity), velocity);
-    T force = v.u[0];
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      const T rate = Element::rate(T(distance[i] * level), T(v.x[i + 2]), velocity);
-      force -= k[i] * v.x[i + 2];
-      if constexpr (Element::damped) force -= k[i] * v.parameter(contact_time) * rate;
-      v.out[i + 2] = rate;
-    }
+    const T held = held_by_elements<Element, T>(v.list(contact_stiffness), v.list(slip_distance), level,
+                                                time_of_contact(v), v.x + 2, velocity, v.out + 2);
     v.out[0] = velocity;
-    v.out[1] = mass_spring_damper::acceleration(bent_law<MassWithElements>(v), v.x[0], velocity, force);
+    v.out[1] = mass_spring_damper::acceleration(bent_law<MassWithElements>(v), v.x[0], velocity, T(v.u[0] - held));
+  }
+  template <class T>
+  static T time_of_contact([[maybe_unused]] const View<T>& v) {
+    if constexpr (Element::damped) return v.parameter(contact_time);
+    return T{0};
   }
   struct OwnStep : StepUnderMemory<HeldByElements<Element>> {
     explicit OwnStep(const View<double>& v);
@@ -113,6 +128,8 @@ struct MassWithElements {
 
 /// What bodies with elements declare behind their name and law.
 void describe_elements(Declaration& d, const MotionWords& words = translation);
+/// Of these, the elements alone: their state, contact_stiffness .. stribeck_velocity.
+void describe_contacts(Declaration& d, const MotionWords& words);
 void describe_contact_time(Declaration& d);
 
 Kernel mass_with_presliding_block();

@@ -11,6 +11,8 @@ void Pendulum::describe(BlockSpec<Pendulum>& spec) {
       "The angle counts from where it hangs; upright is \"180 deg\". An arm of a robot in a vertical plane is one.");
   spec.remark(
       "inertia is that about the centre of mass: 0 for a point, mass (2 length)^2/12 for a rod of twice the length.");
+  spec.variation("presliding", "pendulum_with_presliding",
+                 {{"contact_stiffness", "0 N m/rad"}, {"slip_distance", "1 rad"}});
   spec.input(&In<double>::torque, "torque", "N*m", "torque at the pivot");
   spec.state(&State<double>::angle, "angle", "rad", "angle from where it hangs");
   spec.state(&State<double>::speed, "speed", "rad/s", "its rate");

@@ -103,7 +103,7 @@ Effect friction() {
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
-    const double share = 100 * values[0] * values[1] / std::max(at.range(), 1e-300);
+    const double share = 100 * values[0] * values[1] / std::max(driving_range(at), 1e-300);
     if (turns(at))
       return fmt::format("{:.3g} N m ({:.2g} % of the torque), after {:.3g} mrad", values[0] * values[1], share,
                          values[1] * 1e3);

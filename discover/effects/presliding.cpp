@@ -51,7 +51,7 @@ Law presliding(const Excitation& at) {
   Law law;
   law.name = "presliding (Dahl)";
   law.block.type = at.by.empty() ? "mass_with_presliding" : at.by;
-  const double range = travel(at), force = at.range() > 0 ? at.range() : 1;
+  const double range = travel(at), force = driving_range(at) > 0 ? driving_range(at) : 1;
   give(law.block, "contact_stiffness",
        NumberList{with_unit(0.5 * force / range, parse_unit(turns(at) ? "N*m/rad" : "N/m"))});
   give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit(turns(at) ? "mrad" : "um"))});

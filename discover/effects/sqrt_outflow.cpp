@@ -14,7 +14,8 @@ namespace {
 /// the reference level.
 double share_of_root(const Excitation& at) {
   const double middle = 0.5 * (at.travel_lowest + at.travel_highest);
-  return at.from_data && at.reference > 0 && middle > 0 ? std::sqrt(middle / at.reference) : 1;
+  const double reference = own_number(at, "reference", 0);
+  return at.from_data && reference > 0 && middle > 0 ? std::sqrt(middle / reference) : 1;
 }
 
 /// Pipes and orifices in a row: a power between that of the one and that of the other, the linear outlet to begin with.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 
 #include "discover/placement/rows.h"
@@ -135,6 +136,14 @@ std::vector<std::string> weights_behind(const Program& program, int signal) {
   return list;
 }
 
+/// Numbers of a block by their names [SI].
+std::map<std::string, double> numbers_of(const Program& program, const std::string& block) {
+  std::map<std::string, double> numbers;
+  for (const auto& p : program.parameters)
+    if (p.path.starts_with(block + ".")) numbers[p.path.substr(block.size() + 1)] = p.value;
+  return numbers;
+}
+
 /// Name of the output that this signal is; "" = none.
 std::string output_at(const Program& program, int signal) {
   const auto output = std::find(program.output_signals.begin(), program.output_signals.end(), signal);
@@ -236,8 +245,7 @@ class Observer {
       const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
       c.springless = spring != nullptr && spring->value == 0 && !spring->free &&
                      std::find(free_paths.begin(), free_paths.end(), stiffness) == free_paths.end();
-      if (const auto* level = c.by.empty() ? nullptr : program_->find_parameter(places_[i].at + ".reference"))
-        c.reference = level->value;
+      if (!c.by.empty()) c.own = numbers_of(*program_, places_[i].at);
       range_of(i, c.lowest, c.highest);
       c.lowest_of_all = c.lowest;
       c.highest_of_all = c.highest;

@@ -49,6 +49,19 @@ Example inertia_with(Parameters more) {
   return {"N m", std::move(more)};
 }
 
+/// A block and what would take its place, their first input driven by a sine, the others at zero.
+Diagram old_and_new(const Declaration& own, const Example& example, const std::string& type, const Parameters& varied) {
+  Diagram d = diagram({{"u", block("sine", {{"amplitude", "3 " + example.unit}, {"frequency", "3 Hz"}})}}, {});
+  std::vector<std::string> wires{"u"};
+  for (std::size_t i = 1; i < own.inputs.size(); ++i) {
+    wires.push_back("zero_" + std::to_string(i));
+    d.blocks[wires.back()] = block("constant", {{"value", "0 " + own.inputs[i].unit}});
+  }
+  d.blocks["old"] = block(own.type, example.parameters, wires);
+  d.blocks["new"] = block(type, varied, wires);
+  return d;
+}
+
 const std::map<std::string, Example>& examples() {
   const std::pair<std::string, Value> stiff{"contact_stiffness", list({20, 9}, "N/m")},
       slip{"slip_distance", list({10, 40}, "mm")};
@@ -60,6 +73,25 @@ const std::map<std::string, Example>& examples() {
       {"mass_with_presliding", mass_with({stiff, slip})},
       {"mass_on_hysteretic_spring", mass_with({stiff, slip})},
       {"inertia", inertia_with({})},
+      {"gear", {"rad", {{"ratio", 3.0}, {"stiffness", "40 N m/rad"}, {"damping", "0.5 N m s/rad"}}}},
+      {"belt", {"rad", {{"radius", "30 mm"}, {"stiffness", "40 N/mm"}, {"damping", "50 N s/m"}}}},
+      {"ball_screw", {"rad", {{"pitch", "5 mm"}, {"stiffness", "40 N/um"}, {"damping", "500 N s/m"}}}},
+      {"dc_motor",
+       {"V",
+        {{"resistance", "2 Ohm"},
+         {"inductance", "20 mH"},
+         {"torque_constant", "0.3 N m/A"},
+         {"inertia", "0.02 kg m^2"},
+         {"damping", "0.01 N m s/rad"},
+         {"initial_angle", "0.03 rad"},
+         {"initial_velocity", "-0.2 rad/s"}}}},
+      {"pendulum",
+       {"N m",
+        {{"mass", "2 kg"},
+         {"length", "0.5 m"},
+         {"damping", "0.3 N m s/rad"},
+         {"initial_angle", "0.3 rad"},
+         {"initial_speed", "-0.2 rad/s"}}}},
       {"inertia_with_drag", inertia_with({{"drag", "0.6 N m s^2/rad^2"}})},
       {"inertia_with_presliding",
        inertia_with({{"contact_stiffness", list({20, 9}, "N m/rad")}, {"slip_distance", list({10, 40}, "mrad")}})},
@@ -147,10 +179,7 @@ TEST_P(Variations, WithNeutralValuesGiveTheSameTracesToRounding) {
   ASSERT_NE(example, examples().end()) << "add an example for " << GetParam().type;
   auto varied = example->second.parameters;
   for (const auto& n : GetParam().variation.null_value) varied.emplace_back(n.parameter, n.value);
-  auto d = diagram({{"u", block("sine", {{"amplitude", "3 " + example->second.unit}, {"frequency", "3 Hz"}})},
-                    {"old", block(GetParam().type, example->second.parameters, {"u"})},
-                    {"new", block(GetParam().variation.type, varied, {"u"})}},
-                   {});
+  const auto d = old_and_new(own(), example->second, GetParam().variation.type, varied);
   const auto p = compiled(d);
   // A common step for both: an integrator would choose its steps for the two together as well.
   const auto traces = simulate(*p, start(*p), {.until = 1, .every = 1e-2, .method = Method::rk4, .step = 1e-3});
@@ -191,21 +220,22 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"computing_time", {{"samples", 1.0}}},
       {"interpolation_error", {{"error_sine", "0.01 rad"}}},
       {"periodic_error", {{"error_sine", "10 mm"}}},
+      {"angle_in backlash", {{"gap", "0.2 rad"}}},
+      {"angle backlash", {{"gap", "0.2 mm"}}},
+      {"voltage presliding", {{"contact_stiffness", "30 N m/rad"}, {"slip_distance", "0.02 rad"}}},
       {"torque cogging", {{"cosine", "0.1 N m"}, {"sine", "0.2 N m"}, {"periods", 7.0}}},
       {"torque drag", {{"drag", "3 N m s^2/rad^2"}}},
       {"torque stiffening", {{"stiffening", "1e5 N m/rad^3"}}},
       {"torque friction", {{"coulomb", "0.5 N m"}, {"breakaway", "1 N m"}}},
       {"torque presliding", {{"contact_stiffness", "30 N m/rad"}, {"slip_distance", "0.02 rad"}}}};
-  const bool turns = own().inputs.front().name == "torque";
-  const auto found = active.find((turns ? "torque " : "") + GetParam().variation.name);
-  ASSERT_NE(found, active.end()) << "add values for " << GetParam().variation.name;
+  const std::string& hypothesis = GetParam().variation.name;
+  auto found = active.find(own().inputs.front().name + " " + hypothesis);
+  if (found == active.end()) found = active.find(hypothesis);
+  ASSERT_NE(found, active.end()) << "add values for " << hypothesis;
   const auto& example = examples().at(GetParam().type);
   auto varied = example.parameters;
   for (const auto& [name, value] : found->second) varied.emplace_back(name, value);
-  const auto d = diagram({{"u", block("sine", {{"amplitude", "3 " + example.unit}, {"frequency", "3 Hz"}})},
-                          {"old", block(GetParam().type, example.parameters, {"u"})},
-                          {"new", block(GetParam().variation.type, varied, {"u"})}},
-                         {});
+  const auto d = old_and_new(own(), example, GetParam().variation.type, varied);
   const auto p = compiled(d);
   const auto traces = simulate(*p, start(*p), {.until = 1, .every = 1e-2, .method = Method::rk4, .step = 1e-3});
   const auto at = [&](const std::string& block) {

@@ -36,6 +36,17 @@ const bench::Samples rotary{
       {"wobble", {0.05}},
       {"wobble_phase", {0.3}}}},
     {"dc_motor", {{"resistance", {2}}, {"inductance", {0.3}}, {"torque_constant", {0.4}}, {"inertia", {0.2}}}},
+    {"dc_motor_with_presliding",
+     {{"resistance", {2}},
+      {"inductance", {0.3}},
+      {"torque_constant", {0.4}},
+      {"inertia", {0.2}},
+      {"contact_stiffness", {20, 9}},
+      {"slip_distance", {0.1, 0.4}},
+      {"excess", {0.3}},
+      {"contact_time", {0.01}}}},
+    {"pendulum_with_presliding",
+     {{"mass", {2}}, {"length", {0.5}}, {"contact_stiffness", {20, 9}}, {"slip_distance", {0.1, 0.4}}}},
     {"dc_winding", {{"resistance", {2}}, {"inductance", {0.3}}, {"torque_constant", {0.4}}, {"back_emf", {0.5}}}}};
 
 Traces simulated(const Diagram& d, std::vector<double> instants, double rtol = 1e-9) {
@@ -229,6 +240,51 @@ TEST(DcMotorBlock, IsAWindingAndAnInertia) {
   const auto traces = simulated(d, tools::grid(0, 0.5, 50));
   EXPECT_GT(tools::largest(traces.values[0]), 1);
   EXPECT_LT(tools::distance(traces.values[0], traces.values[1]), 1e-6);
+}
+
+const Parameters motor_in_bearings{{"resistance", "2 Ohm"},           {"inductance", "3 mH"},
+                                   {"torque_constant", "0.05 N m/A"}, {"inertia", "2e-5 kg m^2"},
+                                   {"damping", "0.02 N m s/rad"},     {"contact_stiffness", "1 N m/rad"},
+                                   {"slip_distance", "20 mrad"}};
+
+/// Angle and speed of a block some seconds behind a first input that went up to `top` within one.
+std::vector<double> behind_a_ramp(const std::string& type, const Parameters& parameters, const std::string& unit,
+                                  double top, const std::string& angle, const std::string& speed) {
+  const auto u = block("ramp", {{"slope", std::to_string(top) + " " + unit + "/s"}, {"duration", "1 s"}});
+  auto d = tools::diagram({{"u", u}, {"m", block(type, parameters, {"u"})}}, {"m." + angle, "m." + speed});
+  if (unit == "V") {
+    d.blocks["no_load"] = block("constant", {{"value", "0 N m"}});
+    d.blocks["m"] = block(type, parameters, {"u", "no_load"});
+  }
+  const auto traces = simulated(d, {0, 1, 2, 3, 4, 6});
+  return {traces.values[0].back(), traces.values[1].back()};
+}
+
+TEST(DcMotorInBearings, GivesWayLikeASpringAndIsThenHeld) {
+  // 0.4 V on 2 Ohm: 0.01 N m, half of what the bearings hold. On a way without a turn Dahl's element holds
+  // k d (1 - exp(-x/d)); the damping lets it come to rest without one.
+  const auto end = behind_a_ramp("dc_motor_with_presliding", motor_in_bearings, "V", 0.4, "angle", "velocity");
+  EXPECT_NEAR(end[0], 0.02 * std::log(2), 1e-4 * 0.02) << "[rad]";
+  EXPECT_NEAR(end[1], 0, 1e-6);
+}
+
+TEST(DcMotorInBearings, TurnsSlowerByTheTorqueOfItsFriction) {
+  // K (u - K w)/R = b w + k d.
+  const auto end = behind_a_ramp("dc_motor_with_presliding", motor_in_bearings, "V", 12, "angle", "velocity");
+  EXPECT_NEAR(end[1], (0.05 * 12 / 2 - 0.02) / (0.02 + 0.05 * 0.05 / 2), 1e-5) << "[rad/s]";
+}
+
+TEST(PendulumInBearings, HangsWhereItsWeightAndItsPivotHoldTheTorque) {
+  const double torque = 3, k = 50, slip = 0.02, weight = 2 * 9.80665 * 0.5;
+  const auto end = behind_a_ramp("pendulum_with_presliding",
+                                 {{"mass", "2 kg"},
+                                  {"length", "0.5 m"},
+                                  {"damping", "6 N m s/rad"},  // without a turn, to rest in half a second
+                                  {"contact_stiffness", "50 N m/rad"},
+                                  {"slip_distance", "20 mrad"}},
+                                 "N m", torque, "angle", "speed");
+  EXPECT_GT(end[0], 0.1);
+  EXPECT_NEAR(weight * std::sin(end[0]) + k * slip * (1 - std::exp(-end[0] / slip)), torque, 1e-3 * torque);
 }
 
 }  // namespace
