@@ -22,6 +22,7 @@ void describe_contact(BlockSpec<B>& spec, const std::string& force, const std::s
   spec.param(&P::stiffness, "stiffness", force + "/" + way, "of all that gives, seen from the driven side").positive();
   spec.param(&P::damping, "damping", force + "*s/" + way, "while the sides touch").optional("0").not_negative();
   spec.param(&P::gap, "gap", way, "total play, seen from the driven side; 0 = none").optional("0").not_negative();
+  spec.variation("backlash", spec.type, {{"gap", "0"}});
   spec.param(&P::efficiency, "efficiency", "", "power out over power in, whichever side drives")
       .optional("1")
       .positive()

@@ -170,5 +170,117 @@ TEST_F(MachineEffects, FrictionOfAPendulumIsNamedWithItsTorque) {
   EXPECT_EQ(d.final_diagram.blocks.find("arm")->from.find("on")->type, "pendulum_with_presliding");
 }
 
+/// A motor, a gear of ratio 4 with a gap, and a load that its damping holds: [rad] of the load.
+struct GearedDrive {
+  double motor = 0.002, motor_damping = 0.01;  // [kg m^2], [N m s/rad]
+  double load = 0.02, load_damping = 0.2;
+  double ratio = 4, stiffness = 60, damping = 0.3;  // [N m/rad], [N m s/rad]
+  double gap = 0.03;                                // [rad]
+  double gain = 0.1;                                // [N m/V]
+};
+
+std::vector<double> geared(const GearedDrive& g, const std::vector<double>& t, const std::vector<double>& u) {
+  std::vector<double> y{0};
+  double a1 = 0, w1 = 0, a2 = 0, w2 = 0;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    const double h = (t[k] - t[k - 1]) / steps;
+    for (int i = 0; i < steps; ++i) {
+      const double torque = g.gain * within(u, k, i);
+      const double twist = a1 / g.ratio - a2, rate = w1 / g.ratio - w2;
+      double between = 0;  // teeth push, they do not pull
+      if (twist > g.gap / 2) between = std::max(0.0, g.stiffness * (twist - g.gap / 2) + g.damping * rate);
+      if (twist < -g.gap / 2) between = std::min(0.0, g.stiffness * (twist + g.gap / 2) + g.damping * rate);
+      w1 += h * (torque - between / g.ratio - g.motor_damping * w1) / g.motor;
+      w2 += h * (between - g.load_damping * w2) / g.load;
+      a1 += h * w1;
+      a2 += h * w2;
+    }
+    y.push_back(a2);
+  }
+  return y;
+}
+
+Diagram geared(const GearedDrive& g) {
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  Node& torque = d.blocks["torque"];
+  torque.type = "gain";
+  torque.parameters["gain"] = of(g.gain, "N m/V");
+  torque.in = {{"", "u"}};
+  Node& left = d.blocks["left"];
+  left.type = "sum";
+  left.parameters["signs"] = Value("+-");
+  left.in = {{"", "torque"}, {"", "gear.torque_in"}};
+  for (const auto& [name, inertia, damping, from] :
+       {std::tuple{"motor", g.motor, g.motor_damping, "left"}, {"load", g.load, g.load_damping, "gear.torque_out"}}) {
+    Node& rotor = d.blocks[name];
+    rotor.type = "inertia";
+    rotor.parameters["inertia"] = of(inertia, "kg m^2");
+    rotor.parameters["damping"] = of(damping, "N m s/rad");
+    rotor.in = {{"", from}};
+  }
+  Node& gear = d.blocks["gear"];
+  gear.type = "gear";
+  gear.parameters["ratio"] = Value(g.ratio);
+  gear.parameters["stiffness"] = of(g.stiffness, "N m/rad");
+  gear.parameters["damping"] = of(g.damping, "N m s/rad");
+  gear.in = {{"", "motor.angle"}, {"", "motor.velocity"}, {"", "load.angle"}, {"", "load.velocity"}};
+  d.outputs["y"] = "load.angle";
+  return d;
+}
+
+TEST_F(MachineEffects, PlayOfAGearIsNamedInRadiansOfItsDrivenSide) {
+  const GearedDrive g;
+  const auto data =
+      recorded([&](const auto& t, const auto& u) { return geared(g, t, u); }, rows(500, 0.006), 3, 1e-4, "rad");
+  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  const auto& winner = d.steps.front().winner;
+  EXPECT_EQ(winner.effect, "backlash") << tried(d);
+  EXPECT_NEAR(value(d, "gap"), g.gap, 0.02 * g.gap) << "[rad]: their steps in time are coarser than ours";
+  EXPECT_NE(winner.summary.find("mrad"), std::string::npos) << winner.summary;
+  EXPECT_EQ(d.final_diagram.blocks.find("gear")->from.find("on")->type, "gear");
+}
+
+/// Of a transmission: its name, what says how far its driven side goes, and that way for an angle of 2 rad, in `unit`.
+struct Side {
+  const char *type, *parameter;
+  double value, moved;
+  const char* unit;
+};
+
+TEST_F(MachineEffects, PlayIsSoughtInTheWayOfTheDrivenSide) {
+  for (const Side& side : {Side{"gear", "ratio", 50, 0.04, "rad"}, Side{"belt", "radius", 0.05, 0.1, "m"},
+                           Side{"ball_screw", "pitch", 0.005, 0.01 / (2 * std::numbers::pi), "m"}}) {
+    Excitation at;
+    at.unit = parse_unit("rad");
+    at.lowest = -1;
+    at.highest = 1;
+    at.by = side.type;
+    at.own = {{side.parameter, side.value}};
+    const auto laws = effects.get("backlash").laws(at);
+    ASSERT_EQ(laws.size(), 1u) << side.type;
+    const Law& law = laws.front();
+    EXPECT_EQ(law.block.type, side.type);
+    const auto& gap = law.free.front();
+    EXPECT_NEAR(gap.upper, 0.8 * side.moved, 1e-12) << side.type << ": most of the way";
+    // Rounded to three digits, that files stay readable.
+    EXPECT_NEAR(gap.scan.front(), 0.002 * side.moved, 0.005 * 0.002 * side.moved) << side.type;
+    EXPECT_EQ(std::get<Number>(law.block.parameters.find("gap")->content).unit, side.unit) << side.type;
+  }
+}
+
+TEST_F(MachineEffects, PlayThatATransmissionHasAlreadyIsNotPutInAgain) {
+  Diagram d = geared(GearedDrive{});
+  const Effect& backlash = effects.get("backlash");
+  const auto in_gear = [&] {
+    const auto places = places_of(backlash, d, registry, nullptr);
+    return std::any_of(places.begin(), places.end(), [](const Place& p) { return p.at == "gear"; });
+  };
+  EXPECT_TRUE(in_gear());
+  d.blocks["gear"].parameters["gap"] = of(0.01, "rad");
+  EXPECT_FALSE(in_gear());
+}
+
 }  // namespace
 }  // namespace hysteron
