@@ -31,6 +31,9 @@ Node node(const std::string& type, const std::vector<std::pair<std::string, Valu
   return n;
 }
 
+/// Said by the declaration, not by the diagram.
+bool has_own_unit(const UnitExpression& unit) { return unit.find('$') == std::string::npos; }
+
 /// A device that lacks what varies it: a mass or an inertia that rings at a third of a hertz, a tank that fills in five
 /// seconds, a hysteresis as the effect of that block puts it in; of any other type one with a unit of everything.
 Node usual_device(const Declaration& d, const Effects& library) {
@@ -48,10 +51,8 @@ Node usual_device(const Declaration& d, const Effects& library) {
   n.type = d.type;
   for (const auto& p : d.parameters) {
     if (p.default_text || p.kind == ParameterKind::text || p.kind == ParameterKind::matrix) continue;
-    if (p.kind == ParameterKind::list)
-      n.parameters[p.name] = Value(NumberList{Number{1, {}}});
-    else
-      n.parameters[p.name] = Value(1.0);
+    const Number one{1, has_own_unit(p.unit) ? p.unit : ""};
+    n.parameters[p.name] = p.kind == ParameterKind::list ? Value(NumberList{one}) : Value(one);
   }
   return n;
 }
@@ -59,6 +60,12 @@ Node usual_device(const Declaration& d, const Effects& library) {
 void put_device(DemoRig& demo_rig, const Declaration& d, Node device) {
   demo_rig.device = d.type;
   device.in = {{"", "in"}};
+  for (std::size_t i = 1; i < d.inputs.size(); ++i) {  // what else it reads is at rest
+    const PortDeclaration& port = d.inputs[i];
+    device.in.push_back({"", "rest_of_" + port.name});
+    demo_rig.diagram.blocks[device.in.back().from] =
+        node("constant", {{"value", Value(Number{0, has_own_unit(port.unit) ? port.unit : ""})}});
+  }
   demo_rig.diagram.blocks["device"] = std::move(device);
   demo_rig.diagram.outputs["out"] = d.outputs.size() > 1 ? "device." + d.outputs.front().name : "device";
   demo_rig.place.at = "device";
@@ -71,6 +78,15 @@ DemoRig wire_in(const Unit& unit, double top) {
   demo_rig.top = top;
   demo_rig.diagram.inputs["in"].unit = effects::unit_text(unit);
   return demo_rig;
+}
+
+/// A wire in the unit of the device's first input. A force of 4 N on a spring of 4 N/m moves it by a metre; 0.1 m^3/s
+/// fill the tank to a metre; a device with a unit of everything gets one of its unit, any unit being volts.
+DemoRig rig_of(const Declaration& d) {
+  if (d.type == "mass_spring_damper" || d.type == "inertia") return wire_in(parse_unit(d.inputs.front().unit), 4);
+  if (d.type == "tank") return wire_in(parse_unit("m^3/s"), 0.1);
+  if (has_own_unit(d.inputs.front().unit)) return wire_in(parse_unit(d.inputs.front().unit), 1);
+  return wire_in(parse_unit("V"), 100);
 }
 
 /// Devices of the registry that offer the variation, or have the parameter, by which the effect enters.
@@ -86,11 +102,7 @@ std::vector<DemoRig> device_rigs(const Effect& effect, const Effects& library, c
                      std::any_of(d.parameters.begin(), d.parameters.end(),
                                  [&](const ParameterDeclaration& p) { return p.name == effect.parameter; });
     if (by.empty() && !(effect.variation.empty() && has)) continue;
-    // A force of 4 N on a spring of 4 N/m moves it by a metre; 0.1 m^3/s fill the tank to a metre.
-    DemoRig demo_rig = type == "mass_spring_damper" ? wire_in(parse_unit("N"), 4)
-                       : type == "inertia"          ? wire_in(parse_unit("N m"), 4)
-                       : type == "tank"             ? wire_in(parse_unit("m^3/s"), 0.1)
-                                                    : wire_in(parse_unit("V"), 100);
+    DemoRig demo_rig = rig_of(d);
     put_device(demo_rig, d, usual_device(d, library));
     demo_rig.place.by = by;
     list.push_back(std::move(demo_rig));

@@ -85,6 +85,17 @@ TEST_F(Demonstrations, OfATemperatureGainFollowTheTemperatureTimesTheSignal) {
     EXPECT_NEAR(difference[i], 1e-3 * (d.side[i] - 296.15) * d.in[i], 1e-9 * d.span) << d.t[i];
 }
 
+/// A gear reads four signals, in units of its own: its driver turns, all else is at rest.
+TEST_F(Demonstrations, OfWhatVariesAMachineDriveItInItsUnit) {
+  Effect play = effects.get("backlash");
+  play.way = Way::vary;
+  const Demonstration d = demonstrate(play, effects, registry);
+  EXPECT_EQ(d.device, "gear");
+  EXPECT_EQ(d.in_unit.dimension, parse_unit("rad").dimension);
+  EXPECT_EQ(d.out_unit.dimension, parse_unit("N m").dimension);
+  EXPECT_GE(d.share(), 0.009);
+}
+
 /// A user's own effects are shown as the others are: those that come with the program.
 TEST_F(Demonstrations, OfEffectsOfAUserDifferFromTheBypass) {
   const std::string folder = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/effects";
