@@ -15,6 +15,7 @@
 #include "fit/estimate/starts.h"
 #include "fit/inspect/delay.h"
 #include "report/pages/curves.h"
+#include "report/pages/loops.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -162,8 +163,10 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
     section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
     document.traces.push_back(recording_table(view, r, trace_file(model.recording(r).name, document.traces)));
     add_time_figures(section, view, document.traces.back());
+    add_loop_figures(section, view, document.traces.back());
     document.sections.push_back(std::move(section));
   }
+  document.answer = how_far_figures(view, recordings, document.traces);
   return document;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/program/feedthrough.h"
+#include "report/pages/loops.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -60,8 +61,49 @@ void add_figures(Section& section, const CsvTable& table) {
   for (auto& figure : section.figures) {
     std::vector<std::string> names;
     for (const auto& curve : figure.curves) names.push_back(curve.name);
+    if (names.size() == 1) figure.y_label = names.front() + " " + figure.y_label;
     figure.title = fmt::format("{}", fmt::join(names, ", "));
   }
+}
+
+/// The column of the table that drives: an input of the diagram, or what a source makes; none = nullptr.
+const CsvColumn* driving_column(const Program& program, const std::vector<int>& signals, const CsvTable& table) {
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const int block = program.signals[static_cast<std::size_t>(signals[i])].block;
+    if (block < 0 || is_source_of_time(program.blocks[static_cast<std::size_t>(block)])) return &table.columns[i + 1];
+  }
+  return nullptr;
+}
+
+struct Loops {
+  std::vector<Figure> over_drive;  ///< other signals over the one that drives, where it turns
+  std::vector<Figure> planes;      ///< phase planes
+};
+
+Loops loops_of(const Program& program, const std::vector<int>& signals, const CsvTable& table) {
+  constexpr std::size_t most = 6;
+  Loops loops;
+  std::vector<Plotted> all;
+  const CsvColumn* drive = driving_column(program, signals, table);
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const std::string& name = table.columns[i].name;
+    all.push_back({name, name, name});
+    if (drive == nullptr || drive == &table.columns[i] || loops.over_drive.size() >= most) continue;
+    Figure figure = loop_figure(table, {drive->name, drive->name, drive->name}, all.back());
+    if (!figure.curves.empty()) loops.over_drive.push_back(std::move(figure));
+  }
+  loops.planes = phase_planes(table, all);
+  loops.planes.resize(std::min(most, loops.planes.size()));
+  return loops;
+}
+
+/// The first screen: the first signals over time, the loop of what lies furthest from the drive, and a phase plane.
+std::vector<Figure> answer_of(const std::vector<Figure>& over_time, const Loops& loops) {
+  std::vector<Figure> figures(over_time.begin(),
+                              over_time.begin() + std::min<std::ptrdiff_t>(2, std::ssize(over_time)));
+  if (!loops.over_drive.empty()) figures.push_back(loops.over_drive.back());
+  if (!loops.planes.empty()) figures.push_back(loops.planes.front());
+  return figures;
 }
 
 /// Smallest, largest and last value of each signal: for the reader, and as facts for programs.
@@ -151,6 +193,10 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, Tra
   Section section;
   section.title = name == "signals" ? "Signals over time" : name;
   add_figures(section, table);
+  const Loops loops = loops_of(program, traces.signals, table);
+  if (document.answer.empty()) document.answer = answer_of(section.figures, loops);
+  for (const auto* figures : {&loops.over_drive, &loops.planes})
+    section.figures.insert(section.figures.end(), figures->begin(), figures->end());
   facts.traces.set(table.file, add_ranges(section, table));
   const auto& s = traces.statistics;
   section.text.push_back(fmt::format(

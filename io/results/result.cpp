@@ -54,6 +54,7 @@ Json write(const Curve& c) {
     j["x"] = c.x_column;
     j["y"] = c.y_column;
   }
+  if (!c.colour.empty()) j["colour"] = c.colour;
   return j;
 }
 
@@ -120,6 +121,7 @@ void read(const Json& j, Curve& c) {
     take(j, "x", c.x_column);
     take(j, "y", c.y_column);
   }
+  take(j, "colour", c.colour);
 }
 
 void read(const Json& j, Bar& b) {
@@ -189,6 +191,7 @@ std::string result_text(const Document& d) {
          {"headline", d.headline},          {"verdict", d.verdict},   {"sentences", d.sentences},
          {"warnings", d.warnings},          {"facts", Json::object()}};
   if (d.facts && !d.facts->is_null()) j["facts"] = Json(*d.facts);
+  if (!d.answer.empty()) j["answer"] = write_all(d.answer);
   j["sections"] = write_all(d.sections);
   j["traces"] = Json::array();
   for (const auto& trace : d.traces) j["traces"].push_back(trace.file);
@@ -221,6 +224,7 @@ Document read_result(const std::string& folder) {
     take(j, "warnings", d.warnings);
     take(j, "data", d.data);
     d.facts = std::make_shared<nlohmann::json>(j.value("facts", Json::object()));
+    read_all(j, "answer", d.answer);
     read_all(j, "sections", d.sections);
     for (const auto& name : j.value("traces", std::vector<std::string>{})) {
       d.traces.push_back(read_table((root / "traces" / name).string()));

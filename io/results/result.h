@@ -22,6 +22,7 @@ struct Curve {
   std::string role;   ///< "measured", "simulated", "residual", "before", "after", "" : the report's colours
   std::string trace, x_column, y_column;  ///< trace = file name in traces/
   std::vector<double> x, y;               ///< used where trace is empty
+  std::string colour{};  ///< "time": runs through a scale from the first point to the last; "": by role
 };
 
 struct Bar {
@@ -67,6 +68,7 @@ struct Document {
   std::string verdict;                 ///< "" or adequate, missing_effect, not_distinguishable, unexplained
   std::vector<std::string> sentences;  ///< what matters, most important first
   std::vector<std::string> warnings;   ///< what the reader must not overlook
+  std::vector<Figure> answer{};        ///< what shows the headline, on the first screen: at most four
   std::vector<Section> sections;
   std::vector<CsvTable> traces;  ///< file = name in traces/ ("01.csv", "01.f64")
   /// Further files of the folder: name, content ("step1.json").

@@ -41,20 +41,24 @@ void check_names(const Document& document, const std::string& folder) {
 }
 
 /// A curve that points nowhere would be an empty figure that nobody notices.
+void check_curves(const Document& document, const std::vector<Figure>& figures, const std::string& folder) {
+  for (const auto& figure : figures)
+    for (const auto& curve : figure.curves) {
+      if (curve.trace.empty()) continue;
+      const auto trace = std::find_if(document.traces.begin(), document.traces.end(),
+                                      [&](const CsvTable& table) { return table.file == curve.trace; });
+      if (trace == document.traces.end() || !trace->find(curve.x_column) || !trace->find(curve.y_column))
+        fail("unknown_trace", folder,
+             fmt::format(
+                 "curve \"{}\" of figure \"{}\" is drawn from columns {}, {} of trace \"{}\", which is not there",
+                 curve.name, figure.title, curve.x_column, curve.y_column, curve.trace),
+             "add that trace to the document, or give the curve its own numbers");
+    }
+}
+
 void check_curves(const Document& document, const std::string& folder) {
-  for (const auto& section : document.sections)
-    for (const auto& figure : section.figures)
-      for (const auto& curve : figure.curves) {
-        if (curve.trace.empty()) continue;
-        const auto trace = std::find_if(document.traces.begin(), document.traces.end(),
-                                        [&](const CsvTable& table) { return table.file == curve.trace; });
-        if (trace == document.traces.end() || !trace->find(curve.x_column) || !trace->find(curve.y_column))
-          fail("unknown_trace", folder,
-               fmt::format(
-                   "curve \"{}\" of figure \"{}\" is drawn from columns {}, {} of trace \"{}\", which is not there",
-                   curve.name, figure.title, curve.x_column, curve.y_column, curve.trace),
-               "add that trace to the document, or give the curve its own numbers");
-      }
+  check_curves(document, document.answer, folder);
+  for (const auto& section : document.sections) check_curves(document, section.figures, folder);
 }
 
 /// A folder is replaced by results of the same kind only. Throws Error "folder_in_use".

@@ -66,7 +66,8 @@ Json curve() {
                  {"role", text("measured, simulated, residual, before, after")},
                  {"trace", text("file in traces/")},
                  {"x", axis},
-                 {"y", axis}},
+                 {"y", axis},
+                 {"colour", text("time: runs through a scale from the first point to the last")}},
                 {"name", "x", "y"});
 }
 
@@ -137,6 +138,7 @@ std::string result_schema() {
   properties["warnings"] = list_of("what must not be overlooked", {{"type", "string"}});
   properties["facts"] = {{"type", "object"},
                          {"description", "numbers and names, by verb; units stand in the names or beside the values"}};
+  properties["answer"] = list_of("figures that show the headline, on the first screen of the report", figure());
   properties["sections"] = list_of("what the report shows", section());
   properties["traces"] = list_of("files in traces/", {{"type", "string"}});
   properties["files"] = list_of("further files of the folder", {{"type", "string"}});

@@ -81,6 +81,9 @@
     return low;
   }
 
+  const shades = 12;  // colours of the scale of time, as in report.css
+  const shadeOf = (gone) => clamp(Math.floor(gone * shades), 0, shades - 1);
+
   const groups = new Map();  // figures that move together in x, by their link
 
   // ---- one figure ------------------------------------------------------------------------------------------------
@@ -117,7 +120,10 @@
       this.clip = make('rect', {}, make('clipPath', {id}, make('defs', {}, this.svg)));
       this.axes = make('g', {}, this.svg);
       const clipped = make('g', {'clip-path': `url(#${id})`}, this.svg);
-      for (const c of this.curves) c.path = make('path', {class: `curve ${c.style}${c.few ? ' few' : ''} c-${c.colour}`}, clipped);
+      for (const c of this.curves) {
+        const css = (colour) => `curve ${c.style}${c.few ? ' few' : ''}${c.under ? ' under' : ''} c-${colour}`;
+        c.parts = this.partsOf(c).map(([from, to, colour]) => ({from, to, path: make('path', {class: css(colour)}, clipped)}));
+      }
       this.pane = make('rect', {class: 'pane'}, this.svg);
       this.cursor = make('line', {class: 'cursor', visibility: 'hidden', 'pointer-events': 'none'}, clipped);
       this.dots = make('g', {'pointer-events': 'none'}, clipped);
@@ -131,11 +137,59 @@
       this.button.textContent = 'show all';
       this.button.hidden = true;
       this.picture.append(this.readout, this.button);
+      const csv = document.createElement('button');
+      csv.className = 'csv';
+      csv.type = 'button';
+      csv.textContent = 'CSV';
+      csv.title = 'Save the numbers of this figure';
+      csv.addEventListener('click', () => this.save());
+      this.picture.append(csv);
+    }
+
+    /** Ranges [from, to) of points of one colour: one, or where time is shown by colour one for each colour of its scale. */
+    partsOf(c) {
+      if (!c.shade) return [[0, c.x.length, c.colour]];
+      const parts = [];
+      for (let from = 0; from < c.x.length;) {
+        const shade = shadeOf(c.shade[from]);
+        let to = from + 1;
+        while (to < c.x.length && shadeOf(c.shade[to]) === shade) ++to;
+        parts.push([from, Math.min(c.x.length, to + 1), 't' + shade]);
+        from = to;
+      }
+      return parts;
     }
 
     // -- what is seen
 
     get viewX() { return this.group.viewX || this.group.fullX; }
+
+    // -- its numbers
+
+    /** Columns of the curves as a table: one x where all share it, else each curve with its own. */
+    csv() {
+      const cell = (text) => '"' + String(text).replaceAll('"', '""') + '"';
+      const unit = bracket(this.data.y_label);
+      const curves = this.data.curves;
+      const shared = curves.every((c) => c.x.length === curves[0].x.length && c.x.every((v, i) => v === curves[0].x[i]));
+      const columns = [];
+      curves.forEach((c, i) => {
+        if (i === 0 || !shared) columns.push([this.data.x_label, c.x]);
+        columns.push([`${c.name || bare(this.data.y_label)} [${unit || '1'}]`, c.y]);
+      });
+      const lines = [columns.map(([name]) => cell(name)).join(',')];
+      const rows = Math.max(...columns.map(([, values]) => values.length));
+      for (let i = 0; i < rows; ++i) lines.push(columns.map(([, values]) => values[i] ?? '').join(','));
+      return lines.join('\n') + '\n';
+    }
+
+    save() {
+      const link = document.createElement('a');
+      link.href = URL.createObjectURL(new Blob([this.csv()], {type: 'text/csv'}));
+      link.download = (this.data.title.replace(/[^0-9A-Za-z]+/g, '-').replace(/^-|-$/g, '') || 'figure') + '.csv';
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+    }
 
     /** Indices [from, to) of a curve that can be seen, with one neighbour on each side. */
     visible(curve) {
@@ -169,7 +223,7 @@
 
     draw() {
       this.drawnFor = this.picture.clientWidth;
-      const width = Math.max(240, this.picture.clientWidth || (this.data.wide ? 1000 : 490)), height = 300;
+      const width = Math.max(240, this.picture.clientWidth || (this.data.wide ? 1000 : 490)), height = this.data.height;
       const [y0, y1] = this.seenY(), [x0, x1] = this.viewX;
       const ticksY = this.data.log_y ? logTicks(y0, y1, 6) : linearTicks(y0, y1, 6);
       const longest = Math.max(0, ...ticksY.list.map((t) => t.label.length));
@@ -186,7 +240,8 @@
           r.setAttribute(key, px(value));
       }
       this.drawAxes(ticksY);
-      for (const c of this.curves) c.path.setAttribute('d', c.shown ? this.pathOf(c) : '');
+      for (const c of this.curves)
+        for (const part of c.parts) part.path.setAttribute('d', c.shown ? this.pathOf(c, part) : '');
       this.button.hidden = !this.group.viewX && !this.viewY;
       this.hideReadout();
       this.figure.dataset.drawn = 'true';
@@ -219,8 +274,9 @@
     }
 
     /** Path of the visible part; where there are many points per pixel, first, lowest, highest and last of each pixel. */
-    pathOf(c) {
-      const [from, to] = this.visible(c);
+    pathOf(c, part) {
+      const seen = this.visible(c);
+      const from = Math.max(seen[0], part.from), to = Math.min(seen[1], part.to);
       const dense = c.monotone && to - from > 5 * this.box.width;
       const parts = [];
       let pen = false;
@@ -292,7 +348,7 @@
       p.addEventListener('pointerup', (e) => this.dragEnds(e));
       p.addEventListener('pointercancel', () => this.dragStops());
       p.addEventListener('pointerleave', () => this.group.plots.forEach((q) => q.hideReadout()));
-      p.addEventListener('dblclick', (e) => { if (e.target !== this.button) this.reset(); });
+      p.addEventListener('dblclick', (e) => { if (!e.target.closest('button')) this.reset(); });
       p.addEventListener('wheel', (e) => {
         if (!e.ctrlKey && document.activeElement !== p) return;  // the page must stay scrollable
         e.preventDefault();
@@ -300,7 +356,8 @@
       }, {passive: false});
       p.addEventListener('keydown', (e) => {
         const act = {ArrowLeft: () => this.pan(-0.2), ArrowRight: () => this.pan(0.2), '+': () => this.zoomAt((this.viewX[0] + this.viewX[1]) / 2, 0.7),
-          '-': () => this.zoomAt((this.viewX[0] + this.viewX[1]) / 2, 1 / 0.7), 0: () => this.reset(), Escape: () => this.reset()}[e.key];
+          '-': () => this.zoomAt((this.viewX[0] + this.viewX[1]) / 2, 1 / 0.7), 0: () => this.reset(), Escape: () => this.reset(),
+          c: () => this.save()}[e.key];
         if (!act || e.ctrlKey || e.metaKey || e.altKey) return;
         e.preventDefault();
         act();
@@ -325,7 +382,7 @@
     }
 
     dragBegins(e) {
-      if (e.button !== 0 || e.pointerType === 'touch' || e.target === this.button) return;
+      if (e.button !== 0 || e.pointerType === 'touch' || e.target.closest('button')) return;
       const at = this.place(e);
       this.drag = {from: at, pan: e.shiftKey, x: [...this.range.x], y: [...this.range.y], perX: this.fromX(1) - this.fromX(0), perY: this.fromY(1) - this.fromY(0)};
       this.picture.setPointerCapture(e.pointerId);

@@ -69,7 +69,8 @@ std::vector<std::string> wrap(const std::string& text, double width, std::size_t
 
 Canvas canvas_of(const PreparedFigure& f) {
   Canvas c;
-  if (!f.wide) c.width = 490;
+  c.width = f.width > 0 ? f.width : f.wide ? 1000 : 490;
+  c.height = f.height;
   c.x = {f.x.empty() ? Range{0, 1} : f.x, f.log_x && !f.x.empty(), 0, 0};
   c.y = {f.y.empty() ? Range{0, 1} : f.y, f.log_y && !f.y.empty(), c.height - c.bottom, c.top};
   const double air = 0.05;
@@ -80,9 +81,9 @@ Canvas canvas_of(const PreparedFigure& f) {
     const double margin = air * (c.y.range.high - c.y.range.low);
     c.y.range = {c.y.range.low - margin, c.y.range.high + margin};
   }
-  double simd_dispatch = 0;
-  for (const auto& tick : c.y.ticks(6).list) simd_dispatch = std::max(simd_dispatch, text_width(tick.label));
-  c.left = std::max(c.left, simd_dispatch + 36);
+  double widest = 0;
+  for (const auto& tick : c.y.ticks(6).list) widest = std::max(widest, text_width(tick.label));
+  c.left = std::max(c.left, widest + 36);
   c.x.from = c.left;
   c.x.to = c.width - c.right;
   return c;

@@ -67,9 +67,9 @@ void append_range(const char* key, const Range& range, std::string& out) {
 }  // namespace
 
 std::string figure_data(const PreparedFigure& f, const std::string& link) {
-  std::string out =
-      fmt::format("{{\"title\":{},\"x_label\":{},\"y_label\":{},\"log_x\":{},\"log_y\":{},\"wide\":{},\"link\":{},",
-                  quoted(f.title), quoted(f.x_label), quoted(f.y_label), f.log_x, f.log_y, f.wide, quoted(link));
+  std::string out = fmt::format(
+      "{{\"title\":{},\"x_label\":{},\"y_label\":{},\"log_x\":{},\"log_y\":{},\"wide\":{},\"height\":{},\"link\":{},",
+      quoted(f.title), quoted(f.x_label), quoted(f.y_label), f.log_x, f.log_y, f.wide, f.height, quoted(link));
   append_range("x", f.x, out);
   out += ',';
   append_range("y", f.y, out);
@@ -77,11 +77,15 @@ std::string figure_data(const PreparedFigure& f, const std::string& link) {
   for (std::size_t i = 0; i < f.curves.size(); ++i) {
     const auto& c = f.curves[i];
     if (i > 0) out += ',';
-    out += fmt::format("{{\"name\":{},\"style\":{},\"colour\":\"{}\",\"monotone\":{},\"few\":{},\"x\":", quoted(c.name),
-                       quoted(c.style), c.colour, c.monotone, c.few);
+    out += fmt::format("{{\"name\":{},\"style\":{},\"colour\":\"{}\",\"monotone\":{},\"few\":{},\"under\":{},\"x\":",
+                       quoted(c.name), quoted(c.style), c.colour, c.monotone, c.few, c.under);
     append_numbers(c.x, digits_for(c.x, 8), out);
     out += ",\"y\":";
     append_numbers(c.y, digits_for(c.y, 6), out);
+    if (!c.shade.empty()) {
+      out += ",\"shade\":";
+      append_numbers(c.shade, 4, out);
+    }
     out += '}';
   }
   return escape_json(out + "]}");

@@ -1,4 +1,4 @@
-// Decides how a figure looks without JavaScript and on paper: static SVG (curves, waterfall) or a table of bars.
+// Decides how a figure of curves or a waterfall looks without JavaScript and on paper: static SVG.
 // Colours are CSS classes of assets/report.css; report.js draws the same picture when the reader zooms.
 #pragma once
 
@@ -11,10 +11,7 @@ namespace hysteron {
 /// <svg class="plot"> of curves or of a waterfall.
 std::string figure_svg(const PreparedFigure& figure);
 
-/// Horizontal bars, one row each: label, bar, text.
-std::string bars_html(const PreparedFigure& figure);
-
-/// The legend as a list; "" for a single unnamed curve.
-std::string legend_html(const PreparedFigure& figure);
+/// The classes of a curve's path; `colour` as in report.css, without its prefix.
+std::string curve_css(const PreparedCurve& curve, const std::string& colour);
 
 }  // namespace hysteron

@@ -31,6 +31,13 @@ namespace {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || (static_cast<unsigned char>(c) & 0x80); }
 
+/// "3 um -> 1 um" with an arrow that no line ends within.
+std::string with_arrows(std::string text) {
+  for (auto at = text.find(" -> "); at != std::string::npos; at = text.find(" -> ", at + 1))
+    text.replace(at, 4, "\u00a0→ ");
+  return text;
+}
+
 /// "3.2 %", "0.4 um": no line break between a number and a short word behind it, which is mostly its unit.
 std::string glue_units(std::string_view text) {
   constexpr std::size_t longest_unit = 5;
@@ -53,7 +60,7 @@ std::string glue_units(std::string_view text) {
 }  // namespace
 
 std::string escape_prose(std::string_view prose) {
-  const std::string glued = glue_units(prose);
+  const std::string glued = with_arrows(glue_units(prose));
   std::string_view text = glued;
   std::string out;
   while (!text.empty()) {

@@ -21,6 +21,7 @@ struct Source {
   std::span<const double> x, y;
   const CsvColumn* x_column = nullptr;
   const CsvColumn* y_column = nullptr;
+  const CsvColumn* time = nullptr;  ///< first column of the trace
 };
 
 Source source_of(const Document& document, const Curve& curve) {
@@ -31,6 +32,7 @@ Source source_of(const Document& document, const Curve& curve) {
       if (trace.file != curve.trace) continue;
       s.x_column = trace.find(curve.x_column);
       s.y_column = trace.find(curve.y_column);
+      if (!trace.columns.empty()) s.time = &trace.columns.front();
       if (s.x_column) s.x = s.x_column->values;
       if (s.y_column) s.y = s.y_column->values;
     }
@@ -102,6 +104,36 @@ void add_air(Range& range, bool log) {
   }
 }
 
+/// Of a curve over increasing x, the part that a wished range shows, with a neighbour on each side: its points are not
+/// thinned out for what lies outside.
+void cut_to(const std::vector<double>& range, Source& s) {
+  if (range.size() != 2 || !never_decreases(s.x)) return;
+  const auto first = std::lower_bound(s.x.begin(), s.x.end(), range[0]) - s.x.begin();
+  const auto last = std::upper_bound(s.x.begin(), s.x.end(), range[1]) - s.x.begin();
+  const auto begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, first - 1));
+  const auto end = std::min(s.x.size(), static_cast<std::size_t>(last) + 1);
+  if (end <= begin) return;
+  s.x = s.x.subspan(begin, end - begin);
+  s.y = s.y.subspan(begin, end - begin);
+}
+
+/// How much of the time has gone at point `k` of `n`; by the rows where the trace has no times.
+double time_gone(const Source& s, std::size_t k, std::size_t n) {
+  if (s.time != nullptr && s.time->values.size() == n && s.time->values.back() > s.time->values.front())
+    return (s.time->values[k] - s.time->values.front()) / (s.time->values.back() - s.time->values.front());
+  return n > 1 ? static_cast<double>(k) / static_cast<double>(n - 1) : 0;
+}
+
+/// The ends of the scale of time, as words beside it.
+void name_ends(const Source& s, PreparedFigure& p) {
+  if (!p.begins.empty()) return;
+  p.begins = "start";
+  p.ends = "end";
+  if (s.time == nullptr || s.time->values.empty()) return;
+  p.begins = fmt::format("{:.4g} {}", s.time->values.front(), s.time->unit.text);
+  p.ends = fmt::format("{:.4g} {}", s.time->values.back(), s.time->unit.text);
+}
+
 bool is_time(const std::string& label) {
   static const std::set<std::string> units{"s", "ms", "us", "ns", "min", "h", "d", "hour", "day"};
   return units.contains(unit_of_label(label)) || label.rfind("time", 0) == 0;
@@ -140,6 +172,7 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   std::vector<std::size_t> points;
   for (const auto& curve : figure.curves) {
     sources.push_back(source_of(document, curve));
+    cut_to(figure.x_range, sources.back());
     points.push_back(sources.back().x.size());
     if (p.x_label.empty() && sources.back().x_column) p.x_label = label_of_column(*sources.back().x_column);
     if (p.y_label.empty() && sources.back().y_column) p.y_label = label_of_column(*sources.back().y_column);
@@ -148,11 +181,15 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   const auto colour = colours(figure.curves);
   bool monotone = true;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto& [x, y, x_column, y_column] = sources[i];
+    const auto& x = sources[i].x;
+    const auto& y = sources[i].y;
     PreparedCurve c;
     c.name = figure.curves[i].name;
     c.style = figure.curves[i].style.empty() ? "line" : figure.curves[i].style;
-    c.colour = colour[i];
+    const bool by_time = figure.curves[i].colour == "time";
+    c.colour = by_time ? "time" : colour[i];
+    c.under = figure.curves[i].role == "measured" && c.style == "line" && figure.curves.size() > 1;
+    if (by_time) name_ends(sources[i], p);
     if (!figure.curves[i].trace.empty()) c.source = "traces/" + figure.curves[i].trace;
     c.points = x.size();
     c.monotone = never_decreases(x);
@@ -161,6 +198,7 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
     for (const auto k : decimate(x, y, shares[i])) {
       c.x.push_back(x[k]);
       c.y.push_back(y[k]);
+      if (by_time) c.shade.push_back(time_gone(sources[i], k, x.size()));
     }
     include(x, p.log_x, p.x);
     include(y, p.log_y, p.y);
@@ -176,7 +214,8 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   if (!monotone || points_only) add_air(p.x, p.log_x);
   if (figure.x_range.size() == 2) p.x = {figure.x_range[0], figure.x_range[1]};
   if (figure.y_range.size() == 2) p.y = {figure.y_range[0], figure.y_range[1]};
-  p.wide = p.kind == "waterfall" || over_time;
+  p.part = figure.x_range.size() == 2;
+  p.wide = p.kind == "waterfall" || (over_time && figure.x_range.empty());
   return p;
 }
 

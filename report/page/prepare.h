@@ -19,6 +19,9 @@ struct PreparedCurve {
   std::size_t points = 0;    ///< before that
   bool monotone = false;     ///< x never decreases
   bool few = false;          ///< so few points that each is drawn large
+  bool under = false;        ///< measured: drawn as a broad band, so that what lies on it is seen
+  /// Share of the time gone at each point, 0 .. 1, where time is shown by colour; else empty.
+  std::vector<double> shade{};
 };
 
 /// Smallest and largest value; empty = nothing to show.
@@ -35,7 +38,13 @@ struct PreparedFigure {
   Range x, y;                        ///< of all points, before thinning out; widened so that it is never a single value
   bool wide = false;                 ///< takes the full width of the page: curves over time, waterfalls
   std::size_t points = 0, kept = 0;  ///< of all curves
+  bool part = false;                 ///< shows a chosen part of the x axis
+  double width = 0, height = 300;    ///< [px] of the picture; width 0: as wide figures and pairs are
+  std::string begins{}, ends{};      ///< of the time shown by colour: "0 s", "60 s"
 };
+
+/// Colours of the scale of time (report.css has as many).
+constexpr int shades = 12;
 
 /// `budget`: points to embed for all curves of the figure together.
 PreparedFigure prepare(const Document& document, const Figure& figure, std::size_t budget);

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "report/page/assets.h"
 #include "report/page/decimate.h"
-#include "report/page/figure_data.h"
-#include "report/page/figure_svg.h"
+#include "report/page/figure_html.h"
 #include "report/page/html.h"
 #include "report/page/prepare.h"
 
@@ -45,13 +43,6 @@ std::string hash_text(std::string_view hex) {
   return base64(bytes);
 }
 
-/// 100000 -> "100 000", with thin spaces.
-std::string grouped(std::size_t n) {
-  std::string text = std::to_string(n);
-  for (int i = static_cast<int>(text.size()) - 3; i > 0; i -= 3) text.insert(static_cast<std::size_t>(i), "\u2009");
-  return text;
-}
-
 std::string list_html(const char* element, const char* css, const std::vector<std::string>& items) {
   if (items.empty()) return "";
   std::string out = fmt::format("<{}{}>", element, css);
@@ -61,7 +52,12 @@ std::string list_html(const char* element, const char* css, const std::vector<st
 
 // ---- head -----------------------------------------------------------------------------------------------------------
 
-std::string verdict_html(const std::string& verdict) {
+/// A verdict in a word and in a sentence; both empty where there is none.
+struct VerdictWords {
+  std::string badge, sentence;
+};
+
+VerdictWords verdict_html(const std::string& verdict) {
   static const std::map<std::string, std::pair<const char*, const char*>> words{
       {"adequate",
        {"adequate",
@@ -70,12 +66,12 @@ std::string verdict_html(const std::string& verdict) {
       {"not_distinguishable",
        {"not distinguishable", "Something is missing, and several effects explain these data equally well."}},
       {"unexplained", {"unexplained", "Structure remains that no known effect takes away."}}};
-  if (verdict.empty()) return "";
+  if (verdict.empty()) return {};
   const auto found = words.find(verdict);
   const bool known = found != words.end();
-  return fmt::format("<p class=\"verdict\"><span class=\"badge {}\">{}</span> <span>{}</span></p>\n",
-                     known ? verdict : "", known ? found->second.first : escape(verdict),
-                     known ? found->second.second : "");
+  return {fmt::format("<span class=\"badge {}\">{}</span>", known ? verdict : "",
+                      known ? found->second.first : escape(verdict)),
+          known ? fmt::format("<p class=\"verdict\">{}</p>\n", found->second.second) : ""};
 }
 
 std::string head_html(const Document& d) {
@@ -91,15 +87,37 @@ std::string head_html(const Document& d) {
       escape(d.title.empty() ? d.headline : d.title + " – " + d.verb), report_css);
 }
 
-std::string summary_html(const Document& d) {
-  std::string out = fmt::format("<header>\n<p class=\"kicker\"><b>hysteron {}</b>{}{}</p>\n", escape(d.verb),
-                                d.title.empty() ? "" : " · ", escape(d.title));
-  out += "<h1>" + escape_prose(d.headline.empty() ? d.title : d.headline) + "</h1>\n";
-  out += verdict_html(d.verdict);
+/// The headline without the title in front of it: that stands above it.
+std::string headline_below(const Document& d) {
+  if (d.headline.empty()) return d.title;
+  const std::string title = d.title + ": ";
+  if (d.title.empty() || !d.headline.starts_with(title)) return d.headline;
+  std::string text = d.headline.substr(title.size());
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// Says on the first screen that there are warnings below.
+std::string warnings_link(const Document& d) {
+  if (d.warnings.empty()) return "";
+  return fmt::format("<a class=\"attention\" href=\"#warnings\">{} warning{}</a>", d.warnings.size(),
+                     d.warnings.size() == 1 ? "" : "s");
+}
+
+/// The first screen: the answer in one sentence, and what shows it; then what matters besides.
+std::string summary_html(const Document& d, const std::vector<std::size_t>& budgets) {
+  std::string out = fmt::format("<header>\n<p class=\"kicker\"><b>hysteron {}</b>{}{}{}</p>\n", escape(d.verb),
+                                d.title.empty() ? "" : " · ", escape(d.title), warnings_link(d));
+  const VerdictWords verdict = verdict_html(d.verdict);
+  out += fmt::format("<div class=\"head\"><h1>{}</h1>{}</div>\n", escape_prose(headline_below(d)), verdict.badge);
+  std::vector<PreparedFigure> figures;
+  for (std::size_t i = 0; i < d.answer.size(); ++i) figures.push_back(prepare(d, d.answer[i], budgets[i]));
+  out += answer_html(std::move(figures));
+  out += verdict.sentence;
   out += list_html("ol", " class=\"sentences\"", d.sentences);
   if (!d.warnings.empty())
-    out += "<aside class=\"warnings\" role=\"note\">\n<h2>Note well</h2>\n" + list_html("ul", "", d.warnings) +
-           "</aside>\n";
+    out += "<aside class=\"warnings\" id=\"warnings\" role=\"note\">\n<h2>Note well</h2>\n" +
+           list_html("ul", "", d.warnings) + "</aside>\n";
   return out + "</header>\n";
 }
 
@@ -111,16 +129,17 @@ std::string contents_html(const Document& d) {
       out += fmt::format("<a href=\"#s{}\">{}</a>\n", i + 1, escape(d.sections[i].title));
     out += "</nav>\n";
   }
-  const bool curves = std::any_of(d.sections.begin(), d.sections.end(), [](const Section& s) {
-    return std::any_of(s.figures.begin(), s.figures.end(), [](const Figure& f) { return f.kind == "curves"; });
-  });
-  if (curves)
+  const auto with_curves = [](const std::vector<Figure>& figures) {
+    return std::any_of(figures.begin(), figures.end(), [](const Figure& f) { return f.kind == "curves"; });
+  };
+  if (with_curves(d.answer) ||
+      std::any_of(d.sections.begin(), d.sections.end(), [&](const Section& s) { return with_curves(s.figures); }))
     out +=
         "<p class=\"hint\">In the figures: drag to zoom, <kbd>Shift</kbd>-drag to move, <kbd>Ctrl</kbd>-wheel to zoom "
-        "at the pointer (the wheel alone, "
-        "once a figure was clicked), double-click to see all again. A click on a legend entry hides a curve. Figures "
-        "of a section over the same quantity "
-        "move together.</p>\n";
+        "at the pointer (the wheel alone, once a figure was clicked), double-click to see all again. By keys, once "
+        "<kbd>Tab</kbd> has reached a figure: <kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, "
+        "<kbd>0</kbd> shows all, <kbd>C</kbd> saves its numbers. A click on a legend entry hides a curve. Figures of a "
+        "section over the same quantity move together.</p>\n";
   return out;
 }
 
@@ -150,7 +169,7 @@ std::string table_html(const Table& t) {
   const auto cell_css = [&](std::size_t k, const std::string& cell) {
     return k < numeric.size() && !numeric[k] && cell.size() > 24 ? " class=\"prose\"" : css(k);
   };
-  std::string out = "<div class=\"table\">\n";
+  std::string out = "<div class=\"table\" tabindex=\"0\">\n";
   if (!t.title.empty()) out += "<h3>" + escape_prose(t.title) + "</h3>\n";
   out += "<table>\n<thead><tr>";
   for (std::size_t k = 0; k < t.columns.size(); ++k)
@@ -200,37 +219,6 @@ std::string preformatted_html(const std::string& title, const std::string& text)
                      title.empty() ? "" : "<div class=\"title\">" + heading + "</div>", pre);
 }
 
-/// What stands below a figure: its caption, how much of the data is drawn, and where all of it is.
-std::string caption_html(const PreparedFigure& f) {
-  std::set<std::string> sources;
-  for (const auto& c : f.curves)
-    if (!c.source.empty()) sources.insert(c.source);
-  std::string out = escape_prose(f.caption);
-  if (f.kept < f.points)
-    out += fmt::format("{}Drawn from {} of {} points, every peak among them.", out.empty() ? "" : " ", grouped(f.kept),
-                       grouped(f.points));
-  if (!sources.empty() && sources.size() <= 4) {
-    out += out.empty() ? "Data: " : " Data: ";
-    for (const auto& s : sources)
-      out += fmt::format("{}<a href=\"{}\">{}</a>", s == *sources.begin() ? "" : ", ", escape_path(s), escape(s));
-  } else if (!sources.empty()) {
-    out += fmt::format("{}Data: {} files in traces/.", out.empty() ? "" : " ", sources.size());
-  }
-  return out.empty() ? "" : "<p class=\"caption\">" + out + "</p>\n";
-}
-
-std::string figure_html(const PreparedFigure& f, const std::string& link) {
-  const std::string kind = f.kind == "bars" || f.kind == "waterfall" ? f.kind : "curves";
-  std::string out =
-      fmt::format("<figure class=\"figure{}\" data-kind=\"{}\">\n<header><h3>{}</h3>{}</header>\n",
-                  f.wide ? " wide" : "", kind, escape_prose(f.title), kind == "curves" ? legend_html(f) : "");
-  out += fmt::format("<div class=\"picture {}\">{}</div>\n", kind, kind == "bars" ? bars_html(f) : figure_svg(f));
-  out += caption_html(f);
-  if (kind == "curves" && !f.x.empty() && !f.y.empty())
-    out += "<script type=\"application/json\">" + figure_data(f, link) + "</script>\n";
-  return out + "</figure>\n";
-}
-
 /// An SVG of the document, inside the page: as an image, so that its style stays its own. A click opens the file.
 std::string picture_html(const Document& d, const Figure& f) {
   const auto file =
@@ -242,25 +230,6 @@ std::string picture_html(const Document& d, const Figure& f) {
       "src=\"data:image/svg+xml;base64,{}\"></a></div>\n{}</figure>\n",
       escape_prose(f.title), escape_path(f.picture), escape(f.title), base64(file->second),
       f.caption.empty() ? "" : "<p class=\"caption\">" + escape_prose(f.caption) + "</p>\n");
-}
-
-/// Narrow figures stand in pairs; one that stays alone takes the full width if it holds curves.
-void widen_lonely(std::vector<PreparedFigure>& figures) {
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    if (figures[i].wide) continue;
-    if (i + 1 < figures.size() && !figures[i + 1].wide)
-      ++i;
-    else if (figures[i].kind == "curves")
-      figures[i].wide = true;
-  }
-}
-
-std::string figures_html(const std::vector<PreparedFigure>& figures, std::size_t section) {
-  if (figures.empty()) return "";
-  std::string out = "<div class=\"figures\">\n";
-  for (const auto& f : figures)
-    out += figure_html(f, f.x_label.empty() ? "" : fmt::format("s{} {}{}", section, f.x_label, f.log_x ? " log" : ""));
-  return out + "</div>\n";
 }
 
 /// Text, tables, figures, text as it is; only waterfalls and drawings go before the tables: they are the answer, those
@@ -285,19 +254,23 @@ std::string section_html(const Document& d, const Section& s, std::size_t number
   return out + "</section>\n";
 }
 
-/// The points of each figure of each section, so that the page stays light however many recordings it shows.
+/// The points of each figure of the answer and of each section, so that the page stays light however many recordings it
+/// shows.
 std::vector<std::vector<std::size_t>> page_budget(const Document& d) {
   std::vector<std::size_t> wanted;
+  for (const auto& f : d.answer) wanted.push_back(std::min(points_per_figure, point_count(d, f)));
   for (const auto& s : d.sections)
     for (const auto& f : s.figures) wanted.push_back(std::min(points_per_figure, point_count(d, f)));
   const auto shares = share_budget(wanted, points_per_page);
   std::vector<std::vector<std::size_t>> result;
   auto next = shares.begin();
-  for (const auto& s : d.sections) {
-    const auto count = static_cast<std::ptrdiff_t>(s.figures.size());
+  const auto take = [&](std::size_t figures) {
+    const auto count = static_cast<std::ptrdiff_t>(figures);
     result.emplace_back(next, next + count);
     next += count;
-  }
+  };
+  take(d.answer.size());
+  for (const auto& s : d.sections) take(s.figures.size());
   return result;
 }
 
@@ -305,8 +278,9 @@ std::vector<std::vector<std::size_t>> page_budget(const Document& d) {
 
 std::string report_html(const Document& d) {
   const auto budget = page_budget(d);
-  std::string out = head_html(d) + "<body>\n<div class=\"page\">\n" + summary_html(d) + contents_html(d) + "<main>\n";
-  for (std::size_t i = 0; i < d.sections.size(); ++i) out += section_html(d, d.sections[i], i + 1, budget[i]);
+  std::string out =
+      head_html(d) + "<body>\n<div class=\"page\">\n" + summary_html(d, budget[0]) + contents_html(d) + "<main>\n";
+  for (std::size_t i = 0; i < d.sections.size(); ++i) out += section_html(d, d.sections[i], i + 1, budget[i + 1]);
   out += fmt::format(
       "</main>\n<footer>Written by hysteron {}. The same for programs: <a "
       "href=\"result.json\">result.json</a>{}.</footer>\n</div>\n",

@@ -164,27 +164,28 @@ CsvTable recording_table(const Beside& view, int recording, const std::string& f
   return table;
 }
 
+std::vector<Figure> time_figures(const Beside& view, const CsvTable& table, int output) {
+  const std::string name = view.model->outputs()[at(output)];
+  if (table.find(name + "_measured") == nullptr) return {};
+  const bool after = view.before != nullptr;
+  const Unit unit = output_unit(*view.model, output);
+  Figure both = figure_of(name + ": measured and simulated", "t [s]", axis_text(name, unit));
+  both.curves.push_back(trace_curve(table, "t", name + "_measured", "measured", "line", "measured"));
+  if (after)
+    both.curves.push_back(trace_curve(table, "t", name + "_simulated_before", "simulated before", "line", "before"));
+  both.curves.push_back(trace_curve(table, "t", name + "_simulated", after ? "simulated after" : "simulated", "line",
+                                    after ? "after" : "simulated"));
+  Figure left = figure_of(name + ": residual (measured minus simulated)", "t [s]",
+                          axis_text("residual", unit_of_differences(unit)));
+  if (after) left.curves.push_back(trace_curve(table, "t", name + "_residual_before", "before", "line", "before"));
+  left.curves.push_back(
+      trace_curve(table, "t", name + "_residual", after ? "after" : "residual", "line", after ? "after" : "residual"));
+  return {std::move(both), std::move(left)};
+}
+
 void add_time_figures(Section& section, const Beside& view, const CsvTable& table) {
-  for (int y = 0; y < static_cast<int>(view.model->outputs().size()); ++y) {
-    const std::string name = view.model->outputs()[at(y)];
-    if (table.find(name + "_measured") == nullptr) continue;
-    const Unit unit = output_unit(*view.model, y);
-    Figure both = figure_of(name + ": measured and simulated", "t [s]", axis_text(name, unit));
-    both.curves.push_back(trace_curve(table, "t", name + "_measured", "measured", "line", "measured"));
-    if (view.before != nullptr)
-      both.curves.push_back(trace_curve(table, "t", name + "_simulated_before", "simulated before", "line", "before"));
-    both.curves.push_back(trace_curve(table, "t", name + "_simulated",
-                                      view.before != nullptr ? "simulated after" : "simulated", "line",
-                                      view.before != nullptr ? "after" : "simulated"));
-    Figure left = figure_of(name + ": residual (measured minus simulated)", "t [s]",
-                            axis_text("residual", unit_of_differences(unit)));
-    if (view.before != nullptr)
-      left.curves.push_back(trace_curve(table, "t", name + "_residual_before", "before", "line", "before"));
-    left.curves.push_back(trace_curve(table, "t", name + "_residual", view.before != nullptr ? "after" : "residual",
-                                      "line", view.before != nullptr ? "after" : "residual"));
-    section.figures.push_back(std::move(both));
-    section.figures.push_back(std::move(left));
-  }
+  for (int y = 0; y < static_cast<int>(view.model->outputs().size()); ++y)
+    for (auto& figure : time_figures(view, table, y)) section.figures.push_back(std::move(figure));
 }
 
 void add_residual_figures(Section& section, const Beside& view, const std::vector<int>& recordings) {

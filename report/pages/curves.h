@@ -38,7 +38,10 @@ Unit unit_of_differences(const Unit& unit);
 Curve trace_curve(const CsvTable& table, const std::string& x, const std::string& y, const std::string& name,
                   const std::string& style, const std::string& role);
 
-/// Measured and simulated, and the residual, over time; the figures share their time axis.
+/// Measured and simulated, and the residual, over time; the figures share their time axis. None where the output was
+/// not measured.
+std::vector<Figure> time_figures(const Beside& view, const CsvTable& table, int output);
+/// Those of all outputs.
 void add_time_figures(Section& section, const Beside& view, const CsvTable& table);
 
 /// The residual against level and rate of the main input, rising, falling and holding branch apart, over all

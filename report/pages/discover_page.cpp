@@ -13,6 +13,7 @@
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_fall.h"
 #include "report/pages/discover_structure.h"
+#include "report/pages/loops.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -245,10 +246,29 @@ std::vector<Section> recording_sections(Document& document, const Seen& seen) {
     Section section;
     section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
     add_time_figures(section, view, document.traces.back());
+    add_loop_figures(section, view, document.traces.back());
     mark_structure(section, seen.found, model.recording(r).name, document.traces.back());
     sections.push_back(std::move(section));
   }
   return sections;
+}
+
+/// Before and after on the recording, not used for the fit, on which the user's diagram was worst, and how the error of
+/// that output fell; where nothing was found, measured and simulated alone.
+std::vector<Figure> answer_of(const Document& document, const Seen& seen) {
+  Beside view = seen.stages.beside();
+  if (seen.found.steps.empty()) view = {view.model, view.now, nullptr, {}};
+  auto figures = how_far_figures(view, judged_recordings(seen.stages.model()), document.traces);
+  auto falls = waterfalls(seen.found, seen.stages.model(), seen.floors);
+  if (figures.empty() || falls.empty()) return figures;
+  const std::string output = figures.front().title.substr(0, figures.front().title.find(':'));
+  auto fall =
+      std::find_if(falls.begin(), falls.end(), [&](const Figure& f) { return f.title.starts_with(output + ":"); });
+  if (fall == falls.end()) fall = falls.begin();
+  fall->title = output + ": error on unseen recordings";
+  if (figures.size() > 2) figures.resize(2);  // over time
+  figures.push_back(std::move(*fall));
+  return figures;
 }
 
 /// Every step's diagram, and the last one as final.json, as seen from the folder of results.
@@ -302,12 +322,13 @@ Document discovery_document(const std::string& verb, const Discovery& found, con
                             failed.begin(), failed.end());
 
   const auto recordings = recording_sections(document, seen);
-  document.sections.push_back(data_section(found, inspected));
+  document.answer = answer_of(document, seen);
   document.sections.push_back(steps_section(document, seen));
   if (found.structure) document.sections.push_back(structure_section(document, found, stages.model(), stages.unseen()));
   document.sections.push_back(change_section(document, seen));
   document.sections.push_back(parameters_section(seen));
   document.sections.push_back(next_section(found));
+  document.sections.push_back(data_section(found, inspected));
   document.sections.push_back(errors_section(seen));
   document.sections.push_back(
       residual_section(seen, "Residual before: where the base model fails", stages.before_unseen()));

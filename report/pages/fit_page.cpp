@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "report/pages/curves.h"
+#include "report/pages/loops.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -315,8 +316,10 @@ void add_sections(Document& document, const DataModel& model, const Fitted& fitt
     section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
     document.traces.push_back(recording_table(view, r, trace_file(model.recording(r).name, document.traces)));
     add_time_figures(section, view, document.traces.back());
+    add_loop_figures(section, view, document.traces.back());
     document.sections.push_back(std::move(section));
   }
+  document.answer = how_far_figures(view, judged_recordings(model), document.traces);
   Section change;
   change.title = "The diagram's change";
   change.preformatted = diff;

@@ -153,5 +153,22 @@ TEST_F(Browser, HidesACurveByItsLegend) {
   for (const char* key : {"both", "one", "again"}) EXPECT_EQ(noted(dom, key), "true") << key;
 }
 
+TEST_F(Browser, SavesTheNumbersOfAFigureByAClickAndByAKey) {
+  const std::string dom = dom_of(driven(R"(
+    const texts = [];
+    URL.createObjectURL = (blob) => { texts.push(blob); return 'blob:none'; };
+    HTMLAnchorElement.prototype.click = () => {};
+    figures[5].querySelector('button.csv').click();
+    figures[3].querySelector('.picture').dispatchEvent(new KeyboardEvent('keydown', {key: 'c', bubbles: true, cancelable: true}));
+    Promise.all(texts.map((blob) => blob.text())).then(([steps, rate]) => {
+      note('steps', steps.replaceAll('\n', '|').replaceAll('"', ''));
+      note('rate', rate.replaceAll('\n', '|').replaceAll('"', ''));
+    });
+  )"));
+  // Curves of one figure share their x; a gap is an empty cell.
+  EXPECT_EQ(noted(dom, "steps"), "time [s],heater 1 [W],heater 2 [W]|0,0,0.000001|1,0.000001,0|2,,0|3,0.000002,0|");
+  EXPECT_EQ(noted(dom, "rate"), "rate of u [V/s],mean [um]|-90,-0.3|-30,-0.2|30,0.2|90,0.3|");
+}
+
 }  // namespace
 }  // namespace hysteron

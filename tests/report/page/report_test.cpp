@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -45,6 +46,112 @@ TEST(Report, GivesTheAnswerFirst) {
   EXPECT_LT(headline, verdict);
   EXPECT_LT(verdict, warning);
   EXPECT_LT(warning, section);
+}
+
+/// A document whose answer is a curve over time, and a loop coloured by time.
+Document with_answer() {
+  Document d;
+  d.verb = "compare";
+  d.headline = "The model is off by 1 um.";
+  d.sentences = {"Most of it at the end."};
+  Curve over_time{"measured", "line", "measured", "", "", "", {}, {}}, loop = over_time;
+  for (int i = 0; i < 1000; ++i) {
+    over_time.x.push_back(i);
+    over_time.y.push_back(std::sin(0.01 * i));
+    loop.x.push_back(std::cos(0.01 * i));
+    loop.y.push_back(std::sin(0.01 * i));
+  }
+  loop.colour = "time";
+  d.answer = {{"y over time", "t [s]", "y [um]", "curves", {over_time}, {}, ""},
+              {"y over u", "u [V]", "y [um]", "curves", {loop}, {}, ""}};
+  return d;
+}
+
+TEST(Report, ShowsTheAnswerBetweenItsSentenceAndAllOthers) {
+  const std::string page = report_html(with_answer());
+  const auto headline = page.find("The model is off"), figure = page.find("<h3>y over time</h3>"),
+             loop = page.find("<h3>y over u</h3>"), sentence = page.find("Most of it at the end.");
+  ASSERT_NE(loop, std::string::npos);
+  EXPECT_LT(headline, figure);
+  EXPECT_LT(figure, loop);
+  EXPECT_LT(loop, sentence);
+}
+
+TEST(Report, FitsItsAnswerOnAScreen) {
+  // Two figures beside each other, each no higher than what a screen of 800 pixels leaves below the headline.
+  for (const auto& figure : data_of(report_html(with_answer()))) EXPECT_LE(figure["height"].get<double>(), 600);
+}
+
+TEST(Report, LeadsFromTheFirstScreenToItsWarnings) {
+  Document d = with_answer();
+  d.warnings = {"Little time.", "Little data."};
+  const std::string page = report_html(d);
+  EXPECT_LT(page.find("href=\"#warnings\">2 warnings"), page.find("<h3>y over time</h3>"));
+  EXPECT_TRUE(has(page, "id=\"warnings\""));
+}
+
+TEST(Report, ColoursALoopByTimeFromTheFirstShadeToTheLast) {
+  const std::string page = report_html(with_answer());
+  std::size_t last = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto at = page.find("<path class=\"curve line c-t" + std::to_string(i) + "\"");
+    ASSERT_NE(at, std::string::npos) << i;
+    if (i != 4) {  // the legend shows shade 4 before the picture
+      EXPECT_GT(at, last);
+      last = at;
+    }
+    EXPECT_EQ(count(page, "--t" + std::to_string(i) + ": #"), 3U) << "on a screen, in the dark, on paper";
+  }
+  const auto data = data_of(page);
+  EXPECT_EQ(data.at(1)["curves"][0]["shade"].front(), 0);
+  EXPECT_EQ(data.at(1)["curves"][0]["shade"].back(), 1);
+  EXPECT_FALSE(data.at(0)["curves"][0].contains("shade"));
+}
+
+TEST(Report, DrawsAPartOfALongCurveFromAllItsPoints) {
+  Document d;
+  d.sections.resize(1);
+  Curve curve{"y", "line", "", "", "", "", {}, {}};
+  for (int i = 0; i < 500000; ++i) {
+    curve.x.push_back(i);
+    curve.y.push_back(i % 7);
+  }
+  Figure figure{"y", "t [s]", "y", "curves", {curve}, {}, ""};
+  figure.x_range = {1000, 1200};
+  d.sections[0].figures = {figure};
+  EXPECT_EQ(data_of(report_html(d)).at(0)["curves"][0]["x"].size(), 203U);  // 201 and a neighbour on each side
+}
+
+TEST(Report, SaysWhatTheLengthOfABarMeansAndGivesItsNumbers) {
+  Document d;
+  d.sections.resize(1);
+  d.sections[0].figures = {
+      {"By branch", "share of the squared error [%]", "", "bars", {}, {{"falling", 78, "", ""}}, ""}};
+  const std::string page = report_html(d);
+  EXPECT_TRUE(has(page, "<span>0</span><span>78</span></div><div>share of the squared error [%]</div>"));
+  EXPECT_TRUE(has(page, "download=\"By-branch.csv\" href=\"data:text/csv;charset=utf-8,"));
+  EXPECT_TRUE(has(page, "%22falling%22%2c78%0a") || has(page, "%22falling%22%2C78%0A"));
+}
+
+TEST(Report, NamesEveryStepOfANarrowWaterfallInFull) {
+  Document d;
+  Figure fall{"y: error", "", "RMS [um]", "waterfall", {}, {}, ""};
+  for (const char* step : {"as given", "own parameters fitted", "+ friction", "+ saturation", "+ sensor_nonlinearity"})
+    fall.bars.push_back({step, 10.0 / static_cast<double>(fall.bars.size() + 1), "0.0005432 um (3.2 %)", ""});
+  fall.bars.push_back({"repeatability", 0.5, "0.5 um", "floor"});
+  Curve curve{"measured", "line", "measured", "", "", "", {0, 1}, {0, 1}};
+  d.answer = {{"y", "t [s]", "y [um]", "curves", {curve}, {}, ""}, fall};
+  const std::string page = report_html(d);
+  for (const auto& bar : fall.bars) EXPECT_TRUE(has(page, ">" + bar.label)) << bar.label;
+  EXPECT_EQ(count(page, ">0.0005432 um (3.2 %)</text>"), 5U);
+  EXPECT_TRUE(has(page, ">repeatability 0.5 um</text>"));
+}
+
+TEST(Report, DoesNotSayTheTitleTwice) {
+  Document d;
+  d.title = "Stage";
+  d.headline = "Stage: simulated 1 s";
+  EXPECT_TRUE(has(report_html(d), "<h1>Simulated 1\u00a0s</h1>"));
 }
 
 TEST(Report, ShowsEveryFigureWithoutJavaScript) {
