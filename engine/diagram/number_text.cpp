@@ -11,6 +11,13 @@ namespace hysteron {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_of_a_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_'; }
+
+/// "nand" and "inflate" begin like numbers that are words, and are others.
+bool is_another_word(std::string_view text, std::size_t length) {
+  return length < text.size() && is_of_a_word(text[length]) &&
+         text.substr(0, length).find_first_of("0123456789") == std::string_view::npos;
+}
 
 /// Of a decimal number beyond what a double holds: whether it is too large (else too small). Its first digit that is
 /// not zero stands `place` digits before (after: negative) the point, and the exponent moves that.
@@ -37,6 +44,7 @@ std::size_t read_number(std::string_view text, double& value) {
   const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (status == std::errc::invalid_argument) return 0;
   const auto length = static_cast<std::size_t>(end - number.data());
+  if (is_another_word(number, length)) return 0;
   if (status == std::errc::result_out_of_range) {
     const bool large = is_too_large(number.substr(0, length));
     value = std::copysign(large ? std::numeric_limits<double>::infinity() : 0.0, number.front() == '-' ? -1.0 : 1.0);

@@ -10,7 +10,8 @@ namespace hysteron {
 
 /// Reads the number that `text` begins with and returns how many characters it takes; 0 if there is none. One "+" may
 /// stand before it. What is beyond the largest double is infinite, what is below the smallest one is zero, both with
-/// their sign; subnormal numbers are numbers. "inf" and "nan" are read, too: whoever asks says whether they will do.
+/// their sign; subnormal numbers are numbers. "inf" and "nan" are read, too, where the word ends there: whoever asks
+/// says whether they will do.
 std::size_t read_number(std::string_view text, double& value);
 
 /// The number that the whole text is, read as above; nothing where it is none.

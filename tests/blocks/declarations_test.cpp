@@ -4,7 +4,9 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <variant>
 
+#include "engine/diagram/diagram.h"
 #include "engine/diagram/units.h"
 #include "tests/blocks/samples.h"
 
@@ -98,6 +100,12 @@ TEST_P(EveryBlock, NamesListsOfEqualLengthThatExist) {
     if (!p.same_length_as.empty()) {
       EXPECT_GE(d().parameter_index(p.same_length_as), 0);
     }
+}
+
+TEST_P(EveryBlock, HasChoicesThatAFileReadsAsWords) {
+  for (const auto& p : d().parameters)
+    for (const auto& choice : p.choices)
+      EXPECT_TRUE(std::holds_alternative<std::string>(Value(choice).content)) << p.name << ": " << choice;
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, EveryBlock, testing::ValuesIn(bench::registry().types()),

@@ -21,6 +21,16 @@ TEST(NumberText, IsReadToTheLastBitAndSaysHowFar) {
     EXPECT_EQ(read_number(none, value), 0U);
 }
 
+TEST(NumberText, WordsThatBeginLikeOneAreNone) {
+  double value = 0;
+  for (const char* word : {"nand", "nano", "inflate", "infinit", "-info", "inf_2", "nan0"})
+    EXPECT_EQ(read_number(word, value), 0U) << word;
+  EXPECT_EQ(read_number("-inf V", value), 4U);
+  EXPECT_EQ(read_number("infinity", value), 8U);
+  EXPECT_EQ(read_number("nan", value), 3U);
+  EXPECT_EQ(read_number("inf*u", value), 3U);
+}
+
 TEST(NumberText, SubnormalNumbersAreNumbers) {
   // What std::stod throws for: every power of two below the normal ones reads back as itself.
   for (int exponent = -1074; exponent < -1020; ++exponent) {
