@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/reference/elements.h"
 #include "tests/reference/law.h"
 
 namespace reference {
@@ -146,56 +147,57 @@ class StoppedBody : public Body {
   int mode = 0;  ///< free, or at the stop of this side
 };
 
-/// Elements beside the spring that stick and slip: dz/dt = v - |v| z/(slip g(v)).
+/// Elements beside the spring that stick and slip.
 class PreslidingBody : public StiffeningBody {
  public:
-  PreslidingBody(const Block& b, bool yielding_)
-      : StiffeningBody(b),
-        contact(b.list("contact_stiffness")),
-        slip(b.list("slip_distance")),
-        excess(b.number("excess", 0)),
-        stribeck(b.number("stribeck_velocity", 1)),
-        contact_time(b.number("contact_time", 0)),
-        yielding(yielding_) {}
-  int states() const override { return 2 + static_cast<int>(contact.size()); }
+  PreslidingBody(const Block& b, bool yield) : StiffeningBody(b), elements(b, yield) {}
+  int states() const override { return 2 + elements.count(); }
   void rates(const Point& p, double* dx) const override {
-    for (std::size_t i = 0; i < contact.size(); ++i) dx[x + 2 + i] = rate(p, i);
+    const double v = p.x[x + 1];
+    for (int i = 0; i < elements.count(); ++i) dx[x + 2 + i] = elements.rate(v, p.x[x + 2 + i], i);
     Body::rates(p, dx);
   }
   long branch(const Point& p) const override { return p.x[x + 1] < 0; }
   double fastest() const override {
-    double total = stiffness;
-    for (const double c : contact) total += c;
-    return 1 / std::max(std::sqrt(total / mass), damping / mass);
+    return 1 / std::max(std::sqrt((stiffness + elements.stiffness()) / mass), damping / mass);
   }
 
  protected:
   double held_back(const Point& p) const override {
-    double force = StiffeningBody::held_back(p);
-    for (std::size_t i = 0; i < contact.size(); ++i) force += contact[i] * (p.x[x + 2 + i] + contact_time * rate(p, i));
-    return force;
+    return StiffeningBody::held_back(p) + elements.hold(p.x[x + 1], p.x + x + 2);
   }
 
  private:
-  double rate(const Point& p, std::size_t i) const {
-    const double v = p.x[x + 1], z = p.x[x + 2 + i];
-    const double most = slip[i] * (1 + excess * std::exp(-(v / stribeck) * (v / stribeck)));
-    if (!yielding) return v - std::abs(v) * z / most;
-    return v * z > 0 ? v * (1 - std::pow(z / most, 4)) : v;
+  Elements elements;
+};
+
+/// Magnets draw it to certain angles.
+class CoggingBody : public Body {
+ public:
+  explicit CoggingBody(const Block& b)
+      : Body(b), cosine(b.number("cosine")), sine(b.number("sine")), periods(b.number("periods")) {}
+
+ protected:
+  double held_back(const Point& p) const override {
+    const double phase = periods * p.x[x];
+    return -cosine * std::cos(phase) - sine * std::sin(phase);
   }
-  std::vector<double> contact, slip;
-  double excess, stribeck, contact_time;
-  bool yielding;
+
+ private:
+  double cosine, sine, periods;
 };
 
 }  // namespace
 
 LawPointer make_body(const Block& b) {
   if (b.type == "mass_spring_damper" || b.type == "inertia") return std::make_unique<Body>(b);
-  if (b.type == "mass_on_stiffening_spring" || b.type == "mass_with_drag") return std::make_unique<StiffeningBody>(b);
+  if (b.type == "mass_on_stiffening_spring" || b.type == "mass_with_drag" || b.type == "inertia_with_drag")
+    return std::make_unique<StiffeningBody>(b);
   if (b.type == "mass_with_friction" || b.type == "inertia_with_friction") return std::make_unique<FrictionBody>(b);
   if (b.type == "mass_with_stops") return std::make_unique<StoppedBody>(b);
-  if (b.type == "mass_with_presliding") return std::make_unique<PreslidingBody>(b, false);
+  if (b.type == "mass_with_presliding" || b.type == "inertia_with_presliding")
+    return std::make_unique<PreslidingBody>(b, false);
+  if (b.type == "inertia_with_cogging") return std::make_unique<CoggingBody>(b);
   if (b.type == "mass_on_hysteretic_spring") return std::make_unique<PreslidingBody>(b, true);
   return nullptr;
 }

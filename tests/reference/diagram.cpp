@@ -1,5 +1,6 @@
 #include "tests/reference/diagram.h"
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,7 @@ double one_unit(const std::string& name) {
                                                       {"nm", 1e-9}, {"ohm", 1},   {"H", 1},
                                                       {"N", 1},     {"mN", 1e-3}, {"kN", 1e3},
                                                       {"kg", 1},    {"g", 1e-3},  {"V", 1},
-                                                      {"A", 1}};
+                                                      {"A", 1},     {"C", 1}};
   const auto power = name.find('^');
   const auto at = units.find(name.substr(0, power));
   if (at == units.end()) throw Unknown("unit " + name);
@@ -59,7 +60,7 @@ bool is_number_text(const std::string& text) {
   if (text.starts_with("$")) return true;
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
-  return end != text.c_str();
+  return end != text.c_str() && !(std::isalpha(end[-1]) != 0 && std::isalpha(*end) != 0);  // "nand"
 }
 
 /// t and one column of a CSV file.
@@ -171,7 +172,11 @@ class Reader {
       if (key == "type" || key == "in") continue;
       if (value.is_array()) {
         auto& list = block.numbers[key];
-        for (const auto& one : value) list.push_back(number_of(one, parameters));
+        for (const auto& one : value)
+          if (one.is_array())  // a row of a matrix
+            for (const auto& cell : one) list.push_back(number_of(cell, parameters));
+          else
+            list.push_back(number_of(one, parameters));
       } else if (value.is_string() && (key == "signs" || !is_number_text(value.get<std::string>()))) {
         block.texts[key] = value.get<std::string>();
       } else {
@@ -218,7 +223,8 @@ std::string Block::text(const std::string& key, const std::string& otherwise) co
 }
 
 LawPointer make_law(const Block& block) {
-  for (const auto make : {make_source, make_static, make_hysteresis, make_linear, make_body, make_drive, make_sampled})
+  for (const auto make : {make_source, make_static, make_math, make_logic, make_hysteresis, make_linear, make_integral,
+                          make_body, make_drive, make_machine, make_sampled})
     if (LawPointer law = make(block)) return law;
   throw Unknown("block type " + block.type);
 }

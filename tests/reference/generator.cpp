@@ -57,6 +57,7 @@ Wire Generator::any() {
 }
 
 Wire Generator::grow(const Wire& u) {
+  if (draws_machines && random.chance(0.6)) return grow_machine(u);
   if (draws_drives && random.chance(0.4)) return grow_drive(u);
   static const std::vector<Maker> makers = {&Generator::gain,         &Generator::sum,
                                             &Generator::sum,          &Generator::product,

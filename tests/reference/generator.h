@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,10 @@ struct Wire {
 class Generator {
  public:
   explicit Generator(std::uint64_t seed)
-      : random(seed), draws_drives(seed >= first_seed_with_drives), blocks(Json::object()) {}
+      : random(seed),
+        draws_drives(seed >= first_seed_with_drives),
+        draws_machines(seed >= first_seed_with_machines),
+        blocks(Json::object()) {}
   RandomDiagram make();
 
  private:
@@ -99,6 +103,34 @@ class Generator {
   Wire inertia(const Wire& u);
   Wire motor(const Wire& u);
   Wire geared(const Wire& u);
+  // --- machines, logic
+  /// A signal in a unit, from one without, and a number of it again.
+  Wire in_unit(const Wire& u, double most, const std::string& unit);
+  Wire told(const Wire& w, double size, const std::string& per_unit);
+  /// A block in units of its own, of which the one output is read.
+  Wire machine(const Json& block, const std::vector<Wire>& in, double size, const std::string& port);
+  Wire grow_machine(const Wire& u);
+  Wire function(const Wire& u);
+  Wire plain(const Wire& u);
+  Wire trigonometry(const Wire& u);
+  Wire condition(const Wire& u);
+  Wire triggered(const Wire& u);
+  /// Hysteresis by a state machine, which stays in one state for a while.
+  Wire two_states(const Wire& u);
+  /// Integrals that begin anew at a condition, and that stop at limits.
+  Wire begun_anew(const Wire& u, const Wire& when);
+  Wire stopped(const Wire& u);
+  Wire linear(const Wire& u);
+  Wire coil(const Wire& u);
+  Wire bridge(const Wire& u);
+  Wire phases(const Wire& u);
+  Wire battery(const Wire& u);
+  Wire propeller(const Wire& u);
+  Wire arm(const Wire& u);
+  Wire rotor(const Wire& u);
+  Wire moved(const Wire& u);
+  Wire counted(const Wire& u);
+  Wire tracking(const Wire& u);
   // --- loops
   /// reference - k measured -> one or two blocks -> what makes it a loop with memory of the past -> measured.
   void loop();
@@ -114,10 +146,11 @@ class Generator {
   RandomDiagram written();
 
   Random random;
-  bool draws_drives;
+  bool draws_drives, draws_machines;
   Json blocks, parameters = Json::object();
   std::vector<Wire> wires{};
   std::map<std::string, std::string> files{};
+  std::set<std::string> dimensioned{};  ///< blocks whose ports have units, or names: they stay where they are
   int named = 0;
 };
 

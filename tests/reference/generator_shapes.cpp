@@ -38,7 +38,8 @@ void Generator::name_a_parameter() {
 void Generator::nest_something() {
   if (!random.chance(0.25)) return;
   const std::string name = block_of_one_wire();
-  if (name.empty() || blocks[name]["type"].get<std::string>().starts_with("mass")) return;
+  if (name.empty() || dimensioned.contains(name)) return;
+  if (blocks[name]["type"].get<std::string>().starts_with("mass")) return;
   if (blocks[name]["type"].get<std::string>().starts_with("inertia")) return;
   Json inner = blocks[name];
   for (const auto& [key, value] : inner.items())

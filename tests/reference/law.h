@@ -89,6 +89,7 @@ struct PidGains {
   double filter = 1, tracking = 0;  ///< [s]  tracking 0: there is no integral
 };
 PidGains pid_gains(const Block& block);
+std::vector<std::string> pid_inputs(bool tracks);
 
 /// The law of a block. Throws Unknown.
 LawPointer make_law(const Block& block);
@@ -96,10 +97,14 @@ LawPointer make_law(const Block& block);
 // One per file of laws; null where the type is not among them.
 LawPointer make_source(const Block& block);
 LawPointer make_static(const Block& block);
+LawPointer make_math(const Block& block);
+LawPointer make_logic(const Block& block);
 LawPointer make_hysteresis(const Block& block);
 LawPointer make_linear(const Block& block);
+LawPointer make_integral(const Block& block);
 LawPointer make_body(const Block& block);
 LawPointer make_drive(const Block& block);
+LawPointer make_machine(const Block& block);
 LawPointer make_sampled(const Block& block);
 
 }  // namespace reference

@@ -179,6 +179,19 @@ LawPointer section(const Block& b) {
   return std::make_unique<TransferFunction>(b.number("gain", 1), num, std::vector<double>{1, 2 * z * w, w * w});
 }
 
+/// Real roots, and pairs [real part, imaginary part].
+std::vector<double> of_roots(const Block& b, const char* real, const char* pairs) {
+  std::vector<double> all{1};
+  if (b.numbers.contains(real))
+    for (const double r : b.list(real)) all = times(all, {1, -r});
+  if (b.numbers.contains(pairs))
+    for (std::size_t i = 0; i + 1 < b.list(pairs).size(); i += 2) {
+      const double re = b.list(pairs)[i], im = b.list(pairs)[i + 1];
+      all = times(all, {1, -2 * re, re * re + im * im});
+    }
+  return all;
+}
+
 class RateLimiter : public Law {
  public:
   RateLimiter(const Block& b, double rise_, double fall_, double time_)
@@ -205,7 +218,7 @@ LawPointer slew_limit(const Block& b) {
 /// Keeps what its input was, piece by piece between instants, and reads it with cubics that stay within a piece.
 class DeadTime : public Law {
  public:
-  explicit DeadTime(const Block& b) : delay(b.number("delay")) {}
+  explicit DeadTime(double delay_) : delay(delay_) {}
   bool direct() const override { return delay == 0; }
   bool is_late() const override { return delay > 0; }
   void rest_at(double rest) override { before = rest; }
@@ -270,6 +283,53 @@ class DeadTime : public Law {
   int coming = 0;
 };
 
+/// Half of it at once, half of it half a period later, so that a mode does not answer.
+class InputShaper : public DeadTime {
+ public:
+  explicit InputShaper(const Block& b) : InputShaper(b.number("frequency"), std::sqrt(1 - squared(b)), b) {}
+  bool direct() const override { return true; }
+  int smooths() const override { return 0; }
+  void output(const Point& p, double* y) const override {
+    double late = 0;
+    DeadTime::output(p, &late);
+    *y = (u(p) + later * late) / (1 + later);
+  }
+
+ private:
+  InputShaper(double frequency, double root, const Block& b)
+      : DeadTime(1 / (2 * frequency * root)), later(std::exp(-pi * b.number("damping", 0) / root)) {}
+  static double squared(const Block& b) { return b.number("damping", 0) * b.number("damping", 0); }
+  double later;
+};
+
+/// One input and one output; the matrices row by row.
+class StateSpace : public Law {
+ public:
+  explicit StateSpace(const Block& b)
+      : a(b.list("a")), b_(b.list("b")), c(b.list("c")), d(b.numbers.contains("d") ? b.number("d") : 0) {}
+  int states() const override { return static_cast<int>(b_.size()); }
+  bool direct() const override { return d != 0; }
+  void output(const Point& p, double* y) const override {
+    *y = d == 0 ? 0 : d * u(p);
+    for (int i = 0; i < states(); ++i) *y += c[i] * p.x[x + i];
+  }
+  void rates(const Point& p, double* dx) const override {
+    for (int i = 0; i < states(); ++i) {
+      dx[x + i] = b_[i] * u(p);
+      for (int j = 0; j < states(); ++j) dx[x + i] += a[i * states() + j] * p.x[x + j];
+    }
+  }
+  double fastest() const override {
+    double most = 1e-9;
+    for (const double cell : a) most = std::max(most, std::abs(cell));
+    return 1 / most;
+  }
+
+ private:
+  std::vector<double> a, b_, c;
+  double d;
+};
+
 }  // namespace
 
 LawPointer make_linear(const Block& b) {
@@ -281,10 +341,15 @@ LawPointer make_linear(const Block& b) {
   if (b.type == "creep") return std::make_unique<Creep>(b);
   if (b.type == "transfer_function") return std::make_unique<TransferFunction>(b);
   if (b.type == "lead_lag" || b.type == "biquads" || b.type == "notch" || b.type == "second_order") return section(b);
+  if (b.type == "zero_pole_gain")
+    return std::make_unique<TransferFunction>(b.number("gain", 1), of_roots(b, "zeros", "zero_pairs"),
+                                              of_roots(b, "poles", "pole_pairs"));
   if (b.type == "rate_limiter")
     return std::make_unique<RateLimiter>(b, b.number("rise"), b.number("fall"), b.number("time", 1e-5));
   if (b.type == "slew_limit") return slew_limit(b);
-  if (b.type == "dead_time") return std::make_unique<DeadTime>(b);
+  if (b.type == "dead_time") return std::make_unique<DeadTime>(b.number("delay"));
+  if (b.type == "input_shaper") return std::make_unique<InputShaper>(b);
+  if (b.type == "state_space") return std::make_unique<StateSpace>(b);
   return nullptr;
 }
 

@@ -25,6 +25,8 @@ struct RandomDiagram {
 /// From this seed on parts of drives are drawn besides: controllers, inertias, motors, gears. What smaller seeds give
 /// stays what it was.
 constexpr std::uint64_t first_seed_with_drives = 1'000'000;
+/// And from this one on machines in their units, what is true or false, what that triggers, functions by name.
+constexpr std::uint64_t first_seed_with_machines = 2'000'000;
 
 RandomDiagram random_diagram(std::uint64_t seed, const Variant& variant = {});
 

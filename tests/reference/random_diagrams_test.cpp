@@ -23,7 +23,10 @@ namespace fs = std::filesystem;
 ///   1000088  a standard PID on a staircase: 11 tolerances, 1.1 at a tenth of the tolerance. As above, 14 times.
 ///   1000108  a gear that rattles in its gap: 11 tolerances, 0.7 at a hundredth of the tolerance. Each blow makes more
 ///            of what was before: at the end a millionth of the amplitude of the source is seven tolerances.
-const std::set<std::uint64_t> not_yet = {152, 1000061, 1000088, 1000108};
+///   2000039, 2000117, 2000180  a limited integral of a sine, a coil and a propeller behind the counts of an encoder:
+///   16,
+///            17 and 22 tolerances, 2, 4 and 1.3 at a tenth of the tolerance. What each step may err adds up.
+const std::set<std::uint64_t> not_yet = {152, 1000061, 1000088, 1000108, 2000039, 2000117, 2000180};
 
 std::string written(std::uint64_t seed, const fs::path& folder) {
   const RandomDiagram diagram = random_diagram(seed);
@@ -53,6 +56,10 @@ void try_seeds(std::uint64_t first, std::uint64_t last) {
 TEST(RandomDiagrams, AgreeWithTheReference) { try_seeds(1, 200); }
 
 TEST(RandomDiagrams, OfDrivesAgreeWithTheReference) { try_seeds(first_seed_with_drives, first_seed_with_drives + 199); }
+
+TEST(RandomDiagrams, OfMachinesAndLogicAgreeWithTheReference) {
+  try_seeds(first_seed_with_machines, first_seed_with_machines + 199);
+}
 
 /// Three in two hundred were wrong when this was written (seeds 1-200, 1001-1600, 2001-2600), most of them by 10 to 30
 /// tolerances: more of them are a new fault. Their seeds are printed, for people.

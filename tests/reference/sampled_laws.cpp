@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/reference/law.h"
+#include "tests/reference/stepwise.h"
 
 namespace reference {
 namespace {
@@ -119,6 +119,56 @@ class DiscreteTransferFunction : public Sampled {
   std::vector<double> num, den, last_u{}, last_y{};
 };
 
+/// One input and one output; the matrices row by row.
+class DiscreteStateSpace : public Sampled {
+ public:
+  explicit DiscreteStateSpace(const Block& b)
+      : Sampled(b),
+        a(b.list("a")),
+        b_(b.list("b")),
+        c(b.list("c")),
+        d(b.numbers.contains("d") ? b.number("d") : 0),
+        z(b_.size(), 0.0) {}
+  bool direct() const override { return d != 0; }
+
+ protected:
+  double computed(const Point& p) const override {
+    double y = d == 0 ? 0 : d * u(p);
+    for (std::size_t i = 0; i < z.size(); ++i) y += c[i] * z[i];
+    return y;
+  }
+  void run(const Point& p) override {
+    held = computed(p);
+    std::vector<double> next(z.size());
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      next[i] = b_[i] * u(p);
+      for (std::size_t j = 0; j < z.size(); ++j) next[i] += a[i * z.size() + j] * z[j];
+    }
+    z = next;
+  }
+
+ private:
+  std::vector<double> a, b_, c;
+  double d;
+  std::vector<double> z;
+};
+
+/// 1 for one sample when its input has become true since the last one.
+class Edge : public Sampled {
+ public:
+  explicit Edge(const Block& b) : Sampled(b), edges(b.text("edge", "rising")) {}
+
+ protected:
+  double computed(const Point& p) const override { return edges.at(is_true(u(p))) ? 1 : 0; }
+  void run(const Point& p) override {
+    held = computed(p);
+    edges.take(is_true(u(p)));
+  }
+
+ private:
+  Edges edges;
+};
+
 class SampledPid : public Sampled {
  public:
   explicit SampledPid(const Block& b)
@@ -184,9 +234,10 @@ class DiscretePid : public Sampled {
         tracking(b.number("tracking_time", 0) > 0 ? gains.tracking : std::max(gains.tracking, period)),
         integral(b.number("initial", 0)),
         of_error(b.text("derivative_on", "measured") == "error"),
+        tracks(b.type == "discrete_pid_tracking"),
         rule(b.text("rule", "forward")),
         windup(b.text("anti_windup", "back_calculation")) {}
-  std::vector<std::string> inputs() const override { return {"reference", "measured"}; }
+  std::vector<std::string> inputs() const override { return pid_inputs(tracks); }
 
  protected:
   double computed(const Point& p) const override { return command(p).given; }
@@ -194,7 +245,8 @@ class DiscretePid : public Sampled {
     const Command c = command(p);
     const bool further = (c.wanted - c.given) * c.added > 0;
     if (!(windup == "clamping" && further)) integral += c.added;
-    if (windup == "back_calculation" && gains.ki != 0) integral += period / tracking * (c.given - c.wanted);
+    if (windup == "back_calculation" && gains.ki != 0)
+      integral += period / tracking * ((tracks ? u(p, 2) : c.given) - c.wanted);
     slope = c.slope;
     seen = differentiated(p);
     error = c.error;
@@ -221,7 +273,7 @@ class DiscretePid : public Sampled {
   }
   PidGains gains;
   double weight, lower, upper, step, tracking, integral, slope = 0, seen = 0, error = 0;
-  bool of_error, begun = false;
+  bool of_error, begun = false, tracks;
   std::string rule, windup;
 };
 
@@ -262,8 +314,10 @@ LawPointer make_sampled(const Block& b) {
   if (b.type == "quantizer") return std::make_unique<Quantizer>(b);
   if (b.type == "delay_line") return std::make_unique<DelayLine>(b);
   if (b.type == "discrete_transfer_function") return std::make_unique<DiscreteTransferFunction>(b);
+  if (b.type == "discrete_state_space") return std::make_unique<DiscreteStateSpace>(b);
+  if (b.type == "edge") return std::make_unique<Edge>(b);
   if (b.type == "sampled_pid") return std::make_unique<SampledPid>(b);
-  if (b.type == "discrete_pid") return std::make_unique<DiscretePid>(b);
+  if (b.type == "discrete_pid" || b.type == "discrete_pid_tracking") return std::make_unique<DiscretePid>(b);
   if (b.type == "fir" || b.type == "moving_average" || b.type == "discrete_integrator" || b.type == "digital_filter")
     return difference_equation(b);
   return nullptr;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/reference/law.h"
+#include "tests/reference/stepwise.h"
 
 namespace reference {
 namespace {
@@ -45,6 +45,16 @@ class CrossCoupling : public Law {
 
  private:
   double c;
+};
+
+class ManualSwitch : public Law {
+ public:
+  explicit ManualSwitch(const Block& b) : second(b.text("position", "first") == "second") {}
+  std::vector<std::string> inputs() const override { return {"first", "second"}; }
+  void output(const Point& p, double* y) const override { *y = u(p, second ? 1 : 0); }
+
+ private:
+  bool second;
 };
 
 class Saturation : public Law {
@@ -102,22 +112,14 @@ class Polynomial : public Law {
   double reference, lower, upper, about;
 };
 
-class Rounding : public Law {
+class Rounding : public Stepwise {
  public:
   explicit Rounding(const Block& b) : step(b.number("step")) {}
-  void output(const Point& p, double* y) const override {
-    *y = step == 0 ? u(p) : step * static_cast<double>(p.free ? nearest(p) : level);
-  }
-  long branch(const Point& p) const override { return step == 0 ? 0 : nearest(p); }
-  int roughness() const override { return 0; }
-  void keep(const Point& p) override {
-    if (p.free && step > 0) level = nearest(p);
-  }
+  void output(const Point& p, double* y) const override { *y = step == 0 ? u(p) : step * static_cast<double>(at(p)); }
 
  private:
-  long nearest(const Point& p) const { return std::lround(u(p) / step); }
+  long now(const Point& p) const override { return step == 0 ? 0 : std::lround(u(p) / step); }
   double step;
-  long level = 0;
 };
 
 class Relay : public Law {
@@ -142,30 +144,24 @@ class Relay : public Law {
 };
 
 /// One of two values, or of two signals, by a level. Between instants it stays on its side.
-class Level : public Law {
+class Level : public Stepwise {
  public:
   Level(double level_, double above_, double below_) : level(level_), above(above_), below(below_) {}
-  void output(const Point& p, double* y) const override { *y = is_above(p) ? above : below; }
-  long branch(const Point& p) const override { return control(p) > level; }
-  int roughness() const override { return 0; }
-  void keep(const Point& p) override {
-    if (p.free) side = control(p) > level;
-  }
+  void output(const Point& p, double* y) const override { *y = at(p) > 0 ? above : below; }
 
  protected:
   virtual double control(const Point& p) const { return u(p); }
-  bool is_above(const Point& p) const { return p.free ? control(p) > level : side; }
 
  private:
+  long now(const Point& p) const override { return control(p) > level; }
   double level, above, below;
-  bool side = false;
 };
 
 class Switch : public Level {
  public:
   explicit Switch(const Block& b) : Level(b.number("level", 0), 0, 0) {}
   std::vector<std::string> inputs() const override { return {"above", "control", "below"}; }
-  void output(const Point& p, double* y) const override { *y = is_above(p) ? u(p, 0) : u(p, 2); }
+  void output(const Point& p, double* y) const override { *y = at(p) > 0 ? u(p, 0) : u(p, 2); }
 
  private:
   double control(const Point& p) const override { return u(p, 1); }
@@ -242,6 +238,7 @@ LawPointer make_static(const Block& b) {
   if (b.type == "sum") return std::make_unique<Sum>(b);
   if (b.type == "product") return std::make_unique<Product>();
   if (b.type == "cross_coupling") return std::make_unique<CrossCoupling>(b);
+  if (b.type == "manual_switch") return std::make_unique<ManualSwitch>(b);
   if (b.type == "saturation") return std::make_unique<Saturation>(b);
   if (b.type == "soft_saturation") return std::make_unique<SoftSaturation>(b);
   if (b.type == "rectifier") return std::make_unique<Rectifier>(b);
