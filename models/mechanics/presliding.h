@@ -106,19 +106,22 @@ class YieldingShare {
 };
 
 /// The share behind a way where it was above 1 (the distance grew shorter): the same law, (arcoth + arctan)/2, from the
-/// other side. Newton in the logarithm of what is above 1, in which the way is nearly linear.
+/// other side. Newton in the logarithm of what is above 1: 1 plus what rounding leaves above it has no digits of that.
+/// The way is convex there, and nearly linear near 1: from too far down Newton's steps come back without passing.
 inline double relaxed_share(double share, double way) {
-  const auto way_of = [](double part) { return 0.5 * (std::atanh(1 / part) + std::atan(part)); };
-  const double whole = way_of(share) + way;
-  double above = std::log(share - 1);
+  if (share - 1 < 1e-9) return 1 + (share - 1) * std::exp(-4 * way);  // but for the square of what is above
+  constexpr double nothing = -45;                                     // 1 + exp(nothing) is 1
+  const auto way_of = [](double above) { return 0.25 * std::log1p(2 / above) + 0.5 * std::atan(1 + above); };
+  const double whole = way_of(share - 1) + way;
+  double logarithm = std::log(share - 1);
   for (int i = 0; i < 60; ++i) {
-    const double part = 1 + std::exp(above);
-    if (!(part > 1)) return 1;
-    const double move = (way_of(part) - whole) * (1 + part) * (1 + part * part);
-    above += move;
-    if (!(std::fabs(move) > 1e-12)) break;
+    const double above = std::exp(logarithm), part = 1 + above;
+    const double next = std::fmax(nothing, logarithm + (way_of(above) - whole) * (1 + part) * (1 + part * part));
+    const double moved = std::fabs(next - logarithm);
+    logarithm = next;
+    if (!(moved > 1e-12)) break;
   }
-  return 1 + std::exp(above);
+  return 1 + std::exp(logarithm);
 }
 
 /// An element at some deflection z [m]: where it stands behind a motion by x [m] in one direction.

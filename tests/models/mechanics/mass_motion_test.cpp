@@ -144,7 +144,7 @@ double along(const std::function<double(double, double)>& rate, double z, double
 
 TEST(PreslidingModel, AWayOfAnyLengthIsWhatItsRateSays) {
   const double distance = 0.3;
-  for (const double z : {-0.5, -0.29, -0.1, 0.0, 0.2, 0.2999, 0.3003})
+  for (const double z : {-0.9, -0.5, -0.29, -0.1, 0.0, 0.2, 0.2999, 0.3003})
     for (const double way : {-4.0, -0.25, -0.01, 0.002, 0.3, 1.1, 9.0}) {
       const auto dahl = [&](double at, double v) { return presliding::deflection_rate(distance, at, v); };
       presliding::SlippingElement slipping(distance, z);
@@ -168,6 +168,17 @@ TEST(PreslidingModel, AWayOfAnyLengthIsWhatItsRateSays) {
     still.move(0);
     EXPECT_EQ(still.z(), z);
   }
+}
+
+// ds/dw = 1 - s^4 is -4 (s - 1) near 1, and -s^4 far above it, from which s = (3 w)^(-1/3) in leading order.
+TEST(PreslidingModel, WhatIsAboveItsLargestForceRelaxes) {
+  for (const double above : {1e-15, 1e-12, 1e-8})
+    for (const double way : {1e-4, 0.3, 2.0}) {
+      const double exact = std::fmax(0, above * std::exp(-4 * way));
+      EXPECT_NEAR(presliding::relaxed_share(1 + above, way) - 1, exact, 2.3e-16 + 1e-7 * exact) << above << " " << way;
+    }
+  EXPECT_NEAR(presliding::relaxed_share(1e3, 1e-5), std::pow(3e-5 + 1e-9, -1.0 / 3), 1e-2) << "of 32";
+  EXPECT_EQ(presliding::relaxed_share(11, 50), 1);
 }
 
 TEST(PreslidingModel, TheShareBehindAWayIsTheInverseOfTheWay) {
