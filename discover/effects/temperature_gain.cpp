@@ -11,11 +11,13 @@ namespace hysteron::effects {
 namespace {
 
 constexpr double least_span = 3;         // [K] of a recorded temperature that shows a gain
+constexpr double of_the_air = 0.5;       // [K] a room that is kept at one temperature
 constexpr double most_curvature = 1e-3;  // [1/K^2] 0.1 %/K in every kelvin: more bends the gain than moves it
 constexpr double work_place = 15;        // [K] beyond what was recorded: another season, another laboratory
 
-/// It does not tell its own reference: the gain is then that of a usual room.
-bool one_temperature(const Excitation& at) { return at.from_data && at.side_highest - at.side_lowest < least_span; }
+/// It does not tell its own reference: the gain is then that of a usual room. What it drifts by the thermometer and the
+/// air tell as well.
+bool one_temperature(const Excitation& at) { return at.from_data && at.side_highest - at.side_lowest < of_the_air; }
 
 /// `bent`: the change of the gain per kelvin is another one where it is warmer.
 Law law(const Excitation& at, bool bent) {

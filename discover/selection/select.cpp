@@ -79,7 +79,9 @@ std::vector<Addition> tied(const Books& books, const Selection& selection, const
   const double reach = tie_score_of(selection.score(), winner) - rules::tie;
   for (auto& r : rivals) {
     if (!r.fitted.ok() || r.tried.effect == &effect || tie_score_of(selection.score(), r.fitted) < reach) continue;
-    if (is_the_winner_and_more(books, r.tried, effect)) continue;
+    // What a law says with one number more it does not say by what it could be bent to.
+    const bool has_spare = r.fitted.parameters > winner.parameters + 1;
+    if (has_spare && is_the_winner_and_more(books, r.tried, effect)) continue;
     if (!why_implausible(*r.tried.effect, r.tried.laws[r.tried.law], r.fitted.model, r.tried.excitation).empty())
       continue;
     if (std::any_of(list.begin(), list.end(), [&](const Addition& a) { return a.tried.effect == r.tried.effect; }))

@@ -196,16 +196,21 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   take_up(rivals, std::move(answers));
 }
 
-/// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left.
-void Selection::fit_with_numbers(std::vector<Addition>& rivals) {
+/// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left. Where
+/// others have been fitted so, of the rest only those that explain more than the best of them already.
+void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others) {
   sort(rivals);
+  const bool race = others != nullptr && !others->empty() && others->front().fitted.ok();
+  const auto ahead = [&](const Addition& r) {
+    return !race || score_of(r.fitted) > score_of(others->front().fitted);
+  };
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
     std::vector<FitsOfRival> answers(n);
     books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
       const Addition& rival = rivals[first + i];
-      if (rival.fitted.ok())
+      if (rival.fitted.ok() && (first + i < finalists || ahead(rival)))
         answers[i] = {{first + i, rival.tried.law, refitted(setting_, shop, rival.fitted, numbers, few_renewals)}};
       return false;
     });
@@ -278,7 +283,7 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
         !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < near_noise;
     if (!some.empty() && !only_noise && !books_.stopped()) {
       fit_first_laws(some, step);
-      fit_with_numbers(some);
+      fit_with_numbers(some, slow == 0 ? nullptr : &all);
     }
     all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     sort(all);

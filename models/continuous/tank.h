@@ -21,17 +21,22 @@ struct Params {
   T exponent{1};   ///< of the level, in Outlet::power
 };
 
+/// Flow through the outlet [m^3/s] at a share h/h_r of the reference level: see outflow.
+template <class T>
+T outflow_at(Outlet law, const Params<T>& p, const T& share) {
+  using std::pow;
+  using std::sqrt;
+  if (!(share > T{0})) return T{0};
+  if (law == Outlet::power) return p.outlet * T{pow(share, p.exponent)};
+  return p.outlet * (law == Outlet::linear ? share : T{sqrt(share)});
+}
+
 /// Flow through the outlet [m^3/s] at a level [m]: q_r h/h_r (a long narrow pipe), q_r sqrt(h/h_r) (an orifice) or
 /// q_r (h/h_r)^n (what has of both, n between 1/2 and 1); none at h <= 0.
 /// Source: Torricelli's law; Johansson, IEEE Trans. Control Syst. Technol. 8 (2000) 456-465 (four tanks).
 template <class T>
 T outflow(Outlet law, const Params<T>& p, const T& level) {
-  using std::pow;
-  using std::sqrt;
-  if (!(level > T{0})) return T{0};
-  const T share = level / p.reference;
-  if (law == Outlet::power) return p.outlet * T{pow(share, p.exponent)};
-  return p.outlet * (law == Outlet::linear ? share : T{sqrt(share)});
+  return outflow_at(law, p, T{level / p.reference});
 }
 
 /// Inflow less outflow [m^3/s].
@@ -82,7 +87,10 @@ struct Filled {
   double level = 0, spilled = 0;
 };
 inline Filled after(Outlet law, const Params<double>& p, const Filled& before, double from, double to, double h) {
-  const auto slope = [&](double level, double inflow) { return net(law, p, held_level(p, level), inflow) / p.area; };
+  const double per_area = 1 / p.area, per_reference = 1 / p.reference;  // divisions would be half of the time
+  const auto slope = [&](double level, double inflow) {
+    return (inflow - outflow_at(law, p, held_level(p, level) * per_reference)) * per_area;
+  };
   const double x = before.level, middle = 0.5 * (from + to);
   const double k1 = slope(x, from), k2 = slope(x + 0.5 * h * k1, middle), k3 = slope(x + 0.5 * h * k2, middle),
                k4 = slope(x + h * k3, to);
