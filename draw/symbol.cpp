@@ -23,7 +23,6 @@ const Look* find_look(const std::string& type) {
       {"triangle", {"triangle"}},
       {"step", {"step"}},
       {"staircase", {"staircase"}},
-      {"square", {"square"}},
       {"ramp", {"ramp"}},
       {"pulse", {"square"}},
       {"trapezoid", {"trapezoid"}},
@@ -45,7 +44,6 @@ const Look* find_look(const std::string& type) {
       {"prandtl_ishlinskii_inverse", {"hysteresis_inverse", true}},
       {"bouc_wen", {"hysteresis", true}},
       {"bouc_wen_inverse", {"hysteresis_inverse", true}},
-      {"bouc_wen_compensator", {"hysteresis_inverse", true}},
       {"jiles_atherton", {"hysteresis", true}},
       {"jiles_atherton_inverse", {"hysteresis_inverse", true}},
       {"tapi", {"hysteresis", true}},
@@ -58,19 +56,12 @@ const Look* find_look(const std::string& type) {
       {"polynomial", {"table", true}},
       {"lookup", {"table", true}},
       {"preisach", {"hysteresis", true}},
-      {"duhem", {"hysteresis", true}},
       {"quantizer", {"quantizer"}},
-      {"coulomb_friction", {"friction", true}},
-      {"stribeck_friction", {"friction", true}},
-      {"friction", {"friction", true}},
       {"bearing_friction", {"friction", true}},
-      {"hard_stop", {"hard_stop", true}},
       {"rate_limiter", {"rate_limiter", true}},
       {"calibration", {"calibration"}},
       {"creep", {"step_response", true}},
       {"logarithmic_creep", {"step_response", true}},
-      {"table", {"table"}},
-      {"lookup_table", {"table", true}},
       {"sample_hold", {"sampled", true}},
       {"sampled_bouc_wen_inverse", {"hysteresis_inverse", true}},
       {"sampled_jiles_atherton_inverse", {"hysteresis_inverse", true}},
@@ -101,6 +92,31 @@ const Look* find_look(const std::string& type) {
       {"battery_cell", {"battery", true}},
       {"encoder", {"quantizer", true}},
       {"linear_encoder", {"quantizer", true}},
+      {"soft_saturation", {"saturation", true}},
+      {"wrap", {"sawtooth", true}},
+      {"rectifier", {"rectifier"}},
+      {"rounding", {"quantizer", true}},
+      {"sensor_drift", {"ramp", true}},
+      {"mains_interference", {"sine", true}},
+      {"slew_limit", {"rate_limiter", true}},
+      {"generalized_prandtl_ishlinskii", {"hysteresis", true}},
+      {"late_prandtl_ishlinskii", {"hysteresis", true}},
+      {"sliding_friction", {"friction", true}},
+      {"guide_friction", {"friction", true}},
+      {"mass_with_drag", {"mass", true}},
+      {"mass_with_mode", {"mass", true}},
+      {"mass_with_presliding", {"mass", true}},
+      {"mass_on_hysteretic_spring", {"mass", true}},
+      {"propeller", {"propeller", true}},
+      {"h_bridge", {"bridge", true}},
+      {"h_bridge_with_dead_time", {"bridge", true}},
+      {"synchronous_motor", {"motor", true}},
+      {"stepper_motor", {"motor", true}},
+      {"wheatstone_bridge", {"diamond", true}},
+      {"wheatstone_bridge_inverse", {"diamond", true}},
+      {"comparator", {"comparator", true}},
+      {"switch", {"switch"}},
+      {"manual_switch", {"switch", true}},
   };
   const auto found = all.find(type);
   return found == all.end() ? nullptr : &found->second;
@@ -268,12 +284,39 @@ Symbol chosen(const Values& values, const char* parameter, const std::map<std::s
 }
 
 /// Blocks whose symbol is a letter or two.
-const char* letters_of(const std::string& type) {
-  static const std::map<std::string, const char*> all{
-      {"divide", "÷"}, {"abs", "|u|"},   {"sign", "sgn"}, {"sample_and_hold", "S/H"},
-      {"edge", "↑"},   {"counter", "n"}, {"timer", "t"},  {"state_machine", "○→○"}};
+/// Types that a few letters stand for, and whether the type must be told below them.
+struct Letters {
+  const char* text;
+  bool note = false;
+};
+
+const Letters* find_letters(const std::string& type) {
+  static const std::map<std::string, Letters> all{{"divide", {"÷"}},
+                                                  {"abs", {"|u|"}},
+                                                  {"sign", {"sgn"}},
+                                                  {"sample_and_hold", {"S/H"}},
+                                                  {"edge", {"↑"}},
+                                                  {"counter", {"n"}},
+                                                  {"timer", {"t"}},
+                                                  {"state_machine", {"○→○"}},
+                                                  {"select", {"⋮"}},
+                                                  {"cross_coupling", {"u + c v"}},
+                                                  {"late_cross_coupling", {"u + c v/(Ts + 1)"}},
+                                                  {"temperature_gain", {"k(ϑ) u"}},
+                                                  {"thermal_expansion", {"u + α Δϑ", true}},
+                                                  {"pyro_charge", {"u + p Δϑ", true}},
+                                                  {"ageing", {"k(lg n) u", true}},
+                                                  {"load_dependence", {"u + F/c", true}},
+                                                  {"input_shaper", {"A₁ + A₂e⁻ˢᵀ", true}},
+                                                  {"thermal_network", {"C ϑ̇ = −G ϑ + q", true}},
+                                                  {"moving_average", {"Σ u/n", true}},
+                                                  {"observer", {"x̂", true}},
+                                                  {"kalman_filter", {"x̂", true}},
+                                                  {"disturbance_observer", {"d̂", true}},
+                                                  {"impedance_estimator", {"Z", true}},
+                                                  {"repetitive_controller", {"1/(1 − z⁻ⁿ)", true}}};
   const auto found = all.find(type);
-  return found == all.end() ? nullptr : found->second;
+  return found == all.end() ? nullptr : &found->second;
 }
 
 }  // namespace
@@ -372,8 +415,16 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = chosen(
         values, "is",
         {{"less", "<"}, {"at_most", "≤"}, {"equal", "="}, {"not_equal", "≠"}, {"at_least", "≥"}, {"greater", ">"}});
-  } else if (const char* letters = letters_of(type)) {
-    s = formula(letters);
+  } else if (type == "resonance") {
+    s = fraction("ω²", "s² + 2Dωs + ω²");
+  } else if (type == "modes") {
+    s = fraction("Σ aω²", "s² + 2Dωs + ω²");
+  } else if (const Letters* letters = find_letters(type)) {
+    s = formula(letters->text);
+    if (letters->note) {
+      s.note = type;
+      s.height = 54;
+    }
   } else if (const Look* look = find_look(type)) {
     s = picture(look->picture, look->note ? type : "");
   } else {
