@@ -11,7 +11,9 @@
 #include <set>
 
 #include "engine/diagram/time_text.h"
+#include "fit/inspect/inspected_rows.h"
 #include "fit/inspect/inspection_words.h"
+#include "fit/inspect/row_faults.h"
 #include "fit/model/score.h"
 #include "fit/numerics/median.h"
 #include "fit/signals/branches.h"
@@ -20,47 +22,6 @@
 
 namespace hysteron {
 namespace {
-
-/// Rows [first, last) of a recording of the data set. A single recording that was cut in two is one again here.
-struct Part {
-  int recording = 0;
-  std::size_t first = 0, last = 0;
-  std::string name;
-};
-
-std::vector<Part> parts_of(const DataSet& data) {
-  std::vector<Part> parts;
-  for (std::size_t r = 0; r < data.recordings.size(); ++r) {
-    const Recording& recording = data.recordings[r];
-    if (recording.role == Role::test) continue;
-    if (data.single && !parts.empty())
-      parts.front().last = recording.last;
-    else
-      parts.push_back({static_cast<int>(r), recording.first, recording.last, recording.name});
-  }
-  return parts;
-}
-
-std::span<const double> rows_of(const DataSet& data, const Part& part, const std::string& column) {
-  const auto& columns = data.recordings[static_cast<std::size_t>(part.recording)].columns;
-  const auto found = columns.find(column);
-  if (found == columns.end()) return {};
-  return std::span(found->second).subspan(part.first, part.last - part.first);
-}
-
-std::span<const double> rows_of(const DataModel& model, const Part& part, const std::string& column) {
-  return rows_of(model.data(), part, column);
-}
-
-std::span<const double> times_of(const DataModel& model, const Part& part) {
-  return std::span(model.recording(part.recording).t).subspan(part.first, part.last - part.first);
-}
-
-double range_of(std::span<const double> v) {
-  if (v.empty()) return 0;
-  const auto [low, high] = std::minmax_element(v.begin(), v.end());
-  return *high - *low;
-}
 
 /// By how much a drive must come back to have turned. Where it differs from row to row by a good part of its range,
 /// that is its motion and no noise on it.
@@ -139,14 +100,6 @@ class Inspector {
     return nullptr;
   }
 
-  /// Inputs that move in this part, with their rows.
-  std::vector<std::pair<std::string, std::span<const double>>> drives_of(const Part& part) const {
-    std::vector<std::pair<std::string, std::span<const double>>> drives;
-    for (const auto& name : program().input_names)
-      if (const auto rows = rows_of(model_, part, name); range_of(rows) > 0) drives.emplace_back(name, rows);
-    return drives;
-  }
-
   void recordings() {
     for (const auto& part : parts_) {
       const auto t = times_of(model_, part);
@@ -157,7 +110,7 @@ class Inspector {
       r.duration = t.empty() ? 0 : t.back() - t.front();
       r.clock = clock_of(t);
       const auto seen_times = without_gaps(t, r.clock);
-      for (const auto& [name, u] : drives_of(part)) {
+      for (const auto& [name, u] : drives_of(model_, part)) {
         InspectedDrive d;
         d.input = name;
         d.unit = unit_of(name);
@@ -204,19 +157,6 @@ class Inspector {
 
   // --- rows -----------------------------------------------------------------------------------------------------
 
-  /// Per row: a drive moves there by more than 0.5 % of its range within two rows on each side.
-  std::vector<bool> moving(const Part& part) const {
-    std::vector<bool> rows(part.last - part.first, false);
-    for (const auto& [name, u] : drives_of(part)) {
-      const double least = 0.005 * range_of(u);
-      for (std::size_t i = 0; i < u.size(); ++i) {
-        const std::size_t a = i > 1 ? i - 2 : 0, b = std::min(i + 2, u.size() - 1);
-        rows[i] = rows[i] || range_of(u.subspan(a, b - a + 1)) > least;
-      }
-    }
-    return rows;
-  }
-
   /// Columns of the diagram that stay at one value in all recordings.
   void still() {
     for (const auto& c : seen_.columns) {
@@ -235,14 +175,7 @@ class Inspector {
   void rows() {
     still();
     cut_inputs();
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      clock_faults(seen_.recordings[k]);
-      lost_and_repeated(parts_[k]);
-      for (const auto& output : model_.outputs()) {
-        apart(parts_[k], output);
-        ends(parts_[k], output);
-      }
-    }
+    find_row_faults(model_, parts_, seen_);
     units();
     for (const auto& c : seen_.columns) {
       // With fewer levels the noise is no longer white and the high band shows less than there is.
@@ -254,101 +187,6 @@ class Inspector {
             c.name, std::lround((c.highest - c.lowest) / c.finest) + 1, size_text(c.finest, c.unit),
             size_text(c.finest / std::sqrt(12.0), c.unit)));
     }
-  }
-
-  void clock_faults(const InspectedRecording& r) {
-    const Clock& c = r.clock;
-    if (!c.gaps.empty())
-      seen_.faults.push_back(fmt::format("{}: {} missing, in {} of its clock; the first at {} (after the first row).",
-                                         r.name, count_of(static_cast<std::size_t>(c.missing()), "row"),
-                                         count_of(c.gaps.size(), "gap"),
-                                         time_text(c.gaps.front().time - begin_of(r.name))));
-    if (!c.regular)
-      seen_.notes.push_back(fmt::format("{}: time is not uniform, {} to {} between rows; no spectrum is read from it.",
-                                        r.name, time_text(c.shortest), time_text(c.longest)));
-    else if (!c.uniform)
-      seen_.notes.push_back(fmt::format("{}: the clock jitters by up to {} of its step of {}.", r.name,
-                                        share_text(c.jitter), time_text(c.step)));
-  }
-  double begin_of(const std::string& name) const {
-    for (const auto& part : parts_)
-      if (part.name == name) return model_.recording(part.recording).t.front();
-    return 0;
-  }
-
-  void lost_and_repeated(const Part& part) {
-    std::map<std::size_t, std::size_t> repeated;  // row: columns that repeat there
-    std::size_t judged = 0;
-    for (const auto& c : seen_.columns) {
-      if (c.role == "beside") continue;
-      const auto rows = rows_of(model_, part, c.name);
-      if (range_of(rows) <= 0) continue;
-      ++judged;
-      const auto stuck = repeats_in_motion(rows, c.finest);
-      for (const auto row : stuck) ++repeated[row];
-      if (const auto leaps = leaps_in_motion(rows, c.finest); c.role == "input" && !leaps.empty())
-        seen_.faults.push_back(fmt::format(
-            "{}: {} leaps at {} by twice its pace and more, the first at {}: rows before them may be lost though the "
-            "clock does not show it.",
-            part.name, c.name, count_of(leaps.size(), "row"), when(part, leaps.front())));
-      if (c.role == "output")
-        if (const long more = unexplained_repeats(rows, c.finest); more > 0)
-          seen_.faults.push_back(
-              fmt::format("{}: at about {} ({}) {} repeats the value before exactly, more often than "
-                          "its noise explains: those readings were not fetched anew.",
-                          part.name, count_of(static_cast<std::size_t>(more), "row"),
-                          share_text(static_cast<double>(more) / static_cast<double>(rows.size())), c.name));
-    }
-    std::vector<std::size_t> whole;
-    for (const auto& [row, columns] : repeated)
-      if (everything_repeats(part, row)) whole.push_back(row);
-    if (!whole.empty())
-      seen_.faults.push_back(fmt::format("{}: {} whole, though the signals move; the first at {}.", part.name,
-                                         whole.size() == 1 ? "one row repeats the one before"
-                                                           : fmt::format("{} rows repeat the one before", whole.size()),
-                                         when(part, whole.front())));
-    else if (!repeated.empty() && judged > 0)
-      seen_.faults.push_back(fmt::format("{}: a column repeats its value in motion at {}, the first at {}.", part.name,
-                                         count_of(repeated.size(), "row"), when(part, repeated.begin()->first)));
-  }
-  bool everything_repeats(const Part& part, std::size_t row) const {
-    return std::all_of(seen_.columns.begin(), seen_.columns.end(), [&](const InspectedColumn& c) {
-      const auto rows = rows_of(model_, part, c.name);
-      return row >= rows.size() || rows[row] == rows[row - 1];
-    });
-  }
-  std::string when(const Part& part, std::size_t row) const {
-    return time_text(times_of(model_, part)[row] - model_.recording(part.recording).t.front());
-  }
-
-  void apart(const Part& part, const std::string& output) {
-    const auto rows = rows_of(model_, part, output);
-    const auto lone = rows_apart(rows);
-    if (lone.empty()) return;
-    const std::size_t i = lone.front();
-    seen_.spoiling.push_back(fmt::format(
-        "{}: {} of {} far from all others, the first at {} with {}, between {} and {}: an error of transmission, which "
-        "decides all that is fitted or judged there. Take {} out of the file.",
-        part.name, count_of(lone.size(), "row"), output + (lone.size() == 1 ? " lies" : " lie"), when(part, i),
-        level_text(rows[i], unit_of(output)), level_text(rows[i > 0 ? i - 1 : i + 1], unit_of(output)),
-        level_text(rows[i + 1 < rows.size() ? i + 1 : i - 1], unit_of(output)), lone.size() == 1 ? "it" : "them"));
-    seen_.faults.push_back(seen_.spoiling.back());
-  }
-
-  void ends(const Part& part, const std::string& output) {
-    const auto rows = rows_of(model_, part, output);
-    if (rows.empty()) return;
-    const auto moves = moving(part);
-    const auto say = [&](const Plateau& p, const char* which) {
-      if (p.found)
-        seen_.faults.push_back(fmt::format(
-            "{}: {} stays at its {} value {} in {} while the drive moves on: the sensor or the converter clips, or the "
-            "device has come to a stop.",
-            part.name, output, which, level_text(p.level, unit_of(output)), count_of(p.rows, "row")));
-    };
-    const double finest = column(output)->finest;
-    say(plateau_at_top(rows, finest, moves), "highest");
-    say(plateau_at_bottom(rows, finest, moves), "lowest");
   }
 
   /// What an amplifier or a logger took off a drive is not in the column; what was meant to be flat is no such thing.
@@ -421,12 +259,12 @@ class Inspector {
     }
     return p.last > p.first && p.count() >= 2 ? p : Period{};
   }
-  bool driven_alike(const Part& a, const Part& b) const {
+  bool driven_alike(const InspectedPart& a, const InspectedPart& b) const {
     const auto ta = times_of(model_, a), tb = times_of(model_, b);
     if (ta.size() != tb.size() || ta.size() < 2) return false;
     if (std::abs((ta.back() - ta.front()) - (tb.back() - tb.front())) > 1e-3 * (ta.back() - ta.front())) return false;
     const auto& names = program().input_names;
-    return !drives_of(a).empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return !drives_of(model_, a).empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
       if (name == column_of_cycles || name == column_of_start) return true;
       return same_drive(rows_of(model_, a, name), rows_of(model_, b, name));
     });
@@ -442,12 +280,12 @@ class Inspector {
       for (std::size_t k = 0; k < parts_.size(); ++k) {
         const Clock& clock = seen_.recordings[k].clock;
         if (!clock.regular || !clock.gaps.empty()) continue;
-        const Part& part = parts_[k];
+        const InspectedPart& part = parts_[k];
         const auto y = rows_of(model_, part, output);
         if (y.empty()) continue;
         ++looked;
         std::vector<std::span<const double>> drives;
-        for (const auto& [name, u] : drives_of(part)) drives.push_back(u);
+        for (const auto& [name, u] : drives_of(model_, part)) drives.push_back(u);
         const auto residual = residual_of(part, o, y);
         // Rounding of a steady ramp makes a line of a step over pi.
         const double rounding = column(output)->finest / std::numbers::pi;
@@ -475,7 +313,7 @@ class Inspector {
       }
     found.push_back(line);
   }
-  std::vector<double> residual_of(const Part& part, std::size_t o, std::span<const double> y) const {
+  std::vector<double> residual_of(const InspectedPart& part, std::size_t o, std::span<const double> y) const {
     std::vector<double> rows;
     if (!prediction_.ok) return rows;
     // The parts of a recording that was cut follow each other.
@@ -489,11 +327,9 @@ class Inspector {
     return rows;
   }
 
-  // --- words ----------------------------------------------------------------------------------------------------
-
   DataModel& model_;
   InspectionQuestion question_;
-  std::vector<Part> parts_;
+  std::vector<InspectedPart> parts_;
   std::vector<int> judged_;
   Prediction prediction_;
   Inspection seen_;

@@ -9,6 +9,7 @@
 
 #include "engine/diagram/error.h"
 #include "io/data/binary_table.h"
+#include "io/data/column_note.h"
 #include "io/data/dataset.h"
 #include "io/data/left_out_rows.h"
 #include "io/data/recording_file.h"
@@ -157,65 +158,6 @@ class DataSetReader {
     return {};
   }
 
-  /// "1 sample", "2 samples", "5 ms"; a plain number would leave open which of both is meant.
-  void read_delay(const JsonPlace& place, ColumnNote& note) {
-    const char* cure = "write \"1 sample\", \"2 samples\" or a time such as \"5 ms\"";
-    const auto number = read_number(place);
-    if (!number) return;
-    if (!(number->value >= 0))
-      return place.add("bad_value", "a delay cannot be negative", "if this column is early, give the others a delay");
-    if (!number->unit && number->value > 0) return place.add("missing_unit", "samples or seconds?", cure);
-    if (!number->unit) return;
-    if (*number->unit == "sample" || *number->unit == "samples") {
-      if (number->value != std::floor(number->value) || number->value > 1e6)
-        return place.add("bad_value", "samples are whole numbers", cure);
-      note.delay_samples = static_cast<int>(number->value);
-    } else if (const auto seconds = to_si(place, *number, parse_unit("s"), QuantityKind::difference)) {
-      note.delay_seconds = *seconds;
-    }
-  }
-
-  /// "2 nm" (white) or {"white": "2 nm", "resolution": "0.1 nm", "one_over_f": 0.3}; numbers are in the column's unit.
-  void read_noise(const Noted& noted, const Unit& unit) {
-    const auto place = noted.place.find("noise");
-    if (!place) return;
-    NoiseNote& noise = data_.notes.at(noted.note.to).noise;
-    const auto size = [&](const JsonPlace& at, const Unit& declared) {
-      const auto value = read_si(at, declared, QuantityKind::difference);
-      if (value && !(*value >= 0))
-        at.add("bad_value", "a noise cannot be negative", "write its rms or step size, 0 or above");
-      return value;
-    };
-    if (!place->is_object() || place->find("value")) {
-      noise.white = size(*place, unit);
-      return;
-    }
-    place->only({"white", "resolution", "one_over_f"});
-    if (const auto white = place->find("white")) noise.white = size(*white, unit);
-    if (const auto resolution = place->find("resolution")) noise.resolution = size(*resolution, unit);
-    if (const auto share = place->find("one_over_f")) noise.one_over_f = size(*share, Unit{});
-  }
-
-  /// [0, 10] or ["0 V", "10 V"]; "find" where rows pile up. Numbers are in the column's unit.
-  void read_limits(const Noted& noted, const Unit& unit) {
-    const auto place = noted.place.find("limits");
-    if (!place) return;
-    ColumnNote& note = data_.notes.at(noted.note.to);
-    if (place->is_text()) {
-      note.find_limits = place->text() == "find";
-      if (!note.find_limits)
-        place->add("bad_value", "limits are two numbers", "write [0, 10], or \"find\" for where rows pile up");
-      return;
-    }
-    if (!place->expect_array("[0, 10]")) return;
-    const auto ends = place->elements();
-    if (ends.size() != 2) return place->add("bad_value", "limits are two numbers", "write [0, 10]");
-    const auto low = read_si(ends[0], unit), high = read_si(ends[1], unit);
-    if (!low || !high) return;
-    if (!(*low < *high)) return place->add("bad_value", "the lower limit comes first", "write [0, 10]");
-    note.limits = std::pair(*low, *high);
-  }
-
   void recordings(const JsonPlace& root) {
     const auto list = root.need("recordings", "write \"recordings\": [{\"file\": \"01.csv\", \"role\": \"train\"}]");
     if (!list || !list->expect_array("[{\"file\": \"01.csv\", \"role\": \"train\"}]")) return;
@@ -321,8 +263,10 @@ class DataSetReader {
     for (auto& noted : noted_) {
       if (content.columns.contains(noted.column)) {
         if (!noted.unit_seen) {
-          read_noise(noted, content.units.at(noted.column));
-          read_limits(noted, content.units.at(noted.column));
+          const Unit& unit = content.units.at(noted.column);
+          ColumnNote& note = data_.notes.at(noted.note.to);
+          if (const auto noise = noted.place.find("noise")) read_noise(*noise, unit, note.noise);
+          if (const auto limits = noted.place.find("limits")) read_limits(*limits, unit, note);
         }
         noted.unit_seen = true;
       } else if (!noted.note.optional &&
