@@ -155,7 +155,6 @@ void Fitting::prepare_result() {
 }
 
 // --- scan
-// -------------------------------------------------------------------------------------------------------------
 
 /// Tries points side by side; what can be simulated is appended.
 void Fitting::try_points(const std::vector<std::vector<double>>& z, std::vector<PointPointer>& points) {
@@ -355,7 +354,6 @@ void Fitting::search_globally(std::vector<PointPointer>& starts) {
 }
 
 // --- search
-// -----------------------------------------------------------------------------------------------------------
 
 /// False where no parameter moves a row at the start.
 bool Fitting::search_from(const std::vector<double>& start) {

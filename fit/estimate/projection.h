@@ -1,5 +1,5 @@
 // Decides what is left of the residual once the linear parameters are at their best (variable projection), and its
-// derivatives by the others. Internal to fit/.
+// derivatives by the others (projection_slopes.cpp). Internal to fit/.
 //
 //   y(z, theta) = y(z, ref) + sum_j (theta_j - ref_j) c_j(z)      exactly, for parameters proved jointly affine
 //   r(z) = min over theta within bounds of |W (measured - y(z, theta))|
@@ -93,6 +93,9 @@ class Projection {
   std::vector<ParameterValue> values(std::span<const double> z, std::span<const double> theta) const;
 
  private:
+  /// Columns are differences of simulations that are good to about 1e-13.
+  static constexpr double dependent = 1e-10;
+
   /// A trial, and the recording that it changes (-1: all).
   struct Wanted {
     Trial trial;
