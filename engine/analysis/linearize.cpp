@@ -73,6 +73,33 @@ void sort_poles(std::vector<std::complex<double>>& list) {
                    [](auto x, auto y) { return x.real() != y.real() ? x.real() > y.real() : x.imag() > y.imag(); });
 }
 
+/// Numbers s at which left - s right is singular, as quotients alpha / beta, those with |beta| > `least`. A pair is
+/// that of a block of two rows [s11 s12; s21 s22] against diag(a, b): the eigenvalues of [s11 b, s12 a; s21 b, s22 a]
+/// over ab. (Eigen::GeneralizedEigenSolver does the same, and brings eigenvectors: twenty seconds of every build.)
+std::vector<std::complex<double>> quotients(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right, double least) {
+  Eigen::RealQZ<Eigen::MatrixXd> pair(left.rows());
+  pair.compute(left, right, false);
+  const Eigen::MatrixXd &s = pair.matrixS(), &t = pair.matrixT();
+  std::vector<std::complex<double>> list;
+  const auto add = [&](std::complex<double> alpha, double beta) {
+    if (std::abs(beta) > least) list.push_back(alpha / beta);
+  };
+  for (Eigen::Index i = 0; i < s.rows(); ++i) {
+    if (i + 1 == s.rows() || s(i + 1, i) == 0) {
+      add(s(i, i), t(i, i));
+      continue;
+    }
+    const double a = t(i, i), b = t(i + 1, i + 1), beta = a * b;
+    const double p = 0.5 * (s(i, i) * b - s(i + 1, i + 1) * a);
+    const double z = std::sqrt(std::abs(p * p + s(i + 1, i) * b * (s(i, i + 1) * a)));
+    const std::complex<double> alpha(s(i + 1, i + 1) * a + p, beta > 0 ? z : -z);
+    add(std::conj(alpha), beta);
+    add(alpha, beta);
+    ++i;
+  }
+  return list;
+}
+
 /// The first sampled block between inputs and outputs, or -1.
 int sampled_on_the_way(const Program& program, const WiredSlopes& flattened, const Flow& flow) {
   if (program.sampled_blocks.empty()) return -1;
@@ -161,11 +188,8 @@ std::vector<std::complex<double>> LinearModel::zeros() const {
   const double size = std::max(1.0, parts.a.cwiseAbs().maxCoeff());
   pencil.rightCols(1) *= size / largest_b;
   pencil.bottomRows(1) *= size / largest_c;
-  const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(pencil, mass, false);
   constexpr double infinite = 1e-10;  // of the mass matrix
-  std::vector<std::complex<double>> list;
-  for (Eigen::Index i = 0; i < n + 1; ++i)
-    if (std::abs(solver.betas()(i)) > infinite) list.push_back(solver.alphas()(i) / solver.betas()(i));
+  std::vector<std::complex<double>> list = quotients(pencil, mass, infinite);
   sort_poles(list);
   return list;
 }

@@ -27,11 +27,6 @@ double time_of(int k) { return k * interval; }
 
 // ---- LVM ------------------------------------------------------------------------------------------------------------
 
-std::string with_comma(std::string text) {
-  std::replace(text.begin(), text.end(), '.', ',');
-  return text;
-}
-
 InstrumentFile lvm(const std::string& name, const std::string& x_columns, bool comma) {
   const bool multi = x_columns == "Multi", none = x_columns == "No";
   std::string text = fmt::format(

@@ -17,12 +17,6 @@ std::string table(double start, const std::function<std::string(int, double, dou
   return text;
 }
 
-/// As spreadsheets of half of Europe write numbers.
-std::string with_comma(std::string text) {
-  std::replace(text.begin(), text.end(), '.', ',');
-  return text;
-}
-
 std::string utf16(const std::string& text) {
   std::string bytes = "\xFF\xFE";
   for (const char c : text) bytes += {c, '\0'};
@@ -316,6 +310,11 @@ InstrumentFile rate_in_settings() {
 }
 
 }  // namespace
+
+std::string with_comma(std::string text) {
+  std::replace(text.begin(), text.end(), '.', ',');
+  return text;
+}
 
 double drive(int row) { return 5 * std::sin(2 * std::numbers::pi * 37 * interval * row); }
 double response(int row) { return 2 * drive(row) + 0.125; }

@@ -14,6 +14,9 @@ inline constexpr double interval = 1e-3;  // [s]
 double drive(int row);     ///< [V]
 double response(int row);  ///< [V]
 
+/// As spreadsheets of half of Europe write numbers.
+std::string with_comma(std::string text);
+
 struct InstrumentFile {
   std::string name;                    ///< of the file
   std::string bytes;                   ///< of the file
