@@ -312,7 +312,7 @@ class Scheduler {
   }
 
   /// Where both the value and the rate of a source are needed, the step of the rate makes both.
-  std::vector<Step> sources_once(std::vector<Step> list) const {
+  std::vector<Step> sources_once(const std::vector<Step>& list) const {
     std::vector<bool> rated(static_cast<std::size_t>(n_), false), done(static_cast<std::size_t>(n_), false);
     for (const Step& step : list)
       if (step.order == Order::rate && is_source_of_time(program_.blocks[static_cast<std::size_t>(step.block)]))
