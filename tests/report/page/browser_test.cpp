@@ -10,8 +10,8 @@
 
 #include "io/files/atomic_file.h"
 #include "report/page/report.h"
+#include "tests/io/results/example.h"
 #include "tests/io/temporary_folder.h"
-#include "tests/report/example.h"
 
 namespace hysteron {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "report/page/figure_file.h"
-#include "tests/report/example.h"
+#include "tests/io/results/example.h"
 
 namespace hysteron {
 namespace {

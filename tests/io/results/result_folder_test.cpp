@@ -14,10 +14,10 @@
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
-#include "example.h"
 #include "io/files/atomic_file.h"
 #include "io/files/folder_lock.h"
 #include "io/results/result.h"
+#include "tests/io/results/example.h"
 #include "tests/io/small_disk.h"
 #include "tests/io/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "example.h"
+#include "tests/io/results/example.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagram/error.h"
-#include "example.h"
 #include "io/files/atomic_file.h"
+#include "tests/io/results/example.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
