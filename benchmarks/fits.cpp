@@ -82,7 +82,6 @@ Diagram diagram_from_u() {
 double rms_um(const FitResult& result, double rows, double noise) { return noise * std::sqrt(result.chi2 / rows); }
 
 // --- Bouc-Wen, WORKLOADS W5
-// -------------------------------------------------------------------------------------------
 
 constexpr std::array<double, 4> truth{.6187, .2418, .0237, 1.6126};  // um/V, 1/V, 1/V, um/V
 constexpr std::array<double, 4> poor{.05, 2, .5, 3};
@@ -188,7 +187,6 @@ int bouc_wen() {
 }
 
 // --- 80 play operators on 100 000 samples
-// ---------------------------------------------------------------------------------
 
 constexpr int operators = 80;
 
@@ -232,7 +230,6 @@ ProgramPointer operator_program() {
 }
 
 // --- creep and plant, 12 recordings
-// ---------------------------------------------------------------------------------------
 
 constexpr std::size_t creep_rows = 20'000;
 constexpr std::array<double, 8> times{.01, .03, .1, .3, 1, 3, 10, 30};  // s

@@ -1,6 +1,7 @@
-// Decides how the runs of a job ("do": "runs") come to their results: simulations, linearizations, fits, tables, and
-// runs of other jobs; each done once, when it is asked for. Does not draw (job_figures.h) and does not judge
-// (claims.h).
+// Decides how the runs of a job ("do": "runs") come to their results, each done once, when it is asked for:
+// simulations, tables and runs of other jobs (job_runs.cpp), fits (job_fit.cpp), linearizations (job_linear.cpp),
+// searches (job_minimize.cpp), studies (job_study.cpp), rows that are made of other rows (job_formulas.cpp). Does not
+// draw (job_figures.h) and does not judge (claims.h).
 #pragma once
 
 #include <map>

@@ -16,6 +16,7 @@
 #include "discover/placement/excitation.h"
 #include "engine/diagram/error.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/text_diff.h"
 
 namespace hysteron {
 namespace {

@@ -20,6 +20,7 @@
 #include "engine/diagram/error.h"
 #include "fit/estimate/thresholds.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/text_diff.h"
 #include "io/jobs/job_file.h"
 #include "report/pages/numbers.h"
 

@@ -7,6 +7,7 @@
 #include "app/cli/target.h"
 #include "discover/placement/add.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/text_diff.h"
 
 namespace hysteron {
 namespace {

@@ -1,5 +1,7 @@
 // The verb schema: the JSON Schemas of the files that hysteron reads and writes and of what --json prints, from the
 // declarations. Does not decide what they say (io/results/schema.cpp, answer_json.h).
+#include "io/results/schema.h"
+
 #include <filesystem>
 
 #include "app/cli/answer.h"

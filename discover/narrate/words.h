@@ -1,5 +1,5 @@
 // Decides which words a discovery and its page share: names of what was found, sizes of an error, what is known of a
-// structure that is left, what to record next. Does not decide what is claimed.
+// structure that is left (structure_words.cpp), what to record next. Does not decide what is claimed.
 #pragma once
 
 #include <string>

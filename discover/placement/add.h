@@ -1,4 +1,4 @@
-// Decides how an effect enters a diagram as a choice and how it is taken out again without a trace.
+// Decides how an effect enters a diagram as a choice and how it is taken out again without a trace (remove.cpp).
 // Does not decide where it should (places.h) nor with which values (fit/).
 #pragma once
 

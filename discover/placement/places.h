@@ -1,5 +1,5 @@
 // Decides where in a diagram an effect may enter: a wire, or one input port, with the kind of place it is.
-// Does not change the diagram (add.h).
+// All of them: places_of.cpp. Does not change the diagram (add.h).
 #pragma once
 
 #include <string>

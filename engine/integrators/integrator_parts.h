@@ -1,5 +1,6 @@
 // What the integrator's files share: SUNDIALS' objects as owned values, the problem as its C functions see it, and what
-// a stepper has to offer. Includes SUNDIALS: only integrator*.cpp include this.
+// a stepper has to offer (integrator_cvodes.cpp, integrator_arkode.cpp). Includes SUNDIALS: only integrator*.cpp
+// include this.
 #pragma once
 
 #include <nvector/nvector_serial.h>

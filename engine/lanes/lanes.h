@@ -1,7 +1,7 @@
 // Decides how many runs of one program that differ in parameter values are advanced together, lane by lane in the inner
 // loop: fixed steps (Euler, Runge-Kutta), and static diagrams from row to row. Rows are handed on as they come, none
 // are kept. What all lanes share (sources whose parameters are not varied, and what is made of them) is computed once.
-// Does not choose parameter sets and does not judge runs: fit/.
+// Which programs may: lanes_allowed.cpp. Does not choose parameter sets and does not judge runs: fit/.
 #pragma once
 
 #include <functional>

@@ -6,15 +6,14 @@
 //   1. The search starts at Run::warm, the solution at the last accepted point, never at that of the last trial: an
 //      evaluation gives the same bits however often it is called. Of several solutions it finds one near there.
 //   2. Newton with the exact slopes of F, eight tears at a time (Jet). At a kink (play operators, saturations) the
-//   slope
-//      is that of the active piece: semismooth, so that a piecewise linear loop ends after as many pieces as it visits.
+//      slope is that of the active piece: semismooth, so that a piecewise linear loop ends after as many pieces as it
+//      visits.
 //   3. Steps are shortened until the residual, measured in tolerances, falls.
 //   4. A single tear also keeps the two nearest points where r has different signs: a step out of this bracket, or one
 //      that does not bring r down, halves it instead. Where Newton finds none, the bracket is looked for at F(v) and in
 //      doubling distances; so a continuous F that never rises with v is always solved, as is any whose r changes sign.
 //   5. The error that is left is below loop_relative * |v|, a thousandth of what the integrator allows itself, with a
-//   few
-//      roundings as floor; loop_absolute more only where another step does not help, because the terms of v cancel
+//      few roundings as floor; loop_absolute more only where another step does not help, because the terms of v cancel
 //      (set_loop_accuracy). The last Newton step is taken without being checked, so what is really left is the square
 //      of that.
 //   6. Slopes through a solved loop (T = Jet) are those of the implicit function: (I - dF/dv) dv = dF/dx dx.

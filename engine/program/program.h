@@ -1,5 +1,5 @@
 // Decides what a compiled diagram is (Program: immutable, shared) and what one simulation of it is (Run: one copyable
-// value). Does not integrate: see simulate.h (CVODE) and advance.h (row by row, exactly).
+// value). Does not integrate: see simulate.h (CVODE) and advance.h (row by row, exactly). Evaluated: evaluate.cpp.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // Decides how a group of linear blocks is one state-space system x' = A x + B w + a, y = C x + D w + c, and how it is
 // advanced exactly over a step in which its inputs w move linearly (first-order hold, by cached matrix exponentials).
-// Internal to the exact advance.
+// Rows one by one and many at a time: linear_part_rows.cpp; lanes: linear_part_lanes.cpp. Internal to the exact
+// advance.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// Decides how far apart a model and measurements are, in the figures people use, and where the squared error lies.
+// Decides how far apart a model and measurements are, in the figures people use, and where the squared error lies
+// (splits.cpp).
 // Does not fit, does not name effects. Everything on exactly the measured instants.
 #pragma once
 

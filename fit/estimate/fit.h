@@ -1,6 +1,6 @@
 // Decides how parameters are found: linear ones by bounded linear least squares on simulated responses, the others by
 // bounded nonlinear least squares of what remains (variable projection), from scanned starts; and how sure they are.
-// Does not choose the model.
+// With the noise in turn: fit_and_noise.cpp; back into the diagram: write_back.cpp. Does not choose the model.
 #pragma once
 
 #include <cstdint>

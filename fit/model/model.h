@@ -1,5 +1,5 @@
 // Decides what the model says at exactly the measured instants: a compiled program bound to a data set.
-// Does not judge (score.h) and does not search parameters (fit.h).
+// Units of parameters: parameter_unit.cpp. Does not judge (score.h) and does not search parameters (fit.h).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Decides what a DataModel keeps between trials. Internal to fit/: model.cpp and recording_run.cpp are its two halves.
+// Decides what a DataModel keeps between trials. Internal to fit/: model.cpp, recording_run.cpp and
+// substeps.cpp define its functions.
 #pragma once
 
 #include <atomic>

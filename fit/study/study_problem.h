@@ -1,5 +1,6 @@
 // Decides what a job asks of a study: signals, parameters and units found in the diagram, numbers in the units of their
-// columns. Does not read files but for columns that are sampled or subtracted, and computes nothing.
+// columns; all of it as one text that tells shards of a study apart: study_description.cpp. Does not read files but for
+// columns that are sampled or subtracted, and computes nothing.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Decides what a data set is: recordings bound to the inputs and outputs of a diagram, with their roles and
-// circumstances. Does not simulate. Numbers are SI; the units of the files are kept for display.
+// Decides what a data set is: recordings with roles and circumstances (dataset_read.cpp), bound to the inputs and
+// outputs of a diagram (dataset_bind.cpp). Does not simulate. Numbers are SI; units of the files are kept for display.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
-// Decides how a diagram stands in a JSON file and how it is written back so that a diff shows only what
-// changed.
+// Decides how a diagram stands in a JSON file (diagram_read.cpp; its JSON Schema: diagram_schema.cpp,
+// effect_schema.cpp), how it is written back so that a diff shows only what changed (diagram_write.cpp), and on which
+// line of the file a problem stands (locate.cpp).
 #pragma once
 
 #include <string>
@@ -38,10 +39,5 @@ void locate_problems(Error& error, const std::string& file);
 std::string diagram_schema(const Registry& registry);
 /// Of an effect file: a diagram and what it means where it is put on a wire (discover/hypotheses/effect_file.h).
 std::string effect_schema(const Registry& registry);
-std::string dataset_schema();
-std::string result_schema();
-
-/// Lines that differ between two texts, as in `diff -u` without headers.
-std::string text_diff(const std::string& before, const std::string& after);
 
 }  // namespace hysteron

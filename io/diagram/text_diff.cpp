@@ -1,4 +1,5 @@
-// Decides how two texts are shown side by side: the lines that differ with three lines around them, as `diff -u` does.
+#include "io/diagram/text_diff.h"
+
 #include <algorithm>
 #include <string>
 #include <string_view>

@@ -30,6 +30,8 @@ bool is_text(const std::string& begin) { return decoded(begin).text.find('\0') =
 
 }  // namespace
 
+std::span<const FileFormat> file_formats() { return formats; }
+
 bool is_text_file(const std::string& file) { return is_text(begin_of_file(file)); }
 
 MeasuredTable read_measured_table(const std::string& file, const ReadingChoices& choices) {

@@ -2,6 +2,7 @@
 // as what it is, with what to do. A further format is one more line in the table (file_format.cpp).
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,9 @@ struct FileFormat {
   MeasuredTable (*read)(const std::string&, const ReadingChoices&);  ///< may throw Error of any input fault
 };
 
+/// All that are no plain text, in the order in which they are tried.
+std::span<const FileFormat> file_formats();
+
 /// Reads a measured file of any known format. Throws Error "no_file", "is_directory", "empty_file",
 /// "unknown_file_type" (named as what it is), and what the reader of its format throws: "no_table", "no_header",
 /// "ambiguous_decimal", "bad_number", "row_length" ..., each with the place and the option that chooses.
@@ -22,7 +26,7 @@ MeasuredTable read_measured_table(const std::string& file, const ReadingChoices&
 /// Whether the file is text: neither a format of numbers as they lie in memory nor anything else that holds zero bytes.
 bool is_text_file(const std::string& file);
 
-// The readers, each in a source of its own, and by what each knows its files.
+// The readers, and by what each knows its files: lvm.cpp, xlsx.cpp, mat.cpp, hdf5_recording.cpp, tdms.cpp.
 bool is_lvm(std::string_view bytes);
 MeasuredTable read_lvm(const std::string& file, const ReadingChoices& choices);
 bool is_xlsx(std::string_view bytes);
@@ -34,7 +38,7 @@ MeasuredTable read_hdf5(const std::string& file, const ReadingChoices& choices);
 bool is_tdms(std::string_view bytes);
 MeasuredTable read_tdms(const std::string& file, const ReadingChoices& choices);
 
-/// What the file is where no reader reads it ("a PDF"), and what to do; empty where nobody knows.
+/// What the file is where no reader reads it ("a PDF"), and what to do; empty where nobody knows (known_file.cpp).
 struct KnownFile {
   std::string what, cure;
 };

@@ -4,6 +4,8 @@
 
 #include "io/files/project_path.h"
 #include "io/jobs/job_parts.h"
+#include "io/jobs/runs_schema.h"
+#include "io/jobs/study_schema.h"
 #include "io/json/json_reader.h"
 #include "io/json/schema_parts.h"
 #include "io/json/value_text.h"

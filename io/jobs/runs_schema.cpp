@@ -1,4 +1,5 @@
-// Decides how a job with "do": "runs" looks in the JSON Schema.
+#include "io/jobs/runs_schema.h"
+
 #include "io/jobs/runs_job.h"
 #include "io/json/schema_parts.h"
 

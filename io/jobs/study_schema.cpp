@@ -1,4 +1,5 @@
-// Decides how a job with "do": "study" looks in the JSON Schema.
+#include "io/jobs/study_schema.h"
+
 #include "io/jobs/study_job.h"
 #include "io/json/schema_parts.h"
 

@@ -33,9 +33,4 @@ Json head(const std::string& title, const std::string& description);
 /// Members that every file of ours has: $schema, format, title, source, remark.
 void add_head_members(Json& properties);
 
-/// A job with "do": "runs" (runs_schema.cpp).
-Json runs_job();
-/// A job with "do": "study" (study_schema.cpp).
-Json study_job();
-
 }  // namespace hysteron::schema

@@ -1,5 +1,5 @@
 // Decides what a verb leaves behind: result.json for programs, traces as tables, and the sections that report/ draws.
-// A folder of results is written whole or not at all (staged_results.h).
+// A folder of results (result_folder.cpp) is written whole or not at all (staged_results.h).
 #pragma once
 
 #include <memory>

@@ -15,6 +15,7 @@
 #include "io/files/atomic_file.h"
 #include "io/results/result.h"
 #include "io/results/result_manifest.h"
+#include "io/results/schema.h"
 #include "io/results/staged_results.h"
 
 namespace hysteron {

@@ -1,5 +1,5 @@
-// Decides the JSON Schemas of data sets and of result.json. That of diagrams is in diagram_schema.cpp.
-#include "io/diagram/diagram_file.h"
+#include "io/results/schema.h"
+
 #include "io/json/schema_parts.h"
 
 namespace hysteron {

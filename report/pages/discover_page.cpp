@@ -9,6 +9,7 @@
 
 #include "discover/narrate/words.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/text_diff.h"
 #include "io/results/result_diagram.h"
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_fall.h"

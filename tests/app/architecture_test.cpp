@@ -84,6 +84,8 @@ TEST(Architecture, TheTestItselfSeesAForbiddenInclude) {
   EXPECT_EQ(rooms, (std::set<std::string>{"blocks", "engine"}));
 }
 
+std::string in_project(const fs::path& file) { return fs::relative(file, HYSTERON_SOURCE_DIR).generic_string(); }
+
 /// Every source file of every room.
 template <class Action>
 void for_each_source(const Action& action) {
@@ -113,7 +115,7 @@ TEST(Architecture, RoomsOfAFolderStandOnEachOther) {
     const auto storey = [&](const std::string& path) {
       return std::find(rooms.begin(), rooms.end(), room_of(folder, path)) - rooms.begin();
     };
-    const std::string own = fs::relative(file, HYSTERON_SOURCE_DIR).generic_string();
+    const std::string own = in_project(file);
     ASSERT_LT(storey(own), std::ssize(rooms)) << own << " lies in a room that storeys does not name";
     for (const auto& other : own_includes(folder, text))
       EXPECT_LE(storey(other), storey(own)) << own << " includes " << other << ", which stands above it";
@@ -138,7 +140,7 @@ TEST(Architecture, HeadersAreReadOnceAndOpenWithWhatTheyDecide) {
 // A verb gives an answer; app/cli prints it and puts its results in place.
 TEST(Architecture, OnlyTheCommandLinePrintsAndPublishes) {
   for_each_source([](const std::string& folder, const fs::path& file, const std::string& text) {
-    const std::string own = fs::relative(file, HYSTERON_SOURCE_DIR).generic_string();
+    const std::string own = in_project(file);
     if (own.starts_with("app/cli/")) return;
     for (const char* door : {"fmt::print(", "printf(stdout", "printf(stderr", "std::printf", "std::fputs", "std::cout",
                              "std::cerr", "publish_folder(", "publish_files(", "perform("})
@@ -165,6 +167,77 @@ TEST(Architecture, NoRoomReadsAHeavyHeaderThroughAnother) {
       }
     }
   });
+}
+
+/// "fit/model" of "fit/model/model.h", as seen from the project.
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+TEST(Architecture, FilesHaveOneIdea) {
+  for_each_source([](const std::string&, const fs::path& file, const std::string& text) {
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << file << ": which part has an idea of its own?";
+  });
+}
+
+// Where a name is declared tells where it is defined: in the source of that name, or in one that the header names. What
+// the build finds by itself (effects, verbs) needs no header.
+TEST(Architecture, ASourceHasTheHeaderOfItsNameOrIsNamedInOne) {
+  std::map<std::string, std::string> headers;  // of a folder: all texts
+  std::set<std::string> names;
+  std::vector<fs::path> sources;
+  for_each_source([&](const std::string&, const fs::path& file, const std::string& text) {
+    const std::string own = in_project(file);
+    if (file.extension() == ".h") {
+      headers[folder_of(own)] += text;
+      names.insert(own.substr(0, own.size() - 2));
+    } else if (folder_of(own) != "app/verbs" && folder_of(own) != "discover/effects" && own != "app/main.cpp") {
+      sources.push_back(file);
+    }
+  });
+  for (const auto& file : sources) {
+    const std::string own = in_project(file);
+    if (names.contains(own.substr(0, own.size() - 4))) continue;
+    EXPECT_NE(headers[folder_of(own)].find(file.filename().string()), std::string::npos)
+        << own << " has no header of its name, and none of " << folder_of(own) << " says what stands in it";
+  }
+}
+
+/// Rooms that are tested through others: facts by the answers of all verbs, wiring by placement, pages by the page.
+const std::set<std::string> tested_elsewhere = {"app/facts", "discover/wiring", "report/pages"};
+/// Tests of the whole, in folders that mirror no room: of diagrams that are shipped, and against other programs.
+const std::set<std::string> tests_of_the_whole = {"app/motion", "discovery", "reference"};
+
+/// Paths below tests/ of all their sources: tests, and samples of blocks, which the tests of all blocks take.
+std::vector<std::string> sources_of_tests() {
+  std::vector<std::string> sources;
+  const fs::path root = fs::path(HYSTERON_SOURCE_DIR) / "tests";
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".cpp") sources.push_back(fs::relative(entry.path(), root).generic_string());
+  return sources;
+}
+
+TEST(Architecture, TestsMirrorTheRooms) {
+  std::set<std::string> rooms, tested;
+  std::map<std::string, std::set<std::string>> rooms_with;  // by folder and name: "fit", "profile" -> "fit/estimate"
+  for_each_source([&](const std::string& folder, const fs::path& file, const std::string&) {
+    const std::string room = folder_of(in_project(file));
+    rooms.insert(room);
+    rooms_with[folder + " " + file.stem().string()].insert(room);
+  });
+  for (const auto& test : sources_of_tests()) {
+    const std::string room = folder_of(test), folder = test.substr(0, test.find('/')), end = "_test.cpp";
+    tested.insert(room);
+    if (tests_of_the_whole.contains(room) || !test.ends_with(end)) continue;
+    EXPECT_TRUE(rooms.contains(room) || may_include.contains(room)) << "tests/" << test << " mirrors no room";
+    const std::string name = test.substr(room.size() + 1, test.size() - room.size() - 1 - end.size());
+    const auto& of_its_name = rooms_with[folder + " " + name];
+    EXPECT_TRUE(of_its_name.empty() || of_its_name.contains(room))
+        << "tests/" << test << " is named as a source of " << *of_its_name.begin() << ": move it there";
+  }
+  for (const auto& room : rooms) {
+    const std::string by_blocks = "blocks" + room.substr(room.find('/') == std::string::npos ? 0 : room.find('/'));
+    const bool physics = room.starts_with("models/") && tested.contains(by_blocks);
+    EXPECT_TRUE(tested.contains(room) || physics || tested_elsewhere.contains(room)) << "nothing tests " << room;
+  }
 }
 
 }  // namespace

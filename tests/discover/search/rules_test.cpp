@@ -105,7 +105,6 @@ TEST_F(Rules, AModeAtTheModelsOwnResonanceIsNoFurtherOne) {
 }
 
 // --- lines, curves and pasts
-// ------------------------------------------------------------------------------------------
 
 TEST_F(Rules, ACurveOfAsManyNumbersThatFitsBetterIsNoLine) {
   // A lag of 160 times the noise may leave 1.5 % of it, which is more than a gain and a zero leave of the curve before

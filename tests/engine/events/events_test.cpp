@@ -20,7 +20,6 @@ Traces run_to(const Program& program, double until, double every, Method method 
 }
 
 // --- clocks
-// -----------------------------------------------------------------------------------------------------------
 
 TEST(Clocks, FindTheFractionThatADecimalNumberMeans) {
   const auto is = [](double x, std::int64_t n, std::int64_t d) {
@@ -64,7 +63,6 @@ TEST(Clocks, StartLateAtTheInstantsThatAreLeft) {
 }
 
 // --- sampled blocks
-// ---------------------------------------------------------------------------------------------------
 
 TEST(Sampled, HoldsWhatItsInputWasAtTheInstant) {
   const auto p =
@@ -143,7 +141,6 @@ TEST(Sampled, ALoopAtTheInstantsIsAnErrorWithTheUnitDelayAsCure) {
 }
 
 // --- jumps are paths
-// --------------------------------------------------------------------------------------------------
 
 /// z behind a jump of Bouc-Wen's input by `du` (n = 1): dz/du = alpha - (beta +- gamma) z has one sign of z on each
 /// branch, here only for paths on which z keeps its sign.
@@ -250,7 +247,6 @@ TEST(JumpPaths, AHeldInputIsRefusedWhenItIsBoundWhereItWouldReachSuchALaw) {
 }
 
 // --- modes
-// ------------------------------------------------------------------------------------------------------------
 
 TEST(Modes, ARelayAroundALagOscillatesWithThePeriodOfItsClosedForm) {
   // tau x' = -r - x with r = +-1, switching at x = +-h: half a period is tau ln((1 + h)/(1 - h)).

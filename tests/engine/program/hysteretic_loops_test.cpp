@@ -17,7 +17,6 @@ using namespace tools;
 using std::numbers::pi;
 
 // --- Jiles-Atherton in its own field
-// ----------------------------------------------------------------------------------
 
 const jiles_atherton::Params<double> table{.p_s = 55.9973, .a = 48.5843, .alpha = 0.2512, .k = 3.8892, .c = 0.6929};
 
@@ -74,7 +73,6 @@ TEST(OwnFieldOfAJump, IsThatOfTheFastRamp) {
 }
 
 // --- play operators that feed each other
-// ------------------------------------------------------------------------------
 
 /// v = c u - K w, w_i = play(r_i, v_i): 2 x 2, with the pieces of both operators tried one by one.
 struct Coupled {

@@ -93,7 +93,6 @@ TEST(Past, OfABlockThatForgetsIsAnErrorThatNamesThoseThatDoNot) {
 }
 
 // --- memory that is given
-// ---------------------------------------------------------------------------------------------
 
 NumberList in_volts(const std::vector<double>& values) {
   NumberList list;

@@ -234,7 +234,6 @@ TEST(AdvanceRows, AValueThatIsNoneNamesSignalAndTime) {
 }
 
 // --- states that are not linear
-// ---------------------------------------------------------------------------------------
 
 /// Signal `y` of a diagram of one input, with substeps.
 std::vector<double> response(const Node& law, const SeriesPointer& u, const std::vector<double>& instants,

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "io/diagram/text_diff.h"
 
-#include "io/diagram/diagram_file.h"
+#include <gtest/gtest.h>
 
 namespace hysteron {
 namespace {

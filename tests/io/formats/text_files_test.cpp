@@ -8,6 +8,7 @@
 #include "engine/diagram/error.h"
 #include "io/data/column_file.h"
 #include "io/data/measured_file.h"
+#include "io/formats/file_format.h"
 #include "tests/io/formats/instrument_files.h"
 #include "tests/io/temporary_folder.h"
 
@@ -74,6 +75,15 @@ std::string name_of_file(const ::testing::TestParamInfo<InstrumentFile>& test) {
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(Files, Instruments, ::testing::ValuesIn(instruments::all_files()), name_of_file);
+
+TEST(Instruments, EveryFormatHasAFileThatIsReadHere) {
+  const auto files = instruments::all_files();
+  for (std::size_t i = 0; i < file_formats().size(); ++i)
+    EXPECT_TRUE(
+        std::any_of(files.begin(), files.end(), [&](const auto& file) { return file_formats()[i].is(file.bytes); }))
+        << "place " << i
+        << " of the table in io/formats/file_format.cpp: no file of tests/io/formats is of this format";
+}
 
 TEST(InstrumentText, AnEmptyCellOrAMarkOfOverloadLeavesItsRowOutAndIsSaid) {
   const MeasuredFile read = read_text(

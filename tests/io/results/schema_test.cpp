@@ -1,5 +1,7 @@
 // The JSON Schemas against files that the reader takes and files that it refuses, by an independent validator
 // (valijson).
+#include "io/results/schema.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +16,7 @@
 #include "blocks/register_all.h"
 #include "io/data/dataset.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/text_diff.h"
 #include "io/jobs/claims_file.h"
 #include "io/jobs/job_file.h"
 #include "io/results/result.h"
