@@ -201,8 +201,8 @@ TEST(Architecture, ASourceHasTheHeaderOfItsNameOrIsNamedInOne) {
   }
 }
 
-/// Rooms that are tested through others: facts by the answers of all verbs, wiring by placement, pages by the page.
-const std::set<std::string> tested_elsewhere = {"app/facts", "discover/wiring", "report/pages"};
+/// Rooms that are tested through others: facts by the answers of all verbs, wiring by placement.
+const std::set<std::string> tested_elsewhere = {"app/facts", "discover/wiring"};
 /// Tests of the whole, in folders that mirror no room: of diagrams that are shipped, and against other programs.
 const std::set<std::string> tests_of_the_whole = {"app/motion", "discovery", "reference"};
 
