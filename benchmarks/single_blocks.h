@@ -115,5 +115,7 @@ void runge_kutta_rows(std::array<double, n> x, std::vector<double>& y, const Rat
 
 /// What controllers, motors and machines of states cost: drive_blocks.cpp.
 std::vector<Case> drive_cases();
+/// What bends, switches, winds or is moved: more_blocks.cpp.
+std::vector<Case> more_cases();
 
 }  // namespace hysteron::benchmarks

@@ -1,0 +1,131 @@
+// What bends, switches, winds or is moved, one block at a time as in single_blocks.cpp.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "benchmarks/single_blocks.h"
+
+namespace hysteron::benchmarks {
+namespace {
+
+/// A law of so many inputs without states.
+template <std::size_t m, class Law>
+std::function<void(std::vector<double>&)> of_inputs(Law law) {
+  return [law](std::vector<double>& y) {
+    std::array<const double*, m> in;
+    for (std::size_t i = 0; i < m; ++i) in[i] = input(i).data();
+    for (std::size_t k = 0; k < samples; ++k) {
+      std::array<double, m> u;
+      for (std::size_t i = 0; i < m; ++i) u[i] = in[i][k];
+      y[k] = law(u);
+    }
+  };
+}
+
+constexpr double lever = 0.02, stiffness = 5000, damping = 20, half = 0.001;  // of a belt, SI
+
+double belt_force(const std::array<double, 4>& u) {
+  const double stretch = lever * u[0] - u[2], rate = damping * (lever * u[1] - u[3]);
+  if (stretch > half) return std::max(0.0, stiffness * (stretch - half) + rate);
+  return stretch < -half ? std::min(0.0, stiffness * (stretch + half) + rate) : 0.0;
+}
+
+constexpr double resistance = 2, inductance = 0.01, constant = 0.1;  // of a winding, SI
+
+/// The current behind voltage and what the motion induces, exact for straight inputs.
+void winding_rows(std::vector<double>& y, double induced) {
+  const double decay = std::exp(-row * resistance / inductance), share = (1 - decay) / (row * resistance / inductance);
+  const auto &u = input(0), &v = input(1);
+  double i = 0;
+  for (std::size_t k = 0; k < samples; ++k) {
+    if (k > 0) {
+      const double before = (u[k - 1] - induced * v[k - 1]) / resistance, now = (u[k] - induced * v[k]) / resistance;
+      i = decay * i + (share - decay) * before + (1 - share) * now;
+    }
+    y[k] = i;
+  }
+}
+
+Node winding(const char* type) { return node(type, {{"resistance", "2 ohm"}, {"inductance", "10 mH"}}); }
+
+/// x+ = A x + b u, y = c x + d u, at every row.
+void discrete_rows(std::vector<double>& y) {
+  const auto& u = input(0);
+  double p = 0, q = 0;
+  for (std::size_t k = 0; k < samples; ++k) {
+    y[k] = p + 0.5 * q + 0.1 * u[k];
+    const double next = 0.8 * p + 0.3 * q;
+    q = -0.3 * p + 0.8 * q + 0.2 * u[k];
+    p = next;
+  }
+}
+
+Value matrix(const Columns& rows) {
+  NumberMatrix m;
+  for (const auto& cells : rows) {
+    m.rows.emplace_back();
+    for (const double cell : cells) m.rows.back().push_back({cell, {}});
+  }
+  return Value(m);
+}
+
+}  // namespace
+
+std::vector<Case> more_cases() {
+  std::vector<Case> all;
+  all.push_back(
+      {"dead_zone", node("dead_zone", {{"lower", -0.3}, {"upper", 0.4}}), {""}, "", of_inputs<1>([](const auto& u) {
+         return u[0] - std::max(-0.3, std::min(0.4, u[0]));
+       })});
+  all.push_back({"wrap", node("wrap", {{"period", 0.5}, {"lower", -0.25}}), {""}, "", of_inputs<1>([](const auto& u) {
+                   return u[0] - 0.5 * std::floor((u[0] + 0.25) / 0.5);
+                 })});
+  all.push_back({"sign", node("sign", {}), {""}, "", of_inputs<1>([](const auto& u) {
+                   return u[0] > 0 ? 1.0 : u[0] < 0 ? -1.0 : 0.0;
+                 })});
+  all.push_back({"switch", node("switch", {}), {"", "", ""}, "", of_inputs<3>([](const auto& u) {
+                   return u[1] > 0 ? u[0] : u[2];
+                 })});
+  all.push_back({"logic (and)", node("logic", {}), {"", ""}, "", of_inputs<2>([](const auto& u) {
+                   return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0;
+                 })});
+  all.push_back({"belt",
+                 node("belt", {{"radius", "20 mm"}, {"stiffness", "5 N/mm"}, {"damping", "20 N*s/m"}, {"gap", "2 mm"}}),
+                 {"rad", "rad/s", "m", "m/s"},
+                 ".force",
+                 of_inputs<4>([](const auto& u) { return belt_force(u); })});
+  {
+    const double p = 1 / 5e-3;
+    const Recursion<1> law(Eigen::Matrix<double, 1, 1>(-p), Eigen::Matrix<double, 1, 1>(p),
+                           Eigen::Matrix<double, 1, 1>(-p), p);
+    all.push_back({"filtered_derivative", node("filtered_derivative", {{"time", "5 ms"}}), {""}, "", [law](auto& y) {
+                     law(input(0), y);
+                   }});
+  }
+  {
+    Eigen::Matrix2d a;
+    a << -100, 0, 400, -400;
+    const Recursion<2> law(a, Eigen::Vector2d(100, 0), Eigen::RowVector2d(0, 1), 0);
+    all.push_back({"zero_pole_gain, two poles",
+                   node("zero_pole_gain", {{"poles", numbers({-100, -400})}, {"gain", 40000.0}}),
+                   {""},
+                   "",
+                   [law](auto& y) { law(input(0), y); }});
+  }
+  all.push_back({"winding", winding("winding"), {"V", "V"}, "", [](auto& y) { winding_rows(y, 1); }});
+  Node of_motor = winding("dc_winding");
+  of_motor.parameters["torque_constant"] = Value("0.1 N*m/A");
+  all.push_back({"dc_winding", of_motor, {"V", "rad/s"}, ".current", [](auto& y) { winding_rows(y, constant); }});
+  all.push_back({"discrete_state_space (2)",
+                 node("discrete_state_space", {{"a", matrix({{0.8, 0.3}, {-0.3, 0.8}})},
+                                               {"b", matrix({{0}, {0.2}})},
+                                               {"c", matrix({{1, 0.5}})},
+                                               {"d", matrix({{0.1}})},
+                                               {"period", "0.1 ms"}}),
+                 {""},
+                 "",
+                 discrete_rows});
+  return all;
+}
+
+}  // namespace hysteron::benchmarks
