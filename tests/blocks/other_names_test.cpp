@@ -68,6 +68,8 @@ TEST(OtherNames, WordsOfTheFieldLeadToWhatTheyAre) {
   says("PMSM", "synchronous_motor");
   says("Rate Transition", "sample_hold");
   says("Unit Delay", "delay_line");
+  for (const char* word : {"orifice", "valve", "convection", "Radiative Heat Transfer", "Peltier"})
+    says(word, "expression");
   EXPECT_EQ(instead_of_other_name("sawn_off"), "");
 }
 
