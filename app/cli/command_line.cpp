@@ -74,12 +74,36 @@ struct ParsedVerb {
   std::vector<CLI::Option*> parsed;
 };
 
+/// "Usage: hysteron compare [OPTIONS] diagram [other]"
+std::string usage_of(const Verb& verb) {
+  std::string text = "Usage: hysteron " + verb.name + " [OPTIONS]";
+  for (const auto& spec : verb.options) {
+    if (spec.name.starts_with("-")) continue;
+    const std::string word = spec.name + (spec.repeated ? " ..." : "");
+    text += spec.required ? " " + word : " [" + word + "]";
+  }
+  return text;
+}
+
+/// The help as CLI11 writes it, with our words for how a verb is called: its own name positionals "what(1x)".
+class HelpOfVerb : public CLI::Formatter {
+ public:
+  explicit HelpOfVerb(std::string usage) : usage_(std::move(usage)) {}
+  std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override { return usage_ + "\n"; }
+
+ private:
+  std::string usage_;
+};
+
 /// The options of a verb that nobody asked for are left out: making them all would take longer than a small diagram.
 void add_verb_to(CLI::App& app, ParsedVerb& parsed, bool asked) {
   parsed.app = app.add_subcommand(parsed.verb.name, parsed.verb.summary);
   if (!asked) return;
   parsed.app->description(parsed.verb.summary);
   parsed.app->footer(parsed.verb.help);
+  const auto formatter = std::make_shared<HelpOfVerb>(usage_of(parsed.verb));
+  formatter->column_width(app.get_formatter()->get_column_width());
+  parsed.app->formatter(formatter);
   for (const auto& common : common_options()) parsed.verb.options.push_back(common.spec);
   for (const auto& spec : parsed.verb.options) {
     auto& value = parsed.values.emplace_back();

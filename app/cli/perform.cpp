@@ -45,18 +45,19 @@ struct Watched {
   std::optional<DeferInterrupts> deferred;
 };
 
-/// Headline, sentences, warnings, what is said here only and, on the last line, the verdict and where report.html lies.
+/// Headline, sentences, warnings, what is said here only, and where report.html lies. Where there is a verdict much
+/// stands between: there the headline comes last, where a reader of a terminal looks.
 std::string document_text(const Answer& answer, bool quiet) {
   const Document& document = answer.document;
-  std::string text;
-  if (!document.headline.empty()) text += wrapped(document.headline);
+  const std::string headline = document.headline.empty() ? "" : wrapped(document.headline);
+  std::string text = document.verdict.empty() ? headline : "";
   if (!quiet) {
     for (const auto& sentence : document.sentences) text += wrapped(sentence, 2);
     for (const auto& warning : document.warnings) text += wrapped("note: " + warning, 2);
     for (const auto& line : answer.asides) text += wrapped(line, 2);
   }
-  return text + fmt::format("{}: {}\n", document.verdict.empty() ? "report" : document.verdict,
-                            place_in(answer, "report.html"));
+  text += fmt::format("report: {}\n", place_in(answer, "report.html"));
+  return document.verdict.empty() ? text : text + headline;
 }
 
 /// What is in place is told when it is: a failure comes behind what was said before it.

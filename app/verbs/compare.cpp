@@ -124,11 +124,12 @@ std::string headline(const DataModel& model, const Comparison& comparison) {
     const Metrics* m = judged_metrics(comparison, y);
     if (m == nullptr) continue;
     validate = validate || m == comparison.find(Role::validate, y);
-    parts.push_back(fmt::format("{}: RMS {}, NRMSE {}, fit {}", model.outputs()[static_cast<std::size_t>(y)],
-                                difference_text(m->rms, output_unit(model, y)), percent_text(m->nrmse),
+    parts.push_back(fmt::format("{} by {} rms (NRMSE {}, fit {})", model.outputs()[static_cast<std::size_t>(y)],
+                                difference_text(m->rms, output_unit(model, y), 3), percent_text(m->nrmse),
                                 percent_text(m->fit / 100)));
   }
-  return fmt::format("{} ({})", fmt::join(parts, "; "), validate ? "validate recordings" : "train recordings");
+  return fmt::format("On the {} recordings the model misses {}", validate ? "validate" : "train",
+                     fmt::join(parts, ", "));
 }
 
 Document document_of(const Diagram& diagram, const DataModel& model, const Comparison& comparison) {
@@ -142,7 +143,7 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
   const Beside view{&model, &comparison, nullptr};
 
   Section figures;
-  figures.title = "How far";
+  figures.title = "Overall error";
   figures.tables.push_back(metrics_table(model, comparison));
   document.sections.push_back(std::move(figures));
 

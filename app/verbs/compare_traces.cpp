@@ -159,7 +159,7 @@ void add_pair(Document& document, const TraceComparison& c, const TracePair& pai
 
 Table distances_table(const TraceComparison& c) {
   Table table;
-  table.title = "How far";
+  table.title = "Overall error";
   table.columns = {"signal", "points", "left out", "largest difference", "at", "RMS", "tolerance", "outside"};
   for (const auto& pair : c.pairs) {
     const TraceDistance& d = pair.distance;
@@ -209,7 +209,7 @@ Document document_of(const Arguments& arguments, const TraceComparison& c) {
                   : fmt::format("{} of {} within the tolerance", good, count_text(static_cast<long>(judged), "signal"));
   document.warnings = c.remarks;
   Section figures;
-  figures.title = "How far";
+  figures.title = "Overall error";
   figures.tables.push_back(distances_table(c));
   document.sections.push_back(std::move(figures));
   for (const auto& pair : c.pairs) add_pair(document, c, pair);

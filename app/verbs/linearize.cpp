@@ -214,10 +214,11 @@ Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
     document.sections.push_back(std::move(first));
     std::optional<double> lowest = low_gain(motions);
     if (lowest) *lowest *= scale;
-    const std::string gain = lowest ? number_text(*lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies"
-                                    : "without bound at low frequencies";
-    document.headline = fmt::format("{} to {}{}: {}gain {}", from.path, to.path, opened ? ", loop open" : "",
-                                    stability_head(motions), gain);
+    const std::string gain =
+        lowest ? "gain " + number_text(*lowest) + (unit.empty() ? "" : " " + unit) + " at low frequencies"
+               : "integrating (infinite gain at low frequencies)";
+    document.headline =
+        fmt::format("{} to {}{}: {}{}", from.path, to.path, opened ? ", loop open" : "", stability_head(motions), gain);
     const LinearModel& model = motions.model;
     Facts facts = Facts::object({{"diagram", arguments.text("diagram")},
                                  {"from", from.path},

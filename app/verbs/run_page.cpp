@@ -159,14 +159,14 @@ Facts loop_facts(const Statistics& s) {
   return list;
 }
 
-/// "100 runs of sampled blocks; changes of mode: relay 12." or "".
+/// "100 runs of sampled blocks; switches: relay 12." or "".
 std::string events_text(const Statistics& s) {
   std::vector<std::string> parts;
   if (s.samples > 0) parts.push_back(count_text(s.samples, "run") + " of sampled blocks");
   if (s.paths > 0) parts.push_back(count_text(s.paths, "jump") + " followed along the path");
   std::vector<std::string> changes;
   for (const auto& [block, count] : s.mode_changes) changes.push_back(fmt::format("{} {}", block, count));
-  if (!changes.empty()) parts.push_back(fmt::format("changes of mode: {}", fmt::join(changes, ", ")));
+  if (!changes.empty()) parts.push_back(fmt::format("switches: {}", fmt::join(changes, ", ")));
   return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
 }
 

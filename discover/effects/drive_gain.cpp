@@ -14,7 +14,8 @@ Effect drive_gain() {
   e.equation = "y = f(gain*u)";
   e.source = "data sheets of multilayer stacks, e.g. PiezoDrive SA series: travel +-10 % from part to part";
   e.residual = "The same share of every output that the drive moves, at all frequencies and amplitudes.";
-  e.needs = "Two measured outputs or more behind one drive: of one alone a calibration says the same.";
+  e.needs =
+      "Two measured outputs or more behind one drive: with one output, drive gain and sensor gain cannot be separated.";
   e.way = Way::insert;
   e.block_type = "gain";
   e.places = {"command"};

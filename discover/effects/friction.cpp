@@ -97,7 +97,7 @@ Effect friction() {
     if (at.damping) return told_beside_damping(values, at);
     if (at.by.empty() && is_motion(at.unit))
       return fmt::format(
-          "{:.3g} {} held back, after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
+          "lost motion +-{:.3g} {}, reached after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
           at.unit.difference_from_si(values[1]), at.unit.text,
           values.size() > 2 ? fmt::format(", {:.2g} % more before it slides fast", 100 * values[2]) : "");
     if (at.by.empty())
@@ -107,8 +107,9 @@ Effect friction() {
     if (turns(at))
       return fmt::format("{:.3g} N m ({:.2g} % of the torque), after {:.3g} mrad", values[0] * values[1], share,
                          values[1] * 1e3);
-    return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} um", values[0] * values[1], share,
-                       values[1] * 1e6);
+    const bool far = values[1] >= 1e-3;
+    return fmt::format("{:.3g} N ({:.2g} % of the force), after {:.3g} {}", values[0] * values[1], share,
+                       values[1] * (far ? 1e3 : 1e6), far ? "mm" : "um");
   };
   e.laws = [](const Excitation& at) {
     if (at.damping) return std::vector<Law>{beside_damping(at), beside_damping_with_excess(at)};
@@ -125,9 +126,9 @@ Effect friction() {
     if (law.block.type != "guide_friction") return "";
     const double level = values[0], slip = values[1];
     if (std::max(level, slip) > 0.99 * law.free[1].upper)
-      return "it would slide only behind a tenth of the stroke: that is the actuator's own hysteresis";
+      return "it would slide only beyond a tenth of the stroke: that is hysteresis of the actuator, not friction";
     // Dry friction without presliding and a gap obey one law, the play operator.
-    return slip < 0.1 * level ? "it sticks fully until it slides: that is lost motion" : "";
+    return slip < 0.1 * level ? "it sticks fully until it slides: that is backlash, not friction" : "";
   };
   e.unsure = [](const Excitation& at) -> std::string {
     if (at.damping) return "";  // a speed passes all that are below it

@@ -311,8 +311,8 @@ std::string why_no_hysteresis(const Law& law, const std::vector<double>& values,
   if (!loop) return "";
   if (!(loop->gap > no_loop * loop->stroke)) return no_memory;
   return loop->narrow < nearly_all * loop->gap ? ""
-                                               : "all of its loop lies within a tenth of the stroke: that is lost "
-                                                 "motion";
+                                               : "its loop closes within a tenth of the stroke: that is backlash, "
+                                                 "not hysteresis";
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ Effect quantization() {
   };
   e.unsure = [](const Excitation& at) -> std::string {
     if (!at.from_data || at.resolution >= 2 * at.roughness) return "";
-    return fmt::format("its steps are {:.2g} times the noise, from two on they show", at.resolution / at.roughness);
+    return fmt::format("its resolution is {:.2g} times the noise; detectable from 2 times",
+                       at.resolution / at.roughness);
   };
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";

@@ -290,7 +290,7 @@ class Search {
       e.between = fmt::format("{}", fmt::join(names.begin(), names.end() - 1, ", ")) + " and " + names.back();
       return;
     }
-    e.text += fmt::format("; it would leave {} tied", fmt::join(no, ", "));
+    e.text += fmt::format("; it would not separate {}", fmt::join(no, ", "));
   }
 
   void take(std::optional<Outcome> outcome) {

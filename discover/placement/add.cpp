@@ -27,7 +27,7 @@ Spot spot_behind(const Wiring& w, const std::string& signal) {
   const std::string end = chain.empty() ? signal : chain.back();
   Spot spot{signal, end, w.readers(end)};
   if (spot.readers.empty())
-    fail("unknown_place", signal, fmt::format("nobody reads \"{}\"", signal),
+    fail("unknown_place", signal, fmt::format("nothing reads the signal \"{}\"", signal),
          "name a signal that is read by a block or is an output");
   // The spelling of the first reader, so that taking the effect out gives back what stood there.
   const Reader& first = spot.readers.front();

@@ -43,8 +43,9 @@ std::string why_no_place(const Effect& e, const Registry& registry) {
   if (e.side == Side::use) return "no recording says what the device had behind it (cycles_before, start)";
   if (e.side == Side::other_axis) return "no other axis is recorded";
   if (e.least_outputs > 1)
-    return fmt::format("no drive has {} measured outputs behind it: of one alone a calibration says the same",
-                       e.least_outputs);
+    return fmt::format(
+        "no drive has {} measured outputs behind it: with one, drive gain and sensor gain cannot be separated",
+        e.least_outputs);
   return "the diagram has no place where it could enter";
 }
 

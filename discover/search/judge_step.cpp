@@ -275,8 +275,9 @@ std::vector<double> own_values(const Tried& tried) {
 }
 
 std::string what_it_takes(const Tried& tried) {
-  return fmt::format("takes away {:.0f} of chi2 on recordings not used for the fit, {} of what stands above the noise",
-                     tried.fall_validate, percent(std::clamp(tried.share, 0.0, 1.0)));
+  return fmt::format(
+      "explains {} of the error above the noise on recordings not used for the fit (chi2 falls by {:.0f})",
+      percent(std::clamp(tried.share, 0.0, 1.0)), tried.fall_validate);
 }
 
 std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Excitation& at) {
@@ -347,9 +348,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
                   "on recordings not used for the fit it adds {:.0f} to chi2: what it says of those that were "
                   "fitted does not hold there",
                   -tried.fall_validate)
-            : fmt::format(
-                  "on recordings not used for the fit it takes away {:.1f} of chi2, no more than chance ({:.0f})",
-                  tried.fall_validate, rules::claim_fall);
+            : fmt::format("on recordings not used for the fit chi2 falls by {:.1f}, no more than by chance ({:.0f})",
+                          tried.fall_validate, rules::claim_fall);
     return;
   }
   // Its values were found on the fitted recordings: a law that these hardly need says of others what they have by
@@ -357,9 +357,8 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   const bool found_elsewhere = c.found_on_validation > before.found_on_validation;  // a line: in each recording anew
   if (!left_by_laws.empty() && !found_elsewhere && !(tried.fall_train > rules::claim_fall)) {
     tried.reason = fmt::format(
-        "on the recordings that were fitted it takes away {:.1f} of chi2, no more than chance ({:.0f}): what it does "
-        "in "
-        "others was not found there",
+        "on the recordings that were fitted chi2 falls by {:.1f}, no more than by chance ({:.0f}): what it does in others "
+        "was not found there",
         tried.fall_train, rules::claim_fall);
     return;
   }
@@ -377,9 +376,9 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
   if (left_by_laws.empty() && above_noise && tried.share < enough && !owns_an_excitation(was, is) &&
       leaves_more_than_noise(is, tried.outputs)) {
     tried.patch = true;
-    tried.reason =
-        fmt::format("a patch: it takes away {} of what stands above the noise, and most of it in no kind of recording",
-                    percent(tried.share));
+    tried.reason = fmt::format(
+        "a patch: it explains only {} of the error above the noise, and is the main cause in no kind of recording",
+        percent(tried.share));
     return;
   }
   if (!left_by_laws.empty()) {
@@ -392,8 +391,9 @@ void judge(Tried& tried, const Contender& before, const std::vector<double>& lef
     const double of_rest = was.noise_known ? rules::share_of_rest : rules::structure_share;
     if (tried.share < of_rest && !owns_an_excitation(was, is)) {
       tried.patch = true;
-      tried.reason = fmt::format("a patch: it takes away {} of what is left, and most of it in no kind of recording",
-                                 percent(tried.share));
+      tried.reason =
+          fmt::format("a patch: it explains only {} of what is left, and is the main cause in no kind of recording",
+                      percent(tried.share));
       return;
     }
   }

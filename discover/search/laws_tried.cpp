@@ -48,10 +48,10 @@ std::string why_no_better(const Contender& fitted, const Contender& present, con
                           double for_the_same) {
   if (fitted.score() < present.score() - for_the_same) return "";
   const double more = present.error_of.evidence() - fitted.error_of.evidence();
-  if (!(more > 0)) return fmt::format("takes away no more than {}", present_law.name);
+  if (!(more > 0)) return fmt::format("explains no more than {}", present_law.name);
   if (fitted.score() < present.score()) return fmt::format("{} explains as much by fewer numbers", present_law.name);
-  return fmt::format("takes away {:.1f} more than {}, less than its further numbers cost ({})", more, present_law.name,
-                     fitted.parameters - present.parameters);
+  return fmt::format("lowers chi2 by {:.1f} more than {}, less than its further numbers cost ({})", more,
+                     present_law.name, fitted.parameters - present.parameters);
 }
 
 }  // namespace hysteron

@@ -33,16 +33,17 @@ void check_scope(const ScopeOfNames& scope, bool is_top, Problems& problems) {
   const bool keeps_nothing = diagram.outputs.empty() && diagram.record.empty() && is_top;
   for (const auto& name : diagram.blocks.names())
     if (!keeps_nothing && !wires.contains(name) && !used.contains(name))
-      problems.add("unused_block", scope.origin + "/blocks/" + name, fmt::format("nobody reads block \"{}\"", name),
+      problems.add("unused_block", scope.origin + "/blocks/" + name,
+                   fmt::format("block \"{}\" is not used: nothing reads its outputs", name),
                    "wire it, record it, make it an output, or remove it");
   for (const auto& name : diagram.inputs.names())
     if (!wires.contains(name))
-      problems.add("unused_input", scope.origin + "/inputs/" + name, fmt::format("nobody reads input \"{}\"", name),
+      problems.add("unused_input", scope.origin + "/inputs/" + name, fmt::format("input \"{}\" is not used", name),
                    "wire it or remove it");
   for (const auto& name : diagram.parameters.names())
     if (!references.contains(name))
       problems.add("unused_parameter", scope.origin + "/parameters/" + name,
-                   fmt::format("nobody reads parameter \"{}\"", name),
+                   fmt::format("parameter \"{}\" is not used", name),
                    fmt::format("refer to it as \"${}\" or remove it", name));
 }
 

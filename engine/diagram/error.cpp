@@ -121,7 +121,7 @@ std::string nearest_of_many(std::string_view name, const std::vector<std::string
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   if (known.empty()) return "there are none";
   if (known.size() > names_in_full) return nearest_of_many(name, known);
-  std::string text = fmt::format("known: {}.", fmt::join(known, ", "));
+  std::string text = fmt::format("choose one of {}.", fmt::join(known, ", "));
   if (const auto best = nearest_name(name, known); !best.empty()) text += fmt::format(" Did you mean \"{}\"?", best);
   return text;
 }

@@ -50,7 +50,7 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
-/// "known: a, b, c. Did you mean "b"?" for a name that is not among the known ones.
+/// "choose one of a, b, c. Did you mean "b"?" for a name that is not among the known ones.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
 /// The known name nearest to `name` (edit distance at most a third of its length), or "".

@@ -106,7 +106,7 @@ MethodChoice choose_method(const Program& program, const Run& run, double begin,
     shortest = time;
     which = program.blocks[at(b)].path;
   }
-  if (!(shortest < span / few_jumps)) return {Method::bdf, "no held signal jumps often into the states"};
+  if (!(shortest < span / few_jumps)) return {Method::bdf, "few discontinuities reach the states"};
   const std::string jumps = fmt::format("\"{}\" jumps every {}", which, time_text(shortest));
   if (program.n_x > most_states)
     return {Method::bdf,

@@ -47,7 +47,7 @@ struct Split {
   std::vector<SplitPart> parts;
   double information = 0;  ///< sum of error * ln(error / rows): 0 where the error is spread evenly
   bool tells = false;      ///< a part holds clearly more of the error than of the rows, or it grows within the holds
-  std::string sentence;    ///< "78 % of the squared error lies on the falling branch, which holds 45 % of the rows"
+  std::string sentence;    ///< "78 % of the squared error lies on the falling branch (45 % of the samples)"
 };
 
 struct OutputSplits {

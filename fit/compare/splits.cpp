@@ -18,9 +18,9 @@ namespace {
 struct Draft {
   std::string variable, title;
   std::vector<std::string> labels, phrases;
-  std::vector<std::vector<int>> part;   ///< [recording][row]
-  std::string counted = "of the rows";  ///< what its parts are shares of, beside the error
-  bool has_times = true;                ///< its parts are rows
+  std::vector<std::vector<int>> part;      ///< [recording][row]
+  std::string counted = "of the samples";  ///< what its parts are shares of, beside the error
+  bool has_times = true;                   ///< its parts are rows
 };
 
 std::string number(const Unit& unit, double si) {
@@ -76,9 +76,9 @@ Split finish(const Draft& d, const std::vector<SplitInput>& recordings) {
   if (d.has_times) add_spans(s, d, recordings);
   const SplitPart& most = s.parts[top];
   s.tells = most.error - most.rows >= tells_nothing;
-  s.sentence = s.tells ? fmt::format("{:.0f} % of the squared error lies {}, which holds {} {}", 100 * most.error,
-                                     d.phrases[top], share_text(most.rows), d.counted)
-                       : fmt::format("Split {}, the squared error lies where the rows lie", d.title);
+  s.sentence = s.tells ? fmt::format("{:.0f} % of the squared error lies {} ({} {})", 100 * most.error, d.phrases[top],
+                                     share_text(most.rows), d.counted)
+                       : fmt::format("Split {}, the squared error is spread as the samples are", d.title);
   return s;
 }
 
@@ -234,16 +234,23 @@ struct Decades {
     if (k == count() - 1) return fmt::format("above {:.6g} {}", from, unit);
     return fmt::format("{:.6g} .. {:.6g} {}", from, 10 * from, unit);
   }
+  /// "in the first 0.01 s after u has stopped"
+  std::string phrase(int k, const std::string& event) const {
+    const double from = std::pow(10, lowest + k);
+    if (k == 0) return fmt::format("in the first {:.6g} s after {}", 10 * from, event);
+    if (k == count() - 1) return fmt::format("later than {:.6g} s after {}", from, event);
+    return fmt::format("{:.6g} .. {:.6g} s after {}", from, 10 * from, event);
+  }
 };
 
 /// By the swing that a row belongs to: thirds of the largest between two turning points.
 Draft by_amplitude(const std::vector<SplitInput>& recordings, const std::string& name) {
   Draft d{"amplitude",
-          "by size of swing of " + name,
-          {"small swings", "middle swings", "large swings"},
-          {fmt::format("in swings of {} below a third of the largest", name),
-           fmt::format("in swings of {} of one to two thirds of the largest", name),
-           fmt::format("in swings of {} above two thirds of the largest", name)},
+          "by size of stroke of " + name,
+          {"small strokes", "middle strokes", "large strokes"},
+          {fmt::format("in strokes of {} below 1/3 of the largest", name),
+           fmt::format("in strokes of {} of 1/3 to 2/3 of the largest", name),
+           fmt::format("in strokes of {} over 2/3 of the largest", name)},
           {}};
   std::vector<Rows> swing;
   double largest = 0;
@@ -279,7 +286,7 @@ Draft by_hold_time(const Holds& holds, const std::string& name) {
   }
   for (int k = 0; k < decades.count(); ++k) {
     d.labels.push_back(decades.label(k, "s"));
-    d.phrases.push_back(fmt::format("where {} has been held for {}", name, d.labels.back()));
+    d.phrases.push_back(decades.phrase(k, name + " has stopped"));
   }
   for (const auto& rows : holds.age) {
     std::vector<int> part;
@@ -297,7 +304,7 @@ void tell_growth(Split& split, const Holds& holds, const std::vector<SplitInput>
   const std::string growth = growth_of(holds, recordings);
   if (growth.empty()) return;
   split.tells = true;
-  split.sentence = fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {} ({} of the rows){}",
+  split.sentence = fmt::format("{:.0f} % of the squared error lies in the {:.3g} s after {} ({} of the samples){}",
                                100 * (1 - moving.error), holds.longest,
                                holds.after_step >= holds.after_motion ? "a step" : name + " has stopped",
                                share_text(1 - moving.rows), growth);

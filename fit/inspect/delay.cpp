@@ -135,9 +135,8 @@ std::string sentence_of(const DelayFinding& f, const std::string& name) {
       for (const auto& r : f.recordings)
         if (r.at_edge && r.fall > 0.1)
           return fmt::format(
-              "shifting {} by {:.0f} samples and more would take error away ({}): no slip of the recording, rather "
-              "hysteresis "
-              "or a lag",
+              "shifting {} by {:.0f} samples and more lowers the error ({}): the recording is not shifted in time; this "
+              "points to hysteresis or a lag",
               name, std::abs(r.samples), fall);
       return fmt::format(
           "shifting {} in time would take error away ({}), but by different amounts in different recordings: no delay",

@@ -67,14 +67,14 @@ class Inspector {
     const auto is_one_of = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), column) != names.end();
     };
-    return is_one_of(program().input_names) ? "input" : is_one_of(model_.outputs()) ? "output" : "beside";
+    return is_one_of(program().input_names) ? "input" : is_one_of(model_.outputs()) ? "output" : "auxiliary";
   }
 
   void columns() {
     std::set<std::string> names;
     for (const auto& part : parts_)
       for (const auto& [name, rows] : model_.recording(part.recording).columns) names.insert(name);
-    for (const auto& role : {"input", "output", "beside"})
+    for (const auto& role : {"input", "output", "auxiliary"})
       for (const auto& name : names) {
         if (role_of(name) != role || name == column_of_cycles || name == column_of_start) continue;
         InspectedColumn c{name, role, unit_of(name)};
@@ -160,7 +160,7 @@ class Inspector {
   /// Columns of the diagram that stay at one value in all recordings.
   void still() {
     for (const auto& c : seen_.columns) {
-      if (c.role == "beside" || moves(model_.data(), c.name)) continue;
+      if (c.role == "auxiliary" || moves(model_.data(), c.name)) continue;
       const std::string stays =
           fmt::format("{} never moves: it is {} in every row", c.name, level_text(c.lowest, c.unit));
       if (c.role == "output")
@@ -218,7 +218,7 @@ class Inspector {
   void units() {
     std::vector<std::string> without;
     for (const auto& c : seen_.columns)
-      if (c.unit.text.empty() && c.role != "beside") without.push_back(c.name);
+      if (c.unit.text.empty() && c.role != "auxiliary") without.push_back(c.name);
     if (!without.empty())
       seen_.notes.push_back(fmt::format("No unit is written for {}: taken as plain numbers.", list_text(without)));
   }

@@ -21,7 +21,7 @@ namespace hysteron {
 /// One column over all recordings inspected [SI].
 struct InspectedColumn {
   std::string name;
-  std::string role;  ///< "input", "output", "beside" (bound to nothing)
+  std::string role;  ///< "input", "output", "auxiliary" (bound to nothing)
   Unit unit;
   double lowest = 0, highest = 0;
   double finest = 0;     ///< step between its levels; 0 = none can be told

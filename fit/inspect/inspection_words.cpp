@@ -70,12 +70,12 @@ std::string output_sentence(const Inspection& seen, const std::string& name) {
   const InspectedColumn* c = column_of(seen, name);
   if (c == nullptr) return "";
   std::string text = fmt::format("{} was measured over {}", name, range_text(c->lowest, c->highest, c->unit));
-  if (c->finest > 0) text += fmt::format(" in steps of {}", size_text(c->finest, c->unit));
-  text += fmt::format(", rough by {}", size_text(c->roughness, c->unit));
+  if (c->finest > 0) text += fmt::format("; resolution {}", size_text(c->finest, c->unit));
+  text += fmt::format("; scatter from sample to sample {} rms", size_text(c->roughness, c->unit));
   const auto repeat =
       std::find_if(seen.repeats.begin(), seen.repeats.end(), [&](const auto& r) { return r.output == name; });
   if (repeat != seen.repeats.end())
-    text += fmt::format("; it repeats to {} rms ({})", size_text(repeat->floor.rms, c->unit), repeat->what);
+    text += fmt::format("; repeatability {} rms ({})", size_text(repeat->floor.rms, c->unit), repeat->what);
   return text + ".";
 }
 
@@ -149,8 +149,8 @@ std::vector<std::string> sentences_of(const Inspection& seen, const std::vector<
   std::erase(say, "");
   if (seen.repeats.empty())
     say.emplace_back(
-        "Nothing was recorded twice, neither a period nor a recording: the floor of the measurement cannot be read "
-        "off, only guessed from how rough the rows are.");
+        "Nothing was recorded twice, neither a period nor a recording: the repeatability is unknown, and the noise is "
+        "estimated from the scatter from sample to sample.");
   return say;
 }
 

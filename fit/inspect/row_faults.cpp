@@ -73,7 +73,7 @@ class RowFaults {
     std::map<std::size_t, std::size_t> repeated;  // row: columns that repeat there
     std::size_t judged = 0;
     for (const auto& c : seen_.columns) {
-      if (c.role == "beside") continue;
+      if (c.role == "auxiliary") continue;
       const auto rows = rows_of(model_, part, c.name);
       if (range_of(rows) <= 0) continue;
       ++judged;

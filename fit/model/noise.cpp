@@ -48,7 +48,7 @@ NoiseOfOutput before_fit(const DataModel& model, int output) {
     if (const Rows& rows = model.measured(r, output); rows.size() > 8) rough.push_back(roughness(rows));
   noise.white = std::max(median(rough), noise_floor(model, output, noise.resolution));
   noise.source = NoiseSource::guessed;
-  noise.remark = "the data set does not say how noisy this output is: guessed from how rough the measured rows are";
+  noise.remark = "the data set does not say how noisy this output is: estimated from the scatter from sample to sample";
   return noise;
 }
 
@@ -109,7 +109,7 @@ std::string to_text(NoiseSource source) {
     case NoiseSource::guessed:
       break;
   }
-  return "guessed from the measured rows";
+  return "estimated from the scatter from sample to sample";
 }
 
 std::vector<double> NoiseModel::white() const {

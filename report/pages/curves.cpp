@@ -237,7 +237,7 @@ void add_split_figures(Section& section, const DataModel& model, const Compariso
         bar.label = part.label;
         bar.value = 100 * part.error;
         bar.text = fmt::format("{} in {} of the {}, rms {}", percent_text(part.error), percent_text(part.rows),
-                               split.variable == "frequency" ? "spectrum" : "rows",
+                               split.variable == "frequency" ? "spectrum" : "samples",
                                difference_text(part.rms, unit_of_differences(output_unit(model, of_output.output)), 3));
         figure.bars.push_back(std::move(bar));
       }

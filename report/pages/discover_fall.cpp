@@ -56,7 +56,7 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
     const OutputError* j = find(judged, name);
     if (j == nullptr) return;
     figure.bars.push_back({label, unit.difference_from_si(j->rms),
-                           fmt::format("{} ({})", difference_text(j->rms, unit), percent_text(j->nrmse)), role});
+                           fmt::format("{} ({})", difference_text(j->rms, unit, 3), percent_text(j->nrmse)), role});
   };
   bar("as given", found.as_given, "before");
   // A refit of the user's own parameters is a step of its own only where there were any.
@@ -69,7 +69,7 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
   const OutputError* last = find(judged, name);
   const double reached = last == nullptr ? 0 : last->rms;
   const auto line = [&](const std::string& label, double rms) {
-    if (rms > 0) figure.bars.push_back({label, unit.difference_from_si(rms), difference_text(rms, unit), "floor"});
+    if (rms > 0) figure.bars.push_back({label, unit.difference_from_si(rms), difference_text(rms, unit, 3), "floor"});
   };
   line("repeatability", floor.repeatability);
   if (!(floor.repeatability > 0) || reached < floor.repeatability) line("noise of the sensor", floor.noise);
@@ -266,8 +266,7 @@ void add_diagram_pictures(Section& section, Document& document, const Discovery&
     add(found.steps.empty() ? "The diagram" : "Before", "base.svg", found.base_diagram);
     if (found.steps.empty()) return;
     add("After", "final.svg", found.final_diagram);
-    section.figures.back().caption =
-        fmt::format("Set off, with the word new above: {}.", fmt::join(options.added, ", "));
+    section.figures.back().caption = fmt::format("Marked \"new\": {}.", fmt::join(options.added, ", "));
   } catch (const Error& e) {
     if (e.problems.empty() || e.problems.front().code != "no_graphviz") throw;
     section.text.emplace_back("Pictures of the diagram need the program dot of Graphviz, which is not installed.");

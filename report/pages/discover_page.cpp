@@ -57,14 +57,16 @@ Section parameters_section(const Seen& seen) {
   for (const auto& step : seen.found.steps) {
     const Candidate& c = step.winner;
     if (!c.summary.empty()) section.text.push_back(fmt::format("{}: {}.", c.effect, c.summary));
-    if (!c.plausible.empty()) section.text.push_back(fmt::format("What is usual of {}: {}.", c.effect, c.plausible));
+    if (!c.plausible.empty()) section.text.push_back(fmt::format("Typical values for {}: {}.", c.effect, c.plausible));
   }
   Table table;
   table.columns = {"parameter", "value", "95 % interval", "start", "usual", "remark"};
   const auto add = [&](const FoundParameter& p) {
     const auto& e = p.estimate;
     const auto text = [&](double si) {
-      return e.difference ? difference_text(si, e.unit, 5) : quantity_text(si, e.unit, 5);
+      const auto shown = [&](double x) { return e.difference ? e.unit.difference_from_si(x) : e.unit.from_si(x); };
+      const int digits = e.low95 && e.high95 ? digits_within(shown(si), shown(*e.low95), shown(*e.high95)) : 5;
+      return e.difference ? difference_text(si, e.unit, digits) : quantity_text(si, e.unit, digits);
     };
     const std::string interval = e.low95 && e.high95 ? text(*e.low95) + " .. " + text(*e.high95) : "-";
     table.rows.push_back({e.path, e.value ? text(*e.value) : "not determined by these data", interval, text(e.start),

@@ -13,16 +13,25 @@
 namespace hysteron {
 namespace {
 
+double shown_si(const ParameterEstimate& e, double si) {
+  return e.difference ? e.unit.difference_from_si(si) : e.unit.from_si(si);
+}
+
+/// As many digits of a value as its interval allows.
+int digits_of(const ParameterEstimate& e, double si) {
+  if (!e.low95 || !e.high95) return 5;
+  return digits_within(shown_si(e, si), shown_si(e, *e.low95), shown_si(e, *e.high95));
+}
+
 std::string interval_text(const ParameterEstimate& e) {
   if (!e.low95 || !e.high95) return e.at_lower ? "at its lower bound" : e.at_upper ? "at its upper bound" : "-";
-  const auto text = [&](double si) {
-    return number_text(e.difference ? e.unit.difference_from_si(si) : e.unit.from_si(si), 5);
-  };
+  const auto text = [&](double si) { return number_text(shown_si(e, si), digits_of(e, si)); };
   return fmt::format("{} .. {}", text(*e.low95), text(*e.high95));
 }
 
 std::string value_text_of(const ParameterEstimate& e, double si) {
-  return e.difference ? difference_text(si, e.unit, 5) : quantity_text(si, e.unit, 5);
+  const int digits = digits_of(e, si);
+  return e.difference ? difference_text(si, e.unit, digits) : quantity_text(si, e.unit, digits);
 }
 
 /// The recording of a parameter that has one value in each; "all" else.
@@ -178,10 +187,6 @@ Table correlation_table(const DataModel& model, const FitResult& result) {
     table.rows.push_back(std::move(row));
   }
   return table;
-}
-
-double shown_si(const ParameterEstimate& e, double si) {
-  return e.difference ? e.unit.difference_from_si(si) : e.unit.from_si(si);
 }
 
 /// How sure, as pictures: the interval of each parameter relative to its value, and the profiles where asked.

@@ -159,8 +159,9 @@ Inspected inspect_data(const Diagram& diagram, const Registry& registry, DataMod
 
 std::string inspection_headline(const Inspected& seen) {
   const auto& faults = seen.data.faults;
-  if (faults.empty()) return "The data: no fault found.";
-  return fmt::format("The data: {}. {}", count_text(static_cast<long>(faults.size()), "fault"), faults.front());
+  if (faults.empty()) return "No problem found in the data.";
+  return fmt::format("{} in the data. {}{}", count_text(static_cast<long>(faults.size()), "problem"),
+                     faults.size() > 1 ? "First: " : "", faults.front());
 }
 
 std::vector<std::string> inspection_sentences(const Inspected& seen) {

@@ -22,7 +22,7 @@ struct Inspected {
 Inspected inspect_data(const Diagram& diagram, const Registry& registry, DataModel& model, const Effects& effects,
                        const std::vector<std::string>& free_paths = {}, bool diagram_is_meant = true);
 
-/// "no fault found", or how many and the first.
+/// "No problem found in the data.", or how many and the first.
 std::string inspection_headline(const Inspected& seen);
 /// What the data are and what may be odd about them; then what they can and cannot show, if there is a library to ask.
 std::vector<std::string> inspection_sentences(const Inspected& seen);

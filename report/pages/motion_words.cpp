@@ -106,12 +106,11 @@ void tell_phase(Document& document, Facts& given, const SmallMotions& m) {
       given.set("delay_margin_samples", delay / m.sampled->sample);
     }
     if (delay == 0)
-      text += "; its gain is 1 or more at all high frequencies, so any further dead time makes it unstable";
+      text += "; delay margin 0: its gain is 1 or more at all high frequencies";
     else if (margins.delay_margin_at == margins.phase_margin_at)
-      text += fmt::format("; a further dead time of {} would take it away", amount);
+      text += fmt::format("; delay margin {}", amount);
     else
-      text += fmt::format("; a further dead time of {} makes the loop unstable{}", amount,
-                          at_text(margins.delay_margin_at));
+      text += fmt::format("; delay margin {}{}", amount, at_text(margins.delay_margin_at));
   }
   if (!text.empty()) add(document, text + ".");
   if (m.sampled && m.sampled->looks > 1 && margins.phase_margin)
@@ -135,7 +134,7 @@ void tell_gain(Document& document, Facts& given, const Margins& margins) {
     return;
   }
   if (!nearest) {
-    add(document, "The phase never passes -180 deg: no limit to the gain.");
+    add(document, "Gain margin infinite: the phase never passes -180 deg.");
     return;
   }
   const std::string margin = fmt::format("Gain margin {}{}", factor_text(nearest->factor), at_text(nearest->at));

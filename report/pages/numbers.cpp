@@ -4,21 +4,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace hysteron {
 
 std::string number_text(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "-" : (value > 0 ? "infinite" : "-infinite");
   if (value == 0) return "0";
+  // Whole numbers of six digits are read at a glance, 1.234e+04 is not.
+  if (std::abs(value) >= 1000 && std::abs(value) < 999999.5 && std::abs(value) >= std::pow(10, digits))
+    return fmt::format("{:.0f}", value);
   return fmt::format("{:.{}g}", value, digits);
+}
+
+int digits_within(double value, double low, double high) {
+  constexpr int fewest = 2, most = 10;
+  const double half = (high - low) / 2;
+  if (!(half > 0) || value == 0 || !std::isfinite(value) || !std::isfinite(half)) return 5;
+  const auto decade = [](double v) { return static_cast<int>(std::floor(std::log10(std::abs(v)))); };
+  return std::clamp(decade(value) - decade(half) + 2, fewest, most);
 }
 
 std::string unit_text(const Unit& unit) { return unit.text.empty() || unit.text == "1" ? "" : unit.text; }
 
 namespace {
+
+/// Where a number is so small that it would be written as 5.04e-06 m: the same with the prefix that makes it 5.04 um.
+/// Of units that begin with a symbol of SI alone; none = there is no such prefix.
+std::optional<std::string> with_prefix(double value, const std::string& unit, int digits) {
+  static const std::set<std::string> plain{"m",  "s",   "V", "A",   "N",   "W",     "J",
+                                           "Pa", "rad", "T", "N m", "m/s", "rad/s", "m/s^2"};
+  static const std::pair<const char*, double> prefixes[] = {{"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+  if (value == 0 || !(std::abs(value) < 1e-4) || !plain.contains(unit)) return {};
+  for (const auto& [prefix, factor] : prefixes)
+    if (std::abs(value) >= 0.9995 * factor) return number_text(value / factor, digits) + " " + prefix + unit;
+  return {};
+}
+
 std::string with_unit_text(double value, const Unit& unit, int digits) {
   const std::string text = unit_text(unit);
+  if (const auto prefixed = with_prefix(value, text, digits)) return *prefixed;
   return text.empty() ? number_text(value, digits) : number_text(value, digits) + " " + text;
 }
 }  // namespace

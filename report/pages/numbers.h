@@ -11,7 +11,12 @@ namespace hysteron {
 /// Four significant digits, without trailing zeros: "0.2129", "12.5", "1.2e-07".
 std::string number_text(double value, int digits = 4);
 
-/// "0.2129 um" of a value in SI. Offsets of the unit count (degC).
+/// So many digits that the half width of an interval about the value shows two: 0.4744 within 0.4730 .. 0.4758. 5 where
+/// the interval has no width.
+int digits_within(double value, double low, double high);
+
+/// "0.2129 um" of a value in SI; a small value of a unit without a prefix gets one ("5.04 um" of 5.04e-6 m). Offsets of
+/// the unit count (degC).
 std::string quantity_text(double si, const Unit& unit, int digits = 4);
 
 /// The same for a difference: an error of 0.5 K is 0.5 degC, not -272.65 degC.

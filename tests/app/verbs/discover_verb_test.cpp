@@ -42,7 +42,7 @@ TEST_F(DiscoverVerb, DiscoverCheckAnswersYesForAModelThatLacksNothingAndNoForOne
   record(1);
   const Outcome adequate = hysteron(folder_.path(), words);
   EXPECT_EQ(adequate.code, 0) << adequate.out << adequate.err;
-  EXPECT_TRUE(adequate.out.ends_with("adequate: out/report.html\n")) << adequate.out;
+  EXPECT_NE(adequate.out.find("report: out/report.html\n"), std::string::npos) << adequate.out;
 
   record(3, 0.02);  // 20 ms at a period of 0.5 s: a hundred times the noise
   const Outcome missing = hysteron(folder_.path(), words);

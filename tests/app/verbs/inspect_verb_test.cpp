@@ -20,7 +20,7 @@ class InspectVerb : public LabTest {};
 TEST_F(InspectVerb, InspectSaysWhatTheRecordingsCanAndCannotShow) {
   const Outcome outcome = hysteron(folder_.path(), {"inspect", "dataset.json", "--diagram", "diagram.json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.starts_with("The data: no fault found.")) << outcome.out;
+  EXPECT_TRUE(outcome.out.starts_with("No problem found in the data.")) << outcome.out;
   EXPECT_NE(outcome.out.find("report: dataset.inspect/report.html"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("They cannot show thermal_expansion: no column of the recordings is a temperature"),
             std::string::npos)
@@ -100,12 +100,12 @@ TEST_F(InspectVerb, InspectTellsColumnsThatNeverMove) {
   folder_.write("a.csv", still_output);
   const Outcome output = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "output"});
   EXPECT_EQ(output.code, 0) << output.err;
-  EXPECT_FALSE(output.out.starts_with("The data: no fault found.")) << output.out;
+  EXPECT_FALSE(output.out.starts_with("No problem found in the data.")) << output.out;
   EXPECT_NE(output.out.find("y never moves: it is 0.5 um in every row"), std::string::npos) << output.out;
   folder_.write("a.csv", still_input);
   const Outcome input = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "input"});
   EXPECT_EQ(input.code, 0) << input.err;
-  EXPECT_TRUE(input.out.starts_with("The data: no fault found.")) << input.out;
+  EXPECT_TRUE(input.out.starts_with("No problem found in the data.")) << input.out;
   EXPECT_NE(folder_.read("input/result.json").find("u never moves: it is 2 V in every row"), std::string::npos);
 }
 

@@ -32,8 +32,8 @@ std::string why_not(const Contender& richer, double for_the_same = 0) {
 }
 
 TEST(LawsTried, ALawIsNotTakenThatLeavesAsMuchOrCostsMore) {
-  EXPECT_EQ(why_not(leaves(100, 2)), "takes away no more than plain");
-  EXPECT_EQ(why_not(leaves(97, 3)), "takes away 3.0 more than plain, less than its further numbers cost (2)");
+  EXPECT_EQ(why_not(leaves(100, 2)), "explains no more than plain");
+  EXPECT_EQ(why_not(leaves(97, 3)), "lowers chi2 by 3.0 more than plain, less than its further numbers cost (2)");
   EXPECT_EQ(why_not(leaves(94.5, 2), 1), "plain explains as much by fewer numbers");
   EXPECT_EQ(why_not(leaves(90, 2), 1), "");
 }

@@ -91,12 +91,12 @@ TEST(Compile, EveryProblemHasItsCodeItsPlaceAndACure) {
        },
        "unknown_input", "/blocks/stage/in", "1 input"},
       {"unused block", [](Diagram& d) { d.blocks["other"] = node("pass", {"u"}); }, "unused_block", "/blocks/other",
-       "nobody reads"},
+       "is not used"},
       {"unused input",
        [](Diagram& d) {
          d.inputs["w"] = {"V", ""};
        },
-       "unused_input", "/inputs/w", "nobody reads"},
+       "unused_input", "/inputs/w", "is not used"},
       {"unused parameter", [](Diagram& d) { d.parameters["k"].value = 1.0; }, "unused_parameter", "/parameters/k",
        "$k"},
       {"unknown reference", [](Diagram& d) { d.blocks["stage"].parameters["gain"] = "$k"; }, "unknown_reference",

@@ -77,7 +77,7 @@ TEST(ChooseMethod, JumpsThatOnlySampledBlocksReadDoNotCount) {
                     {"late", block("delay_line", {{"period", "0.1 ms"}, {"samples", 1.0}}, {"held"})}},
                    {"late"});
   EXPECT_EQ(choice_for(d).method, Method::bdf);
-  EXPECT_EQ(choice_for(d).why, "no held signal jumps often into the states");
+  EXPECT_EQ(choice_for(d).why, "few discontinuities reach the states");
 }
 
 TEST(ChooseMethod, AutoSaysWhatItTookAndGivesTheSameTraces) {

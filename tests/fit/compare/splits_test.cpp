@@ -172,7 +172,7 @@ TEST(Splits, WhatIsSpreadAsTheRowsAreIsNotSaidToLieAnywhere) {
     c.residual.push_back(i % 2 == 0 ? 1 : -1);
   }
   const auto splits = splits_of({{&c.t, &c.u, &c.residual, "a"}}, "u", parse_unit("V"));
-  EXPECT_EQ(split(splits, "branch").sentence, "Split by branch of u, the squared error lies where the rows lie");
+  EXPECT_EQ(split(splits, "branch").sentence, "Split by branch of u, the squared error is spread as the samples are");
   EXPECT_FALSE(split(splits, "branch").tells);
 }
 
@@ -215,7 +215,7 @@ std::string said_of_holds(const Case& c) {
 TEST(Splits, WhatGrowsDuringHoldsIsToldApartFromWhatIsThere) {
   const auto creep = [](double age) { return 0.1 * std::log10(1 + age / 0.1); };
   EXPECT_EQ(said_of_holds(holds(creep, 0.02)),
-            "100 % of the squared error lies in the 39.9 s after a step (100 % of the rows), growing with log time");
+            "100 % of the squared error lies in the 39.9 s after a step (100 % of the samples), growing with log time");
   EXPECT_NE(said_of_holds(holds([](double age) { return 0.01 * age; }, 0.02)).find(", growing with time"),
             std::string::npos);
   // What settles, what stands still and what is noise do not grow.
@@ -239,8 +239,7 @@ TEST(Splits, ByATemperatureOrAnotherAxisAddUpAndFindTheirLevel) {
   EXPECT_EQ(by_room.parts.back().label, "24 .. 25 degC");
   EXPECT_NEAR(by_room.parts.back().error, 100 * 9.0 / (300 + 100 * 9), 1e-12);
   EXPECT_NEAR(by_room.parts.back().rows, 0.25, 1e-12);
-  EXPECT_EQ(by_room.sentence,
-            "75 % of the squared error lies where room is 24 .. 25 degC, which holds 25 % of the rows");
+  EXPECT_EQ(by_room.sentence, "75 % of the squared error lies where room is 24 .. 25 degC (25 % of the samples)");
   double sum = 0;
   for (const auto& p : split(splits, "other_axis").parts) {
     EXPECT_NEAR(p.error, 0.2, 1e-12) << p.label;  // five fifths of a ramp that does not matter
@@ -280,9 +279,8 @@ TEST(Splits, TheOneThatTellsMostComesFirstAndSaysWhere) {
   EXPECT_EQ(splits.front().variable, "branch");
   // Noise ten times larger while falling: 100/101 of the squared error, on about half of the rows.
   EXPECT_NEAR(split(splits, "branch").parts[1].error, 100.0 / 101, 0.01);
-  EXPECT_NE(
-      splits.front().sentence.find("% of the squared error lies on the falling branch, which holds 50 % of the rows"),
-      std::string::npos)
+  EXPECT_NE(splits.front().sentence.find("% of the squared error lies on the falling branch (50 % of the samples)"),
+            std::string::npos)
       << splits.front().sentence;
 }
 

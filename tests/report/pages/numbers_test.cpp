@@ -1,0 +1,39 @@
+// How numbers look to people: no power of ten where a prefix or a plain number does, as many digits as an interval
+// allows.
+#include "report/pages/numbers.h"
+
+#include <gtest/gtest.h>
+
+namespace hysteron {
+namespace {
+
+TEST(NumberText, WritesLargeNumbersOutUpToSixDigits) {
+  EXPECT_EQ(number_text(12345, 4), "12345");
+  EXPECT_EQ(number_text(6424, 3), "6424");
+  EXPECT_EQ(number_text(1.5e7, 4), "1.5e+07");
+  EXPECT_EQ(number_text(12.345, 4), "12.35");  // as before
+}
+
+TEST(QuantityText, GivesSmallNumbersOfPlainUnitsAPrefix) {
+  EXPECT_EQ(quantity_text(5.04e-6, parse_unit("m")), "5.04 um");
+  EXPECT_EQ(quantity_text(-1.5e-5, parse_unit("m/s")), "-15 um/s");
+  EXPECT_EQ(quantity_text(2e-10, parse_unit("m")), "200 pm");
+}
+
+TEST(QuantityText, KeepsTheUnitOfTheDataWhereItIsReadable) {
+  EXPECT_EQ(quantity_text(8.59e-4, parse_unit("mm")), "0.859 mm");
+  EXPECT_EQ(quantity_text(2e-4, parse_unit("m")), "0.0002 m");
+  EXPECT_EQ(quantity_text(0, parse_unit("m")), "0 m");
+  EXPECT_EQ(quantity_text(1e-5, parse_unit("1")), "1e-05");       // no unit, no prefix
+  EXPECT_EQ(quantity_text(2e-11, parse_unit("um")), "2e-05 um");  // it has one
+}
+
+TEST(DigitsWithin, ShowTwoOfTheHalfWidth) {
+  EXPECT_EQ(digits_within(0.47438, 0.47299, 0.47578), 4);     // 0.4744, within 0.0014
+  EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);  // 0.011102, within 0.000011
+  EXPECT_EQ(digits_within(1234, 1000, 1500), 2);              // and never fewer
+  EXPECT_EQ(digits_within(3, 3, 3), 5);                       // an interval without width says nothing
+}
+
+}  // namespace
+}  // namespace hysteron
