@@ -19,7 +19,7 @@ struct DiscoveryFiles {
 /// The document of a discovery (or of a diagnosis): verdict, the fall of the error (discover_fall.h), parameters,
 /// residual before and after, candidates, what was refused, the next experiment; each step's diagram as a file of its
 /// own.
-/// `inspected` is its first page. The answer to --check, where that was asked, stands before everything else.
+/// `inspected` is its section on the data. The answer to --check, where that was asked, stands before everything else.
 Document discovery_document(const std::string& verb, const Discovery& found, const DataSet& data,
                             const Registry& registry, const Inspected& inspected, const DiscoveryFiles& files,
                             const Check* answer = nullptr);

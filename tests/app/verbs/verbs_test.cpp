@@ -396,7 +396,7 @@ TEST_F(Verbs, CompareSaysWhereTheDataLeaveNothingToJudge) {
                                                             {"file": "b.csv", "role": "train"}]})");
   const Outcome train = hysteron(folder_.path(), {"compare", "diagram.json", "--data", "train.json", "-o", "out"});
   EXPECT_EQ(train.code, 0) << train.err;
-  EXPECT_NE(train.out.find("(train recordings)"), std::string::npos) << train.out;
+  EXPECT_NE(train.out.find("On the train recordings"), std::string::npos) << train.out;
 }
 
 TEST_F(Verbs, ADiagramIsWrittenOverDiagramsOnly) {

@@ -74,7 +74,7 @@ TEST_F(DriveGain, OfOneOutputItIsNotAsked) {
   for (const auto& v : visible_effects(two_sensors(), one, registry, effects, {}))
     if (v.effect == "drive_gain") {
       EXPECT_FALSE(v.can());
-      EXPECT_NE(v.reason.find("a calibration says the same"), std::string::npos) << v.reason;
+      EXPECT_NE(v.reason.find("drive gain and sensor gain cannot be separated"), std::string::npos) << v.reason;
     }
   const Discovery d = discovered(plain_gain(), one, {"calibration", "drive_gain"});
   ASSERT_EQ(d.steps.size(), 1u);

@@ -31,7 +31,8 @@ TEST(QuantityText, KeepsTheUnitOfTheDataWhereItIsReadable) {
 TEST(DigitsWithin, ShowTwoOfTheHalfWidth) {
   EXPECT_EQ(digits_within(0.47438, 0.47299, 0.47578), 4);     // 0.4744, within 0.0014
   EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);  // 0.011102, within 0.000011
-  EXPECT_EQ(digits_within(1234, 1000, 1500), 2);              // and never fewer
+  EXPECT_EQ(digits_within(1234, 1000, 1500), 3);              // 1230, within 250
+  EXPECT_EQ(digits_within(10, -1000, 1000), 2);               // and never fewer
   EXPECT_EQ(digits_within(3, 3, 3), 5);                       // an interval without width says nothing
 }
 
