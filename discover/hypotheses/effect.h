@@ -58,6 +58,7 @@ struct Excitation {
   double lowest_of_all = 0, highest_of_all = 1;
   std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
+  double travel_highest_of_all = 0;              ///< the same in the recordings that judge, too
   std::map<std::string, double> own{};           ///< numbers [SI] of that block by their names
   bool springless = false;                       ///< that block is a mass whose stiffness is 0, and not free
   /// The gain [SI] of the damping that makes a force or a torque of the speed on the wire; none = it stands before

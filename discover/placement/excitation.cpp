@@ -250,8 +250,13 @@ class Observer {
       c.lowest_of_all = c.lowest;
       c.highest_of_all = c.highest;
       for (const auto& seen : others_) widen(seen.rows[i], c.lowest_of_all, c.highest_of_all);
-      if (travel_signal_[i] >= 0)
-        range_of(static_cast<std::size_t>(travel_signal_[i]), c.travel_lowest, c.travel_highest);
+      if (travel_signal_[i] >= 0) {
+        const auto travel = static_cast<std::size_t>(travel_signal_[i]);
+        range_of(travel, c.travel_lowest, c.travel_highest);
+        double lowest = c.travel_lowest;
+        c.travel_highest_of_all = c.travel_highest;
+        for (const auto& seen : others_) widen(seen.rows[travel], lowest, c.travel_highest_of_all);
+      }
       look_at_moves(i, c);
       if (!places_[i].side.empty()) look_at_side(i, c);
     }

@@ -152,6 +152,48 @@ TEST_F(Selected, FrictionBesideADampingIsFoundWithItsTorque) {
   EXPECT_NEAR(value(d, "level") * 3e-4, dry, 0.03 * dry);
 }
 
+// Only the recording that judges rises to the brim: where a law begins is looked up in all recordings that it is
+// fitted to.
+TEST_F(Selected, WhatActsInTheRecordingThatJudgesIsFound) {
+  constexpr double area = 0.01, outlet = 2e-4, brim = 0.15, quiet = 1e-5;  // [m^2], [m^3/s] at 0.1 m, [m], [m]
+  Diagram d;
+  d.title = "tank";
+  d.inputs["u"].unit = "V";
+  d.blocks["pump"].type = "gain";
+  d.blocks["pump"].in.push_back({"", "u"});
+  d.blocks["pump"].parameters["gain"] = Value("1e-4 m^3/s/V");
+  Node& tank = d.blocks["tank"];
+  tank.type = "tank";
+  tank.in.push_back({"", "pump"});
+  tank.parameters["area"] = Value("0.01 m^2");
+  tank.parameters["outlet"] = Value("2e-4 m^3/s");
+  tank.parameters["reference"] = Value("0.1 m");
+  d.outputs["y"] = "tank.level";
+  std::vector<Recording> list;
+  for (int r = 0; r < 3; ++r) {
+    const auto t = rows(600, 0.1);
+    const auto u = several_sines(t, r < 2 ? 2.0 + 0.3 * r : 6.0, {0.035, 0.05 + 0.01 * r});
+    auto y = noise(t.size(), quiet, 0, 51 + static_cast<std::uint64_t>(r));
+    double level = 0;
+    constexpr int steps = 100;  // Euler's, of 1 ms beside a time constant of 5 s
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      y[k] += level;
+      if (k + 1 == t.size()) break;
+      for (int i = 0; i < steps; ++i) {
+        const double inflow = 1e-4 * (u[k] + (u[k + 1] - u[k]) * (i + 0.5) / steps);
+        level = std::min(brim, level + 0.1 / steps * (inflow - outlet * level / 0.1) / area);
+      }
+    }
+    list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
+  }
+  DiscoverOptions options;
+  options.only = {"overflow", "saturation", "calibration"};
+  const Discovery found = select_model(d, data_set(std::move(list), quiet, 0), registry, effects, options);
+  ASSERT_EQ(found.steps.size(), 1u) << tried(found);
+  EXPECT_EQ(winner(found), "overflow") << tried(found);
+  EXPECT_NEAR(value(found, "brim"), brim, 1e-4) << "10 times the noise, for the steps in time";
+}
+
 TEST_F(Selected, DoesNotDependOnTheNumberOfThreads) {
   Machine machine;
   machine.stiffness = 430;
