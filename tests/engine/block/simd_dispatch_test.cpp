@@ -26,7 +26,8 @@ std::vector<double> drawn(std::size_t n, std::uint64_t stream, double scale) {
 /// A law of an actuator, with tanh, quotients and a choice by sign.
 TEST(SimdDispatch, VersionsOfALawGiveTheSameBits) {
   using Loop = block_detail::OverLanes<block_detail::DerivativeOfLanes<blocks::JilesAtherton>>;
-  const auto p = drawn(7 * lanes, 1, 1), x = drawn(lanes, 2, 3), u = drawn(lanes, 3, 5), du = drawn(lanes, 4, 1);
+  constexpr std::size_t numbers = sizeof(blocks::JilesAtherton::Params<double>) / sizeof(double);
+  const auto p = drawn(numbers * lanes, 1, 1), x = drawn(lanes, 2, 3), u = drawn(lanes, 3, 5), du = drawn(lanes, 4, 1);
   const double *in = u.data(), *rate = du.data();
   std::vector<std::vector<double>> results;
   for (const auto version : SimdDispatch<Loop>::versions()) {
