@@ -23,7 +23,7 @@ Effect overflow() {
   e.look_alikes = {{"saturation", "fast_steps", "a sensor that is full shows the right level as soon as it can again"},
                    {"sqrt_outflow", "fast_steps", "an outlet has no flat tops"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation&) {
-    return fmt::format("brim at {:.4g} m", values[0]);
+    return fmt::format("brim at {:.4g} mm", 1e3 * values[0]);
   };
   e.laws = [](const Excitation& at) {
     Law law;

@@ -30,6 +30,7 @@ std::pair<std::string, int> list_and_index(const std::string& path) {
       !digits.empty() && digits.size() < 4 && digits.find_first_not_of("0123456789") == std::string::npos;
   return {path.substr(0, open), whole ? leading_whole_number(digits, -2) : -2};
 }
+
 Law law_of(const EffectContent& c, const Excitation& at) {
   Law law;
   law.name = c.law_name;

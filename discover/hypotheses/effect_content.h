@@ -42,6 +42,7 @@ struct EffectContent {
   std::vector<std::pair<std::string, EffectQuantity>> fixed;
   EffectNeeds needs;
 };
+
 /// "times[0]" -> {"times", 0}; "tau" -> {"tau", -1}; an index of -2 is none that a list could have.
 std::pair<std::string, int> list_and_index(const std::string& path);
 

@@ -33,6 +33,7 @@ const std::vector<std::string> experiments{"zero_run",
 
 const std::map<std::string, Side> side_ports{
     {"temperature", Side::temperature}, {"force", Side::force}, {"use", Side::use}, {"other_axis", Side::other_axis}};
+
 class EffectReader {
  public:
   EffectReader(const std::string& file, std::shared_ptr<const Diagram> diagram) : file_(file), diagram_(diagram) {

@@ -247,14 +247,17 @@ class Reader {
 };
 
 std::string heading_text(const CsvColumn& column) {
-  std::string text = column.unit.text.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit.text);
+  return csv_cell(column.unit.text.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit.text));
+}
+
+}  // namespace
+
+std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos && !text.starts_with('#')) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-
-}  // namespace
 
 const CsvColumn* CsvTable::find(const std::string& name) const {
   for (const auto& column : columns)

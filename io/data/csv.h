@@ -31,6 +31,9 @@ CsvTable read_csv(const std::string& file);
 /// square brackets that are known, and a column t in a unit of time.
 bool has_plain_header(std::string_view text);
 
+/// A cell of a CSV: between quotes, those inside doubled, where it would not be read as written else.
+std::string csv_cell(const std::string& text);
+
 /// The text of a CSV. Throws Error "row_length"; Stopped (engine/diagram/stop.h).
 std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments = {});
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "io/data/csv.h"
 #include "report/page/figure_data.h"
 #include "report/page/figure_svg.h"
 #include "report/page/html.h"
@@ -122,13 +123,6 @@ std::string csv_name(const std::string& title) {
   }
   while (name.ends_with('-')) name.pop_back();
   return (name.empty() ? "figure" : name) + ".csv";
-}
-
-/// A cell of a CSV: between quotes, those inside doubled.
-std::string csv_cell(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 /// The numbers of bars as a CSV that a click saves. That of curves is made by report.js: their numbers are on the page

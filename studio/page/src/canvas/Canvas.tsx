@@ -23,7 +23,7 @@ type WireEdge = Edge<WireData, 'wire'>;
 const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
   const {item, problem, highlighted, fits, isNew} = data;
   const plain = useStore((s) => s.transform[2] < plainBelow);
-  const pictures = useStudio((s) => s.library?.pictures) ?? {};
+  const pictures = useStudio((s) => s.catalogue?.pictures) ?? {};
   const css = ['block', selected && 'selected', problem && 'wrong', highlighted && 'highlighted', isNew && 'new'].filter(Boolean).join(' ');
   return (
     <div className={css} title={problem || item.tip}>

@@ -59,7 +59,7 @@ export interface Stretch {
 export const api = {
   hello: () => json<{version: string; folder: string; name: string; threads: number}>('GET', '/api/hello'),
   files: async () => (await json<{files: ListedFile[]}>('GET', '/api/files')).files,
-  library: () => json<Library>('GET', '/api/blocks'),
+  catalogue: () => json<Library>('GET', '/api/blocks'),
   state: (paths: string[]) =>
     json<{files: Record<string, string>; jobs: Job[]}>('GET', `/api/state?${query({path: paths})}`),
   view: (path: string, depth: number) => json<View>('POST', '/api/view', {path, depth}),

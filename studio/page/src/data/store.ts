@@ -18,7 +18,7 @@ interface Studio {
   lost: string;
   folder: string;
   files: ListedFile[];
-  library: Library | null;
+  catalogue: Library | null;
   trail: Trail[];
   view: View | null;
   document: any;
@@ -141,7 +141,7 @@ export const useStudio = create<Studio>()((set, get) => {
     lost: '',
     folder: '',
     files: [],
-    library: null,
+    catalogue: null,
     trail: [],
     view: null,
     document: null,
@@ -164,8 +164,8 @@ export const useStudio = create<Studio>()((set, get) => {
 
     async start() {
       try {
-        const [hello, files, library] = await Promise.all([api.hello(), api.files(), api.library()]);
-        set({ready: true, folder: hello.name, files, library});
+        const [hello, files, catalogue] = await Promise.all([api.hello(), api.files(), api.catalogue()]);
+        set({ready: true, folder: hello.name, files, catalogue});
         const remembered = sessionStorage.getItem('hysteron.open');
         const diagrams = files.filter((f) => f.kind === 'diagram');
         const first = diagrams.find((f) => f.path === remembered) ?? diagrams[0];

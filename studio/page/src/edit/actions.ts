@@ -10,7 +10,7 @@ const now = () => useStudio.getState();
 export const signalOf = doc.signalName;
 
 function declarationOf(type: string) {
-  return now().library?.blocks.find((b) => b.type === type);
+  return now().catalogue?.blocks.find((b) => b.type === type);
 }
 
 /// The body in which a block's own values stand: for a choice those of the candidate in use.

@@ -107,12 +107,12 @@ function Recorded({signal}: {signal: string}) {
 }
 
 function BlockPanel({item}: {item: Item}) {
-  const library = useStudio((s) => s.library);
+  const catalogue = useStudio((s) => s.catalogue);
   const document = useStudio((s) => s.document);
   const problems = useStudio((s) => s.view?.problems ?? []);
   const block = document?.blocks?.[item.name];
   const body = actions.bodyOf(block);
-  const declaration = library?.blocks.find((b) => b.type === item.type);
+  const declaration = catalogue?.blocks.find((b) => b.type === item.type);
   const declared = declaration?.parameters ?? [];
   const known = new Set(['type', 'in', 'choose', 'from', 'effect', 'upon', ...declared.map((p) => p.name)]);
   const others = Object.keys(body ?? {}).filter((k) => !known.has(k));

@@ -17,14 +17,14 @@ export function Icon({item, pictures}: {item: Item; pictures: Record<string, Pic
 }
 
 function Entry({block}: {block: BlockDeclaration}) {
-  const library = useStudio((s) => s.library)!;
+  const catalogue = useStudio((s) => s.catalogue)!;
   return (
     <li>
       <button className="entry" draggable title={`${block.summary}\n${block.law}`}
               onDragStart={(e) => e.dataTransfer.setData('application/hysteron-block', block.type)}
               onDoubleClick={() => void place(block.type)}
               onKeyDown={(e) => e.key === 'Enter' && void place(block.type)}>
-        <Icon item={library.symbols[block.type]} pictures={library.pictures} />
+        <Icon item={catalogue.symbols[block.type]} pictures={catalogue.pictures} />
         <span className="label">{block.type}</span>
       </button>
     </li>
@@ -32,9 +32,9 @@ function Entry({block}: {block: BlockDeclaration}) {
 }
 
 export function Palette() {
-  const library = useStudio((s) => s.library);
+  const catalogue = useStudio((s) => s.catalogue);
   const [words, setWords] = useState('');
-  const blocks = useMemo(() => found(library?.blocks ?? [], words), [library, words]);
+  const blocks = useMemo(() => found(catalogue?.blocks ?? [], words), [catalogue, words]);
   const groups = useMemo(() => [...new Set(blocks.map((b) => b.group))], [blocks]);
   return (
     <div className="palette">

@@ -9,12 +9,12 @@ import {Icon} from './Palette';
 const most = 9;
 
 export function QuickAdd({onClose}: {onClose: () => void}) {
-  const library = useStudio((s) => s.library)!;
+  const catalogue = useStudio((s) => s.catalogue)!;
   const selected = useStudio((s) => s.selected);
   const [words, setWords] = useState('');
   const [at, setAt] = useState(0);
   const field = useRef<HTMLInputElement>(null);
-  const list = useMemo(() => found(library.blocks, words).slice(0, most), [library, words]);
+  const list = useMemo(() => found(catalogue.blocks, words).slice(0, most), [catalogue, words]);
   useEffect(() => field.current?.focus(), []);
   const take = (type: string) => {
     onClose();
@@ -35,7 +35,7 @@ export function QuickAdd({onClose}: {onClose: () => void}) {
         {list.map((b, i) => (
           <li key={b.type}>
             <button className={i === at ? 'entry current' : 'entry'} onMouseDown={() => take(b.type)}>
-              <Icon item={library.symbols[b.type]} pictures={library.pictures} /><span className="label">{b.type}</span><span className="muted">{b.summary}</span>
+              <Icon item={catalogue.symbols[b.type]} pictures={catalogue.pictures} /><span className="label">{b.type}</span><span className="muted">{b.summary}</span>
             </button>
           </li>
         ))}
