@@ -165,8 +165,9 @@ off_t size_of_readable(const std::string& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR)
-      fail_file("no_file", file, fmt::format("there is no file {}", file),
-                "check the path; it is relative to the folder of the file that names it");
+      fail_file(
+          "no_file", file, fmt::format("there is no file {}", file),
+          "check the path: on the command line it counts from the current folder, in a file from the folder of that file");
     fail_file("cannot_read", file, fmt::format("cannot read {}: {}", file, std::strerror(errno)), "make it readable");
   }
   if (S_ISDIR(status.st_mode))
