@@ -125,12 +125,18 @@ TEST(Report, DrawsAPartOfALongCurveFromAllItsPoints) {
 TEST(Report, SaysWhatTheLengthOfABarMeansAndGivesItsNumbers) {
   Document d;
   d.sections.resize(1);
-  d.sections[0].figures = {
-      {"By branch", "share of the squared error [%]", "", "bars", {}, {{"falling", 78, "", ""}}, ""}};
+  d.sections[0].figures = {{"By branch",
+                            "share of the squared error [%]",
+                            "",
+                            "bars",
+                            {},
+                            {{"falling", 78, "", ""}, {"slow, or held", 22, "", ""}},
+                            ""}};
   const std::string page = report_html(d);
   EXPECT_TRUE(has(page, "<span>0</span><span>78</span></div><div>share of the squared error [%]</div>"));
   EXPECT_TRUE(has(page, "download=\"By-branch.csv\" href=\"data:text/csv;charset=utf-8,"));
-  EXPECT_TRUE(has(page, "%22falling%22%2c78%0a") || has(page, "%22falling%22%2C78%0A"));
+  EXPECT_TRUE(has(page, "falling%2c78%0a%22slow%2c%20or%20held%22%2c22%0a") ||
+              has(page, "falling%2C78%0A%22slow%2C%20or%20held%22%2C22%0A"));
 }
 
 TEST(Report, NamesEveryStepOfANarrowWaterfallInFull) {
