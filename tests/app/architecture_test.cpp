@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/app/source_files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using hysteron::sources::is_source;
+using hysteron::sources::text_of;
 
 const std::map<std::string, std::set<std::string>> may_include = {
     {"engine", {}},
@@ -49,8 +52,6 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"app", {"cli", "facts", "jobs", "cluster", "study", "verbs", ""}},
 };
 
-bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
-
 /// Rooms that a text includes from.
 std::set<std::string> rooms_in(const std::string& text) {
   static const std::regex include("(^|\n)[ \t]*#[ \t]*include[ \t]*[\"<]([a-z_]+)/");
@@ -58,11 +59,6 @@ std::set<std::string> rooms_in(const std::string& text) {
   for (std::sregex_iterator i(text.begin(), text.end(), include), end; i != end; ++i)
     if (may_include.contains((*i)[2].str()) || (*i)[2].str() == "tests") rooms.insert((*i)[2].str());
   return rooms;
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 TEST(Architecture, RoomsIncludeOnlyTheRoomsThatTheyMay) {

@@ -21,7 +21,7 @@ using process::Outcome;
 
 const std::string chapter2 = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/chapter2/";
 
-struct Case {
+struct TracedLoop {
   std::string golden, diagram;
   std::vector<std::string> choices;
   bool table23 = false;            ///< the compensator has the weights of Table 2.3 and not those fitted to S1
@@ -42,15 +42,15 @@ void copy_diagrams(const Folder& folder) {
                           std::filesystem::copy_options::recursive);
 }
 
-std::vector<std::string> words_of(const Case& c) {
+std::vector<std::string> words_of(const TracedLoop& c) {
   std::vector<std::string> words{"run", "diagrams/chapter2/" + c.diagram + ".json", "-o", "out", "--quiet"};
   for (const auto& choice : c.choices) words.insert(words.end(), {"--choose", choice});
   return words;
 }
 
-std::vector<Case> cases() {
+std::vector<TracedLoop> traced_loops() {
   const std::string compensator = "compensator=prandtl_ishlinskii";
-  std::vector<Case> list;
+  std::vector<TracedLoop> list;
   for (const auto& [number, controller] : {std::pair{"1", "controller=first"}, {"2", "controller=second"}}) {
     const std::string loop = std::string("loop") + number;
     for (const std::string wave : {"sine", "triangle", "step"})
@@ -70,12 +70,12 @@ std::vector<Case> cases() {
   return list;
 }
 
-class Chapter2Golden : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Loops, Chapter2Golden, testing::ValuesIn(cases()),
+class Chapter2Golden : public testing::TestWithParam<TracedLoop> {};
+INSTANTIATE_TEST_SUITE_P(Loops, Chapter2Golden, testing::ValuesIn(traced_loops()),
                          [](const auto& one) { return one.param.golden; });
 
 TEST_P(Chapter2Golden, FollowTheTracesOfAnIndependentProgram) {
-  const Case& c = GetParam();
+  const TracedLoop& c = GetParam();
   HYSTERON_NEEDS_GOLDEN(c.golden);
   const Folder folder;
   copy_diagrams(folder);

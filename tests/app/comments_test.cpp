@@ -7,11 +7,12 @@
 #include <set>
 #include <string>
 
+#include "tests/app/source_files.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_source(const fs::path& file) { return file.extension() == ".h" || file.extension() == ".cpp"; }
+using hysteron::sources::is_source;
 
 const char* const folders[] = {"engine", "models", "blocks", "io",         "fit",  "discover",
                                "report", "draw",   "app",    "benchmarks", "tests"};

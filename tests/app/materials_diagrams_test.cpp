@@ -21,7 +21,7 @@ using Columns = std::map<std::string, std::vector<double>>;
 
 const std::string diagrams = std::string(HYSTERON_SOURCE_DIR) + "/diagrams/";
 
-Columns run(const std::string& diagram, std::vector<std::string> more = {}) {
+Columns columns_of(const std::string& diagram, std::vector<std::string> more = {}) {
   const Folder folder;
   std::vector<std::string> words{"run", diagram, "-o", "out", "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
@@ -64,7 +64,7 @@ double loop(std::vector<double> x, std::vector<double> y, std::size_t from) {
 
 TEST(Chapter3Diagrams, SteepRippleTellsNoLoop) {
   // R1 of SPEC section 3, second cycle of the drive; figures of an independent program, told to their last digit.
-  const auto y = run(diagrams + "chapter3/polarisation.json");
+  const auto y = columns_of(diagrams + "chapter3/polarisation.json");
   const std::size_t from = 501;
   const auto& c = y.at("estimator.capacitance");
   EXPECT_NEAR(*std::min_element(c.begin() + 2, c.end()), 2.83e-6, 0.01 * 2.83e-6);  // claim C3-04, 1 %
@@ -78,7 +78,7 @@ TEST(Chapter3Diagrams, SteepRippleTellsNoLoop) {
 
 TEST(Chapter3Diagrams, FlatRippleTellsThePolarisationThatTakesTheHysteresisAway) {
   // R2. Claims C3-05 and C3-07: the secant formula turns the wrong way; over the integral y is nearly a line.
-  const auto y = run(diagrams + "chapter3/polarisation.json", {"--set", "ripple.amplitude=0.05 V"});
+  const auto y = columns_of(diagrams + "chapter3/polarisation.json", {"--set", "ripple.amplitude=0.05 V"});
   const std::size_t from = 501;
   const auto& v = y.at("estimator.voltage");
   const double over_voltage = loop(v, y.at("position_then"), from),
@@ -97,13 +97,13 @@ TEST_P(Over, TemperatureModelAndCompensatorStayClose) {
   // to 1 nm; of the output, whose reference SPEC does not give, to 8 nm.
   const auto [celsius, peak, with, without, compensated] = GetParam();
   const std::string t = std::to_string(celsius) + " degC";
-  const auto y = run(diagrams + "chapter5/over_temperature.json", {"--set", "oven.value=" + t});
+  const auto y = columns_of(diagrams + "chapter5/over_temperature.json", {"--set", "oven.value=" + t});
   const auto& actuator = y.at("actuator/actuator");
   EXPECT_NEAR(*std::max_element(actuator.begin(), actuator.end()), peak, 0.001);
   EXPECT_NEAR(largest(y.at("error_tapi")), with, 0.001);
   EXPECT_NEAR(largest(y.at("error_fixed")), without, 0.001);
   const auto c =
-      run(diagrams + "chapter5/compensation.json", {"--set", "oven.value=" + t, "--set", "assumed.value=" + t});
+      columns_of(diagrams + "chapter5/compensation.json", {"--set", "oven.value=" + t, "--set", "assumed.value=" + t});
   EXPECT_NEAR(largest(c.at("error")), compensated, 0.008);
 }
 INSTANTIATE_TEST_SUITE_P(Temperatures, Over,
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Temperatures, Over,
 
 TEST(Chapter5Diagrams, TapiFollowsMinorLoopsThatAClassicalModelMisses) {
   // Fig. 5.10: mean error .075 um of the classical model, .0017 of TAPI, in um to their last digit.
-  const auto y = run(diagrams + "chapter5/over_temperature.json");
+  const auto y = columns_of(diagrams + "chapter5/over_temperature.json");
   const auto mean = [](const std::vector<double>& e) {
     double sum = 0;
     for (const double x : e) sum += std::fabs(x);
@@ -132,8 +132,8 @@ TEST(Chapter5Diagrams, FabryPerotFollowsTheGoldenCompensator) {
     double worst = 0;
     for (const auto& [axis, number] : {std::pair{"first", "1"}, {"second", "2"}, {"third", "3"}}) {
       const auto y =
-          run(diagrams + "chapter5/fabry_perot.json", {"--choose", std::string("directions=") + axis, "--set",
-                                                       "temperature.value=" + t, "--set", "assumed.value=" + t});
+          columns_of(diagrams + "chapter5/fabry_perot.json", {"--choose", std::string("directions=") + axis, "--set",
+                                                              "temperature.value=" + t, "--set", "assumed.value=" + t});
       for (int i = 0; i < 3; ++i) {
         const auto& u = y.at("compensator[" + std::to_string(i) + "]");
         const auto& expected = golden.at("u" + std::to_string(i + 1) + " for yd" + number + " [V]");
@@ -149,7 +149,7 @@ TEST(Chapter5Diagrams, FabryPerotFollowsTheGoldenCompensator) {
 }
 
 TEST(Stages, OvenSettlesAtItsSetPoint) {
-  const auto y = run(diagrams + "chapter5/oven_settling.json");
+  const auto y = columns_of(diagrams + "chapter5/oven_settling.json");
   EXPECT_NEAR(y.at("oven/probe1").front(), 22, 1e-6);
   EXPECT_NEAR(y.at("oven/probe1").back(), 50, 0.01);  // three time constants of the enclosure are an hour, then 3 h
   EXPECT_NEAR(y.at("oven/probe2").back() - y.at("oven/probe1").back(), 0.15, 1e-6);
@@ -180,8 +180,9 @@ TEST_P(ElectromechanicalCircuit, IsAtRestWhereItsEquationsSay) {
     "stack": {"type": "diagram", "file": ")" +
                                 diagrams + R"(stages/electromechanical.json", "in": {"u": "u", "temperature": "t"}}},
     "record": ["stack.x", "stack.charge", "stack.transducer"], "simulate": {"until": "1 s", "every": "0.1 s"}})");
-  const auto y = run(folder.path() + "/ramp.json", {"--allow", diagrams, "--choose", "stack/hysteresis=" + hysteresis,
-                                                    "--choose", "stack/capacitor=" + capacitor});
+  const auto y = columns_of(
+      folder.path() + "/ramp.json",
+      {"--allow", diagrams, "--choose", "stack/hysteresis=" + hysteresis, "--choose", "stack/capacitor=" + capacitor});
   const auto charge = [&](double u) {
     const double t = 295.15,
                  bound = capacitor == "domains" ? 37.6 * std::sqrt(1 - t / 623) * std::tanh(u / (0.1694 * t)) : 0;
@@ -219,7 +220,7 @@ TEST(Stages, AmplifierKeepsItsVoltageAndItsCurrent) {
     "amplifier": {"type": "diagram", "file": ")" +
                                 diagrams + R"(stages/e625.json", "in": "u"}},
     "record": ["amplifier.voltage"], "simulate": {"until": "29 ms", "every": "0.1 ms"}})");
-  const auto y = run(folder.path() + "/step.json", {"--allow", diagrams}).at("amplifier/output");
+  const auto y = columns_of(folder.path() + "/step.json", {"--allow", diagrams}).at("amplifier/output");
   EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 130, 1e-3);
   EXPECT_NEAR(*std::min_element(y.begin(), y.end()), -30, 1e-3);
   double fastest = 0;  // V per 0.1 ms
@@ -236,7 +237,7 @@ TEST(Stages, LinearStageIsThePrintedTransferFunction) {
     "stage": {"type": "diagram", "file": ")" +
                                  diagrams + R"(stages/p753_linear.json", "in": "u"}},
     "record": ["stage.y"], "simulate": {"until": "20 ms", "every": "1 us", "start": "steady"}})");
-  auto y = run(folder.path() + "/small.json", {"--allow", diagrams}).at("stage/mechanics");
+  auto y = columns_of(folder.path() + "/small.json", {"--allow", diagrams}).at("stage/mechanics");
   EXPECT_NEAR(y.front(), 0.755763, 1e-5);
   y.erase(y.begin(), y.begin() + 10000);  // 10 ms: forty time constants
   EXPECT_NEAR(span(y) / 2 / (0.01 * 0.755763), std::sqrt(0.5), 1e-3);

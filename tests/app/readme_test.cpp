@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -14,17 +13,14 @@
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/schema_check.h"
+#include "tests/app/source_files.h"
 
 namespace hysteron {
 namespace {
 
 using process::Folder;
 using process::Outcome;
-
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
+using sources::text_of;
 
 struct Fence {
   std::string language;

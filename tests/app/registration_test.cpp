@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -15,19 +14,16 @@
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
 #include "tests/app/hysteron_process.h"
+#include "tests/app/source_files.h"
 
 namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
 using process::Folder;
+using sources::text_of;
 
 using Names = std::vector<std::string>;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// First groups of all matches in the files of a folder with this extension.
 std::set<std::string> found_in(const fs::path& folder, const std::string& extension, const std::regex& pattern) {

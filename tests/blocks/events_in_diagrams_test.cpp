@@ -5,7 +5,7 @@
 
 #include "engine/rowwise/advance.h"
 #include "engine/simulate/exact_advance.h"
-#include "tests/engine/simulate_tools.h"
+#include "tests/blocks/simulated_by_bdf.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {
@@ -13,18 +13,10 @@ namespace {
 
 using tools::block;
 using tools::list;
+using tools::simulated_by_bdf;
 
 constexpr double tolerance = 1e-9;
 
-Traces simulated(const Diagram& d, std::vector<double> instants) {
-  const auto program = tools::compiled(d);
-  SimulateOptions options;
-  options.instants = std::move(instants);
-  options.until = options.instants.back();
-  options.method = Method::bdf;
-  options.relative_tolerance = tolerance;
-  return simulate(*program, start(*program), options);
-}
 std::vector<double> rows_until(double until, int n, double shift = 0) {
   std::vector<double> t;
   for (int k = 0; k < n; ++k) t.push_back(until * k / n + shift);
@@ -58,7 +50,7 @@ TEST_P(SampledLoop, OfTheThesisIsReproduced) {
               {{"gain", "1 um/V"}, {"num", list({1.377e16})}, {"den", list({1, 2.813e4, 5.403e8, 4.981e12, 1.822e16})}},
               {"u"})}},
       {"y"});
-  const Traces traces = simulated(d, trace.at("t [s]"));
+  const Traces traces = simulated_by_bdf(d, trace.at("t [s]"), tolerance);
   for (std::size_t k = 0; k < traces.t.size(); ++k)  // what the traces ask of a sampled loop of the same rule
     ASSERT_NEAR(1e6 * traces.values[0][k], trace.at("y [um]")[k], 1e-8 * (GetParam().step ? 1 : 6)) << "row " << k;
 }
@@ -83,7 +75,7 @@ TEST(EventsInDiagrams, SampledInversesPutTheirActuatorsOnTheReferenceAtEveryInst
                                  {"u2", block("sampled_bouc_wen_inverse", sampled_bw, {"r"})},
                                  {"y2", block("bouc_wen", bw, {"u2"})}},
                                 {"y1", "y2"});
-  const Traces traces = simulated(d, rows_until(0.3, 300, 0.5e-3));
+  const Traces traces = simulated_by_bdf(d, rows_until(0.3, 300, 0.5e-3), tolerance);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double r = 3 - 3 * std::cos(2 * M_PI * 5 * (traces.t[k] - 0.5e-3));
     ASSERT_NEAR(1e6 * traces.values[0][k], r, 1e-6) << "Jiles-Atherton, row " << k;
@@ -99,7 +91,7 @@ TEST(EventsInDiagrams, HoldDelayAndQuantizerGiveTheSamplesOfTheirInstants) {
        {"coarse",
         block("quantizer", {{"bits", 4.0}, {"lower", "-4 V"}, {"upper", "4 V"}, {"period", "10 ms"}}, {"u"})}},
       {"held", "late", "coarse"});
-  const Traces traces = simulated(d, rows_until(1, 100, 5e-3));
+  const Traces traces = simulated_by_bdf(d, rows_until(1, 100, 5e-3), tolerance);
   for (int k = 0; k < 100; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto u = [](double t) { return 3 * std::sin(2 * M_PI * t); };
@@ -116,7 +108,7 @@ TEST(EventsInDiagrams, RelayAroundAnIntegratorMakesATriangle) {
         block("relay", {{"on_at", "1 V"}, {"off_at", "-1 V"}, {"on_value", "-2 V/s"}, {"off_value", "2 V/s"}}, {"y"})},
        {"y", block("integrator", {{"initial", "0 V"}}, {"switch"})}},
       {"y"});
-  const Traces traces = simulated(d, rows_until(10, 97));
+  const Traces traces = simulated_by_bdf(d, rows_until(10, 97), tolerance);
   for (std::size_t k = 0; k < traces.t.size(); ++k)
     EXPECT_NEAR(traces.values[0][k], 2 / M_PI * std::asin(std::sin(M_PI * traces.t[k])), 2e-7) << traces.t[k];
 }
@@ -133,7 +125,7 @@ TEST(EventsInDiagrams, FrictionTakesTheSameAmplitudeEachHalfCycleUntilTheMassSti
                                                 {"force"})}},
                                 {"mass.position", "mass.velocity"});
   const double half = M_PI / 10;
-  const Traces traces = simulated(d, {half, 2 * half, 3 * half, 4 * half, 5 * half, 2, 5});
+  const Traces traces = simulated_by_bdf(d, {half, 2 * half, 3 * half, 4 * half, 5 * half, 2, 5}, tolerance);
   const double expected[] = {-0.75, 0.55, -0.35, 0.15, 0.05, 0.05, 0.05};
   for (std::size_t k = 0; k < 7; ++k)
     EXPECT_NEAR(traces.values[0][k], expected[k], 2e-7) << k;  // 10 rtol of 1 m for each of 16 radians
@@ -149,7 +141,7 @@ TEST(EventsInDiagrams, ForceThatGrowsSlowlyBreaksTheMassAwayAtItsInstant) {
        {"mass",
         block("mass_with_friction", {{"mass", "0.5 kg"}, {"coulomb", "2 N"}, {"breakaway", "3 N"}}, {"force"})}},
       {"mass.velocity", "mass.position"});
-  const Traces traces = simulated(d, {0.3, 0.59, 0.8, 1});
+  const Traces traces = simulated_by_bdf(d, {0.3, 0.59, 0.8, 1}, tolerance);
   EXPECT_EQ(traces.values[1][1], 0);
   for (std::size_t k = 2; k < 4; ++k) {
     const double t = traces.t[k];
@@ -166,7 +158,7 @@ TEST(EventsInDiagrams, BouncingMassComesToLieAfterTheSumOfItsBounces) {
               {{"mass", "1 kg"}, {"lower", "-1 m"}, {"upper", "0.8 m"}, {"restitution", 0.5}, {"rest_speed", "1 mm/s"}},
               {"force"})}},
       {"mass.position", "mass.velocity"});
-  const Traces traces = simulated(d, {0.3, 0.5, 0.9, 1.21, 2});
+  const Traces traces = simulated_by_bdf(d, {0.3, 0.5, 0.9, 1.21, 2}, tolerance);
   EXPECT_NEAR(traces.values[0][0], 0.45, 1e-8);
   EXPECT_NEAR(traces.values[0][1], 0.8 - 2 * 0.1 + 5 * 0.01, 1e-8);  // rebound with 2 m/s
   EXPECT_NEAR(traces.values[0][2], 0.8 - 1 * 0.1 + 5 * 0.01, 1e-8);  // second impact at 0.8 s, rebound with 1 m/s
@@ -180,7 +172,7 @@ TEST(EventsInDiagrams, RateLimiterMakesARampOfAStepAndBreaksNoLoop) {
       tools::diagram({{"u", block("step", {{"before", "0 V"}, {"after", "3 V"}, {"time", "0.1 s"}})},
                       {"y", block("rate_limiter", {{"rise", "4 V/s"}, {"fall", "2 V/s"}, {"time", "50 ms"}}, {"u"})}},
                      {"y"});
-  const Traces traces = simulated(d, rows_until(1.5, 60));
+  const Traces traces = simulated_by_bdf(d, rows_until(1.5, 60), tolerance);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double t = traces.t[k] - 0.1;
     const double expected = t < 0 ? 0 : t < 0.7 ? 4 * t : 3 - 0.2 * std::exp(-(t - 0.7) / 0.05);
@@ -225,7 +217,7 @@ TEST(EventsInDiagrams, TankSpillsItsSurplusAndKeepsTheBalance) {
        {"tank", block("tank", {{"area", "0.1 m^2"}, {"outlet", "1 l/s"}, {"reference", "20 cm"}, {"brim", "20 cm"}},
                       {"inflow"})}},
       {"tank.level", "tank.spilled", "tank.outflow"});
-  const Traces traces = simulated(d, {5, 10, 16, 20, 30});
+  const Traces traces = simulated_by_bdf(d, {5, 10, 16, 20, 30}, tolerance);
   const double full = 20 * std::log(2);
   EXPECT_NEAR(traces.values[0][0], 0.4 * (1 - std::exp(-0.25)), 1e-8);
   EXPECT_NEAR(traces.values[0][1], 0.4 * (1 - std::exp(-0.5)), 1e-8);
@@ -293,7 +285,7 @@ TEST(EventsInDiagrams, CurrentLimitSlewsTheStaircaseOfAConverter) {
        {"y", block("current_limit", {{"source", "60 mA"}, {"sink", "60 mA"}, {"capacitance", "2 uF"}, {"time", "1 us"}},
                    {"dac"})}},
       {"y"});
-  const Traces traces = simulated(d, {1.1e-3, 1.5e-3, 1.9e-3, 2.5e-3});
+  const Traces traces = simulated_by_bdf(d, {1.1e-3, 1.5e-3, 1.9e-3, 2.5e-3}, tolerance);
   EXPECT_NEAR(traces.values[0][0], 3, 1e-6);
   EXPECT_NEAR(traces.values[0][1], 15, 1e-6);
   EXPECT_NEAR(traces.values[0][2], 20, 1e-6);

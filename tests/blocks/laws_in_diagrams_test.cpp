@@ -6,7 +6,7 @@
 
 #include "engine/diagram/error.h"
 #include "models/hysteresis/jiles_atherton.h"
-#include "tests/engine/simulate_tools.h"
+#include "tests/blocks/simulated_by_bdf.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {
@@ -15,17 +15,8 @@ namespace {
 using tools::block;
 using tools::grid;
 using tools::list;
+using tools::simulated_by_bdf;
 
-Traces simulated(const Diagram& d, std::vector<double> instants, double tolerance, bool at_rest = false) {
-  const auto program = tools::compiled(d);
-  SimulateOptions options;
-  options.instants = std::move(instants);
-  options.until = options.instants.back();
-  options.method = Method::bdf;
-  options.relative_tolerance = tolerance;
-  options.at_rest = at_rest;
-  return simulate(*program, start(*program), options);
-}
 Node reference(const std::string& shape, const std::string& unit) {
   return block(shape,
                {{"amplitude", "3 " + unit}, {"offset", "3 " + unit}, {"frequency", "5 Hz"}, {"phase", "-90 deg"}});
@@ -50,7 +41,7 @@ TEST(LawsInDiagrams, JilesAthertonReproducesTheGoldenTraces) {
     const auto trace = golden::read("ja_forward_" + shape);
     const auto d = tools::diagram(
         {{"u", reference(shape, "V")}, {"y", block("jiles_atherton", jiles_atherton_table(), {"u"})}}, {"y"});
-    const Traces traces = simulated(d, trace.at("t [s]"), 1e-9);
+    const Traces traces = simulated_by_bdf(d, trace.at("t [s]"), 1e-9);
     for (std::size_t k = 0; k < traces.t.size(); ++k)  // what the traces ask of an integrated law; 2.6e-7 is found
       ASSERT_NEAR(1e6 * traces.values[0][k], trace.at("P [um]")[k], 1e-6) << shape << " row " << k;
   }
@@ -69,7 +60,7 @@ TEST(LawsInDiagrams, NormalisedJilesAthertonAndItsInverseReproduceTheGoldenTrace
                                  {"r", wanted},
                                  {"command", block("jiles_atherton_inverse", law, {"r"})}},
                                 {"y", "r", "command"});
-  const Traces traces = simulated(d, trace.at("t [s]"), 1e-9);
+  const Traces traces = simulated_by_bdf(d, trace.at("t [s]"), 1e-9);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     ASSERT_NEAR(1e6 * traces.values[0][k], trace.at("P_n [-]")[k], 1e-6) << "row " << k;
     ASSERT_NEAR(1e6 * traces.values[1][k], trace.at("yr_n [-]")[k], 1e-9) << "row " << k;
@@ -87,7 +78,7 @@ Diagram steel_under_a_triangle(const std::string& curve) {
 }
 
 TEST(LawsInDiagrams, APublishedSetFollowsTheLawWithLangevinsFunction) {
-  const Traces traces = simulated(steel_under_a_triangle("langevin"), grid(0, 2.25, 450), 1e-8);
+  const Traces traces = simulated_by_bdf(steel_under_a_triangle("langevin"), grid(0, 2.25, 450), 1e-8);
   const jiles_atherton::Params<double> law{
       .p_s = 1.6e6, .a = 560, .alpha = 7e-4, .k = 1200, .c = 0.1, .curve = jiles_atherton::Curve::langevin};
   double p = 0, from = 0;
@@ -158,7 +149,7 @@ TEST(LawsInDiagrams, SampledTapiInverseCancelsItsActuatorAtEveryTemperature) {
                      {"r", "y", "u"});
   std::vector<double> instants;
   for (int k = 1; k < 400; ++k) instants.push_back(k * 1e-3 + 0.5e-3);
-  const Traces traces = simulated(d, instants, 1e-9);
+  const Traces traces = simulated_by_bdf(d, instants, 1e-9);
   double top = 0;
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double wanted = 3 - 3 * std::cos(2 * M_PI * 5 * (traces.t[k] - 0.5e-3));  // um, of the last instant
@@ -183,7 +174,7 @@ TEST_P(Compensated, ActuatorBehindItsInverseFollowsTheReference) {
                                    {"u", block(type + "_inverse", law.parameters(), {"r"})},
                                    {"y", block(type, law.parameters(), {"u"})}},
                                   {"r", "y", "u"});
-    const Traces traces = simulated(d, grid(0, 0.4, 400), 1e-9);
+    const Traces traces = simulated_by_bdf(d, grid(0, 0.4, 400), 1e-9);
     double top = 0;
     for (std::size_t k = 0; k < traces.t.size(); ++k) {
       ASSERT_NEAR(1e6 * traces.values[1][k], 1e6 * traces.values[0][k], law.tolerance) << shape << " row " << k;
@@ -209,7 +200,7 @@ TEST(LawsInDiagrams, InversesReproduceTheGoldenCommandsOnTheirSteadyLoops) {
                                  {"bw", block("bouc_wen_inverse", bw, {"r"})}},
                                 {"ja", "bw"});
   const auto first = golden::read("ja_inverse_steady_sine"), second = golden::read("bw_compensator_steady_sine");
-  const Traces traces = simulated(d, first.at("t [s]"), 1e-9);
+  const Traces traces = simulated_by_bdf(d, first.at("t [s]"), 1e-9);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {  // 10 times the tolerance of numbers up to 5.5 V
     ASSERT_NEAR(traces.values[0][k], first.at("u [V]")[k], 6e-8) << "row " << k;
     ASSERT_NEAR(traces.values[1][k], second.at("u [V]")[k], 6e-8) << "row " << k;
@@ -233,7 +224,7 @@ TEST(LawsInDiagrams, JilesAthertonInItsOwnDepolarisingFieldSolvesTheLoopOfRates)
                                  {"h", block("sum", {{"signs", "+-"}}, {"u", "own"})},
                                  {"y", block("jiles_atherton", jiles_atherton_table(), {"h"})}},
                                 {"y"});
-  const Traces traces = simulated(d, {0.025, 0.05, 0.1, 0.15, 0.2, 0.3}, 1e-9);
+  const Traces traces = simulated_by_bdf(d, {0.025, 0.05, 0.1, 0.15, 0.2, 0.3}, 1e-9);
   const double u[] = {1.5, 3, 6, 3, 0, 6};
   double expected = 0, before = 0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -246,7 +237,7 @@ TEST(LawsInDiagrams, JilesAthertonInItsOwnDepolarisingFieldSolvesTheLoopOfRates)
 TEST(LawsInDiagrams, BacklashLagsByHalfItsGapOnEitherWay) {
   const auto d = tools::diagram(
       {{"u", reference("triangle", "um")}, {"y", block("backlash", {{"gap", "1 um"}}, {"u"})}}, {"u", "y"});
-  const Traces traces = simulated(d, {0.05, 0.09, 0.15, 0.19}, 1e-8);
+  const Traces traces = simulated_by_bdf(d, {0.05, 0.09, 0.15, 0.19}, 1e-8);
   EXPECT_NEAR(1e6 * (traces.values[0][0] - traces.values[1][0]), 0.5, 1e-9);
   EXPECT_NEAR(1e6 * (traces.values[0][1] - traces.values[1][1]), 0.5, 1e-9);
   EXPECT_NEAR(1e6 * (traces.values[0][2] - traces.values[1][2]), -0.5, 1e-9);
@@ -263,7 +254,7 @@ TEST(LawsInDiagrams, MassHasItsPositionAndItsVelocityAsPorts) {
               {"force"})},
        {"way", block("integrator", {}, {"mass.velocity"})}},
       {"mass.position", "way"});
-  const Traces traces = simulated(d, grid(0, 3, 60), 1e-9);
+  const Traces traces = simulated_by_bdf(d, grid(0, 3, 60), 1e-9);
   const double decay = 0.2, w = std::sqrt(25 - decay * decay);
   for (std::size_t k = 0; k < traces.t.size(); ++k) {
     const double t = traces.t[k];
@@ -280,7 +271,7 @@ TEST(LawsInDiagrams, MassOnASpringStartsAtRestUnderItsForce) {
                       {{"mass", "2 kg"}, {"damping", "0.8 N s/m"}, {"stiffness", "2 N/m"}, {"stiffening", "3 N/m^3"}},
                       {"force"})}},
       {"mass.position", "mass.velocity"});
-  const Traces traces = simulated(d, grid(0, 1, 4), 1e-9, true);
+  const Traces traces = simulated_by_bdf(d, grid(0, 1, 4), 1e-9, true);
   for (const double x : traces.values[0]) EXPECT_NEAR(x, 1, 1e-9);  // 2 x + 3 x^3 = 5
   for (const double v : traces.values[1]) EXPECT_NEAR(v, 0, 1e-9);
 }
@@ -302,13 +293,13 @@ TEST(LawsInDiagrams, ThermalNetworkWarmsInItsTwoModesAndRestsWhereHeatFlowsThrou
     const double mean = 7.5 * (1 - std::exp(-0.05 * t)), half = 1.5 / 1.6 * (1 - std::exp(-0.4 * t));
     return 293.15 + mean + (body == 0 ? half : -half);
   };
-  const Traces traces = simulated(d, grid(0, 40, 20), 1e-9);
+  const Traces traces = simulated_by_bdf(d, grid(0, 40, 20), 1e-9);
   ASSERT_EQ(traces.values.size(), 2u);
   for (std::size_t k = 0; k < traces.t.size(); ++k)
     for (int body = 0; body < 2; ++body)
       EXPECT_NEAR(traces.values[static_cast<std::size_t>(body)][k], expected(traces.t[k], body),
                   3e-6);  // 10 rtol 300 K
-  const Traces rest = simulated(d, grid(0, 1, 2), 1e-9, true);
+  const Traces rest = simulated_by_bdf(d, grid(0, 1, 2), 1e-9, true);
   EXPECT_NEAR(rest.values[0].back(), expected(1e9, 0), 1e-6);
   EXPECT_NEAR(rest.values[1].back(), expected(1e9, 1), 1e-6);
 }

@@ -15,7 +15,7 @@ namespace reference {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Result result_of(const std::string& blocks, const std::string& record, const std::string& name, double disturbed = 0) {
   const hysteron::TemporaryFolder folder;

@@ -9,7 +9,7 @@
 namespace reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class Lag : public Law {
  public:

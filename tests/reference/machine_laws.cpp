@@ -11,7 +11,7 @@
 namespace reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// inductance di/dt = voltage - resistance i - induced * second input.
 class Coil : public Law {

@@ -8,7 +8,7 @@
 namespace reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class Source : public Law {
  public:

@@ -49,7 +49,7 @@ void write_endless(const Folder& folder) {
     "features": {"stroke": {"take": "stroke", "of": "law"}}})");
 }
 
-const std::vector<Words>& verbs() {
+const std::vector<Words>& long_runs() {
   static const std::vector<Words> all{
       {"run", "alone.json", "-o", "out"},
       {"compare", "loop.json", "--data", "dataset.json", "-o", "out"},
@@ -71,7 +71,7 @@ void expect_whole_or_absent(const Folder& folder) {
 }
 
 TEST(Interrupt, EveryVerbEndsWhenItIsToldTo) {
-  for (const auto& words : verbs()) {
+  for (const auto& words : long_runs()) {
     SCOPED_TRACE(words.front());
     const Folder folder;
     write_endless(folder);
@@ -107,7 +107,7 @@ TEST(LongInterrupt, EveryVerbEndsAtWhateverInstantItIsToldTo) {
   std::mt19937 random(11);
   double worst = 0;
   for (int round = 0; round < 20; ++round)
-    for (const auto& words : verbs()) {
+    for (const auto& words : long_runs()) {
       const Folder folder;
       write_endless(folder);
       const int after = std::uniform_int_distribution(30, 3000)(random);

@@ -30,7 +30,7 @@ class LinearizeVerb : public testing::Test {
 };
 
 /// y = G e (and a dead time), e = r - y.
-std::string loop(const std::string& num, const std::string& den, const std::string& delay) {
+std::string loop_of(const std::string& num, const std::string& den, const std::string& delay) {
   const std::string last = delay.empty() ? R"("y": {"type": "pass", "in": "p"})"
                                          : R"("y": {"type": "dead_time", "delay": ")" + delay + R"(", "in": "p"})";
   return R"({"format": 1, "title": "loop", "blocks": {
@@ -50,7 +50,7 @@ void expect_nothing_of_a_stable_loop(const Outcome& outcome, const json& facts) 
 
 TEST_F(LinearizeVerb, AnUnstableLoopIsCalledSoInTheFirstLine) {
   // 50/(5 s^3 + 10.25 s^2 + 6.25 s + 1): Routh, 10.25 * 6.25 = 64 < 5 * 51.
-  folder_.write("d.json", loop("[50]", "[5, 10.25, 6.25, 1]", ""));
+  folder_.write("d.json", loop_of("[50]", "[5, 10.25, 6.25, 1]", ""));
   const Outcome outcome = run({"d.json", "--from", "e", "--to", "y", "--open", "e"});
   EXPECT_NE(first_line(outcome).find("the closed loop is unstable (2 poles in the right half plane)"),
             std::string::npos)
@@ -64,7 +64,7 @@ TEST_F(LinearizeVerb, AnUnstableLoopIsCalledSoInTheFirstLine) {
 
 TEST_F(LinearizeVerb, AnUnstableLoopWithADeadTimeIsCalledSoThoughItsLastMarginsLookFine) {
   // 0.9 exp(-1.6 s), a lag of 0.4 s, a mode at 1.6 rad/s with damping 0.01: two poles on the right.
-  folder_.write("d.json", loop("[2.304]", "[0.4, 1.0128, 1.056, 2.56]", "1.6 s"));
+  folder_.write("d.json", loop_of("[2.304]", "[0.4, 1.0128, 1.056, 2.56]", "1.6 s"));
   const Outcome outcome = run({"d.json", "--from", "e", "--to", "y", "--open", "e"});
   EXPECT_NE(first_line(outcome).find("the closed loop is unstable (2 poles in the right half plane)"),
             std::string::npos)
@@ -78,7 +78,7 @@ TEST_F(LinearizeVerb, AnUnstableLoopWithADeadTimeIsCalledSoThoughItsLastMarginsL
 
 TEST_F(LinearizeVerb, AnUnstablePlantThatIsHeldHasALowerLimitOfItsGain) {
   // 4/((s - 1)(s/10 + 1)): stable for gains from 1/4 of it, and any above.
-  folder_.write("d.json", loop("[40]", "[1, 9, -10]", ""));
+  folder_.write("d.json", loop_of("[40]", "[1, 9, -10]", ""));
   const Outcome outcome = run({"d.json", "--from", "e", "--to", "y", "--open", "e"});
   EXPECT_EQ(outcome.out.find("the closed loop is unstable"), std::string::npos) << outcome.out;
   EXPECT_TRUE(says(outcome, "The loop as opened is unstable (1 pole in the right half plane)")) << outcome.out;

@@ -25,7 +25,7 @@ using process::hysteron_terminated;
 using process::Outcome;
 using process::shell;
 
-constexpr char loop[] = R"({"format": 1, "title": "loop", "blocks": {
+constexpr char driven_loop[] = R"({"format": 1, "title": "loop", "blocks": {
   "drive": {"type": "sine", "amplitude": "3 um", "frequency": "5 Hz"},
   "plant": {"type": "lag", "times": ["2 ms"], "in": "drive"}},
   "outputs": {"y": "plant"}, "record": ["drive", "plant"], "simulate": {"until": "0.5 s", "every": "1 ms"}})";
@@ -65,7 +65,7 @@ std::map<std::string, std::string> content_of(const std::string& folder) {
 
 TEST(Results, GoIntoTheFolderInWhichOneStands) {
   const Folder folder;
-  folder.write("loop.json", loop);
+  folder.write("loop.json", driven_loop);
   const Outcome outcome = shell(folder.path(),
                                 "mkdir here && cd here && hysteron run ../loop.json -o . && pwd -P >&2 && "
                                 "hysteron check ../loop.json && hysteron run ../loop.json -o .");
@@ -85,7 +85,7 @@ Outcome on_a_disk_of(const Folder& folder, const std::string& size, const std::s
 
 TEST(Results, GoIntoTheRootOfAFileSystem) {
   const Folder folder;
-  folder.write("loop.json", loop);
+  folder.write("loop.json", driven_loop);
   const Outcome outcome = on_a_disk_of(folder, "4m", R"(mkdir disk/lost+found
       hysteron run loop.json -o disk && hysteron run loop.json -o disk && ls -A disk)");
   SKIP_WITHOUT_DISK(outcome);
@@ -111,7 +111,7 @@ TEST(Results, AStudyOnAFullDiskEndsWithAMessage) {
 
 TEST(Results, AFileBeyondTheLimitOfTheShellIsAnErrorAndLeavesNothing) {
   const Folder folder;
-  folder.write("loop.json", loop);
+  folder.write("loop.json", driven_loop);
   small_study::write(folder, "", 40);
   for (const char* command : {"run loop.json -o out", "study job.json -o out", "study job.json -o out --shard 1/4"}) {
     const Outcome outcome = shell(folder.path(), std::string("ulimit -f 8; hysteron ") + command);
@@ -131,7 +131,7 @@ Outcome at_once(const Folder& folder, const std::vector<std::string>& commands) 
 
 TEST(Results, SeveralRunsIntoOneFolderTakeTurns) {
   const Folder folder;
-  folder.write("loop.json", loop);
+  folder.write("loop.json", driven_loop);
   const auto command = [](int i, const std::string& out) {
     return "hysteron run loop.json --set drive.amplitude='" + std::to_string(i) + " um' --quiet -o " + out;
   };
@@ -244,7 +244,7 @@ void wait_for_others(const std::string& folder) {
 /// Two runs by turns into one folder, each killed at a random moment: it holds what one of them gives, whole.
 void kill_runs(int times) {
   const Folder folder;
-  folder.write("loop.json", loop);
+  folder.write("loop.json", driven_loop);
   const auto words = [](int i, const std::string& out) {
     return std::vector<std::string>{"run", "loop.json", "--set", "drive.amplitude=" + std::to_string(1 + i) + " um",
                                     "-o",  out};

@@ -24,7 +24,7 @@ using process::hysteron_killed;
 using process::Outcome;
 
 /// The drive limited to 0 V ... upper, which the limit refuses where it is not above 0 V; times a gain.
-constexpr char stage[] = R"({
+constexpr char studied_stage[] = R"({
   "format": 1, "title": "Stage",
   "blocks": {
     "drive": {"type": "sine", "amplitude": "3 V", "offset": "1 V", "frequency": "5 Hz"},
@@ -52,7 +52,7 @@ constexpr char plots[] = R"(,
 class StudyVerb : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("stage.json", stage);
+    folder_.write("stage.json", studied_stage);
     folder_.write("limits.json", job(R"("draws": 400, "shards": 5)", plots));
   }
   json result(const std::string& folder) const { return json::parse(folder_.read(folder + "/result.json")); }
@@ -150,7 +150,7 @@ TEST_F(StudyVerb, StartedAgainItKeepsWhatIsThereAndComputesWhatIsNotOfThisJob) {
   EXPECT_TRUE(bytes("limits.study") == right);
 
   // Another diagram is another study, whatever the job says; its title is none.
-  std::string changed = stage;
+  std::string changed = studied_stage;
   changed.replace(changed.find("\"Stage\""), 7, "\"Other\"");
   folder_.write("stage.json", changed);
   EXPECT_NE(done({"study", "limits.json"}).out.find("5 of 5 shards were there already"), std::string::npos);
@@ -162,7 +162,7 @@ TEST_F(StudyVerb, StartedAgainItKeepsWhatIsThereAndComputesWhatIsNotOfThisJob) {
   again = done({"study", "limits.json"});
   EXPECT_NE(again.out.find("was changed since"), std::string::npos) << again.out;
   EXPECT_FALSE(bytes("limits.study") == right);
-  folder_.write("stage.json", stage);
+  folder_.write("stage.json", studied_stage);
   done({"study", "limits.json"});
   EXPECT_TRUE(bytes("limits.study") == right);
 }
@@ -250,7 +250,7 @@ TEST_F(StudyVerb, AFolderThatIsNotItsOwnIsLeftAlone) {
   EXPECT_FALSE(folder_.has("mine/shards"));
   const Outcome file = hysteron(folder_.path(), {"study", "limits.json", "-o", "stage.json"});
   EXPECT_EQ(file.code, 2);
-  EXPECT_EQ(folder_.read("stage.json"), stage);
+  EXPECT_EQ(folder_.read("stage.json"), studied_stage);
 }
 
 TEST_F(StudyVerb, AllDrawsAreKeptWhereThatIsAskedFor) {
@@ -273,7 +273,7 @@ TEST_F(StudyVerb, SaysWhetherSamplesGoSideBySideOrWhatKeepsThemApart) {
   const auto how = [&](const std::string& folder) { return result(folder)["sections"][0]["text"].dump(); };
   done({"study", "limits.json"});
   EXPECT_NE(how("limits.study").find("side by side"), std::string::npos) << how("limits.study");
-  std::string late = stage, text = job(R"("draws": 20)");
+  std::string late = studied_stage, text = job(R"("draws": 20)");
   late.replace(late.find("\"in\": \"drive\""), 13, "\"in\": \"wait\"");
   late.replace(late.find("\"limit\":"), 8,
                "\"wait\": {\"type\": \"dead_time\", \"delay\": \"3 ms\", \"in\": \"drive\"}, \"limit\":");

@@ -6,18 +6,15 @@
 
 #include "models/random.h"
 #include "tests/blocks/bench.h"
+#include "tests/blocks/sampled/rows.h"
 
 namespace hysteron {
 namespace {
 
 using bench::Bench;
 using bench::Numbers;
+using bench::rows;
 
-std::vector<Numbers> rows(const Numbers& u) {
-  std::vector<Numbers> r;
-  for (const double x : u) r.push_back({x});
-  return r;
-}
 Numbers noise(std::size_t n) {
   Numbers u;
   for (std::uint64_t k = 0; k < n; ++k) u.push_back(random::normal(8, 0, k));

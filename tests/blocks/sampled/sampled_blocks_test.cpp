@@ -7,6 +7,7 @@
 #include "engine/simulate/simulate.h"
 #include "models/random.h"
 #include "tests/blocks/bench.h"
+#include "tests/blocks/sampled/rows.h"
 #include "tests/models/golden.h"
 
 namespace hysteron {
@@ -14,12 +15,7 @@ namespace {
 
 using bench::Bench;
 using bench::Numbers;
-
-std::vector<Numbers> rows(const Numbers& u) {
-  std::vector<Numbers> r;
-  for (const double x : u) r.push_back({x});
-  return r;
-}
+using bench::rows;
 
 TEST(SampledBlocks, HavePeriodAndOffsetAsTheirLastParameters) {
   int found = 0;

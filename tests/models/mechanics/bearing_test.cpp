@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace hysteron {
+namespace hysteron::bearing_test {
 namespace {
 
 using bearing::Params;
@@ -65,4 +65,4 @@ TEST(BearingModel, BrakesAsTheDampingAndByTheCurveOfStribeck) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::bearing_test

@@ -8,7 +8,7 @@
 #include "models/hysteresis/play.h"
 #include "models/mechanics/presliding.h"
 
-namespace hysteron {
+namespace hysteron::guide_test {
 namespace {
 
 using guide::Params;
@@ -89,4 +89,4 @@ TEST(GuideModel, SaysWhereItWouldJump) {
 }
 
 }  // namespace
-}  // namespace hysteron
+}  // namespace hysteron::guide_test

@@ -12,17 +12,12 @@
 #include "report/page/report.h"
 #include "tests/io/results/example.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/report/page/count.h"
 
 namespace hysteron {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
-  return n;
-}
 
 class Browser : public testing::Test {
  protected:

@@ -9,15 +9,11 @@
 
 #include "report/page/figure_file.h"
 #include "tests/io/results/example.h"
+#include "tests/report/page/count.h"
 
 namespace hysteron {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
-  return n;
-}
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// The page without its style and script: what documents put into it.
