@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""The cascade drive of diagrams/motion for 10 s, a row each 0.25 ms (4 kHz), against SciPy's solve_ivp, in one run.
+"""The cascade drive of diagrams/motion for 10 s, a row each 0.25 ms (4 kHz), against SciPy's solve_ivp and Xcos, in one run.
 
     benchmarks/cascade.py build/app/hysteron
 
 The table goes to and fro for all of the 10 s. solve_ivp integrates from corner to corner of the jerk-limited moves, equations in
 plain Python; both sides are asked for a relative tolerance of 1e-6. What is exact is LSODA at 1e-11. CPU times, medians of five:
-of hysteron the whole program, with reading, compiling and writing, of solve_ivp its calls alone. Needs python3-scipy.
+of hysteron the whole program, with reading, compiling and writing, of solve_ivp its calls alone, of Xcos (cascade.sce) what its
+simulator takes for a compiled diagram. Needs python3-scipy, and scilab-cli for Xcos, which is left out without it.
 """
 import json
 import math
 import re
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -105,6 +107,16 @@ def ours(program, folder):
     return statistics.median(seconds), unit * np.loadtxt(csv, delimiter=",", skiprows=1)[:, 1]
 
 
+def in_xcos(pieces, folder):
+    """Per solver of Xcos: its name, CPU seconds, place of the table at every row but the last, which Xcos leaves out."""
+    rows = [*pieces, (END + 1, *pieces[-1][1:])]
+    (folder / "pieces.csv").write_text("\n".join(",".join(f"{x:.17g}" for x in row) for row in rows) + "\n")
+    subprocess.run(["scilab-cli", "-nb", "-f", str(ROOT / "benchmarks" / "cascade.sce")], cwd=folder, check=True,
+                   stdout=subprocess.DEVNULL, timeout=300)
+    seconds = np.loadtxt(folder / "seconds.csv")
+    return [(name, seconds[i], np.loadtxt(folder / f"place{i}.csv")) for i, name in enumerate(("LSODAR", "CVODE BDF"))]
+
+
 def main():
     pieces = Moves(0.05, PLACES, 0.3, 5.0, 200.0, 0.1).pieces
     pieces[0] = (0.0, 0.0, 0.0, 0.0, 0.0)
@@ -112,12 +124,17 @@ def main():
     exact = integrated(rates, pieces, t, "LSODA", 1e-11)
     with tempfile.TemporaryDirectory() as folder:
         seconds, place = ours(str(Path(sys.argv[1]).resolve()), Path(folder))
+        xcos = in_xcos(pieces, Path(folder)) if shutil.which("scilab-cli") else []
     scale = 1e6  # um
     print(f"hysteron: {seconds:.3g} s, largest error {scale * np.max(np.abs(place - exact)):.3g} um")
     for method in ("LSODA", "RK45"):
         seconds, place = timed(lambda: integrated(rates, pieces, t, method, 1e-6))
         print(f"solve_ivp, {method}: {seconds:.3g} s, largest error {scale * np.max(np.abs(place - exact)):.3g} um",
               flush=True)
+    for name, seconds, place in xcos:
+        print(f"Xcos, {name}: {seconds:.3g} s, largest error {scale * np.max(np.abs(place - exact[:-1])):.3g} um")
+    if not xcos:
+        print("Xcos: left out, scilab-cli is not there")
 
 
 if __name__ == "__main__":
