@@ -1,4 +1,5 @@
-// What a law costs that the diagram writes, against the same law as a block in C++: one evaluation, and 100 000 rows.
+// What a law costs that the diagram writes, against the same law as a block in C++: one evaluation, 100 000 rows, and
+// 128 sets of its numbers side by side.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -7,6 +8,7 @@
 #include "benchmarks/diagrams.h"
 #include "benchmarks/workloads.h"
 #include "engine/block/block.h"
+#include "engine/lanes/lanes.h"
 
 namespace hysteron::benchmarks {
 namespace {
@@ -44,21 +46,25 @@ struct WrittenInC {
   }
 };
 
+ProgramPointer program_of(Diagram d, const char* type) {
+  Node law = node(type, {{"a", 0.7}, {"b", 1.3}, {"c", 2.0}}, {"u"});
+  if (std::string(type) == "expression") law.parameters["y"] = "a*sin(b*u) + max(u, 0)*sqrt(1 + u^2)/c";
+  d.blocks["law"] = law;
+  d.record = {"law"};
+  static const Registry registry = [] {
+    Registry all = all_blocks();
+    all.add(kernel<WrittenInC>());
+    return all;
+  }();
+  return compile(d, registry);
+}
+
 /// The block alone in a program, its numbers laid out as the engine does it.
 struct Alone {
   explicit Alone(const char* type) {
     Diagram d;
     d.inputs["u"] = {};
-    Node law = node(type, {{"a", 0.7}, {"b", 1.3}, {"c", 2.0}}, {"u"});
-    if (std::string(type) == "expression") law.parameters["y"] = "a*sin(b*u) + max(u, 0)*sqrt(1 + u^2)/c";
-    d.blocks["law"] = law;
-    d.record = {"law"};
-    static const Registry registry = [] {
-      Registry all = all_blocks();
-      all.add(kernel<WrittenInC>());
-      return all;
-    }();
-    program = compile(d, registry);
+    program = program_of(d, type);
     run = start(*program);
     view = view_of(*program, run, program->block_index("law"));
   }
@@ -70,13 +76,14 @@ struct Alone {
 
 void one_by_one(benchmark::State& state, const char* type) {
   Alone alone(type);
+  const Kernel& law = alone.law();
   double u = 0, y = 0;
   alone.view.u = &u;
   alone.view.out = &y;
   for (auto _ : state)
     for (int k = 0; k < evaluations; ++k) {
       u = 1e-3 * k - 0.5;
-      alone.law().output(alone.view);
+      law.output(alone.view);
       benchmark::DoNotOptimize(y);
     }
 }
@@ -101,6 +108,22 @@ void many_rows(benchmark::State& state, const char* type) {
   }
 }
 
+void side_by_side(benchmark::State& state, const char* type) {
+  Diagram d;
+  d.blocks["u"] = node("sine", {{"amplitude", 1.0}, {"frequency", "5 Hz"}});
+  const auto program = program_of(d, type);
+  std::vector<int> varied;
+  for (const char* name : {"law.a", "law.b", "law.c"})
+    varied.push_back(static_cast<int>(program->find_parameter(name) - program->parameters.data()));
+  Lanes lanes(program, start(*program), {.until = 1, .every = 1e-3}, varied);
+  std::vector<double> values;
+  for (int l = 0; l < Lanes::width; ++l)
+    for (const double of_law : {0.7, 1.3, 2.0}) values.push_back(of_law * (1 + 1e-3 * l));
+  double sum = 0;
+  for (auto _ : state) lanes(values, [&](long, double, const double* y) { sum += y[Lanes::width - 1]; });
+  benchmark::DoNotOptimize(sum);
+}
+
 }  // namespace
 
 void register_expression() {
@@ -110,6 +133,8 @@ void register_expression() {
                                  [of](benchmark::State& state) { one_by_one(state, of); });
     benchmark::RegisterBenchmark((std::string("a law, 100 000 rows/") + name).c_str(),
                                  [of](benchmark::State& state) { many_rows(state, of); });
+    benchmark::RegisterBenchmark((std::string("a law, 128 lanes of 1000 rows/") + name).c_str(),
+                                 [of](benchmark::State& state) { side_by_side(state, of); });
   }
 }
 

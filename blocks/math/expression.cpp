@@ -159,28 +159,28 @@ void Expression::units(const Shape& shape, InstanceUnits& units) {
   }
 }
 
-/// A chunk of rows at a time, one operation after the other: the text costs nothing per row.
+/// A chunk of numbers at a time, one operation after the other: the text costs nothing per number.
 void Expression::rows(const RowsView& r) {
   constexpr int chunk = 64;  // numbers of all lanes; what a chunk needs stays in the nearest cache
-  static_assert(chunk % RowsView::most_lanes == 0);
   const double* code = r.views[0].c;
   const int inputs = Code::count(code, Code::inputs), parameters = Code::count(code, Code::parameters),
             numbers = Code::count(code, Code::numbers);
   std::array<double, static_cast<std::size_t>(Code::most_slots * chunk)> work;
   std::array<const double*, static_cast<std::size_t>(Code::most_slots)> at;
-  double* fixed = work.data();
-  for (int i = 0; i < parameters + numbers; ++i, fixed += chunk) {
-    at[static_cast<std::size_t>(inputs + i)] = fixed;
-    for (int k = 0; k < chunk; ++k)
-      fixed[k] = i < parameters ? r.views[k % r.lanes].parameter(first_of_its_own + i)
-                                : code[Code::head_size + i - parameters];
-  }
+  const auto slot = [&](int i) { return work.data() + static_cast<std::ptrdiff_t>(i) * chunk; };
+  for (int i = 0; i < parameters + numbers; ++i) at[static_cast<std::size_t>(inputs + i)] = slot(i);
+  for (int i = 0; i < numbers; ++i) std::fill_n(slot(parameters + i), chunk, code[Code::head_size + i]);
+  const auto fill_parameters = [&](std::ptrdiff_t begin) {
+    for (int i = 0; i < parameters; ++i)
+      for (int k = 0; k < chunk; ++k) slot(i)[k] = r.views[(begin + k) % r.lanes].parameter(first_of_its_own + i);
+  };
+  const bool same_lanes_in_every_chunk = chunk % r.lanes == 0;
   const std::ptrdiff_t all = static_cast<std::ptrdiff_t>(r.count) * r.lanes;
   for (std::ptrdiff_t begin = 0; begin < all; begin += chunk) {
-    const int n = static_cast<int>(std::min<std::ptrdiff_t>(chunk, all - begin));
+    if (begin == 0 || !same_lanes_in_every_chunk) fill_parameters(begin);
     for (int i = 0; i < inputs; ++i) at[static_cast<std::size_t>(i)] = r.u[i] + begin;
-    const double* result = expression::evaluate_rows<chunk>(code, at.data(), fixed, n);
-    std::copy_n(result, n, r.y[0] + begin);
+    const int n = static_cast<int>(std::min<std::ptrdiff_t>(chunk, all - begin));
+    std::copy_n(expression::evaluate_rows<chunk>(code, at.data(), slot(parameters + numbers), n), n, r.y[0] + begin);
   }
 }
 

@@ -19,28 +19,32 @@ struct Expression {
   static void units(const Shape& shape, InstanceUnits& units);
   template <class T>
   static void output(const View<T>& v) {
-    v.out[0] = evaluated(v, nullptr);
+    in_slots(v, [&](T* slots) { v.out[0] = expression::evaluate(v.c, slots); });
   }
-  static void kinks(const View<double>& v) { evaluated(v, v.out); }
+  static void kinks(const View<double>& v) {
+    in_slots(v, [&](double* slots) { expression::evaluate(v.c, slots, v.out); });
+  }
   static void rows(const RowsView& r);
 
  private:
-  template <class T>
-  static T evaluated(const View<T>& v, double* kinks) {
+  /// Inputs and parameters in the slots of an evaluation.
+  template <class T, class Use>
+  static void in_slots(const View<T>& v, const Use& use) {
     if constexpr (std::is_same_v<T, double>) {
       double slots[expression::Code::most_slots];
-      return evaluated_in(v, slots, kinks);
+      fill(v, slots);
+      use(slots);
     } else {
       thread_local std::vector<T> slots(expression::Code::most_slots);
-      return evaluated_in(v, slots.data(), kinks);
+      fill(v, slots.data());
+      use(slots.data());
     }
   }
   template <class T>
-  static T evaluated_in(const View<T>& v, T* slots, double* kinks) {
+  static void fill(const View<T>& v, T* slots) {
     const int parameters = expression::Code::count(v.c, expression::Code::parameters);
     std::copy(v.u, v.u + v.n_u, slots);
     for (int i = 0; i < parameters; ++i) slots[v.n_u + i] = v.parameter(first_of_its_own + i);
-    return expression::evaluate(v.c, slots, kinks);
   }
 };
 

@@ -127,7 +127,7 @@ inline constexpr double jump_duration = 0x1p-30;
 /// the exact advance asks for where the inputs of all rows are known. The number of row k in lane l stands at
 /// [k * lanes + l]; row -1 is the point before the first one.
 struct RowsView {
-  /// What a block may be asked for: one lane, or this many.
+  /// What a block may be asked for: one lane, this many, or, if it is sized and has no states or memory, any number.
   static constexpr int most_lanes = 4;
 
   int lanes = 1;

@@ -6,6 +6,16 @@
 #include "engine/lanes/lane_arithmetic.h"
 
 namespace hysteron {
+namespace {
+
+/// A block whose size the diagram decides and whose outputs follow from parameters and inputs alone: its loop over rows
+/// takes all lanes as one row.
+bool takes_a_row_of_lanes(const BlockInstance& b) {
+  return b.kernel->rows != nullptr && b.n_u > 0 && b.sizes.states == 0 && b.sizes.memory == 0 && b.series_index < 0;
+}
+
+}  // namespace
+
 LaneEvaluation::LaneEvaluation(ProgramPointer program, const Run& run, std::vector<bool> shared)
     : program_(std::move(program)),
       series_(run.series),
@@ -31,6 +41,7 @@ LaneEvaluation::LaneEvaluation(ProgramPointer program, const Run& run, std::vect
   dual_x_.resize(longest([](const BlockInstance& b) { return b.sizes.states; }));
   dual_m_.resize(longest([](const BlockInstance& b) { return b.sizes.memory; }));
   dual_advanced_ = dual_m_;
+  scratch_.resize(RowsView::scratch_size(static_cast<int>(u_.size()), 0, 0, static_cast<int>(out_.size())));
 }
 
 LaneEvaluation::List LaneEvaluation::make_list(const Run& run, const std::vector<Step>& steps,
@@ -62,6 +73,7 @@ LaneEvaluation::Call LaneEvaluation::bind(const Step& step) {
     case Order::value:
       call.function = f.output;
       v.out = y_.row(b.y_begin);
+      if (call.function == nullptr && takes_a_row_of_lanes(b)) bind_row(call);
       break;
     case Order::rate:
       call.function = f.output_rate;
@@ -73,6 +85,22 @@ LaneEvaluation::Call LaneEvaluation::bind(const Step& step) {
       v.out = dx_.row(b.x_begin);
   }
   return call;
+}
+
+void LaneEvaluation::bind_row(Call& call) {
+  const BlockInstance& b = *call.block;
+  View<double> v;
+  v.p_at = b.p_at.data();
+  v.n_c = b.sizes.constants;
+  v.n_u = b.n_u;
+  v.n_y = b.sizes.outputs;
+  v.key = b.key;
+  for (int lane = 0; lane < Lanes::width; ++lane) {
+    v.p = p_.row(b.p_begin) + lane * b.p_at.back();
+    v.c = c_.row(b.c_begin) + lane * v.n_c;
+    call.views.push_back(v);
+  }
+  for (int i = 0; i < v.n_y; ++i) call.y.push_back(y_.row(b.y_begin + i));
 }
 
 void LaneEvaluation::place(const Run& run, int lane, LaneNumbers& x) {
@@ -121,12 +149,26 @@ void LaneEvaluation::evaluate(List& list, std::size_t instant, double t, double 
     v.advanced = advanced_.row(b.m_begin);
     if (call.function != nullptr)
       call.function(v);
+    else if (!call.views.empty())
+      one_row(call);
     else
       one_by_one(call);
   }
 }
 
-/// Blocks whose size the diagram decides: one lane behind the other, their numbers lane by lane.
+void LaneEvaluation::one_row(const Call& call) {
+  RowsView r;
+  r.lanes = Lanes::width;
+  r.count = 1;
+  r.views = call.views.data();
+  r.u = call.u.data();
+  r.y = call.y.data();
+  if (call.block->kernel->uses_time) r.t = &call.view.t;
+  r.scratch = scratch_.data();
+  call.block->kernel->rows(r);
+}
+
+/// Other blocks whose size the diagram decides: one lane behind the other, their numbers lane by lane.
 void LaneEvaluation::one_by_one(Call& call) {
   const BlockInstance& b = *call.block;
   View<double> v;

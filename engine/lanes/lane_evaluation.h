@@ -1,5 +1,6 @@
 // Decides how one evaluation of a program is carried out in lanes: steps bound to rows of numbers, blocks of fixed size
-// by their functions for lanes, others lane after lane. Internal to lanes.cpp.
+// by their functions for lanes, others lane after lane; without states and memory as one row of all lanes. Internal to
+// lanes.cpp.
 #pragma once
 
 #include <span>
@@ -20,6 +21,8 @@ class LaneEvaluation {
     LaneFunctions::Call function;  ///< null: lane after lane
     LanesView view;
     std::vector<const double*> u, du;
+    std::vector<View<double>> views{};  ///< one per lane where the block takes a row of all of them, else empty
+    std::vector<double*> y{};           ///< of such a block: its outputs
   };
   struct List {
     std::vector<Call> calls;
@@ -49,6 +52,8 @@ class LaneEvaluation {
 
  private:
   Call bind(const Step& step);
+  void bind_row(Call& call);
+  void one_row(const Call& call);
   void one_by_one(Call& call);
   void value_of_lane(const Call& call, View<double>& v, int lane);
   void rate_of_lane(const Call& call, const View<double>& v, int lane);
@@ -60,7 +65,7 @@ class LaneEvaluation {
   std::vector<SeriesPointer> series_;
   std::vector<bool> shared_;
   LaneNumbers p_, c_, m_, advanced_, dx_, y_, rate_;
-  std::vector<double> u_, du_, out_;
+  std::vector<double> u_, du_, out_, scratch_;
   std::vector<Dual> dual_p_, dual_u_, dual_x_, dual_m_, dual_advanced_, dual_out_;
 };
 

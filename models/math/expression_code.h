@@ -30,17 +30,26 @@ struct Code {
 struct Operation {
   Op op;
   int to, a, b, c;
-  static constexpr std::int64_t slot_range = 256, op_range = 64;
+  static constexpr std::uint64_t slot_range = 256, op_range = 64;
   double packed() const {
-    std::int64_t all = c;
-    for (const int next : {b, a, to}) all = all * slot_range + next;
-    return static_cast<double>(all * op_range + static_cast<int>(op));
+    auto all = static_cast<std::uint64_t>(c);
+    for (const int next : {b, a, to}) all = all * slot_range + static_cast<std::uint64_t>(next);
+    return static_cast<double>(all * op_range + static_cast<std::uint64_t>(op));
   }
-  static Operation of(double packed) {
-    const auto all = static_cast<std::int64_t>(packed);
-    const auto slot = [&](int i) { return static_cast<int>((all >> (6 + 8 * i)) & 255); };
-    return {static_cast<Op>(all & 63), slot(0), slot(1), slot(2), slot(3)};
-  }
+};
+
+/// One operation as it is packed: a part of it is taken out where it is needed.
+struct PackedOperation {
+  std::uint64_t all;
+  explicit PackedOperation(double packed) : all(static_cast<std::uint64_t>(static_cast<std::int64_t>(packed))) {}
+  Op op() const { return static_cast<Op>(all % Operation::op_range); }
+  std::size_t to() const { return slot(0); }
+  std::size_t a() const { return slot(1); }
+  std::size_t b() const { return slot(2); }
+  std::size_t c() const { return slot(3); }
+
+ private:
+  std::size_t slot(int i) const { return (all >> (6 + 8 * i)) % Operation::slot_range; }
 };
 
 /// Numbers that change their sign where the operation bends or jumps.
@@ -250,9 +259,9 @@ inline T power_by(const T& a, double n) {
   return pow(a, n);
 }
 
-/// Calls visit with the operation as a type.
+/// Calls visit with the operation as a type. Part of its caller's loop, so that what it captures stays in registers.
 template <class Visit>
-inline void with_operation(Op op, const Visit& visit) {
+[[gnu::always_inline]] inline void with_operation(Op op, const Visit& visit) {
 #define HYSTERON_CASE(name) \
   case Op::name:            \
     return visit(std::integral_constant<Op, Op::name>{});
@@ -299,50 +308,60 @@ inline void with_operation(Op op, const Visit& visit) {
     HYSTERON_CASE(hypot)
     case Op::number:
     case Op::symbol:
-      return;
+      break;  // values of slots
   }
+  __builtin_unreachable();
 #undef HYSTERON_CASE
 }
 
 /// The value. `slots`: Code::slots numbers, the first of them the inputs and parameters; the rest is overwritten.
-/// `kinks` (of plain numbers): where not null, Code::kinks numbers.
-template <class T>
-T evaluate(const double* code, T* slots, double* kinks = nullptr) {
+/// `bend`(operation) is called before each of them.
+template <class T, class Bend>
+[[gnu::always_inline]] inline T evaluate(const double* code, T* slots, const Bend& bend) {
   const int given = Code::count(code, Code::inputs) + Code::count(code, Code::parameters);
   const int numbers = Code::count(code, Code::numbers), operations = Code::count(code, Code::operations);
   const double* next = code + Code::head_size;
   for (int i = 0; i < numbers; ++i) slots[given + i] = T(*next++);
   // Without operations: a symbol or a number.
-  int last = numbers > 0 ? given : 0;
-  for (int i = 0; i < operations; ++i) {
-    const Operation o = Operation::of(*next++);
-    if constexpr (std::is_same_v<T, double>)
-      if (kinks != nullptr && kinks_of(o.op) > 0) *kinks++ = kink(o.op, slots[o.a], slots[o.b]);
-    with_operation(o.op, [&](auto op) {
+  std::size_t last = numbers > 0 ? static_cast<std::size_t>(given) : 0;
+  for (const double* const end = next + operations; next != end; ++next) {
+    const PackedOperation o(*next);
+    bend(o);
+    last = o.to();
+    with_operation(o.op(), [&](auto op) {
       if constexpr (op == Op::power_by)
-        slots[o.to] = power_by(slots[o.a], hysteron::plain(slots[o.b]));
+        slots[last] = power_by(slots[o.a()], hysteron::plain(slots[o.b()]));
       else
-        slots[o.to] = value<op()>(slots[o.a], slots[o.b], slots[o.c]);
+        slots[last] = value<op()>(slots[o.a()], slots[o.b()], slots[o.c()]);
     });
-    last = o.to;
   }
   return slots[last];
+}
+template <class T>
+T evaluate(const double* code, T* slots) {
+  return evaluate(code, slots, [](const PackedOperation&) {});
+}
+/// The same, and Code::kinks numbers that change their sign where the value bends or jumps.
+inline double evaluate(const double* code, double* slots, double* kinks) {
+  return evaluate(code, slots, [&](const PackedOperation& o) {
+    if (kinks_of(o.op()) > 0) *kinks++ = kink(o.op(), slots[o.a()], slots[o.b()]);
+  });
 }
 
 /// Rows at a time: slot i of row k stands at slots[i][k]; where the result stands is returned. `fixed` are the slots of
 /// parameters and numbers, filled already; `work` is that of intermediate results, `rows` numbers each.
 template <int rows>
 const double* evaluate_rows(const double* code, const double** slots, double* work, int count) {
-  const int first =
-      Code::count(code, Code::inputs) + Code::count(code, Code::parameters) + Code::count(code, Code::numbers);
+  const auto first = static_cast<std::size_t>(Code::count(code, Code::inputs) + Code::count(code, Code::parameters) +
+                                              Code::count(code, Code::numbers));
   const double* next = code + Code::head_size + Code::count(code, Code::numbers);
   const int operations = Code::count(code, Code::operations);
   const double* last = slots[Code::count(code, Code::numbers) > 0 ? first - 1 : 0];
   for (int i = 0; i < operations; ++i) {
-    const Operation o = Operation::of(*next++);
-    const double *a = slots[o.a], *b = slots[o.b], *c = slots[o.c];
-    double* to = work + static_cast<std::ptrdiff_t>(o.to - first) * rows;
-    with_operation(o.op, [&](auto op) {
+    const PackedOperation o(*next++);
+    const double *a = slots[o.a()], *b = slots[o.b()], *c = slots[o.c()];
+    double* to = work + (o.to() - first) * rows;
+    with_operation(o.op(), [&](auto op) {
       if constexpr (op == Op::power_by) {
         const double n = b[0];
         for (int k = 0; k < count; ++k) to[k] = power_by(a[k], n);
@@ -350,7 +369,7 @@ const double* evaluate_rows(const double* code, const double** slots, double* wo
         for (int k = 0; k < count; ++k) to[k] = value<op()>(a[k], b[k], c[k]);
       }
     });
-    slots[o.to] = last = to;
+    slots[o.to()] = last = to;
   }
   return last;
 }

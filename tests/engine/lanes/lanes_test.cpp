@@ -145,6 +145,28 @@ TEST(Lanes, AStaticDiagramGoesFromRowToRow) {
   expect_the_same(d, {.until = 1, .every = 0.03}, {{"operators.weights[0]", 1e-7, 1e-6}}, series(t, v));
 }
 
+TEST(Lanes, LawsThatTheDiagramWritesAndTablesHaveNumbersOfTheirOwnInEveryLane) {
+  const auto d = diagram(
+      {{"u", block("ramp", {{"slope", "1 1/s"}})},
+       {"law",
+        block("expression", {{"y", "a*sin(b*u) + max(u - c, 0)*v"}, {"a", 1}, {"b", 1}, {"c", 0.3}}, {"u", "v"})},
+       {"v", block("lookup", {{"at", list({0, 0.5, 1})}, {"values", list({1, 2, 4})}}, {"u"})}},
+      {"law", "v"});
+  const auto p = compiled(d);
+  const auto parameters = places(*p, {{"law.a", 0, 0}, {"law.b", 0, 0}, {"v.values[1]", 0, 0}});
+  std::vector<double> values;
+  for (int s = 0; s < Lanes::width; ++s) values.insert(values.end(), {1 + 0.1 * s, 2 - 0.01 * s, 0.05 * s});
+  const auto columns = in_lanes(p, start(*p), {.until = 1, .every = 0.05}, parameters, values);
+  for (std::size_t s = 0; s < columns.size(); ++s)
+    for (std::size_t k = 0; k < columns[s][0].size(); ++k) {
+      const double u = 0.05 * static_cast<double>(k), *n = values.data() + 3 * s;
+      const double v = u < 0.5 ? 1 + 2 * u * (n[2] - 1) : n[2] + 2 * (u - 0.5) * (4 - n[2]);
+      // some roundings of numbers up to 14
+      EXPECT_NEAR(columns[s][1][k], v, 1e-14) << s << " " << k;
+      EXPECT_NEAR(columns[s][0][k], n[0] * std::sin(n[1] * u) + std::max(u - 0.3, 0.0) * v, 5e-14) << s << " " << k;
+    }
+}
+
 TEST(Lanes, AStepIntoALinearPlant) {
   expect_the_same(diagram({{"u", block("step", {{"after", "2 V"}, {"time", "10.05 ms"}})},
                            {"y", block("mass_spring_damper",
