@@ -82,6 +82,22 @@ void Lookup::kinks(const View<double>& v) {
   }
 }
 
+/// The table is looked up once per lane, not once per row.
+void Lookup::rows(const RowsView& r) {
+  for (int lane = 0; lane < r.lanes; ++lane) {
+    const View<double>& v = r.views[lane];
+    std::array<lookup::Axis<double>, lookup::most_axes> all;
+    const auto axes = knots_of(v, all);
+    const auto values_there = v.list(values);
+    const auto how = lookup::Between(v.choice(between));
+    const auto beyond = lookup::Outside(v.choice(outside));
+    for (std::ptrdiff_t place = lane; place < static_cast<std::ptrdiff_t>(r.count) * r.lanes; place += r.lanes) {
+      for (std::size_t i = 0; i < axes.size(); ++i) axes[i].u = r.u[i][place];
+      r.y[0][place] = lookup::value(how, beyond, axes, values_there);
+    }
+  }
+}
+
 std::string Lookup::check(const View<double>& v) {
   for (const double x : v.list(values))
     if (!std::isfinite(x)) return "\"values\" holds a number that is not finite; give a number for every knot";

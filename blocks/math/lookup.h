@@ -26,12 +26,19 @@ struct Lookup {
         lookup::value(lookup::Between(v.choice(between)), lookup::Outside(v.choice(outside)), axes, v.list(values));
   }
   static void kinks(const View<double>& v);
+  static void rows(const RowsView& r);
 
  private:
   template <class T>
-  static std::span<lookup::Axis<T>> axes_of(const View<T>& v, std::array<lookup::Axis<T>, lookup::most_axes>& all) {
-    for (int i = 0; i < v.n_u; ++i) all[static_cast<std::size_t>(i)] = {v.list(at + i), v.u[i]};
+  static std::span<lookup::Axis<T>> knots_of(const View<T>& v, std::array<lookup::Axis<T>, lookup::most_axes>& all) {
+    for (int i = 0; i < v.n_u; ++i) all[static_cast<std::size_t>(i)].knots = v.list(at + i);
     return {all.data(), static_cast<std::size_t>(v.n_u)};
+  }
+  template <class T>
+  static std::span<lookup::Axis<T>> axes_of(const View<T>& v, std::array<lookup::Axis<T>, lookup::most_axes>& all) {
+    const auto axes = knots_of(v, all);
+    for (std::size_t i = 0; i < axes.size(); ++i) axes[i].u = v.u[i];
+    return axes;
   }
 };
 

@@ -1,4 +1,4 @@
-// The functions of every block in lanes: the same numbers as its functions for one run.
+// The functions of every block in lanes, and rows of lanes at a time: the same numbers as its functions for one run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,6 +93,80 @@ TEST_P(LanesOfEverySample, GiveWhatItsFunctionsGiveOneByOne) {
       expect(y, b.output(0.37, u.of[l], x.of[l], memory), "output");
       expect(rate, bench::rates(b.output_rate(0.37, 0.37, duals, bench::dual(x.of[l], dx.of[l]), dual_memory)), "rate");
       if (nx > 0) expect(slope, b.derivative(u.of[l], x.of[l], du.of[l]), "derivative");
+    }
+  }
+}
+
+/// Outputs from parameters and inputs alone, rows at a time.
+bool is_static_with_rows(const Bench& b) {
+  return b.kernel.rows != nullptr && b.states() == 0 && b.sizes.memory == 0 && b.n_u > 0;
+}
+class RowsOfStaticSamples : public testing::TestWithParam<bench::Sample> {};
+INSTANTIATE_TEST_SUITE_P(Blocks, RowsOfStaticSamples, testing::ValuesIn(bench::samples_where(is_static_with_rows)));
+
+TEST(RowsOfBlocks, MostStaticBlocksHaveThem) { EXPECT_GT(bench::samples_where(is_static_with_rows).size(), 25U); }
+
+/// A block with numbers of its own: those of the sample, each larger by the same share, texts and counts as they are.
+Bench larger(const Bench& b, double share) {
+  Bench own = b;
+  const auto& declared = b.kernel.declaration.parameters;
+  for (std::size_t i = 0; i < declared.size(); ++i)
+    if (declared[i].kind != ParameterKind::text && !declared[i].is_structural)
+      for (int k = b.p_at[i]; k < b.p_at[i + 1]; ++k) own.p[static_cast<std::size_t>(k)] *= 1 + share;
+  own.prepare();
+  return own;
+}
+
+TEST_P(RowsOfStaticSamples, GiveWhatItsOutputGivesInAnyNumberOfLanes) {
+  const Bench b(GetParam().type, GetParam().values, GetParam().inputs);
+  const bool sized = b.kernel.lanes.output == nullptr;
+  constexpr int count = 5;
+  for (const int n :
+       sized ? std::vector<int>{1, RowsView::most_lanes, 100, 128} : std::vector<int>{1, RowsView::most_lanes}) {
+    std::vector<Bench> of;
+    std::vector<View<double>> views;
+    for (int l = 0; l < n; ++l) of.push_back(larger(b, 1e-3 * l));
+    for (const Bench& own : of) {
+      View<double> v;
+      v.p = own.p.data();
+      v.p_at = own.p_at.data();
+      v.c = own.c.data();
+      v.n_c = static_cast<int>(own.c.size());
+      v.n_u = own.n_u;
+      v.n_y = own.sizes.outputs;
+      v.key = own.key;
+      views.push_back(v);
+    }
+    const auto all = static_cast<std::size_t>(count * n), nu = static_cast<std::size_t>(b.n_u),
+               ny = static_cast<std::size_t>(b.sizes.outputs);
+    std::vector<Numbers> u(nu, Numbers(all)), y(ny, Numbers(all));
+    for (std::size_t i = 0; i < nu; ++i)
+      for (std::size_t k = 0; k < all; ++k) u[i][k] = random::normal(31, i, k);
+    std::vector<const double*> in;
+    std::vector<double*> out;
+    for (const auto& column : u) in.push_back(column.data());
+    for (auto& column : y) out.push_back(column.data());
+    const Numbers h(count, 1e-3), t(count, 0.37);
+    Numbers scratch(RowsView::scratch_size(b.n_u, 0, 0, b.sizes.outputs));
+    RowsView r;
+    r.lanes = n;
+    r.count = count;
+    r.views = views.data();
+    r.u = in.data();
+    r.y = out.data();
+    r.h = h.data();
+    if (b.kernel.uses_time) r.t = t.data();
+    r.scratch = scratch.data();
+    b.kernel.rows(r);
+    for (std::size_t k = 0; k < all; ++k) {
+      Numbers now;
+      for (const auto& column : u) now.push_back(column[k]);
+      const Numbers right = of[k % static_cast<std::size_t>(n)].output(0.37, now);
+      for (std::size_t i = 0; i < ny; ++i)
+        if (std::isfinite(right[i]))  // the same formula, some roundings in another order
+          EXPECT_NEAR(y[i][k], right[i], 1e-14 * (1 + std::fabs(right[i]))) << n << " lanes, number " << k;
+        else
+          EXPECT_FALSE(std::isfinite(y[i][k])) << n << " lanes, number " << k;
     }
   }
 }
