@@ -8,24 +8,11 @@
 namespace hysteron::benchmarks {
 namespace {
 
-/// A law of so many inputs without states.
-template <std::size_t m, class Law>
-std::function<void(std::vector<double>&)> of_inputs(Law law) {
-  return [law](std::vector<double>& y) {
-    std::array<const double*, m> in;
-    for (std::size_t i = 0; i < m; ++i) in[i] = input(i).data();
-    for (std::size_t k = 0; k < samples; ++k) {
-      std::array<double, m> u;
-      for (std::size_t i = 0; i < m; ++i) u[i] = in[i][k];
-      y[k] = law(u);
-    }
-  };
-}
-
 constexpr double lever = 0.02, stiffness = 5000, damping = 20, half = 0.001;  // of a belt, SI
 
-double belt_force(const std::array<double, 4>& u) {
-  const double stretch = lever * u[0] - u[2], rate = damping * (lever * u[1] - u[3]);
+/// Of what a belt or a screw moves by, for an angle.
+double contact_force(const std::array<double, 4>& u, double per_angle) {
+  const double stretch = per_angle * u[0] - u[2], rate = damping * (per_angle * u[1] - u[3]);
   if (stretch > half) return std::max(0.0, stiffness * (stretch - half) + rate);
   return stretch < -half ? std::min(0.0, stiffness * (stretch + half) + rate) : 0.0;
 }
@@ -46,6 +33,20 @@ void winding_rows(std::vector<double>& y, double induced) {
   }
 }
 
+/// Two phases of 50 teeth, one step of Runge-Kutta a row.
+void stepper_rows(std::vector<double>& y) {
+  runge_kutta_rows<2, 4>(
+      {0, 0}, y,
+      [](const auto& x, const auto& u) {
+        const double back = constant * u[3];
+        return std::array<double, 2>{(u[0] - resistance * x[0] + back * std::sin(50 * u[2])) / inductance,
+                                     (u[1] - resistance * x[1] - back * std::cos(50 * u[2])) / inductance};
+      },
+      [](const auto& x, const auto& u) {
+        return constant * (x[1] * std::cos(50 * u[2]) - x[0] * std::sin(50 * u[2]));
+      });
+}
+
 Node winding(const char* type) { return node(type, {{"resistance", "2 ohm"}, {"inductance", "10 mH"}}); }
 
 /// x+ = A x + b u, y = c x + d u, at every row.
@@ -58,15 +59,6 @@ void discrete_rows(std::vector<double>& y) {
     q = -0.3 * p + 0.8 * q + 0.2 * u[k];
     p = next;
   }
-}
-
-Value matrix(const Columns& rows) {
-  NumberMatrix m;
-  for (const auto& cells : rows) {
-    m.rows.emplace_back();
-    for (const double cell : cells) m.rows.back().push_back({cell, {}});
-  }
-  return Value(m);
 }
 
 }  // namespace
@@ -93,7 +85,36 @@ std::vector<Case> more_cases() {
                  node("belt", {{"radius", "20 mm"}, {"stiffness", "5 N/mm"}, {"damping", "20 N*s/m"}, {"gap", "2 mm"}}),
                  {"rad", "rad/s", "m", "m/s"},
                  ".force",
-                 of_inputs<4>([](const auto& u) { return belt_force(u); })});
+                 of_inputs<4>([](const auto& u) { return contact_force(u, lever); })});
+  all.push_back({"ball_screw",
+                 node("ball_screw", {{"pitch", "20 mm"},
+                                     {"stiffness", "5 N/mm"},
+                                     {"damping", "20 N*s/m"},
+                                     {"gap", "2 mm"},
+                                     {"efficiency", 0.9}}),
+                 {"rad", "rad/s", "m", "m/s"},
+                 ".torque",
+                 of_inputs<4>([](const auto& u) {
+                   const double through = contact_force(u, 0.02 / tau) * 0.02 / tau;
+                   return through * 0.5 * (1 / 0.9 + 0.9) +
+                          std::abs(through) * 0.5 * (1 / 0.9 - 0.9) * std::tanh(u[1] / 0.01);
+                 })});
+  all.push_back(
+      {"encoder", node("encoder", {{"lines", 500.0}, {"divisions", 4.0}}), {"rad"}, "", of_inputs<1>([](const auto& u) {
+         const double q = tau / 2000;
+         return q * std::round(u[0] / q);
+       })});
+  all.push_back({"comparator",
+                 node("comparator", {{"level", 0.2}, {"above", 1.0}, {"below", -1.0}}),
+                 {""},
+                 "",
+                 of_inputs<1>([](const auto& u) { return u[0] > 0.2 ? 1.0 : -1.0; })});
+  all.push_back(
+      {"stepper_motor",
+       node("stepper_motor", {{"resistance", "2 ohm"}, {"inductance", "10 mH"}, {"torque_constant", "0.1 N*m/A"}}),
+       {"V", "V", "rad", "rad/s"},
+       ".torque",
+       stepper_rows});
   {
     const double p = 1 / 5e-3;
     const Recursion<1> law(Eigen::Matrix<double, 1, 1>(-p), Eigen::Matrix<double, 1, 1>(p),

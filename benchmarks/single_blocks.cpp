@@ -350,8 +350,8 @@ std::vector<Case> machine_cases() {
 }  // namespace
 
 void register_single_blocks() {
-  for (const auto& cases :
-       {static_cases(), linear_cases(), sampled_cases(), machine_cases(), drive_cases(), more_cases()})
+  for (const auto& cases : {static_cases(), linear_cases(), sampled_cases(), machine_cases(), drive_cases(),
+                            more_cases(), event_cases(), observer_cases()})
     for (const auto& c : cases) register_case(c);
 }
 

@@ -113,9 +113,36 @@ void runge_kutta_rows(std::array<double, n> x, std::vector<double>& y, const Rat
   }
 }
 
+inline Value matrix(const Columns& rows) {
+  NumberMatrix m;
+  for (const auto& cells : rows) {
+    m.rows.emplace_back();
+    for (const double cell : cells) m.rows.back().push_back({cell, {}});
+  }
+  return Value(m);
+}
+
+/// A law of so many inputs without states.
+template <std::size_t m, class Law>
+std::function<void(std::vector<double>&)> of_inputs(Law law) {
+  return [law](std::vector<double>& y) {
+    std::array<const double*, m> in;
+    for (std::size_t i = 0; i < m; ++i) in[i] = input(i).data();
+    for (std::size_t k = 0; k < samples; ++k) {
+      std::array<double, m> u;
+      for (std::size_t i = 0; i < m; ++i) u[i] = in[i][k];
+      y[k] = law(u);
+    }
+  };
+}
+
 /// What controllers, motors and machines of states cost: drive_blocks.cpp.
 std::vector<Case> drive_cases();
 /// What bends, switches, winds or is moved: more_blocks.cpp.
 std::vector<Case> more_cases();
+/// Sources, and what stops, holds or counts at instants of its own: event_blocks.cpp.
+std::vector<Case> event_cases();
+/// What estimates or learns from sample to sample: observer_blocks.cpp.
+std::vector<Case> observer_cases();
 
 }  // namespace hysteron::benchmarks
