@@ -127,6 +127,29 @@ bool Events::pass(Run& run, Work& work, double t, std::vector<double>& x) {
   return settled || moved;
 }
 
+bool Events::jump(Run& run, Work& work, double t, std::vector<double>& x, const std::function<void()>& change) {
+  evaluate_values(program_, run, work, t, x.data());
+  before_ = work.y;
+  change();
+  breakpoints_.jumped(t);
+  if (program_.n_histories > 0) run.branch = breakpoints_.branch();
+  const bool moved = follow(run, work, t, x, program_.time_blocks);
+  paths_ += moved ? 1 : 0;
+  if (next() <= t + same_instant(t)) return moved;
+  return settle(run, work, t, x, {}) || moved;
+}
+
+void Events::go_on_as(const Events& other) {
+  breakpoints_.go_on_as(other.breakpoints_);
+  clocks_ = other.clocks_;
+  milestone_ = other.milestone_;
+  since_milestone_ = other.since_milestone_;
+  recent_ = other.recent_;
+  changes_ = other.changes_;
+  hits_ = other.hits_;
+  paths_ = other.paths_;
+}
+
 void Events::begin(Run& run, Work& work, double t, std::vector<double>& x) {
   starting_ = true;
   const auto memory = run.m;

@@ -42,6 +42,11 @@ class Events {
   void begin(Run& run, Work& work, double t, std::vector<double>& x);
   /// At a known instant t, memory committed: cross(), then settle(). Returns true if states or modes changed.
   bool pass(Run& run, Work& work, double t, std::vector<double>& x);
+  /// Inputs of the diagram jump at t, memory committed: `change` sets them in the run. What is due at t is left for
+  /// pass(). Returns true if states or modes changed.
+  bool jump(Run& run, Work& work, double t, std::vector<double>& x, const std::function<void()>& change);
+  /// Takes over what `other`, of the same program, has still before it at its present time.
+  void go_on_as(const Events& other);
   /// Breakpoints and samples that were taken, for this run or one beside it (forward_sensitivities.h). Returns true if
   /// states moved.
   bool cross(Run& run, Work& work, double t, std::vector<double>& x);

@@ -28,6 +28,12 @@ class Breakpoints {
   double next() const;    ///< first corner behind the present time [s], or infinity
   double branch() const;  ///< a time inside the present smooth piece of every source [s]
   void pass(double t);    ///< the present time is now t; corners up to t (and within rounding) are behind
+  /// The corners that `other`, of the same program, has still before it.
+  void go_on_as(const Breakpoints& other) {
+    t_ = other.t_;
+    sources_ = other.sources_;
+    delayed_ = other.delayed_;
+  }
   void jumped(double t) { add_delayed(t, 0); }  ///< something else jumped at t: its echoes are corners, too
 
  private:

@@ -17,23 +17,10 @@
 #include <limits>
 #include <utility>
 
-#include "engine/diagram/stop.h"
-#include "engine/events/events.h"
 #include "engine/events/rest.h"
-#include "engine/events/reversals.h"
-#include "engine/events/zero_crossings.h"
-#include "engine/integrators/integrator.h"
 #include "engine/program/breakpoints.h"
-#include "engine/program/histories.h"
-#include "engine/program/nominal.h"
-#include "engine/simulate/divergence.h"
-#include "engine/simulate/forward_sensitivities.h"
-#include "engine/simulate/jacobian.h"
-#include "engine/simulate/linear_row_kernel.h"
-#include "engine/simulate/simulate_parts.h"
-#include "engine/simulate/step_defects.h"
+#include "engine/simulate/adaptive_simulation.h"
 #include "engine/simulate/step_tolerances.h"
-#include "engine/simulate/trace_recorder.h"
 
 namespace hysteron {
 namespace {
@@ -50,93 +37,27 @@ Formula formula_of(Method method) {
   return method == Method::adams ? Formula::adams : method == Method::runge_kutta ? Formula::runge_kutta : Formula::bdf;
 }
 
-class Simulation {
- public:
-  Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
-             std::vector<int> signals);
-  Traces operator()();
+}  // namespace
 
- private:
-  std::unique_ptr<Integrator> make_solver();
-  int reversals() const { return options_.reversal_events ? reversals_.count() : 0; }
-  bool derivative(double t, const double* x, double* dx);
-  void indicate(double t, const double* x, double* g);
-  void make_sensitivities();
-  void restart() {
-    crossings_.choose_sides(run_, work_, t_, x_);
-    crossings_.forget();
-    solver_->start(t_, x_, s_);
-  }
-  void take_step(double stop);
-  void pass_instant();
-  std::optional<ZeroCrossings::Found> find_crossing();
-  bool begin_anew(const ZeroCrossings::Found& crossing);
-  void pass_look() {
-    if (t_ >= look_at_ - same_instant(t_)) look_at_ = std::exchange(then_at_, std::numeric_limits<double>::infinity());
-  }
-  bool begin_anew_before_reversal();
-  void pass_crossing(const ZeroCrossings::Found& crossing);
-  void pass_root();
-  void switch_modes(const std::vector<int>& turned, const std::vector<int>& fell);
-  void check_guards();
-  void follow_directions();
-  void walk();
-  void commit();
-  void check_pace();
-  [[noreturn]] void explain(const Error& error);
-
-  const Program& program_;
-  Run run_;
-  const SimulateOptions& options_;
-  Work work_;
-  LinearRowKernel derivative_;
-  LookUp look_up_;
-  HowFar how_far_;
-  NominalSizes sizes_;
-  GrowthWatch growth_;
-  std::vector<double> tolerance_;  // absolute, per state
-  Events events_;
-  Reversals reversals_;
-  ZeroCrossings crossings_;
-  Histories histories_;
-  std::unique_ptr<Jacobian> jacobian_;                      // before the solver, which calls it
-  std::unique_ptr<ForwardSensitivities> sensitivities_of_;  // as well; null if no slopes are asked for
-  std::vector<double> s_;                                   // dx/dp by columns
-  std::unique_ptr<Integrator> solver_;
-  TraceRecorder recorder_;
-  Statistics statistics_;
-  std::optional<StepDefects> defects_;      // of the solver's steps
-  std::vector<double> x_, before_, after_;  // x_ has one dummy state where the program has none
-  std::function<void(double, std::vector<double>&)> states_inside_;  // of the last step
-  ZeroCrossings::Noticed noticed_;
-  double t_ = 0, until_ = 0, milestone_ = 0;
-  // Steps have to end here, before a kink, and then there, behind it [s].
-  double look_at_ = std::numeric_limits<double>::infinity(), then_at_ = look_at_;
-  long steps_since_milestone_ = 0;
-  bool not_finite_ = false;  // the last derivative was not; then these are where
-  double bad_t_ = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> bad_x_;
-};
-
-Simulation::Simulation(const Program& program, Run run, const SimulateOptions& options, std::vector<double> instants,
-                       std::vector<int> signals)
+AdaptiveSimulation::AdaptiveSimulation(const Program& program, Run run, SimulateOptions options,
+                                       std::vector<double> instants, std::vector<int> signals)
     : program_(program),
       run_(std::move(run)),
-      options_(options),
+      options_(std::move(options)),
       work_(program),
       derivative_(program, run_, work_),
-      how_far_(options_, std::max(options.begin, instants.back())),
+      how_far_(options_, std::max(options_.begin, options_.until)),
       sizes_(nominal_sizes(program, run_)),
-      growth_(sizes_.states, options.begin),
-      tolerance_(absolute_tolerances(sizes_, options)),
-      events_(program, run_, options.begin, std::max(options.begin, instants.back()), options.relative_tolerance,
+      growth_(sizes_.states, options_.begin),
+      tolerance_(absolute_tolerances(sizes_, options_)),
+      events_(program, run_, options_.begin, std::max(options_.begin, options_.until), options_.relative_tolerance,
               tolerance_),
-      reversals_(program, sizes_, options.relative_tolerance),
+      reversals_(program, sizes_, options_.relative_tolerance),
       crossings_(program, true),
-      histories_(program, sizes_.signals, options.relative_tolerance),
+      histories_(program, sizes_.signals, options_.relative_tolerance),
       recorder_(program, run_, work_, std::move(instants), std::move(signals)),
-      t_(options.begin),
-      until_(std::max(options.begin, recorder_.last())),
+      t_(options_.begin),
+      until_(std::max(options_.begin, options_.until)),
       milestone_(t_) {
   run_.t = t_;
   run_.branch = events_.branch();
@@ -146,7 +67,7 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
   noticed_.missed = [this](double seen, bool remembered) { return remembered || defects_->jumps(t_, seen); };
   noticed_.passed = [this](double before, double behind, double to) { return defects_->bends(t_, before, behind, to); };
   states_inside_ = [this](double t, std::vector<double>& x) { solver_->interpolate(t, x); };
-  if (!options.slopes_for.empty()) make_sensitivities();
+  if (!options_.slopes_for.empty()) make_sensitivities();
   solver_ = make_solver();
   defects_.emplace(
       *solver_, formula_of(options_.method), program_.n_x,
@@ -154,7 +75,23 @@ Simulation::Simulation(const Program& program, Run run, const SimulateOptions& o
       tolerance_);
 }
 
-void Simulation::make_sensitivities() {
+AdaptiveSimulation::AdaptiveSimulation(const AdaptiveSimulation& other, Run run)
+    : AdaptiveSimulation(other.program_, std::move(run),
+                         [&] {
+                           SimulateOptions options = other.options_;
+                           options.begin = other.t_;
+                           options.until = std::max(other.until_, other.t_ + (other.until_ - other.options_.begin));
+                           return options;
+                         }(),
+                         {std::numeric_limits<double>::infinity()}, {}) {
+  events_.go_on_as(other.events_);
+  run_.branch = events_.branch();
+  look_at_ = other.look_at_;
+  then_at_ = other.then_at_;
+  restart();
+}
+
+void AdaptiveSimulation::make_sensitivities() {
   sensitivities_of_ = std::make_unique<ForwardSensitivities>(program_, run_, options_.slopes_for);
   s_ = sensitivities_of_->start(run_, [&](Run& run) {
     if (options_.at_rest) settle_at_rest(program_, run, options_.begin);
@@ -168,7 +105,7 @@ void Simulation::make_sensitivities() {
   };
 }
 
-std::unique_ptr<Integrator> Simulation::make_solver() {
+std::unique_ptr<Integrator> AdaptiveSimulation::make_solver() {
   OdeSystem system;
   system.states = static_cast<int>(x_.size());
   system.roots = reversals() + events_.guards();
@@ -198,7 +135,7 @@ std::unique_ptr<Integrator> Simulation::make_solver() {
   return std::make_unique<Integrator>(std::move(system), options, tolerance_);
 }
 
-bool Simulation::derivative(double t, const double* x, double* dx) {
+bool AdaptiveSimulation::derivative(double t, const double* x, double* dx) {
   if (program_.n_x == 0) {
     dx[0] = 0;
     return true;
@@ -217,7 +154,7 @@ bool Simulation::derivative(double t, const double* x, double* dx) {
   return !not_finite_;
 }
 
-void Simulation::indicate(double t, const double* x, double* g) {
+void AdaptiveSimulation::indicate(double t, const double* x, double* g) {
   evaluate_derivatives(program_, run_, work_, t, x);
   evaluate_memory_rates(program_, run_, work_, t, x);
   if (reversals() > 0) reversals_.indicate(run_, work_, g);
@@ -226,7 +163,7 @@ void Simulation::indicate(double t, const double* x, double* g) {
   std::copy(work_.guard.begin(), work_.guard.end(), g + reversals());
 }
 
-void Simulation::commit() {
+void AdaptiveSimulation::commit() {
   if (program_.remembers() && sensitivities_of_ != nullptr)
     sensitivities_of_->accept(run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
   if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
@@ -234,21 +171,38 @@ void Simulation::commit() {
 }
 
 /// Inputs that begin to move get a direction.
-void Simulation::follow_directions() {
+void AdaptiveSimulation::follow_directions() {
   evaluate_derivatives(program_, run_, work_, t_, x_.data());
   evaluate_memory_rates(program_, run_, work_, t_, x_.data());
   statistics_.reversals += reversals_.follow(run_, work_);
 }
 
-/// A known instant: corners, samples. What is due there happens; the integrator starts again if it must.
-void Simulation::pass_instant() {
+/// A known instant: corners, samples. What is due there happens.
+void AdaptiveSimulation::pass_instant() {
+  happen([this] {
+    events_.take(t_, run_);
+    if (sensitivities_of_ != nullptr)
+      sensitivities_of_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
+    return events_.pass(run_, work_, t_, x_);
+  });
+}
+
+void AdaptiveSimulation::jump_inputs(const std::function<void()>& change) {
+  happen([&] {
+    const auto set = [&] {
+      change();
+      derivative_.forget();
+    };
+    return events_.jump(run_, work_, t_, x_, set);
+  });
+}
+
+/// `what` happens at one instant, and says whether states or modes changed; the integrator starts again if it must.
+void AdaptiveSimulation::happen(const std::function<bool()>& what) {
   const bool states = program_.n_x > 0;
   crossings_.forget();
   if (states) derivative(t_, x_.data(), before_.data());
-  events_.take(t_, run_);
-  if (sensitivities_of_ != nullptr)
-    sensitivities_of_->cross(events_, run_, t_, {x_.data(), static_cast<std::size_t>(program_.n_x)}, s_);
-  bool moved = events_.pass(run_, work_, t_, x_);
+  bool moved = what();
   commit();
   moved = crossings_.choose_sides(run_, work_, t_, x_) || moved;
   if (reversals_.count() > 0) follow_directions();
@@ -263,7 +217,7 @@ void Simulation::pass_instant() {
 }
 
 /// The integrator has located reversals or falling guards.
-void Simulation::pass_root() {
+void AdaptiveSimulation::pass_root() {
   std::vector<int> turned, fell;
   for (int i = 0; i < reversals(); ++i)
     if (solver_->fired(i)) turned.push_back(i);
@@ -273,7 +227,7 @@ void Simulation::pass_root() {
 }
 
 /// Inputs of memory that turn here, and guards that fall here.
-void Simulation::switch_modes(const std::vector<int>& turned, const std::vector<int>& fell) {
+void AdaptiveSimulation::switch_modes(const std::vector<int>& turned, const std::vector<int>& fell) {
   commit();
   for (const int i : turned) reversals_.turn(run_, i);
   statistics_.reversals += static_cast<long>(turned.size());
@@ -285,14 +239,14 @@ void Simulation::switch_modes(const std::vector<int>& turned, const std::vector<
 }
 
 /// Where the step that was just done passes something that switches and that the integrator has not located.
-std::optional<ZeroCrossings::Found> Simulation::find_crossing() {
+std::optional<ZeroCrossings::Found> AdaptiveSimulation::find_crossing() {
   if (!crossings_.watches()) return std::nullopt;
   return crossings_.first(run_, work_, {t_, solver_->t(), states_inside_, true}, noticed_);
 }
 
 /// A Runge-Kutta step evaluates dx/dt inside of itself, and the polynomial of Adams' formulas is of a high order: where
 /// dx/dt bends neither is anything. True if the step is taken again, up to the kink.
-bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
+bool AdaptiveSimulation::begin_anew(const ZeroCrossings::Found& crossing) {
   if (!crossing.bent || formula_of(options_.method) == Formula::bdf) return false;
   if (crossing.before - t_ <= 2 * root_width(t_, crossing.t)) return false;
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -304,7 +258,7 @@ bool Simulation::begin_anew(const ZeroCrossings::Found& crossing) {
 }
 
 /// What leads to a reversal is taken again, up to just before, where the step did not foresee it.
-bool Simulation::begin_anew_before_reversal() {
+bool AdaptiveSimulation::begin_anew_before_reversal() {
   const double h = solver_->t() - t_;
   if (h <= 2 * root_width(t_, solver_->t())) return false;
   bool turns = false;
@@ -318,7 +272,7 @@ bool Simulation::begin_anew_before_reversal() {
 }
 
 /// The step ends at the crossing; t_ and x_ are there already.
-void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
+void AdaptiveSimulation::pass_crossing(const ZeroCrossings::Found& crossing) {
   if (!crossing.guards.empty()) return switch_modes({}, crossing.guards);
   commit();
   if (events_.settle(run_, work_, t_, x_, {})) commit();  // a jump of what bends here may switch others
@@ -329,7 +283,7 @@ void Simulation::pass_crossing(const ZeroCrossings::Found& crossing) {
 }
 
 /// A guard may have fallen and risen within rounding of a step's end, unseen by the integrator.
-void Simulation::check_guards() {
+void AdaptiveSimulation::check_guards() {
   if (events_.guards() == 0 || !events_.due(run_, work_, t_, x_)) return;
   if (!events_.settle(run_, work_, t_, x_, {})) return;
   commit();
@@ -337,7 +291,7 @@ void Simulation::check_guards() {
   restart();
 }
 
-void Simulation::check_pace() {
+void AdaptiveSimulation::check_pace() {
   if (++steps_since_milestone_ < crawl_steps) return;
   if (t_ - milestone_ < crawl_share * (until_ - options_.begin))
     fail_numerics(
@@ -350,7 +304,7 @@ void Simulation::check_pace() {
   steps_since_milestone_ = 0;
 }
 
-void Simulation::take_step(double stop) {
+void AdaptiveSimulation::take_step(double stop) {
   look_up_();
   how_far_(t_);
   check_pace();
@@ -382,8 +336,8 @@ void Simulation::take_step(double stop) {
   check_guards();
 }
 
-void Simulation::walk() {
-  {
+void AdaptiveSimulation::begin() {
+  try {
     const Stopwatch watch(statistics_.phases.events);
     events_.take(t_, run_);
     events_.begin(run_, work_, t_, x_);
@@ -394,33 +348,54 @@ void Simulation::walk() {
     commit();
     if (reversals_.count() > 0) follow_directions();
     restart();
-  }
-  for (;;) {
-    while (events_.next() <= t_ + same_instant(t_)) {
-      look_up_();
-      const Stopwatch watch(statistics_.phases.events);
-      pass_instant();
-    }
-    recorder_.due(t_, x_.data(), s_, statistics_.phases.output);
-    if (recorder_.done()) return;
-    const double stop = std::min({events_.next(), until_, look_at_});
-    if (stop - t_ > rounding * (until_ - options_.begin)) {
-      take_step(stop);
-    } else {  // too near for an integrator, and for the states to move
-      t_ = stop;
-      pass_look();
-      commit();
-    }
+  } catch (const Error& error) {
+    explain(error);
   }
 }
 
-Traces Simulation::operator()() {
-  auto& phases = statistics_.phases;
+void AdaptiveSimulation::advance(double end, bool with_its_events) {
   try {
-    const Stopwatch all(phases.integrate);
-    walk();
+    for (;;) {
+      const bool at_end = t_ + same_instant(t_) >= end;
+      while ((with_its_events || !at_end) && events_.next() <= t_ + same_instant(t_)) {
+        look_up_();
+        const Stopwatch watch(statistics_.phases.events);
+        pass_instant();
+      }
+      recorder_.due(t_, x_.data(), s_, statistics_.phases.output);
+      if (at_end) return;
+      const double stop = std::min({events_.next(), end, look_at_});
+      if (stop - t_ > rounding * (until_ - options_.begin)) {
+        take_step(stop);
+      } else {  // too near for an integrator, and for the states to move
+        t_ = stop;
+        pass_look();
+        commit();
+      }
+    }
   } catch (const Error& error) {
     explain(error);
+  }
+}
+
+double AdaptiveSimulation::value(int signal) {
+  evaluate_values(program_, run_, work_, t_, x_.data());
+  throw_if_unsolved(program_, work_, t_);
+  return work_.y[static_cast<std::size_t>(signal)];
+}
+
+Run AdaptiveSimulation::at_present() const {
+  Run run = run_;
+  if (program_.n_x > 0) run.x = x_;
+  return run;
+}
+
+Traces AdaptiveSimulation::operator()() {
+  auto& phases = statistics_.phases;
+  {
+    const Stopwatch all(phases.integrate);
+    begin();
+    advance(until_, true);
   }
   phases.integrate -= phases.events + phases.output;
   const auto counters = solver_->counters();
@@ -432,15 +407,14 @@ Traces Simulation::operator()() {
   s.jacobians = counters.jacobians;
   s.restarts = counters.restarts;
   tell_counts(program_, events_, work_, s);
-  if (program_.n_x > 0) run_.x = x_;
   Traces traces = recorder_.take();
   traces.statistics = std::move(statistics_);
-  traces.end = std::move(run_);
+  traces.end = at_present();
   return traces;
 }
 
 /// A solver that failed says what it tried; the reader wants to know which state or block made it fail.
-void Simulation::explain(const Error& error) {
+void AdaptiveSimulation::explain(const Error& error) {
   const auto& code = error.problems.front().code;
   if (code != "solver_failed" && code != "step_too_small" && code != "diverged") throw error;
   throw_if_grown(program_, growth_.quantities(program_, x_), t_, code == "diverged" ? "" : error.problems.front().what);
@@ -461,11 +435,10 @@ void Simulation::explain(const Error& error) {
   throw error;
 }
 
-}  // namespace
-
-Traces simulate_in_adaptive_steps(const Program& program, Run run, const SimulateOptions& options,
+Traces simulate_in_adaptive_steps(const Program& program, Run run, SimulateOptions options,
                                   std::vector<double> instants, std::vector<int> signals) {
-  return Simulation(program, std::move(run), options, std::move(instants), std::move(signals))();
+  options.until = instants.back();
+  return AdaptiveSimulation(program, std::move(run), std::move(options), std::move(instants), std::move(signals))();
 }
 
 }  // namespace hysteron

@@ -250,6 +250,8 @@ int LinearRowKernel::calls() const {
       std::count_if(stretches_.begin(), stretches_.end(), [](const auto& s) { return s.has_step; }));
 }
 
+void LinearRowKernel::forget() { kept_t_ = std::numeric_limits<double>::quiet_NaN(); }
+
 void LinearRowKernel::operator()(const Run& run, double t, const double* x) {
   steps::begin(program_, run, work_, t);
   const bool same_instant = t == kept_t_ && run.branch == kept_branch_;

@@ -24,6 +24,9 @@ class LinearRowKernel {
   /// construction.
   void operator()(const Run& run, double t, const double* x);
 
+  /// A source is another at the instant of the last call: an input of the diagram was set.
+  void forget();
+
   int rows() const { return static_cast<int>(rows_.size()); }
   int terms() const { return static_cast<int>(terms_.size()); }
   int calls() const;  ///< of block functions and loops that are left

@@ -110,7 +110,7 @@ Traces simulate(const Program& program, Run run, const SimulateOptions& options)
       if (options.method == Method::automatic)
         choice = choose_method(program, run, options.begin, instants.back() - options.begin);
       how.method = choice.method;
-      traces = simulate_in_adaptive_steps(program, std::move(run), how, std::move(instants), signals);
+      traces = simulate_in_adaptive_steps(program, std::move(run), std::move(how), std::move(instants), signals);
       traces.statistics.why = choice.why;
     }
   }
