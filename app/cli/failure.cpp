@@ -3,12 +3,53 @@
 #include "app/cli/failure.h"
 
 #include <cstdio>
+#include <new>
+#include <system_error>
 
 #include "app/cli/answer_json.h"
+#include "app/cli/interrupt.h"
 #include "app/cli/shape.h"
+#include "app/cli/verb.h"
+#include "engine/diagram/stop.h"
 #include "io/json/problems_json.h"
 
 namespace hysteron {
+namespace {
+
+/// One problem that no room reported as an Error: an exception of the library.
+Failure unexpected(const char* what) {
+  return {
+      exit_code::numerics,
+      {{"unexpected", "hysteron", what,
+        "this should have been reported with a cure; please report it with the command line and the files", "", 0}}};
+}
+
+}  // namespace
+
+Failure failure_of(const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const Error& error) {
+    return {error.fault == Fault::input ? exit_code::bad_input : exit_code::numerics, error.problems};
+  } catch (const Interrupted& stop) {
+    return {exit_code::interrupted, {}, stop.what()};
+  } catch (const Stopped&) {
+    return {exit_code::interrupted, {}, "interrupted; nothing is written"};
+  } catch (const std::bad_alloc&) {
+    return {exit_code::numerics,
+            {{"out_of_memory", "hysteron", "the memory of this machine did not suffice",
+              "record fewer signals, or use a larger \"every\"", "", 0}}};
+  } catch (const std::system_error& error) {
+    return {exit_code::bad_input,
+            {{"cannot_write", "files", error.what(), "check the disk and the rights of the folder", "", 0}},
+            "",
+            true};
+  } catch (const std::exception& error) {
+    return unexpected(error.what());
+  } catch (...) {
+    return unexpected("an exception without a name");
+  }
+}
 
 std::string failure_schema() {
   using namespace shape;

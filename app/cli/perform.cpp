@@ -93,4 +93,19 @@ int perform(const Verb& verb, const Arguments& arguments) {
   }
 }
 
+Performed perform_silently(const Verb& verb, const Arguments& arguments, Watch watch) {
+  Performed performed;
+  std::mutex mutex;
+  watch.note = [&, told = watch.note](const std::string& what) {
+    const std::lock_guard lock(mutex);
+    performed.notes.push_back(what);
+    told(what);
+  };
+  performed.answer = verb.act(arguments, watch);
+  Answer& answer = performed.answer;
+  if (!arguments.has("-o") && answer.held == nullptr) answer.folder.clear();
+  put_in_place(answer, true, false);
+  return performed;
+}
+
 }  // namespace hysteron

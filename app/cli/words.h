@@ -1,0 +1,22 @@
+// Decides how the words of a command line are read: which verb they name, with what. Does not carry it out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/verb.h"
+
+namespace hysteron {
+
+struct Reading {
+  std::optional<Verb> verb{};  ///< to be carried out; none: `text` is the answer (--help, --version, no words at all)
+  Arguments arguments{};
+  std::string text{};
+  int exit_code = exit_code::done;  ///< where no verb is to be carried out
+};
+
+/// Throws Error "bad_command_line", "unknown_verb".
+Reading read_words(const std::vector<std::string>& words);
+
+}  // namespace hysteron
