@@ -59,7 +59,7 @@ Effect backlash() {
   e.block_type = "backlash";
   e.variation = "backlash";
   e.else_a_block = true;
-  e.places = {"core"};
+  e.places = {"core", "measured"};
   e.behind_core = true;
   e.commutes = Commutes::gains;
   e.is_memory = true;

@@ -158,7 +158,7 @@ struct Effect {
   std::vector<std::string> places;  ///< kinds of place (place_kinds; with "core": see `behind_core`)
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
-  bool else_a_block = false;        ///< a block of its own at the core only where no block offers the variation
+  bool else_a_block = false;        ///< own block: at the core if no block offers the variation, else where measured
   int least_outputs = 1;       ///< measured ones behind its place: where there are fewer, another effect is the same
   bool straight = false;       ///< a line, nothing else: what another law takes beyond it is that law's own
   bool before_sensor = false;  ///< not on a wire that is measured itself: there its law is the sensor's own

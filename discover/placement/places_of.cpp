@@ -205,7 +205,7 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
   for (auto& place : find_places(diagram, registry)) {
     if (std::find(effect.places.begin(), effect.places.end(), place.kind) == effect.places.end()) continue;
     if (place.kind == "core" && effect.behind_core && !place.behind_core) continue;
-    if (place.kind == "core" && effect.else_a_block && varied) continue;
+    if (effect.else_a_block && place.kind == (varied ? "core" : "measured")) continue;
     const auto there = standing_at(w, registry, place);
     if (std::find(there.begin(), there.end(), effect.id) != there.end()) continue;
     // "core" before and behind may be one wire: one place.

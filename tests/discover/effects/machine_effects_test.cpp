@@ -282,5 +282,35 @@ TEST_F(MachineEffects, PlayThatATransmissionHasAlreadyIsNotPutInAgain) {
   EXPECT_FALSE(in_gear());
 }
 
+TEST_F(MachineEffects, PlayMayAlsoStandBetweenAMachineAndItsSensor) {
+  const auto where = [&](const Diagram& d) {
+    std::vector<std::string> list;
+    for (const auto& place : places_of(effects.get("backlash"), d, registry, nullptr)) list.push_back(place.at);
+    return list;
+  };
+  // not on the wire of the load's angle, which the gear reads as well
+  EXPECT_EQ(where(geared(GearedDrive{})), (std::vector<std::string>{"gear", "outputs.y"}));
+}
+
+/// The play operator behind a motion: what a loose coupling hands on.
+std::vector<double> behind_a_loose_coupling(std::vector<double> y, double gap) {
+  double held = 0;
+  for (double& now : y) now = held = std::clamp(held, now - gap / 2, now + gap / 2);
+  return y;
+}
+
+TEST_F(MachineEffects, PlayOfASensorIsNotTakenForThatOfTheGear) {
+  GearedDrive g;
+  g.gap = 0;
+  const auto data =
+      recorded([&](const auto& t, const auto& u) { return behind_a_loose_coupling(geared(g, t, u), 0.02); },
+               rows(500, 0.006), 3, 1e-4, "rad");
+  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "backlash") << tried(d);
+  EXPECT_EQ(d.steps.front().winner.place, "outputs.y") << tried(d);
+  EXPECT_NEAR(value(d, "gap"), 0.02, 0.02 * 0.02) << "[rad]";
+}
+
 }  // namespace
 }  // namespace hysteron
