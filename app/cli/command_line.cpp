@@ -27,7 +27,7 @@ bool wants_json_errors(const std::vector<std::string>& words) {
 }
 
 int read_and_act(const std::vector<std::string>& words) {
-  const Reading reading = read_words(words);
+  const AskedVerb reading = read_words(words);
   if (reading.verb) return perform(*reading.verb, reading.arguments);
   fmt::print("{}", reading.text);
   return reading.exit_code;

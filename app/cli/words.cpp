@@ -134,7 +134,7 @@ void check_verb_name(const std::vector<std::string>& words, const std::deque<Par
 
 }  // namespace
 
-Reading read_words(const std::vector<std::string>& words) {
+AskedVerb read_words(const std::vector<std::string>& words) {
   CLI::App app{overview, "hysteron"};
   app.footer(first_steps);
   app.set_version_flag("--version", "hysteron " HYSTERON_VERSION);

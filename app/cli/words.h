@@ -9,7 +9,7 @@
 
 namespace hysteron {
 
-struct Reading {
+struct AskedVerb {
   std::optional<Verb> verb{};  ///< to be carried out; none: `text` is the answer (--help, --version, no words at all)
   Arguments arguments{};
   std::string text{};
@@ -17,6 +17,6 @@ struct Reading {
 };
 
 /// Throws Error "bad_command_line", "unknown_verb".
-Reading read_words(const std::vector<std::string>& words);
+AskedVerb read_words(const std::vector<std::string>& words);
 
 }  // namespace hysteron

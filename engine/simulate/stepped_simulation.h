@@ -14,16 +14,16 @@ class AdaptiveSimulation;  // adaptive_simulation.h
 
 /// A value: a copy goes on by itself from where the original is (its integrator begins anew there). Not for two threads
 /// at once; copies are independent of each other.
-class Stepper {
+class SteppedSimulation {
  public:
   /// Starts at options.begin with inputs of zero. Steps always follow the error: for "exact" and the methods with fixed
   /// steps, which belong to a grid of times that is known before, "auto" is taken. options.until: how long it is
   /// probably going to last [s], against which a step is too small. Throws Error "jump_into_rate" where an input must
   /// not jump.
-  Stepper(ProgramPointer program, const SimulateOptions& options);
-  Stepper(const Stepper& other);
-  Stepper& operator=(const Stepper&) = delete;
-  ~Stepper();
+  SteppedSimulation(ProgramPointer program, const SimulateOptions& options);
+  SteppedSimulation(const SteppedSimulation& other);
+  SteppedSimulation& operator=(const SteppedSimulation&) = delete;
+  ~SteppedSimulation();
 
   const Program& program() const { return *program_; }
   double t() const;  ///< [s]

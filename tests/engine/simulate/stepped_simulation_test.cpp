@@ -1,5 +1,5 @@
 // A diagram that is taken along step by step: the same as simulate(), inputs that are held, copies.
-#include "engine/simulate/stepper.h"
+#include "engine/simulate/stepped_simulation.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST(Stepper, StepsOfAnyLengthGiveWhatARunGives) {
   const SimulateOptions options{.until = 0.7, .every = 0.005, .relative_tolerance = 1e-9};
   const auto run = simulate(*p, start(*p), options);
   for (const double factor : {0.1, 1.0, 7.0}) {
-    Stepper stepper(p, options);
+    SteppedSimulation stepper(p, options);
     const double step = factor * options.every;
     const auto last = static_cast<int>(std::lround(options.until / step));
     for (int k = 0; k <= last; ++k) {
@@ -55,13 +55,13 @@ TEST(Stepper, TheIntegratorStaysWarmWhereNothingJumps) {
   const auto p = compiled(diagram({{"u", block("sine", {{"amplitude", "1 V"}, {"frequency", "1 Hz"}})},
                                    {"x", block("lag", {{"times", list({0.02}, "s")}}, {"u"})}},
                                   {"x"}));
-  Stepper stepper(p, {.until = 1});
+  SteppedSimulation stepper(p, {.until = 1});
   stepper.advance(1e-3);
   const long begun = stepper.restarts();
   for (int k = 2; k <= 1000; ++k) stepper.advance(k * 1e-3);
   EXPECT_EQ(stepper.restarts(), begun);
 
-  Stepper driven(driven_lag(), {.until = 1});
+  SteppedSimulation driven(driven_lag(), {.until = 1});
   for (int k = 1; k <= 10; ++k) {
     driven.set(0, k);
     driven.advance(k * 0.1);
@@ -71,7 +71,7 @@ TEST(Stepper, TheIntegratorStaysWarmWhereNothingJumps) {
 
 TEST(Stepper, AnInputIsHeldFromWhereItIsSet) {
   const auto p = driven_lag();
-  Stepper stepper(p, {.until = 1, .relative_tolerance = 1e-9});
+  SteppedSimulation stepper(p, {.until = 1, .relative_tolerance = 1e-9});
   const int x = p->signal("x");
   double expected = 0, held = 0;
   for (int k = 0; k < 50; ++k) {
@@ -91,7 +91,7 @@ TEST(Stepper, WhatIsSetIsThereBeforeWhatIsSampledAtTheSameInstant) {
   auto recorded = start(*p);
   bind_input(*p, recorded, "u", series);
   const auto run = simulate(*p, recorded, {.until = 0.035, .instants = {0.005, 0.015, 0.025, 0.035}});
-  Stepper stepper(p, {.until = 0.04});
+  SteppedSimulation stepper(p, {.until = 0.04});
   const int s = p->signal("s");
   for (std::size_t k = 0; k < 4; ++k) {
     stepper.set(0, series->v[k]);
@@ -106,7 +106,7 @@ TEST(Stepper, MemoryFollowsTheJumpOfAnInput) {
   Diagram d = diagram({{"h", block("play", {{"radius", "0.5 V"}}, {"u"})}}, {"h"});
   d.inputs["u"].unit = "V";
   const auto p = compiled(d);
-  Stepper stepper(p, {.until = 1});
+  SteppedSimulation stepper(p, {.until = 1});
   const int h = p->signal("h");
   const double inputs[] = {2, -1, 0.2, 3}, held[] = {1.5, -0.5, -0.3, 2.5};  // the play operator by hand
   for (int k = 0; k < 4; ++k) {
@@ -119,19 +119,19 @@ TEST(Stepper, MemoryFollowsTheJumpOfAnInput) {
 TEST(Stepper, ACopyGoesOnByItself) {
   const auto p = sampled_loop();
   const SimulateOptions options{.until = 1, .relative_tolerance = 1e-9};
-  Stepper one(p, options);
+  SteppedSimulation one(p, options);
   one.advance(0.333);
-  Stepper two = one;
+  SteppedSimulation two = one;
   one.advance(0.9);
   EXPECT_EQ(two.t(), 0.333);
   two.advance(0.9);
   for (const int s : p->record_signals) EXPECT_NEAR(one.value(s), two.value(s), 1e-7);  // as for steps of any length
 
   const auto driven = driven_lag();
-  Stepper left(driven, {.until = 1});
+  SteppedSimulation left(driven, {.until = 1});
   left.set(0, 1);
   left.advance(0.01);
-  Stepper right = left;
+  SteppedSimulation right = left;
   right.set(0, -1);
   left.advance(1);
   right.advance(1);
@@ -141,7 +141,7 @@ TEST(Stepper, ACopyGoesOnByItself) {
 
 TEST(Stepper, WhatCannotBeIsRefusedAndMayBeDoneRightBehindIt) {
   const auto p = driven_lag();
-  Stepper stepper(p, {.until = 1});
+  SteppedSimulation stepper(p, {.until = 1});
   stepper.advance(0.5);
   EXPECT_THROW(stepper.advance(0.4), Error);
   EXPECT_THROW(stepper.set(1, 0), Error);
@@ -156,10 +156,10 @@ TEST(Stepper, WhatFailedDoesNotGoOn) {
                                    {"g", block("gain", {{"gain", "1 1/s"}}, {"e"})},
                                    {"x", block("integrator", {{"initial", 1}}, {"g"})}},
                                   {"x"}));
-  Stepper stepper(p, {.until = 2});  // dx/dt = x^2 from 1 is at infinity at 1 s
+  SteppedSimulation stepper(p, {.until = 2});  // dx/dt = x^2 from 1 is at infinity at 1 s
   stepper.advance(0.5);
   EXPECT_NEAR(stepper.value(p->signal("x")), 2, 1e-4);
-  Stepper before = stepper;
+  SteppedSimulation before = stepper;
   EXPECT_THROW(stepper.advance(2), Error);
   try {
     stepper.advance(2.1);

@@ -1,4 +1,4 @@
-#include "engine/simulate/stepper.h"
+#include "engine/simulate/stepped_simulation.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ bool keeps_a_grid(Method method) { return method == Method::exact || method == M
 
 }  // namespace
 
-Stepper::Stepper(ProgramPointer program, const SimulateOptions& options)
+SteppedSimulation::SteppedSimulation(ProgramPointer program, const SimulateOptions& options)
     : program_(std::move(program)),
       options_(held_tolerance(*program_, options)),
       start_(start(*program_)),
@@ -63,7 +63,7 @@ Stepper::Stepper(ProgramPointer program, const SimulateOptions& options)
   start_.t = options_.begin;
 }
 
-Stepper::Stepper(const Stepper& other)
+SteppedSimulation::SteppedSimulation(const SteppedSimulation& other)
     : program_(other.program_),
       options_(other.options_),
       start_(other.simulation_ != nullptr ? other.simulation_->at_present() : other.start_),
@@ -75,13 +75,13 @@ Stepper::Stepper(const Stepper& other)
   if (other.simulation_ != nullptr) simulation_ = std::make_unique<AdaptiveSimulation>(*other.simulation_, start_);
 }
 
-Stepper::~Stepper() = default;
+SteppedSimulation::~SteppedSimulation() = default;
 
-double Stepper::t() const { return simulation_ != nullptr ? simulation_->t() : options_.begin; }
+double SteppedSimulation::t() const { return simulation_ != nullptr ? simulation_->t() : options_.begin; }
 
-long Stepper::restarts() const { return simulation_ != nullptr ? simulation_->restarts() : 0; }
+long SteppedSimulation::restarts() const { return simulation_ != nullptr ? simulation_->restarts() : 0; }
 
-void Stepper::set(int input, double si) {
+void SteppedSimulation::set(int input, double si) {
   if (input < 0 || at(input) >= inputs_.size())
     fail("bad_input", "set", fmt::format("there is no input {}: the diagram has {}", input, inputs_.size()),
          "count inputs from 0, in the order of the diagram");
@@ -93,7 +93,7 @@ void Stepper::set(int input, double si) {
 
 /// What fails leaves the run somewhere between two instants.
 template <class Action>
-auto Stepper::unless_failed(const Action& action) {
+auto SteppedSimulation::unless_failed(const Action& action) {
   if (failed_)
     fail_numerics("stepper_failed", "stepper", fmt::format("it failed before, at t = {:.9g} s", t()),
                   "begin a new one, or go on from a copy that was taken before");
@@ -108,7 +108,7 @@ auto Stepper::unless_failed(const Action& action) {
   }
 }
 
-void Stepper::begin() {
+void SteppedSimulation::begin() {
   if (simulation_ != nullptr) return;
   for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i]->v.front() = wanted_[i];
   set_loop_accuracy(*program_, start_, options_.relative_tolerance, options_.absolute_tolerance);
@@ -120,7 +120,7 @@ void Stepper::begin() {
   simulation_->begin();
 }
 
-void Stepper::apply_inputs() {
+void SteppedSimulation::apply_inputs() {
   bool changed = false;
   for (std::size_t i = 0; i < inputs_.size(); ++i) changed = changed || inputs_[i]->v.front() != wanted_[i];
   if (!changed) return;
@@ -129,7 +129,7 @@ void Stepper::apply_inputs() {
   });
 }
 
-void Stepper::advance(double until) {
+void SteppedSimulation::advance(double until) {
   if (!(until >= t()) || !std::isfinite(until))
     fail("bad_input", "advance", fmt::format("{} s does not lie behind the present, {} s", until, t()),
          "advance to a later time");
@@ -140,7 +140,7 @@ void Stepper::advance(double until) {
   });
 }
 
-double Stepper::value(int signal) {
+double SteppedSimulation::value(int signal) {
   if (signal < 0 || at(signal) >= program_->signals.size())
     fail("bad_input", "value",
          fmt::format("there is no signal {}: the diagram has {}", signal, program_->signals.size()),
