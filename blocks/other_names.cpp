@@ -47,7 +47,7 @@ const std::vector<OtherNames>& table() {
       {{"detectrisepositive", "detectincrease", "detectchange", "edgedetector", "risingedge", "monoflop", "trigger"},
        "a sampled edge is \"edge\"; at any instant \"sample_and_hold\", \"counter\" and \"timer\" follow edges"},
       {{"orifice", "valve", "flowresistance", "convection", "convectiveheattransfer", "radiation",
-        "radiativeheattransfer", "peltier", "thermoelectric"},
+        "radiativeheattransfer", "peltier", "thermoelectric", "hydraulic", "cylinder", "hydrauliccylinder"},
        "a flow by a law of its own is an \"expression\", as q0*sign(p)*sqrt(abs(p)/p0) of an orifice, h*(a - b) of "
        "convection, c*(a^4 - b^4) of radiation; bodies that exchange heat are a \"thermal_network\", a vessel is a "
        "\"tank\""},

@@ -26,7 +26,7 @@ void Lookup::describe(Declaration& d) {
   d.remark(
       "A straight table bends at its knots: they are located. Its values can be fitted, by linear least squares. A curve "
       "through measured knots: akima does not overshoot much, monotone not at all.");
-  d.remark("refuse: beyond the knots the run ends and says so.");
+  d.remark("refuse: beyond its knots the run ends; give it further ones, or \"outside\": \"clip\" or \"extrapolate\".");
   d.inputs_any("in", "$a", "one signal per axis");
   d.output("y", "$y", "the value of the table there");
   d.list("values", "$y", "at the knots").or_matrix().difference();

@@ -59,10 +59,14 @@ bool has_finite_surroundings(const BlockInstance& block, const std::vector<doubl
                      [](double v) { return std::isfinite(v); });
 }
 
+/// What is said of where the law ends; of a block that does not tell it, all that is said.
 std::string law_cure(const BlockInstance& block) {
   const auto& declaration = block.kernel->declaration;
+  std::vector<std::string> told;
+  for (const auto& remark : declaration.remarks)
+    if (remark.find("the run ends") != remark.npos) told.push_back(remark);
   return fmt::format("check the parameters of \"{}\", and what drives it, against what is said of {}: {}", block.path,
-                     declaration.type, fmt::join(declaration.remarks, " "));
+                     declaration.type, fmt::join(told.empty() ? declaration.remarks : told, " "));
 }
 
 std::string cure_of(const Program& program, int block) {

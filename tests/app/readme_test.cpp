@@ -1,4 +1,4 @@
-// The README is true: its diagram runs, and its commands do what stands below them.
+// The README is true: its diagrams run, and its commands do what stands below them.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -58,8 +58,8 @@ TEST(Readme, ItsDiagramRunsAndItsCommandsPrintWhatItShows) {
   std::string output;
   int commands = 0, diagrams = 0;
   for (const auto& fence : fences_of(root + "/README.md")) {
-    if (fence.language == "json") {
-      folder.write("first.json", fence.text);
+    if (fence.language.starts_with("json")) {
+      folder.write(fence.language == "json" ? "first.json" : fence.language.substr(5), fence.text);
       ++diagrams;
     } else if (fence.language == "sh") {
       const Outcome outcome = process::shell(folder.path(), "set -e\n" + fence.text);
@@ -73,7 +73,7 @@ TEST(Readme, ItsDiagramRunsAndItsCommandsPrintWhatItShows) {
                                                         << output;
     }
   }
-  EXPECT_EQ(diagrams, 1);
+  EXPECT_EQ(diagrams, 2);  // a piezo and a motor
   EXPECT_GE(commands, 5);
 }
 
