@@ -283,7 +283,25 @@ Symbol chosen(const Values& values, const char* parameter, const std::map<std::s
   return s;
 }
 
-/// Blocks whose symbol is a letter or two.
+/// Types that one transfer function stands for, whatever their numbers are.
+struct Fraction {
+  const char *over, *under;
+};
+
+const Fraction* find_fraction(const std::string& type) {
+  static const std::map<std::string, Fraction> all{{"integrator", {"1", "s"}},
+                                                   {"limited_integrator", {"1", "s"}},
+                                                   {"integrator_with_reset", {"1", "s"}},
+                                                   {"filtered_derivative", {"s", "T s + 1"}},
+                                                   {"lead_lag", {"s/ω₁ + 1", "s/ω₂ + 1"}},
+                                                   {"biquads", {"s²/ω₁² + 2D₁s/ω₁ + 1", "s²/ω₂² + 2D₂s/ω₂ + 1"}},
+                                                   {"zero_pole_gain", {"k ∏(s − z)", "∏(s − p)"}},
+                                                   {"resonance", {"ω²", "s² + 2Dωs + ω²"}},
+                                                   {"modes", {"Σ aω²", "s² + 2Dωs + ω²"}}};
+  const auto found = all.find(type);
+  return found == all.end() ? nullptr : &found->second;
+}
+
 /// Types that a few letters stand for, and whether the type must be told below them.
 struct Letters {
   const char* text;
@@ -292,6 +310,14 @@ struct Letters {
 
 const Letters* find_letters(const std::string& type) {
   static const std::map<std::string, Letters> all{{"divide", {"÷"}},
+                                                  {"matrix_gain", {"K u"}},
+                                                  {"fir", {"Σ bᵢ z⁻ⁱ"}},
+                                                  {"pi_controller", {"kp + ki/s"}},
+                                                  {"pid", {"PID"}},
+                                                  {"pid_tracking", {"PID"}},
+                                                  {"dead_time", {"e⁻ˢᵀ"}},
+                                                  {"variable_dead_time", {"e⁻ˢᵀ"}},
+                                                  {"delay_line", {"z⁻ⁿ"}},
                                                   {"abs", {"|u|"}},
                                                   {"sign", {"sgn"}},
                                                   {"sample_and_hold", {"S/H"}},
@@ -354,11 +380,7 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
   if (type == "product") return product(n_in);
   if (type == "gain") return gain(values);
   Symbol s;
-  if (type == "integrator" || type == "limited_integrator" || type == "integrator_with_reset") {
-    s = fraction("1", "s");
-  } else if (type == "filtered_derivative") {
-    s = fraction("s", "T s + 1");
-  } else if (type == "pass") {
+  if (type == "pass") {
     s = formula("1");
     s.width = 36;
   } else if (type == "constant") {
@@ -368,14 +390,6 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = lag(values);
   } else if (type == "second_order" || type == "digital_filter") {
     s = filter(values, type);
-  } else if (type == "lead_lag") {
-    s = fraction("s/ω₁ + 1", "s/ω₂ + 1");
-  } else if (type == "biquads") {
-    s = fraction("s²/ω₁² + 2D₁s/ω₁ + 1", "s²/ω₂² + 2D₂s/ω₂ + 1");
-  } else if (type == "zero_pole_gain") {
-    s = fraction("k ∏(s − z)", "∏(s − p)");
-  } else if (type == "fir") {
-    s = formula("Σ bᵢ z⁻ⁱ");
   } else if (type == "discrete_integrator") {
     s = discrete_integrator(values);
   } else if (type == "transfer_function") {
@@ -389,20 +403,10 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
   } else if (type == "mux" || type == "demux") {
     s = formula("⋮");
     s.width = type == "mux" ? 36 : 44;
-  } else if (type == "matrix_gain") {
-    s = formula("K u");
-  } else if (type == "pi_controller") {
-    s = formula("kp + ki/s");
-  } else if (type == "pid" || type == "pid_tracking") {
-    s = formula("PID");
   } else if (type == "sampled_pid" || type == "discrete_pid" || type == "discrete_pid_tracking") {
     s = formula("PID");
     s.note = "sampled";
     s.height = 54;
-  } else if (type == "dead_time" || type == "variable_dead_time") {
-    s = formula("e⁻ˢᵀ");
-  } else if (type == "delay_line") {
-    s = formula("z⁻ⁿ");
   } else if (type == "expression") {
     s = expression(values);
   } else if (type == "trigonometry") {
@@ -415,10 +419,8 @@ Symbol symbol_of(const Declaration& declaration, const Values& values, int n_in,
     s = chosen(
         values, "is",
         {{"less", "<"}, {"at_most", "≤"}, {"equal", "="}, {"not_equal", "≠"}, {"at_least", "≥"}, {"greater", ">"}});
-  } else if (type == "resonance") {
-    s = fraction("ω²", "s² + 2Dωs + ω²");
-  } else if (type == "modes") {
-    s = fraction("Σ aω²", "s² + 2Dωs + ω²");
+  } else if (const Fraction* of_s = find_fraction(type)) {
+    s = fraction(of_s->over, of_s->under);
   } else if (const Letters* letters = find_letters(type)) {
     s = formula(letters->text);
     if (letters->note) {

@@ -185,6 +185,36 @@ std::optional<double> low_gain(const SmallMotions& m) {
   return integrator ? b.magnitude.front() : std::abs(m.response(0));
 }
 
+/// The numbers of the linear model; what is told of it is added to them.
+Facts facts_of(const SmallMotions& motions, const std::string& diagram, const SignalInfo& from, const SignalInfo& to,
+               const std::string& unit, std::optional<double> lowest, double t) {
+  const LinearModel& model = motions.model;
+  return Facts::object({{"diagram", diagram},
+                        {"from", from.path},
+                        {"to", to.path},
+                        {"unit", unit},
+                        {"gain_at_low_frequencies", lowest},
+                        {"operating_point_s", t},
+                        {"states", model.state_names},
+                        {"a", matrix_facts(model.a, model.states)},
+                        {"b", matrix_facts(model.b, model.states)},
+                        {"c", matrix_facts(model.c, model.outputs)},
+                        {"d", matrix_facts(model.d, model.outputs)},
+                        {"dead_times_s", model.delays}});
+}
+
+/// Why there are no margins: nothing passes, or what was opened is no loop.
+void warn_of_no_loop(Document& document, const SmallMotions& motions, const SignalInfo& from, const SignalInfo& to,
+                     bool nothing_passes) {
+  document.warnings.push_back(
+      nothing_passes
+          ? fmt::format("nothing passes from {} to {} here{}", from.path, to.path,
+                        motions.cuts.empty() ? ": an opened loop stands between, or no wire leads there" : "")
+          : fmt::format("no margins: from {} in {} to {} in {} is no loop gain; name the signal that comes back to "
+                        "where the loop is opened, in its unit",
+                        from.path, unit_text(from.unit), to.path, unit_text(to.unit)));
+}
+
 Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
@@ -219,19 +249,7 @@ Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
                : "integrating (infinite gain at low frequencies)";
     document.headline =
         fmt::format("{} to {}{}: {}{}", from.path, to.path, opened ? ", loop open" : "", stability_head(motions), gain);
-    const LinearModel& model = motions.model;
-    Facts facts = Facts::object({{"diagram", arguments.text("diagram")},
-                                 {"from", from.path},
-                                 {"to", to.path},
-                                 {"unit", unit},
-                                 {"gain_at_low_frequencies", lowest},
-                                 {"operating_point_s", run.t},
-                                 {"states", model.state_names},
-                                 {"a", matrix_facts(model.a, model.states)},
-                                 {"b", matrix_facts(model.b, model.states)},
-                                 {"c", matrix_facts(model.c, model.outputs)},
-                                 {"d", matrix_facts(model.d, model.outputs)},
-                                 {"dead_times_s", model.delays}});
+    Facts facts = facts_of(motions, arguments.text("diagram"), from, to, unit, lowest, run.t);
     const PoleCount& judged = motions.closed ? *motions.closed : motions.count;
     const bool unstable = judged.outside > 0 || judged.endless;
     if (const auto width = lowest && !unstable ? bandwidth(motions.response, motions.bode) : std::nullopt) {
@@ -240,17 +258,11 @@ Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
     }
     tell_poles(document, facts, motions);
     const auto& sizes = motions.bode.magnitude;
-    if (*std::max_element(sizes.begin(), sizes.end()) == 0)
-      document.warnings.push_back(
-          fmt::format("nothing passes from {} to {} here{}", from.path, to.path,
-                      motions.cuts.empty() ? ": an opened loop stands between, or no wire leads there" : ""));
-    else if (loop)
+    const bool nothing_passes = *std::max_element(sizes.begin(), sizes.end()) == 0;
+    if (loop && !nothing_passes)
       tell_margins(document, facts, motions);
-    else if (opened)
-      document.warnings.push_back(fmt::format(
-          "no margins: from {} in {} to {} in {} is no loop gain; name the signal that comes back to where the loop is "
-          "opened, in its unit",
-          from.path, unit_text(from.unit), to.path, unit_text(to.unit)));
+    else if (opened || nothing_passes)
+      warn_of_no_loop(document, motions, from, to, nothing_passes);
     tell_cuts(document, facts, *program, motions);
     if (motions.any_dead_time)
       document.warnings.push_back(

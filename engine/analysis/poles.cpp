@@ -1,11 +1,11 @@
 #include "engine/analysis/poles.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/matrices/decompositions.h"
 #include "engine/program/components.h"
 
 namespace hysteron {
@@ -24,16 +24,15 @@ void add_part(Eigen::MatrixXd a, std::vector<Eigenvalue>& list) {
   const auto f = balancing({rows.data(), static_cast<std::size_t>(rows.size())}, static_cast<int>(a.rows()));
   const Eigen::Map<const Eigen::VectorXd> factors(f.data(), a.rows());
   a = (factors.cwiseInverse().asDiagonal() * a * factors.asDiagonal()).eval();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a);
-  const Eigen::MatrixXcd right = solver.eigenvectors();  // of length one
-  const Eigen::MatrixXcd left = right.partialPivLu().inverse();
+  const EigenPairs pairs = eigen_pairs(a);
+  const Eigen::MatrixXcd left = pairs.vectors.partialPivLu().inverse();
   const double rounding = safety * std::numeric_limits<double>::epsilon() * a.norm();
   // A multiple eigenvalue has no condition: what rounding splits is as large as the root of it.
   const double most = std::sqrt(std::numeric_limits<double>::epsilon()) * a.norm();
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
     const double condition = left.row(i).norm();
     const double error = rounding * condition;
-    list.push_back({solver.eigenvalues()(i), std::isfinite(error) ? std::min(error, most) : most});
+    list.push_back({pairs.values(i), std::isfinite(error) ? std::min(error, most) : most});
   }
 }
 

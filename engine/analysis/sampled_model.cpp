@@ -8,11 +8,11 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "engine/analysis/wired_slopes.h"
 #include "engine/diagram/index.h"
 #include "engine/events/clocks.h"
+#include "engine/matrices/decompositions.h"
 #include "engine/program/steps.h"
 
 namespace hysteron {
@@ -157,7 +157,7 @@ std::vector<SampledModel::Step> SampledModel::steps(const Eigen::MatrixXd& a, co
       Eigen::MatrixXd big = Eigen::MatrixXd::Zero(n + 1, n + 1);
       big.topLeftCorner(n, n) = a * interval.length;
       big.topRightCorner(n, 1) = b * interval.length;
-      e = big.exp();
+      e = exponential(big);
     }
     const Instant& hit = instants_[at(interval.hit)];
     Step step;

@@ -30,6 +30,44 @@ std::uint64_t key_of(const std::string& path) {
   return key;
 }
 
+/// Enters the block, which is added next, in the lists of the kinds that it is of.
+void list_by_kind(const GraphBlock& g, BlockInstance& b, Program& program) {
+  const int index = static_cast<int>(program.blocks.size());
+  if (g.kernel->declaration.is_series) {
+    b.series_index = static_cast<int>(program.series.size());
+    program.series.push_back(g.series);
+  }
+  if (g.sizes.history) b.history_index = program.n_histories++;
+  if (g.sizes.memory > 0) program.memory_blocks.push_back(index);
+  if (g.kernel->is_sampled()) {
+    b.hit_index = static_cast<int>(program.sampled_blocks.size());
+    program.sampled_blocks.push_back(index);
+  }
+  if (g.kernel->has_modes()) {
+    b.mode_index = static_cast<int>(program.modal_blocks.size());
+    program.modal_blocks.push_back(index);
+  }
+  if (g.kernel->kinks != nullptr && g.sizes.kinks > 0) {
+    program.kinked_blocks.push_back(index);
+    if (g.sizes.keeps_sides) {
+      b.sides_index = program.n_sides;
+      program.n_sides += g.sizes.kinks;
+    }
+  }
+  if (g.kernel->uses_time || g.kernel->declaration.is_series || g.sizes.history) program.time_blocks.push_back(index);
+}
+
+void name_states(const GraphBlock& g, Program& program) {
+  const auto& states = g.kernel->declaration.states;
+  for (int i = 0; i < g.sizes.states; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    program.state_names.push_back(static_cast<int>(states.size()) == g.sizes.states
+                                      ? fmt::format("{}.{}", g.path, states[k].name)
+                                      : fmt::format("{}.state[{}]", g.path, i));
+    program.state_initial.push_back(k < states.size() ? states[k].initial_value : 0.0);
+  }
+}
+
 void lay_out_block(const GraphBlock& g, Program& program) {
   BlockInstance b;
   b.path = g.path;
@@ -61,40 +99,11 @@ void lay_out_block(const GraphBlock& g, Program& program) {
   program.n_u += b.n_u;
   b.y_begin = g.first_signal;
   b.source = g.source;
-  if (g.kernel->declaration.is_series) {
-    b.series_index = static_cast<int>(program.series.size());
-    program.series.push_back(g.series);
-  }
-  if (g.sizes.history) b.history_index = program.n_histories++;
-  const int index = static_cast<int>(program.blocks.size());
-  if (g.sizes.memory > 0) program.memory_blocks.push_back(index);
-  if (g.kernel->is_sampled()) {
-    b.hit_index = static_cast<int>(program.sampled_blocks.size());
-    program.sampled_blocks.push_back(index);
-  }
-  if (g.kernel->has_modes()) {
-    b.mode_index = static_cast<int>(program.modal_blocks.size());
-    program.modal_blocks.push_back(index);
-  }
-  if (g.kernel->kinks != nullptr && g.sizes.kinks > 0) {
-    program.kinked_blocks.push_back(index);
-    if (g.sizes.keeps_sides) {
-      b.sides_index = program.n_sides;
-      program.n_sides += g.sizes.kinks;
-    }
-  }
-  if (g.kernel->uses_time || g.kernel->declaration.is_series || g.sizes.history) program.time_blocks.push_back(index);
+  list_by_kind(g, b, program);
   b.adjacent = b.source.empty() ? -1 : b.source.front();
   for (std::size_t i = 1; i < b.source.size(); ++i)
     if (b.source[i] != b.source[i - 1] + 1) b.adjacent = -1;
-  const auto& states = g.kernel->declaration.states;
-  for (int i = 0; i < g.sizes.states; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    program.state_names.push_back(static_cast<int>(states.size()) == g.sizes.states
-                                      ? fmt::format("{}.{}", g.path, states[k].name)
-                                      : fmt::format("{}.state[{}]", g.path, i));
-    program.state_initial.push_back(k < states.size() ? states[k].initial_value : 0.0);
-  }
+  name_states(g, program);
   program.blocks.push_back(std::move(b));
 }
 

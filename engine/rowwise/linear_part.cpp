@@ -1,12 +1,11 @@
 #include "engine/rowwise/linear_part.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "engine/diagram/index.h"
+#include "engine/matrices/decompositions.h"
 #include "engine/program/loop_plan.h"
 
 namespace hysteron {
@@ -301,7 +300,7 @@ LinearPart::Step LinearPart::make_step(const Eigen::MatrixXd& a, const Eigen::Ma
   big.topLeftCorner(n, n) = a * h;
   big.block(0, n, n, m) = b * h;
   big.block(n, n + m, m, m).setIdentity();
-  const Eigen::MatrixXd e = big.exp();
+  const Eigen::MatrixXd e = exponential(big);
   return {h, e.topLeftCorner(n, n), e.block(0, n, n, m), e.block(0, n + m, n, m)};
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/diagram/index.h"
+#include "engine/matrices/decompositions.h"
 #include "engine/program/breakpoints.h"
 #include "engine/simulate/jacobian.h"
 
@@ -71,9 +71,8 @@ double fastest_eigenvalue(const Program& program, const Run& run, double begin) 
     for (int k = pattern.column_begin[at(column)]; k < pattern.column_begin[at(column) + 1]; ++k)
       matrix(pattern.row[at(k)], column) = entries[at(k)];
   if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  if (solver.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
+  const Eigen::VectorXcd eigenvalues = eigenvalues_of(matrix);
+  return eigenvalues.size() > 0 ? eigenvalues.cwiseAbs().maxCoeff() : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string time_text(double seconds) {

@@ -66,6 +66,25 @@ void explain_rows(const Program& program, const Run& run, const Advance::Instant
   if (values.size() == signals.size()) throw_if_rows_grow(program, run, signals, *rows, values);
 }
 
+void drop_first_row(Traces& traces) {
+  for (auto& v : traces.values) v.erase(v.begin());
+  for (auto& slopes : traces.slopes)
+    for (auto& v : slopes) v.erase(v.begin());
+}
+
+/// Fails at the first value that is no number; `instants`: time of each row [s].
+void check_finite(const Program& program, const Traces& traces, const std::vector<double>& instants) {
+  for (std::size_t s = 0; s < traces.signals.size(); ++s) {
+    const auto& v = traces.values[s];
+    const auto bad = std::find_if(v.begin(), v.end(), [](double value) { return !std::isfinite(value); });
+    if (bad == v.end()) continue;
+    fail_numerics(
+        "diverged", program.signals[static_cast<std::size_t>(traces.signals[s])].path,
+        fmt::format("the signal is {} at t = {:.9g} s", *bad, instants[static_cast<std::size_t>(bad - v.begin())]),
+        "check the parameters of the blocks before it");
+  }
+}
+
 }  // namespace
 
 bool advances_exactly(const Program& program, const SimulateOptions& options) {
@@ -136,19 +155,9 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
   add_slopes(program, run, options.slopes_for, advance, rows, how, traces);
   if (early) {
     instants.erase(instants.begin());
-    for (auto& v : traces.values) v.erase(v.begin());
-    for (auto& slopes : traces.slopes)
-      for (auto& v : slopes) v.erase(v.begin());
+    drop_first_row(traces);
   }
-  for (std::size_t s = 0; s < signals.size(); ++s) {
-    const auto& v = traces.values[s];
-    const auto bad = std::find_if(v.begin(), v.end(), [](double value) { return !std::isfinite(value); });
-    if (bad == v.end()) continue;
-    fail_numerics(
-        "diverged", program.signals[static_cast<std::size_t>(signals[s])].path,
-        fmt::format("the signal is {} at t = {:.9g} s", *bad, instants[static_cast<std::size_t>(bad - v.begin())]),
-        "check the parameters of the blocks before it");
-  }
+  check_finite(program, traces, instants);
   traces.t = std::move(instants);
   traces.statistics.method = "exact";
   return traces;

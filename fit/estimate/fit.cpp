@@ -279,6 +279,29 @@ std::vector<PointPointer> Fitting::scan() {
   return points;
 }
 
+/// Gives the components of the attractor, which are free parameters, their places among the nonlinear unknowns; true
+/// for those that have one.
+std::vector<bool> Fitting::place_components(Attractor& attractor) const {
+  const auto n = static_cast<std::size_t>(projection_->n_nonlinear());
+  std::vector<bool> placed(n, false);
+  const auto place = [&](int& component) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (place_[static_cast<std::size_t>(projection_->nonlinear()[k])] != static_cast<std::size_t>(component))
+        continue;
+      component = static_cast<int>(k);
+      placed[k] = true;
+      return;
+    }
+    fail("bad_attractor", "attractor", "a parameter of the attractor is not among those searched",
+         "free it, and let it be none that linear least squares finds");
+  };
+  for (auto& c : attractor.components) {
+    place(c.component);
+    if (c.of >= 0) place(c.of);
+  }
+  return placed;
+}
+
 /// Puts what a global method finds before the other starts.
 void Fitting::search_globally(std::vector<PointPointer>& starts) {
   const auto n = static_cast<std::size_t>(projection_->n_nonlinear());
@@ -288,21 +311,7 @@ void Fitting::search_globally(std::vector<PointPointer>& starts) {
   std::vector<bool> plain(n, false);
   if (options_.attractor) {
     problem.attractor = options_.attractor;
-    const auto place = [&](int& component) {
-      for (std::size_t k = 0; k < n; ++k) {
-        if (place_[static_cast<std::size_t>(projection_->nonlinear()[k])] != static_cast<std::size_t>(component))
-          continue;
-        component = static_cast<int>(k);
-        plain[k] = true;
-        return;
-      }
-      fail("bad_attractor", "attractor", "a parameter of the attractor is not among those searched",
-           "free it, and let it be none that linear least squares finds");
-    };
-    for (auto& c : problem.attractor->components) {
-      place(c.component);
-      if (c.of >= 0) place(c.of);
-    }
+    plain = place_components(*problem.attractor);
   }
   const auto low = projection_->lower(), high = projection_->upper();
   for (std::size_t k = 0; k < n; ++k) {

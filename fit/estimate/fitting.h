@@ -37,6 +37,7 @@ class Fitting {
   void scan_one_by_one(const std::vector<std::vector<double>>& values, std::vector<PointPointer>& points);
   std::vector<std::vector<double>> spread() const;
   void search_globally(std::vector<PointPointer>& starts);
+  std::vector<bool> place_components(Attractor& attractor) const;
   void search(const std::vector<PointPointer>& starts);
   bool search_from(const std::vector<double>& start);
   void refine_substeps();

@@ -153,6 +153,33 @@ std::size_t point_count(const Document& document, const Figure& figure) {
   return count;
 }
 
+/// Curve `i` of the figure with at most `share` of its points; the axes of the figure take all of them in.
+PreparedCurve prepare_curve(const Figure& figure, std::size_t i, const Source& source, const std::string& colour,
+                            std::size_t share, PreparedFigure& p) {
+  const Curve& curve = figure.curves[i];
+  PreparedCurve c;
+  c.name = curve.name;
+  c.style = curve.style.empty() ? "line" : curve.style;
+  const bool by_time = curve.colour == "time";
+  c.colour = by_time ? "time" : colour;
+  c.under = curve.role == "measured" && c.style == "line" && figure.curves.size() > 1;
+  if (by_time) name_ends(source, p);
+  if (!curve.trace.empty()) c.source = "traces/" + curve.trace;
+  c.points = source.x.size();
+  c.monotone = never_decreases(source.x);
+  c.few = c.points <= few_points;
+  for (const auto k : decimate(source.x, source.y, share)) {
+    c.x.push_back(source.x[k]);
+    c.y.push_back(source.y[k]);
+    if (by_time) c.shade.push_back(time_gone(source, k, source.x.size()));
+  }
+  include(source.x, p.log_x, p.x);
+  include(source.y, p.log_y, p.y);
+  p.points += c.points;
+  p.kept += c.x.size();
+  return c;
+}
+
 PreparedFigure prepare(const Document& document, const Figure& figure, std::size_t budget) {
   PreparedFigure p{figure.title,
                    figure.kind,
@@ -181,30 +208,8 @@ PreparedFigure prepare(const Document& document, const Figure& figure, std::size
   const auto colour = colours(figure.curves);
   bool monotone = true;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto& x = sources[i].x;
-    const auto& y = sources[i].y;
-    PreparedCurve c;
-    c.name = figure.curves[i].name;
-    c.style = figure.curves[i].style.empty() ? "line" : figure.curves[i].style;
-    const bool by_time = figure.curves[i].colour == "time";
-    c.colour = by_time ? "time" : colour[i];
-    c.under = figure.curves[i].role == "measured" && c.style == "line" && figure.curves.size() > 1;
-    if (by_time) name_ends(sources[i], p);
-    if (!figure.curves[i].trace.empty()) c.source = "traces/" + figure.curves[i].trace;
-    c.points = x.size();
-    c.monotone = never_decreases(x);
-    monotone = monotone && c.monotone;
-    c.few = c.points <= few_points;
-    for (const auto k : decimate(x, y, shares[i])) {
-      c.x.push_back(x[k]);
-      c.y.push_back(y[k]);
-      if (by_time) c.shade.push_back(time_gone(sources[i], k, x.size()));
-    }
-    include(x, p.log_x, p.x);
-    include(y, p.log_y, p.y);
-    p.points += c.points;
-    p.kept += c.x.size();
-    p.curves.push_back(std::move(c));
+    p.curves.push_back(prepare_curve(figure, i, sources[i], colour[i], shares[i], p));
+    monotone = monotone && p.curves.back().monotone;
   }
   widen(p.x, p.log_x);
   widen(p.y, p.log_y);

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
 /// in no room.
 const std::map<std::string, std::vector<std::string>> storeys = {
     {"engine",
-     {"diagram", "block", "program", "compile", "integrators", "events", "rowwise", "simulate", "analysis", "lanes"}},
+     {"diagram", "block", "matrices", "program", "compile", "integrators", "events", "rowwise", "simulate", "analysis",
+      "lanes"}},
     {"models",
      {"", "sources", "math", "logic", "linear", "continuous", "hysteresis", "compensators", "mechanics", "electrical",
       "sampled", "disturbances", "measurement"}},
@@ -172,6 +174,46 @@ TEST(Architecture, FilesHaveOneIdea) {
   for_each_source([](const std::string&, const fs::path& file, const std::string& text) {
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << file << ": which part has an idea of its own?";
   });
+}
+
+/// What is longer than a screen, and why: tables are read line by line.
+const std::set<std::string> long_functions = {
+    "draw/pictogram.cpp",              // a table: pictures
+    "draw/symbol.cpp",                 // a table: which type has which picture
+    "blocks/other_names.cpp",          // a table: names in other programs
+    "engine/block/rows.h",             // one loop over rows, whose numbers stay in registers
+    "discover/search/judge_step.cpp",  // one verdict from all of its grounds
+};
+
+/// Lines of the longest function of a namespace or a class, from its name to its end: clang-format closes it with a
+/// brace alone, in the column in which it begins.
+std::size_t longest_function(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::size_t longest = 0;
+  for (std::size_t end = 0; end < lines.size(); ++end) {
+    const auto column = lines[end].find('}');
+    if (lines[end] != "}" && lines[end] != "  }") continue;
+    std::size_t begin = end;
+    while (begin > 0 && (begin == end || lines[begin].find_first_not_of(' ') != column || lines[begin][0] == '#'))
+      --begin;
+    longest = std::max(longest, end - begin + 1);
+  }
+  return longest;
+}
+
+TEST(Architecture, FunctionsFitAScreen) {
+  EXPECT_EQ(longest_function("int f(int a,\n      int b) {\n#ifdef X\n  if (a) {\n    b();\n  }\n\n  return a;\n}\n"),
+            9U);
+  for_each_source([](const std::string&, const fs::path& file, const std::string& text) {
+    const std::string own = in_project(file);
+    const bool effect = own.starts_with("discover/effects/");  // each function is the description of one effect
+    if (effect || long_functions.contains(own)) return;
+    EXPECT_LE(longest_function(text), 70U) << file << ": which part has a name of its own?";
+  });
+  for (const auto& file : long_functions)
+    EXPECT_GT(longest_function(text_of(fs::path(HYSTERON_SOURCE_DIR) / file)), 70U) << file << " needs no exception";
 }
 
 // Where a name is declared tells where it is defined: in the source of that name, or in one that the header names. What

@@ -5,13 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
 #include "blocks/register_all.h"
 #include "io/data/dataset.h"
@@ -20,46 +14,20 @@
 #include "io/jobs/claims_file.h"
 #include "io/jobs/job_file.h"
 #include "io/results/result.h"
+#include "tests/io/schema_validator.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
 namespace {
 
 using Json = nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
-class SchemaOf {
- public:
-  explicit SchemaOf(const std::string& text) : json_(Json::parse(text)) {
-    valijson::SchemaParser parser;  // draft-07
-    parser.populateSchema(Adapter(json_), schema_);
-  }
-
-  /// "" if the text is valid, else where it is not.
-  std::string refuses(const std::string& text) const {
-    const Json json = Json::parse(text);
-    valijson::Validator validator;
-    valijson::ValidationResults results;
-    if (validator.validate(schema_, Adapter(json), &results)) return "";
-    std::string all;
-    for (const auto& error : results) {
-      for (const auto& step : error.context) all += step;
-      all += ": " + error.description + "\n";
-    }
-    return all.empty() ? "refused" : all;
-  }
-
- private:
-  Json json_;
-  valijson::Schema schema_;
-};
-
-const SchemaOf& diagrams() {
-  static const SchemaOf schema(diagram_schema(all_blocks()));
+const SchemaValidator& diagrams() {
+  static const SchemaValidator schema(diagram_schema(all_blocks()));
   return schema;
 }
-const SchemaOf& datasets() {
-  static const SchemaOf schema(dataset_schema());
+const SchemaValidator& datasets() {
+  static const SchemaValidator schema(dataset_schema());
   return schema;
 }
 
@@ -193,7 +161,7 @@ TEST(DataSetSchema, RefusesWhatTheReaderRefuses) {
 }
 
 bool fits(const Json& json) {
-  static const SchemaOf schema(result_schema());
+  static const SchemaValidator schema(result_schema());
   return schema.refuses(json.dump()).empty();
 }
 
@@ -230,7 +198,7 @@ Document full_document() {
 }
 
 TEST(JobSchema, AcceptsWhatTheReaderAcceptsAndRefusesWhatItRefuses) {
-  const SchemaOf jobs(job_schema());
+  const SchemaValidator jobs(job_schema());
   const std::string head = R"({"format": 1, "do": "fit", "diagram": "d.json", "data": "a.csv")";
   EXPECT_EQ(jobs.refuses(head + "}"), "");
   EXPECT_EQ(jobs.refuses(head + R"(, "free": ["core.weights", {"parameter": "k", "lower": "1 N/um", "upper": 9,
@@ -246,7 +214,7 @@ TEST(JobSchema, AcceptsWhatTheReaderAcceptsAndRefusesWhatItRefuses) {
 }
 
 TEST(JobSchema, JobsOfRunsAreAcceptedAndRefusedAsTheirReaderDoes) {
-  const SchemaOf jobs(job_schema());
+  const SchemaValidator jobs(job_schema());
   const std::string head = R"({"format": 1, "do": "runs", "diagram": "d.json")";
   EXPECT_EQ(jobs.refuses(head + "}"), "");
   EXPECT_EQ(jobs.refuses(head + R"(, "runs": {"a": {"set": {"g.gain": {"of": "v", "times": -1}}, "use": {"b": "model"}},
@@ -263,7 +231,7 @@ TEST(JobSchema, JobsOfRunsAreAcceptedAndRefusedAsTheirReaderDoes) {
 }
 
 TEST(JobSchema, StudiesAreAcceptedAndRefusedAsTheirReaderDoes) {
-  const SchemaOf jobs(job_schema());
+  const SchemaValidator jobs(job_schema());
   const std::string head = R"({"format": 1, "do": "study", "diagram": "d.json")";
   const std::string sample =
       R"(, "sample": {"draws": 9, "parameters": {"law.k": {"from": "1 V", "to": 2, "scale": "log"}}})";
@@ -318,7 +286,7 @@ TEST(SharedSchemas, ThoseInTheProjectAreWhatTheDeclarationsSay) {
 }
 
 TEST(SharedSchemas, EveryDiagramDataSetAndJobOfTheProjectIsValid) {
-  const SchemaOf jobs(job_schema()), claims(claims_schema());
+  const SchemaValidator jobs(job_schema()), claims(claims_schema());
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(std::string(HYSTERON_SOURCE_DIR) + "/diagrams")) {
     if (entry.path().extension() != ".json") continue;
