@@ -72,6 +72,14 @@ TEST_P(MotionDiagram, AgreesWithItsIndependentTrace) {
           << wanted.names[i] << " at " << wanted.columns[0][k] << " s";
   }
 }
+TEST(MotionDiagrams, EachHasATraceOfItsOwn) {
+  for (const auto& entry : fs::directory_iterator(source / "diagrams/motion")) {
+    const std::string trace = entry.path().stem().string() + ".csv";
+    EXPECT_TRUE(fs::exists(source / "tests/io/motion" / trace) || fs::exists(source / "tests/app/motion" / trace))
+        << entry.path();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, MotionDiagram, testing::ValuesIn(all_names()),
                          [](const auto& made) { return made.param; });
 
