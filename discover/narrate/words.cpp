@@ -208,7 +208,7 @@ TriedLaw the_only_law(const Candidate& c, const std::vector<double>& fall_by_rec
 
 }  // namespace
 
-Candidate candidate_of(const Tried& t, int step) {
+Candidate candidate_of(const TriedEffect& t, int step) {
   Candidate c;
   c.effect = t.effect->id;
   c.title = effect_words(*t.effect, t.same_effects);

@@ -6,41 +6,42 @@
 #include <algorithm>
 #include <optional>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
 
 constexpr int most_beginnings = 3;  // names that are tried in its place
-constexpr int patches = 2;     // on which another one is tried: what takes least seldom holds one of the pair
+constexpr int patches = 2;          // on which another one is tried: what takes least seldom holds one of the pair
 
 /// The best admitted effect on top of the present model, fitted together with it. `begun` is none: beside that one the
 /// present effect was refused.
-std::optional<Tried> with_one_more(Books& books, const std::string& begun) {
-  auto tried = list_candidates(books, 2);
-  fit_candidates(books, tried, 2);
+std::optional<TriedEffect> with_one_more(SearchState& state, const std::string& begun) {
+  auto tried = list_candidates(state, 2);
+  fit_candidates(state, tried, 2);
   join_twins(tried);
-  std::erase_if(tried, [&](const Tried& t) { return t.effect->id == begun; });
-  compare_all(books, tried, As::further);
-  refit_best(books, tried, As::further, 0.9);
-  enrich(books, tried, 2, As::further, 0.9);
+  std::erase_if(tried, [&](const TriedEffect& t) { return t.effect->id == begun; });
+  compare_all(state, tried, As::further);
+  refit_best(state, tried, As::further, 0.9);
+  enrich(state, tried, 2, As::further, 0.9);
   const int best = best_admitted(tried);
   if (best < 0) return std::nullopt;
   return std::move(tried[static_cast<std::size_t>(best)]);
 }
 
 /// Is `first` no patch beside the other one, as that one is none beside it?
-bool needs_both(Books& books, const Tried& first, const Tried& second, const std::vector<Tried>& alone) {
-  const auto other = std::find_if(alone.begin(), alone.end(), [&](const Tried& t) {
+bool needs_both(SearchState& state, const TriedEffect& first, const TriedEffect& second,
+                const std::vector<TriedEffect>& alone) {
+  const auto other = std::find_if(alone.begin(), alone.end(), [&](const TriedEffect& t) {
     return t.effect == second.effect && t.place.where() == second.place.where() && t.contender.ok;
   });
   if (other == alone.end()) return false;
   Contender without = other->contender;
-  without.error_of = books.evidence->error(without.prediction);
-  Tried t = first;
+  without.error_of = state.evidence->error(without.prediction);
+  TriedEffect t = first;
   t.contender = second.contender;
-  t.contender.error_of = books.evidence->error(t.contender.prediction);
-  judge(*books.evidence, t, without, left_by_laws_of(books, without));
+  t.contender.error_of = state.evidence->error(t.contender.prediction);
+  judge(*state.evidence, t, without, left_by_laws_of(state, without));
   return t.admitted;
 }
 
@@ -51,78 +52,78 @@ bool is_worth_two(const Contender& pair, const Contender& stands) {
 }
 
 /// On top of a patch nobody else was: the pair is told only if nothing but noise is left.
-bool leaves_only_noise(const Books& books, const Contender& c) {
-  return books.evidence->over_usual_floor(c.prediction).all <= rules::floor_gate;
+bool leaves_only_noise(const SearchState& state, const Contender& c) {
+  return state.evidence->over_usual_floor(c.prediction).all <= rules::floor_gate;
 }
 
 }  // namespace
 
-bool another_beginning(Books& books, const std::vector<Tried>& first) {
-  if (books.stopped() || books.options.max_steps < 2) return false;
-  if (books.evidence->over_usual_floor(books.current.prediction).all <= rules::floor_gate) return false;
-  const Contender stands = books.current;
-  const std::string begun = books.d.steps.empty() ? "" : books.d.steps.front().winner.effect;
+bool another_beginning(SearchState& state, const std::vector<TriedEffect>& first) {
+  if (state.stopped() || state.options.max_steps < 2) return false;
+  if (state.evidence->over_usual_floor(state.current.prediction).all <= rules::floor_gate) return false;
+  const Contender stands = state.current;
+  const std::string begun = state.d.steps.empty() ? "" : state.d.steps.front().winner.effect;
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(first)) {
-    if (tried == most_beginnings || books.stopped()) break;
-    const Tried& t = first[i];
+    if (tried == most_beginnings || state.stopped()) break;
+    const TriedEffect& t = first[i];
     if (!(begun.empty() ? t.patch : t.admitted) || t.effect->id == begun) continue;
     ++tried;
-    books.progress("beginning with " + t.effect->id, 0.9);
-    books.current = t.contender;
-    books.settle(books.current);
-    const auto pair = with_one_more(books, begun);
-    if (!pair || (begun.empty() && !needs_both(books, t, *pair, first))) continue;
+    state.progress("beginning with " + t.effect->id, 0.9);
+    state.current = t.contender;
+    state.settle(state.current);
+    const auto pair = with_one_more(state, begun);
+    if (!pair || (begun.empty() && !needs_both(state, t, *pair, first))) continue;
     if (!best || pair->contender.error_of.rms_validate < best->error_of.rms_validate) best = pair->contender;
   }
-  books.current = stands;
+  state.current = stands;
   if (!best) return false;
-  books.settle(*best);
-  books.current.error_of = books.evidence->error(books.current.prediction);
-  if (best->score() < books.current.score() - rules::exchange &&
-      (begun.empty() || is_worth_two(*best, books.current)) && tell_again(books, *best)) {
-    reconsider(books, 0.95, Came::at_once);
+  state.settle(*best);
+  state.current.error_of = state.evidence->error(state.current.prediction);
+  if (best->score() < state.current.score() - rules::exchange &&
+      (begun.empty() || is_worth_two(*best, state.current)) && tell_again(state, *best)) {
+    reconsider(state, 0.95, Came::at_once);
     return true;
   }
-  books.settle(books.current);
+  state.settle(state.current);
   return false;
 }
 
-bool no_patch_of_anything(Books& books, const std::vector<Tried>& first) {
-  if (books.stopped() || !books.d.steps.empty()) return false;
+bool no_patch_of_anything(SearchState& state, const std::vector<TriedEffect>& first) {
+  if (state.stopped() || !state.d.steps.empty()) return false;
   const auto order = ranking(first);
   const auto patch = std::find_if(order.begin(), order.end(), [&](std::size_t i) { return first[i].patch; });
-  if (patch == order.end() || leaves_something_unexplained(books)) return false;
-  if (!tell_again(books, first[*patch].contender)) return false;
-  reconsider(books, 0.95, Came::at_once);
+  if (patch == order.end() || leaves_something_unexplained(state)) return false;
+  if (!tell_again(state, first[*patch].contender)) return false;
+  reconsider(state, 0.95, Came::at_once);
   return true;
 }
 
-bool two_more(Books& books, const std::vector<Tried>& last) {
-  if (books.stopped() || found_effects(books) + 2 > books.options.max_steps) return false;
-  if (leaves_only_noise(books, books.current)) return false;
-  const Contender stands = books.current;
+bool two_more(SearchState& state, const std::vector<TriedEffect>& last) {
+  if (state.stopped() || found_effects(state) + 2 > state.options.max_steps) return false;
+  if (leaves_only_noise(state, state.current)) return false;
+  const Contender stands = state.current;
   std::optional<Contender> best;
   int tried = 0;
   for (const std::size_t i : ranking(last)) {
-    if (tried == patches || books.stopped()) break;
-    const Tried& t = last[i];
+    if (tried == patches || state.stopped()) break;
+    const TriedEffect& t = last[i];
     if (!t.patch) continue;
     ++tried;
-    books.progress("two at once: " + t.effect->id, 0.9);
-    books.current = refit(books.shop, t.contender, Effort::full);
-    if (!books.current.ok) continue;
-    books.settle(books.current);
-    const auto pair = with_one_more(books, "");  // the same, in another block, too
-    books.settle(books.current);
-    if (!pair || !leaves_only_noise(books, pair->contender) || !needs_both(books, t, *pair, last)) continue;
+    state.progress("two at once: " + t.effect->id, 0.9);
+    state.current = refit(state.shop, t.contender, Effort::full);
+    if (!state.current.ok) continue;
+    state.settle(state.current);
+    const auto pair = with_one_more(state, "");  // the same, in another block, too
+    state.settle(state.current);
+    if (!pair || !leaves_only_noise(state, pair->contender) || !needs_both(state, t, *pair, last)) continue;
     if (!best || pair->contender.score() < best->score()) best = pair->contender;
   }
-  books.current = stands;
-  books.settle(books.current);
-  if (!best || !tell_again(books, *best)) return false;
-  reconsider(books, 0.95, Came::at_once);
+  state.current = stands;
+  state.settle(state.current);
+  if (!best || !tell_again(state, *best)) return false;
+  reconsider(state, 0.95, Came::at_once);
   return true;
 }
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
 
-bool on_one_output(const Tried& a, const Tried& b) {
+bool on_one_output(const TriedEffect& a, const TriedEffect& b) {
   return a.outputs.empty() || b.outputs.empty() ||
          std::any_of(a.outputs.begin(), a.outputs.end(), [&](const std::string& o) {
            return std::find(b.outputs.begin(), b.outputs.end(), o) != b.outputs.end();
@@ -17,32 +17,32 @@ bool on_one_output(const Tried& a, const Tried& b) {
 }
 
 /// Every kind of recording speaks for it, if only a little, and it is plausible.
-bool agrees(const Tried& t) {
+bool agrees(const TriedEffect& t) {
   return t.contender.ok && t.fall_train > 0 && t.fall_validate > 0 &&
          why_implausible(*t.effect, t.laws[t.law], t.contender, t.excitation).empty();
 }
 
 /// The best candidates of the effect that begins with `i` of this order, one for each output.
-std::vector<const Tried*> of_one_effect(const std::vector<Tried>& tried, const std::vector<std::size_t>& order,
-                                        std::size_t i) {
-  std::vector<const Tried*> members;
+std::vector<const TriedEffect*> of_one_effect(const std::vector<TriedEffect>& tried,
+                                              const std::vector<std::size_t>& order, std::size_t i) {
+  std::vector<const TriedEffect*> members;
   for (std::size_t k = i; k < order.size(); ++k) {
-    const Tried& t = tried[order[k]];
+    const TriedEffect& t = tried[order[k]];
     if (t.effect != tried[order[i]].effect || !agrees(t)) continue;
-    if (std::none_of(members.begin(), members.end(), [&](const Tried* m) { return on_one_output(*m, t); }))
+    if (std::none_of(members.begin(), members.end(), [&](const TriedEffect* m) { return on_one_output(*m, t); }))
       members.push_back(&t);
   }
   return members;
 }
 
 /// Separate outputs: what each takes away adds up, and what cannot suffice is not fitted.
-bool could_suffice(const Books& books, const std::vector<const Tried*>& members) {
+bool could_suffice(const SearchState& state, const std::vector<const TriedEffect*>& members) {
   double score = 0, fall = 0, beginnings = 1;
   int numbers = 0;
-  for (const Tried* m : members) {
-    score += books.current.score() - m->contender.score();
+  for (const TriedEffect* m : members) {
+    score += state.current.score() - m->contender.score();
     fall += m->fall_train + m->fall_validate;
-    numbers += m->contender.parameters - books.current.parameters;
+    numbers += m->contender.parameters - state.current.parameters;
     beginnings *= beginnings_of(m->laws[m->law]);
   }
   return members.size() > 1 && (score > 0 || fall > rules::by_chance(numbers, beginnings));
@@ -50,16 +50,17 @@ bool could_suffice(const Books& books, const std::vector<const Tried*>& members)
 
 /// The members in one model, and how they came into it.
 struct Together {
-  std::vector<const Tried*> members;
+  std::vector<const TriedEffect*> members;
   std::vector<Contender> so_far;  ///< with each member and those before it
-  Tried all;                      ///< the last one's candidate, with the others before it
+  TriedEffect all;                ///< the last one's candidate, with the others before it
 };
 
-Together fitted_together(const Books& books, const Workshop& shop, const std::vector<const Tried*>& members) {
+Together fitted_together(const SearchState& state, const Workshop& shop,
+                         const std::vector<const TriedEffect*>& members) {
   Together set{members, {members.front()->contender}, *members.back()};
   for (std::size_t k = 1; k < members.size() && set.so_far.back().ok; ++k) {
-    const Tried& m = *members[k];
-    books.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
+    const TriedEffect& m = *members[k];
+    state.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
     set.so_far.push_back(
         with_effect(shop, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.excitation, Effort::full));
     const auto& before = members[k - 1]->outputs;
@@ -70,59 +71,59 @@ Together fitted_together(const Books& books, const Workshop& shop, const std::ve
   return set;
 }
 
-std::vector<Together> sets_of(const Books& books, const std::vector<Tried>& first) {
+std::vector<Together> sets_of(const SearchState& state, const std::vector<TriedEffect>& first) {
   const auto order = ranking(first);
-  std::vector<std::vector<const Tried*>> worth;
+  std::vector<std::vector<const TriedEffect*>> worth;
   std::vector<const Effect*> seen;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const Tried& t = first[order[i]];
+    const TriedEffect& t = first[order[i]];
     if (!agrees(t) || std::find(seen.begin(), seen.end(), t.effect) != seen.end()) continue;
     seen.push_back(t.effect);
-    if (auto members = of_one_effect(first, order, i); could_suffice(books, members)) worth.push_back(members);
+    if (auto members = of_one_effect(first, order, i); could_suffice(state, members)) worth.push_back(members);
   }
   std::vector<Together> sets(worth.size());
-  books.side_by_side(worth.size(), [&](std::size_t i, const Workshop& shop) {
-    sets[i] = fitted_together(books, shop, worth[i]);
+  state.side_by_side(worth.size(), [&](std::size_t i, const Workshop& shop) {
+    sets[i] = fitted_together(state, shop, worth[i]);
     return false;
   });
   return sets;
 }
 
 /// The members of the set that is claimed but the last, each as a step of its own.
-void tell_those_before(Books& books, int step, const Together& set) {
+void tell_those_before(SearchState& state, int step, const Together& set) {
   for (std::size_t k = 0; k + 1 < set.members.size(); ++k) {
-    std::vector<Tried> one{*set.members[k]};
+    std::vector<TriedEffect> one{*set.members[k]};
     one[0].contender = set.so_far[k];
     one[0].laws_tried.clear();
-    take(books, step + static_cast<int>(k), one[0], {});
+    take(state, step + static_cast<int>(k), one[0], {});
     one[0].reason += "; claimed with that of the other outputs";
-    keep_candidates(books, one, step + static_cast<int>(k), 0, {});
+    keep_candidates(state, one, step + static_cast<int>(k), 0, {});
   }
 }
 
 }  // namespace
 
-bool on_axes_together(Books& books, const std::vector<Tried>& first) {
-  if (books.stopped() || books.base_model->outputs().size() < 2 ||
-      books.current.error_of.over_floor() > rules::floor_gate)
+bool on_axes_together(SearchState& state, const std::vector<TriedEffect>& first) {
+  if (state.stopped() || state.base_model->outputs().size() < 2 ||
+      state.current.error_of.over_floor() > rules::floor_gate)
     return false;
-  const auto sets = sets_of(books, first);
+  const auto sets = sets_of(state, first);
   if (sets.empty()) return false;
-  std::vector<Tried> tried;
+  std::vector<TriedEffect> tried;
   for (const auto& set : sets) tried.push_back(set.all);
-  compare_all(books, tried, As::first);
+  compare_all(state, tried, As::first);
   int winner = best_admitted(tried);
-  while (winner >= 0 && !stays_itself(books, tried[static_cast<std::size_t>(winner)])) winner = best_admitted(tried);
+  while (winner >= 0 && !stays_itself(state, tried[static_cast<std::size_t>(winner)])) winner = best_admitted(tried);
   std::vector<int> ties;
-  int step = static_cast<int>(books.d.steps.size()) + 1;
+  int step = static_cast<int>(state.d.steps.size()) + 1;
   if (winner >= 0) {
     const auto& set = sets[static_cast<std::size_t>(winner)];
-    ties = ties_of(books, tried, static_cast<std::size_t>(winner));
-    tell_those_before(books, step, set);
-    step = static_cast<int>(books.d.steps.size()) + 1;
-    claim(books, step, tried, static_cast<std::size_t>(winner), ties, 0.95);
+    ties = ties_of(state, tried, static_cast<std::size_t>(winner));
+    tell_those_before(state, step, set);
+    step = static_cast<int>(state.d.steps.size()) + 1;
+    claim(state, step, tried, static_cast<std::size_t>(winner), ties, 0.95);
   }
-  keep_candidates(books, tried, step, winner, ties);
+  keep_candidates(state, tried, step, winner, ties);
   return winner >= 0;
 }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numeric>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "fit/inspect/way_between.h"
 
 namespace hysteron {
@@ -16,10 +16,10 @@ namespace {
 /// Of what the model leaves: who bends less than that (rms, of what the input varies) explains none of it.
 constexpr double hardly_bends = 0.02;
 
-Workshop with_input(const Books& books, const std::string& input, Between between) {
-  DataSet other = *books.data;
+Workshop with_input(const SearchState& state, const std::string& input, Between between) {
+  DataSet other = *state.data;
   set_way(other, input, between);
-  Workshop shop = books.shop;
+  Workshop shop = state.shop;
   shop.data = std::make_shared<const DataSet>(std::move(other));
   return shop;
 }
@@ -31,18 +31,18 @@ bool explains(const ModelError& now, const ModelError& was, double share) {
 
 /// What a gain and a zero of each output would leave beside the prediction: a wrong gain is as much too small at every
 /// frequency as straight lines are at one.
-ModelError beside_a_calibration(const Books& books, Prediction prediction) {
-  for (int o = 0; o < static_cast<int>(books.base_model->outputs().size()); ++o)
-    prediction = books.evidence->calibrated(std::move(prediction), o);
-  return books.evidence->error(prediction);
+ModelError beside_a_calibration(const SearchState& state, Prediction prediction) {
+  for (int o = 0; o < static_cast<int>(state.base_model->outputs().size()); ++o)
+    prediction = state.evidence->calibrated(std::move(prediction), o);
+  return state.evidence->error(prediction);
 }
 
 /// What was found says it all, and is nothing that half a sample looks like: then the user's model only fits better
 /// where it is wrong.
-bool is_explained_otherwise(const Books& books, const Contender& other_way) {
-  const auto& standing = books.current.standing;
+bool is_explained_otherwise(const SearchState& state, const Contender& other_way) {
+  const auto& standing = state.current.standing;
   if (standing.empty() || other_way.error_of.over_floor() <= rules::floor_gate) return false;
-  return books.current.error_of.over_floor() <= rules::floor_gate &&
+  return state.current.error_of.over_floor() <= rules::floor_gate &&
          std::none_of(standing.begin(), standing.end(),
                       [](const Standing& s) { return s.effect->family == "lag" || s.effect->family == "dead_time"; });
 }
@@ -74,34 +74,34 @@ DataSet as_found(DataSet data, const Discovery& found) {
   return data;
 }
 
-void tell_unused(Books& books) {
-  books.d.warnings.push_back(
+void tell_unused(SearchState& state) {
+  state.d.warnings.push_back(
       fmt::format("{} moves smoothly between its samples, it seems: with it the error of what was found falls from "
                   "{:.3g} % to {:.3g} %. The search that takes it into account was broken off; write "
                   "\"between_samples\": \"smooth\" at its column and begin with that.",
-                  books.smooth->input, 100 * books.smooth->before, 100 * books.smooth->after));
+                  state.smooth->input, 100 * state.smooth->before, 100 * state.smooth->after));
 }
 
-void tell_smooth_inputs(Books& books) {
-  for (const auto& s : books.d.smooth_inputs)
-    books.d.warnings.push_back(
+void tell_smooth_inputs(SearchState& state) {
+  for (const auto& s : state.d.smooth_inputs)
+    state.d.warnings.push_back(
         fmt::format("{} moves smoothly between its samples, not along straight lines as the data set says: with it the "
                     "error of what had been found fell from {:.3g} % to {:.3g} %. All figures are with that: write "
                     "\"between_samples\": \"smooth\" at its column.",
                     s.input, 100 * s.before, 100 * s.after));
 }
 
-void tell_other_ways(Books& books) {
-  for (const auto& input : books.base_model->program().input_names) {
-    if (books.stopped()) return;
-    const Between between = given_way(*books.data, input);
-    if (between == Between::smooth || books.data->notes.count(input) == 0) continue;
+void tell_other_ways(SearchState& state) {
+  for (const auto& input : state.base_model->program().input_names) {
+    if (state.stopped()) return;
+    const Between between = given_way(*state.data, input);
+    if (between == Between::smooth || state.data->notes.count(input) == 0) continue;
     const bool held = between == Between::hold;
-    const Workshop shop = with_input(books, input, held ? Between::linear : Between::hold);
-    const Contender c = base_contender(shop, books.user, Effort::full);
-    const ModelError& was = books.base.error_of;
-    if (!c.ok || !explains(c.error_of, was, rules::structure_share) || is_explained_otherwise(books, c)) continue;
-    books.d.warnings.push_back(fmt::format(
+    const Workshop shop = with_input(state, input, held ? Between::linear : Between::hold);
+    const Contender c = base_contender(shop, state.user, Effort::full);
+    const ModelError& was = state.base.error_of;
+    if (!c.ok || !explains(c.error_of, was, rules::structure_share) || is_explained_otherwise(state, c)) continue;
+    state.d.warnings.push_back(fmt::format(
         "{} {}, not as the data set says: the error of the model as it is would be {:.3g} % instead of {:.3g} %. A "
         "dead time of half a sample looks the same.",
         input, held ? "moves linearly between its samples" : "is held between its samples",
@@ -109,18 +109,18 @@ void tell_other_ways(Books& books) {
   }
 }
 
-std::optional<SmoothInput> find_smooth_input(const Books& books) {
-  const ModelError& was = books.current.error_of;
-  for (const auto& input : books.base_model->program().input_names) {
-    if (books.stopped()) return {};
-    if (given_way(*books.data, input) != Between::linear) continue;
-    if (bend_of(*books.data, input) < hardly_bends * was.nrmse_validate) continue;
-    const Workshop shop = with_input(books, input, Between::smooth);
-    Contender present = books.current;
+std::optional<SmoothInput> find_smooth_input(const SearchState& state) {
+  const ModelError& was = state.current.error_of;
+  for (const auto& input : state.base_model->program().input_names) {
+    if (state.stopped()) return {};
+    if (given_way(*state.data, input) != Between::linear) continue;
+    if (bend_of(*state.data, input) < hardly_bends * was.nrmse_validate) continue;
+    const Workshop shop = with_input(state, input, Between::smooth);
+    Contender present = state.current;
     present.prediction = {};  // it is of the data as they were said to be
     const Contender c = refit(shop, present, Effort::screen);
     if (c.ok && explains(c.error_of, was, rules::share_of_rest) &&
-        explains(beside_a_calibration(books, c.prediction), beside_a_calibration(books, books.current.prediction),
+        explains(beside_a_calibration(state, c.prediction), beside_a_calibration(state, state.current.prediction),
                  rules::share_of_rest))
       return SmoothInput{input, was.nrmse_validate, c.error_of.nrmse_validate};
   }

@@ -8,23 +8,23 @@
 
 namespace hysteron {
 
-struct Books;
+struct SearchState;
 
 /// Inputs that this search takes to move smoothly are told, with the cure.
-void tell_smooth_inputs(Books& books);
+void tell_smooth_inputs(SearchState& state);
 
 /// Where an input that is held fits the user's model better moving along straight lines, or the other way round, and
 /// what was found does not explain it otherwise, the user is told: how it moves is the user's word, and half a sample
 /// of delay looks the same.
-void tell_other_ways(Books& books);
+void tell_other_ways(SearchState& state);
 
 /// An input that bends between its samples by all that the present model leaves: straight lines through them are
 /// smaller than the signal, the more the quicker it is, which nothing in a device looks like but would be sold as a
 /// mode of its structure. No parameter is added, and most of what stands above the noise must go in recordings of both
 /// roles.
-std::optional<SmoothInput> find_smooth_input(const Books& books);
+std::optional<SmoothInput> find_smooth_input(const SearchState& state);
 
-/// Tells of such an input (Books::smooth) where the search that takes it into account was broken off.
-void tell_unused(Books& books);
+/// Tells of such an input (SearchState::smooth) where the search that takes it into account was broken off.
+void tell_unused(SearchState& state);
 
 }  // namespace hysteron

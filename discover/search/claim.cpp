@@ -2,14 +2,14 @@
 // break them.
 #include <fmt/format.h>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "discover/search/tie_experiment.h"
 
 namespace hysteron {
 namespace {
 
 /// Some effects show their worth only beside those that come after them.
-std::string as_one_of_a_set(const Tried& w) {
+std::string as_one_of_a_set(const TriedEffect& w) {
   return fmt::format(
       "one of a set: before the others it adds {:.0f} to chi2 on recordings not used for the fit, beside them it is "
       "needed",
@@ -17,7 +17,7 @@ std::string as_one_of_a_set(const Tried& w) {
 }
 
 /// The reason is told in the units of the noise as settled by the claimed model.
-void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
+void judge_again(const Evidence& evidence, TriedEffect& w, const ModelError& before) {
   Contender was;
   was.ok = true;
   was.error_of = before;
@@ -30,20 +30,20 @@ void judge_again(const Evidence& evidence, Tried& w, const ModelError& before) {
 
 }  // namespace
 
-void add_tie(Books& books, int step, FoundStep& found, const Tried& winner, const Tried& rival) {
+void add_tie(SearchState& state, int step, FoundStep& found, const TriedEffect& winner, const TriedEffect& rival) {
   found.ties.push_back(candidate_of(rival, step));
-  if (books.stopped()) return;
+  if (state.stopped()) return;
   auto [e, menu] =
-      found.experiment ? with_another_rival(books, *found.experiment, rival) : experiment_between(books, winner, rival);
+      found.experiment ? with_another_rival(state, *found.experiment, rival) : experiment_between(state, winner, rival);
   if (e || !found.experiment) found.menu = std::move(menu);
   if (!e) return;
   found.experiment_would_tell = e->rivals_told > 0;
   found.experiment = std::move(e);
 }
 
-bool stays_itself(const Books& books, Tried& t) {
+bool stays_itself(const SearchState& state, TriedEffect& t) {
   if (t.sharp || t.finished) return t.admitted;
-  Contender final = books.stopped() ? Contender{} : refit(books.shop, t.contender, Effort::final);
+  Contender final = state.stopped() ? Contender{} : refit(state.shop, t.contender, Effort::final);
   // Of two that explain as well the one with finer rows, which knows its intervals.
   const bool as_good = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + rules::tie;
   t.finished = as_good ? std::move(final) : t.contender;
@@ -54,32 +54,32 @@ bool stays_itself(const Books& books, Tried& t) {
   return false;
 }
 
-void claim(Books& books, int step, std::vector<Tried>& tried, std::size_t winner, const std::vector<int>& ties,
-           double progress) {
-  Tried& w = tried[winner];
-  books.progress("intervals of " + w.effect->id, progress);
+void claim(SearchState& state, int step, std::vector<TriedEffect>& tried, std::size_t winner,
+           const std::vector<int>& ties, double progress) {
+  TriedEffect& w = tried[winner];
+  state.progress("intervals of " + w.effect->id, progress);
   FoundStep found;
-  found.before = books.current.error_of;
-  stays_itself(books, w);
+  found.before = state.current.error_of;
+  stays_itself(state, w);
   if (w.finished) w.contender = *w.finished;
-  for (const int t : ties) add_tie(books, step, found, w, tried[static_cast<std::size_t>(t)]);
-  take(books, step, w, std::move(found));
+  for (const int t : ties) add_tie(state, step, found, w, tried[static_cast<std::size_t>(t)]);
+  take(state, step, w, std::move(found));
 }
 
-void take(Books& books, int step, Tried& w, FoundStep found) {
-  books.current = w.contender;
-  books.settle(books.current);
+void take(SearchState& state, int step, TriedEffect& w, FoundStep found) {
+  state.current = w.contender;
+  state.settle(state.current);
   found.before =
-      books.evidence->error(books.before_prediction.y.empty() ? books.base.prediction : books.before_prediction);
-  books.before_prediction = books.current.prediction;
-  w.contender.error_of = books.current.error_of;
-  judge_again(*books.evidence, w, found.before);
-  found.after = books.current.error_of;
+      state.evidence->error(state.before_prediction.y.empty() ? state.base.prediction : state.before_prediction);
+  state.before_prediction = state.current.prediction;
+  w.contender.error_of = state.current.error_of;
+  judge_again(*state.evidence, w, found.before);
+  found.after = state.current.error_of;
   found.winner = candidate_of(w, step);
   found.winner.claimed = true;
-  found.change = books.current.change;
-  found.change.diagram = books.current.diagram;
-  books.d.steps.push_back(std::move(found));
+  found.change = state.current.change;
+  found.change.diagram = state.current.diagram;
+  state.d.steps.push_back(std::move(found));
 }
 
 }  // namespace hysteron

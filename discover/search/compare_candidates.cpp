@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "discover/search/books.h"
 #include "discover/search/laws_tried.h"
+#include "discover/search/search_state.h"
 #include "engine/diagram/stop.h"
 
 namespace hysteron {
@@ -22,14 +22,14 @@ double evidence_of(const Contender& contender, const std::string& output) {
 }
 
 /// What each output's best model leaves there: the noise of one axis is not known from who explains another one.
-Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tried) {
-  Prediction best = books.current.prediction;
-  for (std::size_t o = 0; o < books.base_model->outputs().size(); ++o) {
-    const std::string& output = books.base_model->outputs()[o];
-    const Contender* who = &books.current;
+Prediction best_of_each_output(const SearchState& state, const std::vector<TriedEffect>& tried) {
+  Prediction best = state.current.prediction;
+  for (std::size_t o = 0; o < state.base_model->outputs().size(); ++o) {
+    const std::string& output = state.base_model->outputs()[o];
+    const Contender* who = &state.current;
     for (const auto& t : tried)
       if (t.contender.ok && evidence_of(t.contender, output) < evidence_of(*who, output)) who = &t.contender;
-    if (books.base_model->outputs().size() == 1) return who->prediction;
+    if (state.base_model->outputs().size() == 1) return who->prediction;
     for (std::size_t r = 0; r < best.y.size(); ++r)
       if (!best.y[r].empty()) best.y[r][o] = who->prediction.y[r][o];
   }
@@ -38,14 +38,14 @@ Prediction best_of_each_output(const Books& books, const std::vector<Tried>& tri
 
 /// Not a line and more, but another shape of as many numbers that fits better: what laws may have left speaks for
 /// neither.
-bool in_place_of_a_line(const Tried& t, const Tried& line) {
+bool in_place_of_a_line(const TriedEffect& t, const TriedEffect& line) {
   return t.contender.parameters <= line.contender.parameters &&
          line.contender.error_of.evidence() - t.contender.error_of.evidence() > rules::claim_fall;
 }
 
 /// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name; so is one
 /// that is not beyond what the laws that stand may have left.
-void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& left) {
+void leave_to_calibration(std::vector<TriedEffect>& tried, const std::vector<double>& left) {
   for (const auto& plain : tried) {
     if (!plain.effect->straight || !plain.contender.ok) continue;  // also where the laws that stand may have left it
     for (auto& t : tried) {
@@ -60,21 +60,21 @@ void leave_to_calibration(std::vector<Tried>& tried, const std::vector<double>& 
 
 /// What was fitted with the earlier effects held takes away less than together with them, but not by orders of
 /// magnitude: what stays far below the least fall of a claim needs no fit of everything. `left`: see left_by_laws.
-bool within_reach(const Books& books, const Tried& t, const std::vector<double>& left) {
-  const auto& recordings = books.current.error_of.recordings;
+bool within_reach(const SearchState& state, const TriedEffect& t, const std::vector<double>& left) {
+  const auto& recordings = state.current.error_of.recordings;
   double own = 0;
   for (std::size_t i = 0; i < left.size(); ++i)
     if (recordings[i].role == Role::validate) own += left[i];
-  own = std::min(own, books.current.error_of.excess_validate());
+  own = std::min(own, state.current.error_of.excess_validate());
   // What was taken up by the values that are held can be in the way on other recordings.
-  const double fall = std::max(books.current.error_of.chi2_validate - t.contender.error_of.chi2_validate,
-                               books.current.error_of.chi2_train - t.contender.error_of.chi2_train);
+  const double fall = std::max(state.current.error_of.chi2_validate - t.contender.error_of.chi2_validate,
+                               state.current.error_of.chi2_train - t.contender.error_of.chi2_train);
   return fall > rules::screened_part * std::max(rules::claim_fall, own);
 }
 
 /// The best few by score, and the best two on the recordings that were fitted: a law whose share the held values have
 /// taken up is wrong on the others until everything is fitted.
-std::set<std::size_t> worth_a_fit(const std::vector<Tried>& tried) {
+std::set<std::size_t> worth_a_fit(const std::vector<TriedEffect>& tried) {
   auto order = ranking(tried);
   const auto first = [&](std::size_t n) {
     return std::set<std::size_t>(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(n, order.size())));
@@ -89,7 +89,7 @@ std::set<std::size_t> worth_a_fit(const std::vector<Tried>& tried) {
 
 /// The richer law starts where the simple one ended, for parameters of the same name; one that is no refinement of it
 /// where it would anyway.
-Law started_from(const Tried& t, std::size_t law) {
+Law started_from(const TriedEffect& t, std::size_t law) {
   Law richer = t.laws[law];
   if (richer.apart) return richer;
   for (const auto& p : parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1)) {
@@ -105,26 +105,26 @@ Law started_from(const Tried& t, std::size_t law) {
 
 /// Where another effect leaves noise only, each further number takes about one away and costs two: a law with many more
 /// of them explains nothing that is not explained.
-bool has_too_many_numbers(const Tried& t, std::size_t law, const std::vector<Tried>& tried) {
-  const Tried& best = tried[ranking(tried).front()];
+bool has_too_many_numbers(const TriedEffect& t, std::size_t law, const std::vector<TriedEffect>& tried) {
+  const TriedEffect& best = tried[ranking(tried).front()];
   if (best.effect == t.effect || best.contender.error_of.over_floor() > rules::floor_gate) return false;
   return t.laws[law].free.size() > best.laws[best.law].free.size() + rules::too_many_numbers;
 }
 
 /// Indices of the laws, beside the first, that are tried of each candidate, given as indices of `tried`.
-std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, const std::vector<Tried>& tried,
+std::vector<std::vector<std::size_t>> laws_to_enrich_by(const SearchState& state, const std::vector<TriedEffect>& tried,
                                                         const std::vector<std::size_t>& order, int step, As as) {
   const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
-  const auto left = left_by_laws(books, as);
-  const Tried& best = tried[order.front()];
+  const auto left = left_by_laws(state, as);
+  const TriedEffect& best = tried[order.front()];
   const bool decided = best.admitted && best.share > rules::decided;
   std::vector<std::vector<std::size_t>> lists;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const Tried& t = tried[order[k]];
+    const TriedEffect& t = tried[order[k]];
     auto& list = lists.emplace_back();
     // A law that brings nothing in its simple form has nothing to enrich.
     const bool promising = (far || k < static_cast<std::size_t>(rules::enriched)) && t.fall_validate > 0 &&
-                           (step == 1 || within_reach(books, t, left));
+                           (step == 1 || within_reach(state, t, left));
     // What is not a refinement may bring what the simple form does not; where somebody takes almost all, it would have
     // to look like that one.
     const bool apart_too = !decided || t.effect == best.effect || look_alike(*t.effect, *best.effect);
@@ -136,7 +136,7 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const Books& books, cons
 
 /// A fit that was broken off, or goes on in turn, is gone on with until it brings nothing: beside one that has not
 /// ended any other law looks better.
-bool fitted_to_its_end(const Workshop& shop, Tried& t) {
+bool fitted_to_its_end(const Workshop& shop, TriedEffect& t) {
   constexpr int most = 4;
   bool better = false;
   for (int i = 0; i < most && !stop_asked(); ++i) {
@@ -152,10 +152,10 @@ bool fitted_to_its_end(const Workshop& shop, Tried& t) {
 
 /// The candidate by this law, if that is better, and what to record of it. On top of others these are held where the
 /// simple law had them: there it was fitted together with them, and nowhere else does its refinement fit better.
-TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_t law, int step) {
+TriedLaw enriched(const SearchState& state, const Workshop& shop, TriedEffect& t, std::size_t law, int step) {
   std::optional<Contender> as_found;
   if (step > 1 && t.contender.standing.back().weights.empty()) as_found = before_last(shop, t.contender);
-  Contender richer = with_effect(shop, as_found ? *as_found : books.current, *t.effect, started_from(t, law), t.place,
+  Contender richer = with_effect(shop, as_found ? *as_found : state.current, *t.effect, started_from(t, law), t.place,
                                  t.excitation, step == 1 ? Effort::full : Effort::screen);
   if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
     Contender together = refit(shop, richer, Effort::full);
@@ -163,7 +163,7 @@ TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_
   }
   // For the same, fewer numbers are taken: a spare pole stands where a lag is not, and is in everybody's way there.
   const double gain = t.laws[law].free.size() > t.laws[t.law].free.size() ? rules::alike : 0;
-  TriedLaw tried = tried_law(t.laws[law], richer, books.current.error_of);
+  TriedLaw tried = tried_law(t.laws[law], richer, state.current.error_of);
   if (!richer.ok) return tried;
   tried.reason = why_no_better(richer, t.contender, t.laws[t.law], gain);
   // What makes it better is then not the effect: a second mode at the limit of damping is somebody's lag.
@@ -177,27 +177,27 @@ TriedLaw enriched(const Books& books, const Workshop& shop, Tried& t, std::size_
 
 }  // namespace
 
-std::vector<double> left_by_laws_of(const Books& books, const Contender& model) {
+std::vector<double> left_by_laws_of(const SearchState& state, const Contender& model) {
   if (model.standing.empty()) return {};
   // A gain and a zero are exact: what is left behind them is called a curve.
-  Prediction begun = books.base.prediction;
+  Prediction begun = state.base.prediction;
   for (const auto& s : model.standing)
     if (calibrates(s))
-      for (const int o : measured_moved(books, model, s.place.moves_from()))
-        begun = books.evidence->calibrated(std::move(begun), o);
-  const auto base = books.evidence->chi2_beside_lines(begun);
-  const auto now = books.evidence->chi2_beside_lines(model.prediction);
+      for (const int o : measured_moved(state, model, s.place.moves_from()))
+        begun = state.evidence->calibrated(std::move(begun), o);
+  const auto base = state.evidence->chi2_beside_lines(begun);
+  const auto now = state.evidence->chi2_beside_lines(model.prediction);
   std::vector<double> left;
   for (std::size_t i = 0; i < base.size(); ++i)
     left.push_back(rules::own_law_left * rules::own_law_left * std::max(0.0, base[i] - now[i]));
   return left;
 }
 
-std::vector<double> left_by_laws(const Books& books, As as) {
-  return as == As::first ? std::vector<double>{} : left_by_laws_of(books, books.current);
+std::vector<double> left_by_laws(const SearchState& state, As as) {
+  return as == As::first ? std::vector<double>{} : left_by_laws_of(state, state.current);
 }
 
-std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
+std::vector<std::size_t> ranking(const std::vector<TriedEffect>& tried) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < tried.size(); ++i)
     if (tried[i].contender.ok) order.push_back(i);
@@ -207,15 +207,15 @@ std::vector<std::size_t> ranking(const std::vector<Tried>& tried) {
   return order;
 }
 
-int best_admitted(const std::vector<Tried>& tried) {
+int best_admitted(const std::vector<TriedEffect>& tried) {
   const auto numbers = [&](int i) {
-    const Tried& t = tried[static_cast<std::size_t>(i)];
+    const TriedEffect& t = tried[static_cast<std::size_t>(i)];
     return t.laws[t.law].free.size();
   };
   int best = -1;
   double least = 0;
   for (const std::size_t i : ranking(tried)) {
-    const Tried& t = tried[i];
+    const TriedEffect& t = tried[i];
     if (!t.admitted) continue;
     if (best < 0) least = t.contender.score();
     if (t.contender.score() > least + rules::alike) break;
@@ -225,76 +225,76 @@ int best_admitted(const std::vector<Tried>& tried) {
   return best;
 }
 
-void compare_all(Books& books, std::vector<Tried>& tried, As as) {
-  books.evidence->settle(best_of_each_output(books, tried));
-  books.current.error_of = books.evidence->error(books.current.prediction);
-  const auto left = left_by_laws(books, as);
+void compare_all(SearchState& state, std::vector<TriedEffect>& tried, As as) {
+  state.evidence->settle(best_of_each_output(state, tried));
+  state.current.error_of = state.evidence->error(state.current.prediction);
+  const auto left = left_by_laws(state, as);
   for (auto& t : tried) {
-    if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(*books.evidence, t, books.current, left);
+    if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
+    judge(*state.evidence, t, state.current, left);
   }
   leave_to_calibration(tried, left);
 }
 
-void refit_best(Books& books, std::vector<Tried>& tried, As as, double progress) {
+void refit_best(SearchState& state, std::vector<TriedEffect>& tried, As as, double progress) {
   const auto worth = worth_a_fit(tried);
-  const auto left = left_by_laws(books, as);
+  const auto left = left_by_laws(state, as);
   std::vector<std::size_t> together, screened_out;
   for (const std::size_t i : ranking(tried))
-    (worth.contains(i) && within_reach(books, tried[i], left) ? together : screened_out).push_back(i);
-  books.side_by_side(together.size(), [&](std::size_t k, const Workshop& shop) {
-    Tried& t = tried[together[k]];
-    books.progress("together with what was found: " + t.effect->id, progress);
+    (worth.contains(i) && within_reach(state, tried[i], left) ? together : screened_out).push_back(i);
+  state.side_by_side(together.size(), [&](std::size_t k, const Workshop& shop) {
+    TriedEffect& t = tried[together[k]];
+    state.progress("together with what was found: " + t.effect->id, progress);
     Contender better = refit(shop, t.contender, Effort::full);
     if (better.ok) t.contender = std::move(better);
     return false;
   });
-  compare_all(books, tried, as);
+  compare_all(state, tried, as);
   for (const std::size_t i : screened_out) tried[i].admitted = false;
 }
 
-void enrich(Books& books, std::vector<Tried>& tried, int step, As as, double progress) {
+void enrich(SearchState& state, std::vector<TriedEffect>& tried, int step, As as, double progress) {
   const auto order = ranking(tried);
   if (order.empty()) return;
-  const auto laws = laws_to_enrich_by(books, tried, order, step, as);
+  const auto laws = laws_to_enrich_by(state, tried, order, step, as);
   std::atomic<bool> any = false;
-  books.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
-    Tried& t = tried[order[k]];
+  state.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
+    TriedEffect& t = tried[order[k]];
     // A law that stands apart begins nowhere near the simple one.
     const bool refines = std::any_of(laws[k].begin(), laws[k].end(), [&](std::size_t l) { return !t.laws[l].apart; });
     if (step > 1 && refines && fitted_to_its_end(shop, t)) any = true;
-    if (!laws[k].empty()) record_present(t, books.current.error_of);
+    if (!laws[k].empty()) record_present(t, state.current.error_of);
     for (const std::size_t law : laws[k]) {
-      if (books.stopped()) break;
-      books.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), progress);
-      record(t.laws_tried, enriched(books, shop, t, law, step));
+      if (state.stopped()) break;
+      state.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), progress);
+      record(t.laws_tried, enriched(state, shop, t, law, step));
       if (t.laws_tried.back().taken) any = true;
     }
     return false;
   });
-  if (any) compare_all(books, tried, as);
+  if (any) compare_all(state, tried, as);
 }
 
-void refine(const Books& books, const Workshop& shop, Tried& t) {
+void refine(const SearchState& state, const Workshop& shop, TriedEffect& t) {
   const std::size_t begun = t.law;
-  for (std::size_t law = 1; law < t.laws.size() && !books.stopped(); ++law)
-    if (law != begun && !t.laws[law].apart) enriched(books, shop, t, law, 2);
+  for (std::size_t law = 1; law < t.laws.size() && !state.stopped(); ++law)
+    if (law != begun && !t.laws[law].apart) enriched(state, shop, t, law, 2);
 }
 
-void try_hidden(Books& books, std::vector<Tried>& tried, const Effect& winner, As as) {
-  const auto left = left_by_laws(books, as);
-  for (auto& t : books.hidden) {
-    if (!look_alike(*t.effect, winner) || books.stopped()) continue;
+void try_hidden(SearchState& state, std::vector<TriedEffect>& tried, const Effect& winner, As as) {
+  const auto left = left_by_laws(state, as);
+  for (auto& t : state.hidden) {
+    if (!look_alike(*t.effect, winner) || state.stopped()) continue;
     t.laws = t.effect->laws(t.excitation);
     if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
     t.contender =
-        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
-    if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
-    judge(*books.evidence, t, books.current, left);
+        with_effect(state.shop, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
+    if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
+    judge(*state.evidence, t, state.current, left);
     t.hidden = true;
     tried.push_back(std::move(t));
   }
-  books.hidden.clear();
+  state.hidden.clear();
 }
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// Decides how the loop of a discovery keeps its books: what was tried in a step, at which places, with what result.
+// Decides what is kept of each step of a discovery: what was tried, at which places, with what result.
 // Internal to discover; the rules of judging are in judge_step.cpp, the loop in discover.cpp, the words in words.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace hysteron {
 
 /// An effect at a place, with the best law tried there.
-struct Tried {
+struct TriedEffect {
   const Effect* effect = nullptr;
   Place place;
   Excitation excitation;
@@ -115,9 +115,10 @@ inline bool falls_in_both_roles(const ModelError& now, const ModelError& was) {
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.
-void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
+void judge(TriedEffect& tried, const Contender& before, const std::vector<double>& left_by_laws);
 /// With what is left without the line that its law looks for (Contender::without_line).
-void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws);
+void judge(const Evidence& evidence, TriedEffect& tried, const Contender& before,
+           const std::vector<double>& left_by_laws);
 
 /// Is what `effect` takes away of what `before` leaves more than the laws of that one may have left of their own
 /// effects?
@@ -133,10 +134,10 @@ bool more_than_a_line(const Effect& effect, const Contender& straight, const Mod
 double beginnings_of(const Law& law);
 
 /// Fitted values [SI] of the law's free parameters, in their order; shorter if one is not known.
-std::vector<double> own_values(const Tried& tried);
+std::vector<double> own_values(const TriedEffect& tried);
 
 /// Why it is claimed: what it takes away on recordings not used for the fit.
-std::string what_it_takes(const Tried& tried);
+std::string what_it_takes(const TriedEffect& tried);
 
 /// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
 /// is.
@@ -147,7 +148,7 @@ bool look_alike(const Effect& a, const Effect& b);
 
 std::string percent(double share);
 std::vector<FoundParameter> found_parameters(const Contender& c, const Excitation& at);
-Candidate candidate_of(const Tried& tried, int step);
+Candidate candidate_of(const TriedEffect& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
 std::string step_sentence(const FoundStep& step, const Effect& effect);
 /// Of the effect that stands at this index, with the values of the whole model; "" where its law says nothing.

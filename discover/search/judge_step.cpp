@@ -206,7 +206,7 @@ std::vector<double> left_for(const Effect& effect, const Contender& standing, st
 /// What speaks for the newest law. Rows too coarse for a line show it at another frequency, where it may be
 /// anything that is slow: what it takes away there proves nothing, nor what the others take away elsewhere since then.
 /// A line proves itself where it is seen, by what is left there without it.
-ModelError proved(const ModelError& was, const Tried& tried) {
+ModelError proved(const ModelError& was, const TriedEffect& tried) {
   ModelError is = tried.contender.error_of;
   if (!tried.without_line) return is;
   const ModelError& without = *tried.without_line;
@@ -241,7 +241,7 @@ int found_where_proved(const Contender& c, const Contender& before) {
 /// Where nothing stands that could have left it, and nothing was found on recordings that judge: chance takes less of
 /// all recordings away with as many numbers (chi2 of as many degrees of freedom). ln N for each is the price where they
 /// are known as well as N rows know a number: of a weak slow effect they know few.
-bool beyond_chance(const Tried& tried, const Contender& before, bool first, double beginnings) {
+bool beyond_chance(const TriedEffect& tried, const Contender& before, bool first, double beginnings) {
   const int numbers = tried.contender.parameters - before.parameters;
   return first && tried.contender.found_on_validation == before.found_on_validation &&
          tried.fall_train + tried.fall_validate > rules::by_chance(numbers, beginnings);
@@ -249,14 +249,14 @@ bool beyond_chance(const Tried& tried, const Contender& before, bool first, doub
 
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
 /// the price of every number that was fitted, and of every beginning that was tried.
-bool all_agree(const Tried& tried, const Contender& before) {
+bool all_agree(const TriedEffect& tried, const Contender& before) {
   return tried.fall_validate > rules::agreed_fall &&
          (before.score() - tried.contender.score() > rules::claim_fall ||
           beyond_chance(tried, before, true, beginnings_of(tried.laws[tried.law])));
 }
 
 /// It is worth its numbers. Beginnings were compared on fitted recordings: where others prove it, they are paid for.
-bool is_worth_its_numbers(const Tried& tried, const Contender& before, bool first) {
+bool is_worth_its_numbers(const TriedEffect& tried, const Contender& before, bool first) {
   const bool proved = tried.fall_validate > rules::claim_fall;
   return tried.contender.score() < before.score() ||
          beyond_chance(tried, before, first, proved ? 1 : beginnings_of(tried.laws[tried.law]));
@@ -270,11 +270,11 @@ double beginnings_of(const Law& law) {
   return all;
 }
 
-std::vector<double> own_values(const Tried& tried) {
+std::vector<double> own_values(const TriedEffect& tried) {
   return values_of(tried.contender, tried.contender.standing.size() - 1);
 }
 
-std::string what_it_takes(const Tried& tried) {
+std::string what_it_takes(const TriedEffect& tried) {
   return fmt::format(
       "explains {} of the error above the noise on recordings not used for the fit (chi2 falls by {:.0f})",
       percent(std::clamp(tried.share, 0.0, 1.0)), tried.fall_validate);
@@ -317,13 +317,14 @@ std::vector<double> fall_by_recording(const ModelError& before, const ModelError
   return falls;
 }
 
-void judge(const Evidence& evidence, Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
+void judge(const Evidence& evidence, TriedEffect& tried, const Contender& before,
+           const std::vector<double>& left_by_laws) {
   tried.without_line.reset();
   if (tried.contender.without_line) tried.without_line = evidence.error(*tried.contender.without_line);
   judge(tried, before, left_by_laws);
 }
 
-void judge(Tried& tried, const Contender& before, const std::vector<double>& left_by_laws) {
+void judge(TriedEffect& tried, const Contender& before, const std::vector<double>& left_by_laws) {
   const Contender& c = tried.contender;
   tried.admitted = tried.patch = false;
   if (!c.ok) {

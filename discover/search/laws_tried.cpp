@@ -24,7 +24,7 @@ TriedLaw tried_law(const Law& law, const Contender& fitted, const ModelError& be
   return tried;
 }
 
-void record_present(Tried& t, const ModelError& before) {
+void record_present(TriedEffect& t, const ModelError& before) {
   TriedLaw present = tried_law(t.laws[t.law], t.contender, before);
   present.taken = !present.failed;
   const auto known =

@@ -11,7 +11,7 @@ namespace hysteron {
 /// A law as it was fitted, beside the model before it; not taken yet.
 TriedLaw tried_law(const Law& law, const Contender& fitted, const ModelError& before);
 /// The present law of the candidate begins the record, or is told anew in it.
-void record_present(Tried& t, const ModelError& before);
+void record_present(TriedEffect& t, const ModelError& before);
 /// One that was tried against it: where it is taken, the present one was not.
 void record(std::vector<TriedLaw>& laws, TriedLaw tried);
 /// Why a law that was fitted does not take the place of the present one, "" where it explains more. `for_the_same`: so

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "discover/models/parts.h"
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "discover/wiring/wiring.h"
 
 namespace hysteron {
@@ -45,9 +45,9 @@ bool is_written(const Diagram& diagram, const Registry& registry, const std::str
   return body->parameters.find(name) != nullptr || body->parameters_from_file.find(name) != nullptr;
 }
 
-bool is_measured(const Books& books, int block) {
-  const Program& program = books.base_model->program();
-  const auto& judged = books.base_model->outputs();
+bool is_measured(const SearchState& state, int block) {
+  const Program& program = state.base_model->program();
+  const auto& judged = state.base_model->outputs();
   const auto behind = outputs_behind(program, block);
   return std::any_of(behind.begin(), behind.end(), [&](int o) {
     return std::find(judged.begin(), judged.end(), program.output_names[static_cast<std::size_t>(o)]) != judged.end();
@@ -76,29 +76,29 @@ Cost cost_of(const Contender& c, const std::map<std::string, double>& numbers) {
 }
 
 /// The numbers, where they may be asked for at all.
-std::map<std::string, double> may_be_let_go(const Books& books) {
-  if (books.options.numbers_are_exact || !books.shop.roughly.empty() || books.stopped()) return {};
-  auto numbers = held_numbers(books);
+std::map<std::string, double> may_be_let_go(const SearchState& state) {
+  if (state.options.numbers_are_exact || !state.shop.roughly.empty() || state.stopped()) return {};
+  auto numbers = held_numbers(state);
   if (numbers.size() > most_numbers) numbers.clear();
   return numbers;
 }
 
-Contender with_numbers(const Books& books, const Contender& model, const std::map<std::string, double>& numbers,
+Contender with_numbers(const SearchState& state, const Contender& model, const std::map<std::string, double>& numbers,
                        Effort effort) {
-  Workshop shop = books.shop;
+  Workshop shop = state.shop;
   shop.free_nominal_parameters(numbers);
   return refit(shop, model, effort);
 }
 
 /// `model` with these numbers let go, if that explains more than `other` and is `enough`. A law that finds weights anew
 /// pays nothing for them: beside it nobody does.
-std::optional<Contender> explaining_better(const Books& books, const Contender& model,
+std::optional<Contender> explaining_better(const SearchState& state, const Contender& model,
                                            const std::map<std::string, double>& numbers, const Contender& other,
                                            const Law* law, const std::function<bool(const Contender&)>& enough) {
   const bool free_of_charge = law != nullptr && law->reweighs;
   Contender c = model;
   for (const Effort effort : {Effort::full, Effort::final}) {  // what they cost is known once there are intervals
-    c = with_numbers(books, c, numbers, effort);
+    c = with_numbers(state, c, numbers, effort);
     if (!c.ok || !enough(c)) return {};
     const Cost cost = cost_of(c, numbers);
     const double each = std::log(std::max(c.error_of.effective_sample_size, 2.0));
@@ -111,7 +111,7 @@ std::optional<Contender> explaining_better(const Books& books, const Contender& 
 
 /// Numbers of which one does what another does (a force and the spring it acts on) each move half the way. The fewest
 /// that explain as much as all: those that moved for certain, and of the others the ones that moved most.
-std::map<std::string, double> fewest(const Books& books, const Contender& model, const Contender& all,
+std::map<std::string, double> fewest(const SearchState& state, const Contender& model, const Contender& all,
                                      const std::map<std::string, double>& numbers) {
   std::map<std::string, double> few;
   std::vector<std::pair<double, std::string>> others;
@@ -131,7 +131,7 @@ std::map<std::string, double> fewest(const Books& books, const Contender& model,
   const double reached = worth(all, numbers) + rules::tie;
   for (std::size_t next = 0; few.size() < numbers.size(); ++next) {
     if (!few.empty()) {
-      const Contender c = with_numbers(books, model, few, Effort::full);
+      const Contender c = with_numbers(state, model, few, Effort::full);
       if (c.ok && worth(c, few) < reached) return few;
     }
     if (next >= others.size()) break;
@@ -141,21 +141,21 @@ std::map<std::string, double> fewest(const Books& books, const Contender& model,
 }
 
 /// More than a gain and a zero of each output would explain: one that is off alone is a calibration, and called that.
-bool is_no_calibration(const Books& books, const Contender& c) {
-  Prediction straight = books.current.prediction;
-  for (int o = 0; o < static_cast<int>(books.base_model->outputs().size()); ++o)
-    straight = books.evidence->calibrated(std::move(straight), o);
-  return c.error_of.evidence() + rules::tie < books.evidence->error(straight).evidence();
+bool is_no_calibration(const SearchState& state, const Contender& c) {
+  Prediction straight = state.current.prediction;
+  for (int o = 0; o < static_cast<int>(state.base_model->outputs().size()); ++o)
+    straight = state.evidence->calibrated(std::move(straight), o);
+  return c.error_of.evidence() + rules::tie < state.evidence->error(straight).evidence();
 }
 
 /// Where no effect would be claimed: most of what stands above the noise, and more than the laws that stand may have
 /// left, for a spring a little harder is just what a law that is not exact leaves of a loop in it.
-bool is_more_than_laws_leave(const Books& books, const ModelError& now) {
-  const ModelError& was = books.current.error_of;
-  const bool first = books.current.standing.empty();
+bool is_more_than_laws_leave(const SearchState& state, const ModelError& now) {
+  const ModelError& was = state.current.error_of;
+  const bool first = state.current.standing.empty();
   const double share = first ? rules::share_of_first : rules::share_of_rest;
   if (now.excess_validate() > (1 - share) * was.excess_validate()) return false;
-  const auto left = left_by_laws(books, first ? As::first : As::further);
+  const auto left = left_by_laws(state, first ? As::first : As::further);
   double train = 0, validate = 0;
   for (std::size_t i = 0; i < left.size(); ++i)
     (was.recordings[i].role == Role::train ? train : validate) +=
@@ -165,72 +165,72 @@ bool is_more_than_laws_leave(const Books& books, const ModelError& now) {
 
 }  // namespace
 
-std::map<std::string, double> held_numbers(const Books& books) {
+std::map<std::string, double> held_numbers(const SearchState& state) {
   std::map<std::string, double> numbers;
-  const Program& program = books.base_model->program();
-  const auto free = free_parameters(program, books.shop.free_paths);
+  const Program& program = state.base_model->program();
+  const auto free = free_parameters(program, state.shop.free_paths);
   for (std::size_t i = 0; i < program.parameters.size(); ++i) {
     const ParameterInfo& p = program.parameters[i];
     const bool is_free = std::any_of(free.begin(), free.end(),
                                      [&](const FreeParameter& f) { return f.parameter == static_cast<int>(i); });
     const bool from_elsewhere = p.offset || (!p.difference && p.unit.to_si(0) != 0);  // a zero, a temperature
-    if (is_free || p.value == 0 || p.block < 0 || from_elsewhere || !is_measured(books, p.block)) continue;
+    if (is_free || p.value == 0 || p.block < 0 || from_elsewhere || !is_measured(state, p.block)) continue;
     const auto& block = program.blocks[static_cast<std::size_t>(p.block)];
     const Declaration& d = block.kernel->declaration;
     if (d.inputs.empty()) continue;
     const auto dot = p.path.rfind('.');
     if (dot != std::string::npos) {
       const std::string name = without_index(p.path.substr(dot + 1));
-      if (!has_a_size(d, name) || !is_written(books.user, books.registry, block.path, name)) continue;
+      if (!has_a_size(d, name) || !is_written(state.user, state.registry, block.path, name)) continue;
     }
     numbers[p.path] = p.value;
   }
   return numbers;
 }
 
-bool are_the_numbers(Books& books, const Tried* winner) {
-  const auto numbers = may_be_let_go(books);
+bool are_the_numbers(SearchState& state, const TriedEffect* winner) {
+  const auto numbers = may_be_let_go(state);
   if (numbers.empty()) return false;
   const auto enough = [&](const Contender& c) {
-    return falls_in_both_roles(c.error_of, books.current.error_of) && is_no_calibration(books, c) &&
-           (winner != nullptr || is_more_than_laws_leave(books, c.error_of));
+    return falls_in_both_roles(c.error_of, state.current.error_of) && is_no_calibration(state, c) &&
+           (winner != nullptr || is_more_than_laws_leave(state, c.error_of));
   };
-  const auto all = explaining_better(books, books.current, numbers, winner ? winner->contender : books.current,
+  const auto all = explaining_better(state, state.current, numbers, winner ? winner->contender : state.current,
                                      winner ? &winner->laws[winner->law] : nullptr, enough);
-  if (all) books.other_numbers = fewest(books, books.current, *all, numbers);
+  if (all) state.other_numbers = fewest(state, state.current, *all, numbers);
   return all.has_value();
 }
 
-bool are_numbers_in_place_of_an_effect(Books& books) {
-  const auto numbers = may_be_let_go(books);
+bool are_numbers_in_place_of_an_effect(SearchState& state) {
+  const auto numbers = may_be_let_go(state);
   if (numbers.empty()) return false;
-  for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
-    if (calibrates(books.current.standing[i])) continue;
-    const Contender rest = without(books.shop, books.current, i);
+  for (std::size_t i = 0; i < state.current.standing.size(); ++i) {
+    if (calibrates(state.current.standing[i])) continue;
+    const Contender rest = without(state.shop, state.current, i);
     if (!rest.ok) continue;
-    const Law& law = books.current.standing[i].law;
+    const Law& law = state.current.standing[i].law;
     const auto all =
-        explaining_better(books, rest, numbers, books.current, &law, [](const Contender&) { return true; });
+        explaining_better(state, rest, numbers, state.current, &law, [](const Contender&) { return true; });
     if (!all) continue;
-    books.other_numbers = fewest(books, rest, *all, numbers);
+    state.other_numbers = fewest(state, rest, *all, numbers);
     return true;
   }
   return false;
 }
 
-std::map<std::string, double> numbers_to_try(const Books& books) {
-  if (books.current.error_of.over_floor() <= rules::floor_gate) return {};
-  auto numbers = may_be_let_go(books);
+std::map<std::string, double> numbers_to_try(const SearchState& state) {
+  if (state.current.error_of.over_floor() <= rules::floor_gate) return {};
+  auto numbers = may_be_let_go(state);
   if (numbers.empty()) return {};
   // Those that change nothing of the model alone - a mass of 1 kg where force and spring are free - need no search.
-  const ModelError was = books.evidence->error(books.base.prediction);
-  const Contender c = with_numbers(books, books.base, numbers, Effort::full);
+  const ModelError was = state.evidence->error(state.base.prediction);
+  const Contender c = with_numbers(state, state.base, numbers, Effort::full);
   const bool tell = c.ok && falls_in_both_roles(c.error_of, was) &&
                     c.error_of.excess_validate() < (1 - rules::hardly_shown) * was.excess_validate();
   return tell ? numbers : std::map<std::string, double>{};
 }
 
-std::map<std::string, double> numbers_that_help(const Books& free_nominal_parameters, const Books& held) {
+std::map<std::string, double> numbers_that_help(const SearchState& free_nominal_parameters, const SearchState& held) {
   const auto& numbers = free_nominal_parameters.shop.roughly;
   const Contender& now = free_nominal_parameters.current;
   Contender was = held.current;
@@ -247,27 +247,27 @@ std::map<std::string, double> numbers_that_help(const Books& free_nominal_parame
   return fewest(held, as_written, now, numbers);
 }
 
-void tell_other_numbers(Books& books) {
-  for (const auto& e : books.current.fit.estimates) {
-    const auto n = books.shop.roughly.find(e.path);
-    if (n == books.shop.roughly.end() || !e.sigma) continue;
+void tell_other_numbers(SearchState& state) {
+  for (const auto& e : state.current.fit.estimates) {
+    const auto n = state.shop.roughly.find(e.path);
+    if (n == state.shop.roughly.end() || !e.sigma) continue;
     if (std::abs(e.used - n->second) > rules::moved * *e.sigma)
-      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, *e.sigma});
+      state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, *e.sigma});
   }
-  if (!books.shop.roughly.empty() && books.d.other_numbers.empty())
-    books.d.warnings.push_back(
+  if (!state.shop.roughly.empty() && state.d.other_numbers.empty())
+    state.d.warnings.push_back(
         "numbers that the model holds were let go, each near what is written, and all figures are with what was found "
         "for "
         "them, as the diagram has it: none alone is another one for certain (several may do the same); with --exact "
         "they "
         "stay as they are");
-  std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
+  std::stable_sort(state.d.other_numbers.begin(), state.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });
 }
 
-void tell_unused_numbers(Books& books) {
-  books.d.warnings.push_back(
+void tell_unused_numbers(SearchState& state) {
+  state.d.warnings.push_back(
       "other values of the model's own numbers, within some per cent of what is written, explain more than what was "
       "found does. The search that takes them into account was broken off: leave those free that are not sure "
       "(\"free\": true), and begin with that.");

@@ -4,26 +4,26 @@
 #include <cmath>
 #include <iterator>
 
-#include "discover/search/books.h"
 #include "discover/search/laws_tried.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
 
-const Effect* standing_effect(const Books& books, const std::string& id) {
-  for (const auto& s : books.current.standing)
+const Effect* standing_effect(const SearchState& state, const std::string& id) {
+  for (const auto& s : state.current.standing)
     if (s.effect->id == id) return s.effect;
   return nullptr;
 }
 
 /// Fall by a candidate alone, of what ties are counted in.
-double gain_of(const Tried& t) {
+double gain_of(const TriedEffect& t) {
   return t.fall_train + t.fall_validate - 2 * static_cast<double>(own_values(t).size());
 }
 
 /// Who else was tried on the same outputs and explains them better, by more than a tie: axes are built alike; nullptr
 /// if nobody does.
-const Tried* better_there(const Tried& t, const std::vector<Tried>& others) {
+const TriedEffect* better_there(const TriedEffect& t, const std::vector<TriedEffect>& others) {
   for (const auto& o : others)
     if (o.admitted && o.effect->family != t.effect->family && o.outputs == t.outputs &&
         gain_of(o) > gain_of(t) + rules::tie + lost_by_the_fit(t))
@@ -32,28 +32,28 @@ const Tried* better_there(const Tried& t, const std::vector<Tried>& others) {
 }
 
 /// The effect, and those that could not be told from it where it was found.
-std::vector<const Effect*> with_rivals(const Books& books, const Effect& effect) {
+std::vector<const Effect*> with_rivals(const SearchState& state, const Effect& effect) {
   std::vector<const Effect*> list{&effect};
-  for (const auto& s : books.d.steps)
+  for (const auto& s : state.d.steps)
     if (s.winner.effect == effect.id)
       for (const auto& tie : s.ties)
-        if (const Effect* rival = books.effects.find(tie.effect);
+        if (const Effect* rival = state.effects.find(tie.effect);
             rival != nullptr && std::find(list.begin(), list.end(), rival) == list.end())
           list.push_back(rival);
   return list;
 }
 
 /// Fits each on the way to these outputs.
-std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& outputs,
-                            const std::vector<const Effect*>& effects, int step, double progress) {
-  auto tried = list_candidates(books, step, outputs, effects);
-  books.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
-    Tried& t = tried[i];
-    books.progress(t.effect->id + " at " + t.place.where(), progress);
-    for (const Law& law : laws_as_found(books, *t.effect, t.laws)) {
-      Contender c = with_effect(shop, books.current, *t.effect, law, t.place, t.excitation, Effort::full);
+std::vector<TriedEffect> tried_on(SearchState& state, const std::vector<std::string>& outputs,
+                                  const std::vector<const Effect*>& effects, int step, double progress) {
+  auto tried = list_candidates(state, step, outputs, effects);
+  state.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
+    TriedEffect& t = tried[i];
+    state.progress(t.effect->id + " at " + t.place.where(), progress);
+    for (const Law& law : laws_as_found(state, *t.effect, t.laws)) {
+      Contender c = with_effect(shop, state.current, *t.effect, law, t.place, t.excitation, Effort::full);
       const bool stays = t.contender.ok && (!c.ok || c.score() >= t.contender.score());
-      TriedLaw one = tried_law(law, c, books.current.error_of);
+      TriedLaw one = tried_law(law, c, state.current.error_of);
       one.taken = c.ok && !stays;
       if (c.ok && stays) one.reason = why_no_better(c, t.contender, t.laws[t.law], 0);
       record(t.laws_tried, std::move(one));
@@ -66,37 +66,38 @@ std::vector<Tried> tried_on(Books& books, const std::vector<std::string>& output
     return false;
   });
   join_twins(tried);
-  compare_all(books, tried, As::first);
-  enrich(books, tried, step, As::first, progress);
+  compare_all(state, tried, As::first);
+  enrich(state, tried, step, As::first, progress);
   return tried;
 }
 
 /// The best place of the effect, -1 where it is not admitted or somebody else explains that output better.
-int best_place(const Books& books, std::vector<Tried>& tried, const Effect& effect, const std::vector<Tried>& others) {
+int best_place(const SearchState& state, std::vector<TriedEffect>& tried, const Effect& effect,
+               const std::vector<TriedEffect>& others) {
   for (auto& t : tried) {
     if (!t.admitted || t.effect != &effect) continue;
-    const Tried* other = better_there(t, others);
+    const TriedEffect* other = better_there(t, others);
     if (other == nullptr) other = better_there(t, tried);
     if (other == nullptr) continue;
     t.admitted = false;
     t.reason = other->effect->id + " explains that output better";
   }
   for (const std::size_t i : ranking(tried))
-    if (tried[i].admitted && tried[i].effect == &effect && stays_itself(books, tried[i])) return static_cast<int>(i);
+    if (tried[i].admitted && tried[i].effect == &effect && stays_itself(state, tried[i])) return static_cast<int>(i);
   return -1;
 }
 
 }  // namespace
 
-std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const std::vector<Law>& laws) {
+std::vector<Law> laws_as_found(const SearchState& state, const Effect& effect, const std::vector<Law>& laws) {
   std::vector<Law> list{laws.begin(), laws.begin() + std::min<std::ptrdiff_t>(1, std::ssize(laws))};
-  for (const auto& s : books.current.standing)
+  for (const auto& s : state.current.standing)
     for (std::size_t law = 1; s.effect == &effect && law < laws.size() && list.size() < 2; ++law)
       if (laws[law].name == s.law.name) list.push_back(laws[law]);
   for (Law& law : list)
-    for (std::size_t i = 0; i < books.current.standing.size(); ++i) {
-      if (books.current.standing[i].effect != &effect) continue;
-      for (const auto& p : parameters_of(books.current, static_cast<int>(i)))
+    for (std::size_t i = 0; i < state.current.standing.size(); ++i) {
+      if (state.current.standing[i].effect != &effect) continue;
+      for (const auto& p : parameters_of(state.current, static_cast<int>(i)))
         for (auto& q : law.free)
           if (p.estimate != nullptr && !p.estimate->linear && q.path == p.law->path)
             q.scan = {p.estimate->used, q.start};
@@ -105,25 +106,26 @@ std::vector<Law> laws_as_found(const Books& books, const Effect& effect, const s
   return list;
 }
 
-void on_other_outputs(Books& books, const std::string& id, const std::vector<Tried>& others_tried, double progress) {
-  if (books.base_model->outputs().size() < 2) return;
-  while (!books.stopped()) {
-    const Effect* effect = standing_effect(books, id);
+void on_other_outputs(SearchState& state, const std::string& id, const std::vector<TriedEffect>& others_tried,
+                      double progress) {
+  if (state.base_model->outputs().size() < 2) return;
+  while (!state.stopped()) {
+    const Effect* effect = standing_effect(state, id);
     if (effect == nullptr) return;
-    const auto others = outputs_without(books, effect->family);
+    const auto others = outputs_without(state, effect->family);
     if (others.empty()) return;
-    const int step = static_cast<int>(books.d.steps.size()) + 1;
-    auto tried = tried_on(books, others, with_rivals(books, *effect), step, progress);
-    const int winner = best_place(books, tried, *effect, others_tried);
+    const int step = static_cast<int>(state.d.steps.size()) + 1;
+    auto tried = tried_on(state, others, with_rivals(state, *effect), step, progress);
+    const int winner = best_place(state, tried, *effect, others_tried);
     std::vector<int> ties;
     if (winner >= 0) {
       // What one axis cannot tell another one may.
       const auto index = static_cast<std::size_t>(winner);
-      try_hidden(books, tried, *effect, As::first);
-      ties = ties_of(books, tried, index);
-      claim(books, step, tried, index, ties, progress);
+      try_hidden(state, tried, *effect, As::first);
+      ties = ties_of(state, tried, index);
+      claim(state, step, tried, index, ties, progress);
     }
-    keep_candidates(books, tried, step, winner, ties);
+    keep_candidates(state, tried, step, winner, ties);
     if (winner < 0) return;
   }
 }

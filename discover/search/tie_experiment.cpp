@@ -15,11 +15,11 @@ constexpr double faster_recorder = 8;
 bool is_of_sensor(const Effect& e) { return e.of_the_sensor() && e.id != "calibration"; }
 
 /// Inputs of the user's diagram that lead to what the candidate moves, and what it reads besides; empty = nobody knows.
-std::vector<std::string> inputs_before(const Books& books, const Tried& t) {
+std::vector<std::string> inputs_before(const SearchState& state, const TriedEffect& t) {
   std::vector<std::string> list;
   if (t.outputs.empty()) return list;
-  for (const auto& input : books.base_model->program().input_names) {
-    const auto moved = outputs_moved(books, t.contender, input);
+  for (const auto& input : state.base_model->program().input_names) {
+    const auto moved = outputs_moved(state, t.contender, input);
     const auto is_moved = [&](const std::string& o) { return std::find(moved.begin(), moved.end(), o) != moved.end(); };
     if (input == t.place.side || std::any_of(t.outputs.begin(), t.outputs.end(), is_moved)) list.push_back(input);
   }
@@ -27,16 +27,16 @@ std::vector<std::string> inputs_before(const Books& books, const Tried& t) {
 }
 
 /// Compiled anew: fitted values stand in the diagram. Of an effect of the sensor also what lies before it.
-Rival rival_of(const Books& books, const Tried& t) {
+Rival rival_of(const SearchState& state, const TriedEffect& t) {
   const Contender& c = t.contender;
   Rival r;
   r.effect = t.effect->id;
-  r.program = compile(c.diagram, books.registry);
+  r.program = compile(c.diagram, state.registry);
   if (is_of_sensor(*t.effect))
-    r.motion = compile(remove_effect(c.diagram, books.registry, c.standing.back().name, t.effect->id), books.registry);
+    r.motion = compile(remove_effect(c.diagram, state.registry, c.standing.back().name, t.effect->id), state.registry);
   if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
   r.look_alikes = t.effect->look_alikes;
-  r.inputs = inputs_before(books, t);
+  r.inputs = inputs_before(state, t);
   r.hidden = t.hidden;
   return r;
 }
@@ -60,16 +60,16 @@ void try_faster_rows(const Rivals& rivals, Device device, const Sight& sight, Se
   if (more) so_far.best = std::move(again);
 }
 
-Separation experiment_among(Books& books, const Rivals& rivals) {
-  Sight sight{books.base_model->outputs(), books.evidence->noise().white(), {}};
+Separation experiment_among(SearchState& state, const Rivals& rivals) {
+  Sight sight{state.base_model->outputs(), state.evidence->noise().white(), {}};
   for (int o = 0; o < static_cast<int>(sight.outputs.size()); ++o)
-    sight.free_zero.push_back(books.base_model->zero_per_recording(o));
-  const Device device = device_of(books.base_model->program(), *books.data);
+    sight.free_zero.push_back(state.base_model->zero_per_recording(o));
+  const Device device = device_of(state.base_model->program(), *state.data);
   Separation found = separate(rivals, device, sight);
   auto& e = found.best;
   const int all = static_cast<int>(rivals.models.size()) - 1;
   // Few recordings of one kind may just have been too slow.
-  const bool few = static_cast<int>(books.evidence->recordings().size()) <= rules::few_recordings;
+  const bool few = static_cast<int>(state.evidence->recordings().size()) <= rules::few_recordings;
   if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells))
     try_faster_rows(rivals, device, sight, found);
   if (e && e->word == "reference_sensor" && !few)
@@ -79,14 +79,14 @@ Separation experiment_among(Books& books, const Rivals& rivals) {
 
 }  // namespace
 
-Separation experiment_between(Books& books, const Tried& a, const Tried& b) {
-  return experiment_among(books, {{rival_of(books, a), rival_of(books, b)}, would_tell});
+Separation experiment_between(SearchState& state, const TriedEffect& a, const TriedEffect& b) {
+  return experiment_among(state, {{rival_of(state, a), rival_of(state, b)}, would_tell});
 }
 
-Separation with_another_rival(Books& books, const Experiment& so_far, const Tried& rival) {
+Separation with_another_rival(SearchState& state, const Experiment& so_far, const TriedEffect& rival) {
   Rivals rivals = *so_far.rivals;
-  rivals.models.push_back(rival_of(books, rival));
-  return experiment_among(books, rivals);
+  rivals.models.push_back(rival_of(state, rival));
+  return experiment_among(state, rivals);
 }
 
 bool would_tell(const Experiment& e, bool hidden) {

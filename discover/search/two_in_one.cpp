@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "discover/placement/excitation.h"
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
@@ -25,12 +25,12 @@ std::optional<Contender> best_of(std::vector<Contender> fitted) {
 }
 
 /// The effect of `mixed` on `before`, by its best law that holds no other one's.
-std::optional<Contender> by_a_plain_law(const Books& books, const Contender& before, const Standing& mixed) {
-  const auto at = circumstances_on(books, before, {mixed.place}).front();
+std::optional<Contender> by_a_plain_law(const SearchState& state, const Contender& before, const Standing& mixed) {
+  const auto at = circumstances_on(state, before, {mixed.place}).front();
   auto laws = mixed.effect->laws(at);
   std::erase_if(laws, [](const Law& law) { return !law.holds.empty(); });
   std::vector<Contender> plain(laws.size());
-  books.side_by_side(laws.size(), [&](std::size_t i, const Workshop& shop) {
+  state.side_by_side(laws.size(), [&](std::size_t i, const Workshop& shop) {
     plain[i] = with_effect(shop, before, *mixed.effect, laws[i], mixed.place, at, Effort::full);
     return false;
   });
@@ -39,15 +39,15 @@ std::optional<Contender> by_a_plain_law(const Books& books, const Contender& bef
 
 /// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places:
 /// screened with the plain law held, the best few are fitted together with it.
-std::optional<Contender> with_a_held_one(const Books& books, const Contender& plain, const Law& mixed,
+std::optional<Contender> with_a_held_one(const SearchState& state, const Contender& plain, const Law& mixed,
                                          double progress) {
   const auto list = choices_on(
-      books, plain, [&](const Effect& e) { return could_hold(books, mixed, e); },
+      state, plain, [&](const Effect& e) { return could_hold(state, mixed, e); },
       [](const Effect& e, const Excitation& at) { return e.laws(at); });
   std::vector<Contender> fitted(list.size());
-  books.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+  state.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[i];
-    books.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), progress);
+    state.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), progress);
     fitted[i] = with_effect(shop, plain, *effect, law, place, at, Effort::screen);
     return false;
   });
@@ -58,7 +58,7 @@ std::optional<Contender> with_a_held_one(const Books& books, const Contender& pl
                    [&](std::size_t a, std::size_t b) { return fitted[a].score() < fitted[b].score(); });
   best.resize(std::min(best.size(), held_ones_fitted));
   std::vector<Contender> together(best.size());
-  books.side_by_side(best.size(), [&](std::size_t k, const Workshop& shop) {
+  state.side_by_side(best.size(), [&](std::size_t k, const Workshop& shop) {
     const auto& [effect, law, place, at] = list[best[k]];
     Contender both = refit(shop, fitted[best[k]], Effort::full);
     if (both.ok && why_implausible(*effect, law, both, at).empty()) together[k] = std::move(both);
@@ -75,37 +75,37 @@ bool is_no_rest(const Contender& before, const Contender& plain, const Contender
 
 }  // namespace
 
-bool could_hold(const Books& books, const Law& law, const Effect& e) {
+bool could_hold(const SearchState& state, const Law& law, const Effect& e) {
   return std::any_of(law.holds.begin(), law.holds.end(), [&](const std::string& id) {
-    const Effect* held = books.effects.find(id);
+    const Effect* held = state.effects.find(id);
     // A curve has no memory, whatever else looks like it.
     return held != nullptr && (held == &e || (look_alike(*held, e) && held->is_memory == e.is_memory));
   });
 }
 
-int held_one_first(const Books& books, const std::vector<Tried>& tried, int winner) {
-  const Tried& w = tried[static_cast<std::size_t>(winner)];
+int held_one_first(const SearchState& state, const std::vector<TriedEffect>& tried, int winner) {
+  const TriedEffect& w = tried[static_cast<std::size_t>(winner)];
   const Law& law = w.laws[w.law];
   for (const std::size_t i : ranking(tried)) {
-    const Tried& t = tried[i];
-    if (t.effect == w.effect || !t.admitted || t.outputs != w.outputs || !could_hold(books, law, *t.effect)) continue;
+    const TriedEffect& t = tried[i];
+    if (t.effect == w.effect || !t.admitted || t.outputs != w.outputs || !could_hold(state, law, *t.effect)) continue;
     if (t.fall_train > rules::held_share * w.fall_train && t.fall_validate > rules::held_share * w.fall_validate)
       return static_cast<int>(i);
   }
   return winner;
 }
 
-bool in_two(Books& books, Contender before, double progress) {
-  const Standing mixed = books.current.standing.back();
-  const auto stands = [&](const Standing& s) { return could_hold(books, mixed.law, *s.effect); };
+bool in_two(SearchState& state, Contender before, double progress) {
+  const Standing mixed = state.current.standing.back();
+  const auto stands = [&](const Standing& s) { return could_hold(state, mixed.law, *s.effect); };
   if (mixed.law.holds.empty() || std::any_of(before.standing.begin(), before.standing.end(), stands)) return false;
-  books.progress(fmt::format("{} by itself", mixed.effect->id), progress);
-  before.error_of = books.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
-  const auto plain = by_a_plain_law(books, before, mixed);
+  state.progress(fmt::format("{} by itself", mixed.effect->id), progress);
+  before.error_of = state.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
+  const auto plain = by_a_plain_law(state, before, mixed);
   if (!plain) return false;
-  const auto best = with_a_held_one(books, *plain, mixed.law, progress);
-  return best && best->score() < books.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
-         tell_again(books, *best);
+  const auto best = with_a_held_one(state, *plain, mixed.law, progress);
+  return best && best->score() < state.current.score() - rules::exchange && is_no_rest(before, *plain, *best) &&
+         tell_again(state, *best);
 }
 
 }  // namespace hysteron

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "discover/placement/excitation.h"
-#include "discover/search/books.h"
 #include "discover/search/members.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
@@ -18,10 +18,10 @@ bool has_own_constant(const Standing& s) {
 }
 
 /// A law that explains the recordings as well as one that stands has a constant of its own: a curve of the sensor.
-bool rival_has_own_constant(const Books& books) {
-  return std::any_of(books.d.steps.begin(), books.d.steps.end(), [&](const FoundStep& s) {
+bool rival_has_own_constant(const SearchState& state) {
+  return std::any_of(state.d.steps.begin(), state.d.steps.end(), [&](const FoundStep& s) {
     return std::any_of(s.ties.begin(), s.ties.end(), [&](const Candidate& tie) {
-      const Effect* rival = books.effects.find(tie.effect);
+      const Effect* rival = state.effects.find(tie.effect);
       return rival != nullptr && rival->moves_zero && rival->of_the_sensor();
     });
   });
@@ -41,24 +41,24 @@ double own_zero(const Contender& c) {
 
 /// The laws that stand, fitted with the zeros of the user's model; nullopt if none of them found one anew, or if it is
 /// not the sensor's alone.
-std::optional<Contender> with_the_users_zeros(Books& books) {
-  if (rival_has_own_constant(books)) return std::nullopt;
-  Contender c = books.current;
+std::optional<Contender> with_the_users_zeros(SearchState& state) {
+  if (rival_has_own_constant(state)) return std::nullopt;
+  Contender c = state.current;
   std::vector<ParameterValue> zeros;
   for (auto& s : c.standing) {
     if (calibrates(s) || (!s.zeros.empty() && has_own_constant(s))) return std::nullopt;
     for (const auto& path : s.zeros) {
       const int parameter = parameter_index(*c.program, path);
-      zeros.push_back({parameter, free_parameter(*books.base.program, path).start, -1});
+      zeros.push_back({parameter, free_parameter(*state.base.program, path).start, -1});
     }
     s.zeros.clear();
   }
   if (zeros.empty()) return std::nullopt;
   c.diagram = with_parameters(c.diagram, *c.program, zeros);
   c.zero_held = true;
-  c = refit(books.shop, c, Effort::full);
+  c = refit(state.shop, c, Effort::full);
   if (!c.ok) return std::nullopt;
-  c.error_of = books.evidence->error(c.prediction);
+  c.error_of = state.evidence->error(c.prediction);
   return c;
 }
 
@@ -85,11 +85,11 @@ int calibration_beside_a_constant(const Contender& c) {
 
 }  // namespace
 
-int calibration_first(const std::vector<Tried>& tried, int winner) {
-  const Tried& w = tried[static_cast<std::size_t>(winner)];
+int calibration_first(const std::vector<TriedEffect>& tried, int winner) {
+  const TriedEffect& w = tried[static_cast<std::size_t>(winner)];
   if (!w.effect->moves_zero) return winner;
   for (const std::size_t i : ranking(tried)) {
-    const Tried& t = tried[i];
+    const TriedEffect& t = tried[i];
     if (!t.effect->straight || !t.admitted || t.outputs != w.outputs) continue;
     if (t.fall_train > rules::straight_share * w.fall_train &&
         t.fall_validate > rules::straight_share * w.fall_validate)
@@ -98,24 +98,24 @@ int calibration_first(const std::vector<Tried>& tried, int winner) {
   return winner;
 }
 
-bool with_the_zero_held(Books& books, const std::function<bool()>& one_more) {
-  const auto laws = with_the_users_zeros(books);
+bool with_the_zero_held(SearchState& state, const std::function<bool()>& one_more) {
+  const auto laws = with_the_users_zeros(state);
   if (!laws) return false;
-  const Found found(books);
-  if (tell_again(books, *laws) && one_more() && !owes_its_zero(books.current)) return true;
-  found.restore(books);
+  const Found found(state);
+  if (tell_again(state, *laws) && one_more() && !owes_its_zero(state.current)) return true;
+  found.restore(state);
   return false;
 }
 
-bool with_the_zero_of_a_curve(Books& books, const std::function<bool()>& one_more) {
-  const int calibration = calibration_beside_a_constant(books.current);
-  if (calibration < 0 || books.stopped()) return false;
-  const double score = books.current.score();
-  const auto rest = rest_of(books, books.shop, static_cast<std::size_t>(calibration), Line::of_a_curve);
+bool with_the_zero_of_a_curve(SearchState& state, const std::function<bool()>& one_more) {
+  const int calibration = calibration_beside_a_constant(state.current);
+  if (calibration < 0 || state.stopped()) return false;
+  const double score = state.current.score();
+  const auto rest = rest_of(state, state.shop, static_cast<std::size_t>(calibration), Line::of_a_curve);
   if (!rest || !(rest->score() < score + rules::tie)) return false;
-  const Found found(books);
-  if (tell_again(books, *rest) && one_more() && books.current.score() < score - rules::exchange) return true;
-  found.restore(books);
+  const Found found(state);
+  if (tell_again(state, *rest) && one_more() && state.current.score() < score - rules::exchange) return true;
+  found.restore(state);
   return false;
 }
 

@@ -29,7 +29,7 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
 
 /// Of the recordings that may move, those whose free start explains more than its states cost: by Schwarz's price in
 /// the recording's own witnesses.
-std::vector<std::string> worth_a_start(const Books& free, const DataSet& given, const TableModel& best) {
+std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
   const BlockScore score(*free.evidence, {best.left});
   // The same model and numbers from rest.
   Workshop at_rest = free.shop;
@@ -58,20 +58,20 @@ const TableModel& Nulls::best() const {
   return let_go.ok() && squares_over(let_go.left, written.left) < 1 ? let_go : written;
 }
 
-std::map<std::string, double> numbers_not_exact(const Books& books) {
-  if (books.options.numbers_are_exact) return {};
-  auto numbers = held_numbers(books);
+std::map<std::string, double> numbers_not_exact(const SearchState& state) {
+  if (state.options.numbers_are_exact) return {};
+  auto numbers = held_numbers(state);
   if (numbers.size() > most_numbers) numbers.clear();
   return numbers;
 }
 
 Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
-  nulls.written = measured(setting, setting.books.base, Numbers::written, setting.books.evidence->noise(), {});
-  if (TableModel again = refitted(setting, setting.books.shop, nulls.written, Numbers::written, renewals); again.ok())
+  nulls.written = measured(setting, setting.state.base, Numbers::written, setting.state.evidence->noise(), {});
+  if (TableModel again = refitted(setting, setting.state.shop, nulls.written, Numbers::written, renewals); again.ok())
     nulls.written = std::move(again);
   if (!setting.numbers.empty())
-    nulls.let_go = refitted(setting, setting.books.shop, nulls.written, Numbers::let_go, renewals);
+    nulls.let_go = refitted(setting, setting.state.shop, nulls.written, Numbers::let_go, renewals);
   return nulls;
 }
 
@@ -80,7 +80,7 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   Discovery may_move;
   may_move.found_starts = without_stated_start(data);
   if (may_move.found_starts.empty()) return {};
-  Books free(diagram, as_found(data, may_move), registry, effects, options);
+  SearchState free(diagram, as_found(data, may_move), registry, effects, options);
   fit_base(free);
   if (free.base_model->free_initial_states().empty()) return {};
   std::vector<std::string> moving;

@@ -18,7 +18,7 @@ struct Nulls {
   const TableModel& best() const;
 };
 
-/// Fits both. `books.base` is the user's model.
+/// Fits both. `state.base` is the user's model.
 Nulls fit_nulls(const FitSetting& setting, int renewals = most_renewals);
 
 /// Recordings of which nobody says where they begin, and that begin elsewhere than at rest: with a free start each
@@ -27,6 +27,6 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
                                          const Effects& effects, const DiscoverOptions& options);
 
 /// Numbers of the user's model that may be let go, as written [SI]; empty where they are exact.
-std::map<std::string, double> numbers_not_exact(const Books& books);
+std::map<std::string, double> numbers_not_exact(const SearchState& state);
 
 }  // namespace hysteron

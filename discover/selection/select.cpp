@@ -24,19 +24,19 @@ struct Told {
   std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
 };
 
-Told to_be_told(Books& books, const Selection& selection) {
+Told to_be_told(SearchState& state, const Selection& selection) {
   Told told;
   const FitSetting& setting = selection.setting();
   TableModel best = selection.best();
   if (best.numbers == Numbers::let_go)
-    books.unless_stopped([&] { best = with_fewest_numbers(setting, books.shop, selection.score(), best, told.kept); });
+    state.unless_stopped([&] { best = with_fewest_numbers(setting, state.shop, selection.score(), best, told.kept); });
   const FitSetting few = setting.with(told.kept);
   told.shop =
-      workshop_for(few, books.shop, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
-  told.shop.data = books.data;  // others judge
+      workshop_for(few, state.shop, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
+  told.shop.data = state.data;  // others judge
   const auto of_all = std::exchange(told.shop.notes, std::make_shared<Notebook>());
   Contender whole = best.model;
-  books.unless_stopped([&] {
+  state.unless_stopped([&] {
     Contender final = refit(told.shop, whole, Effort::final);
     if (final.ok) whole = std::move(final);
   });
@@ -49,23 +49,23 @@ Told to_be_told(Books& books, const Selection& selection) {
       if (before.standing[i].effect == whole.standing[told.terms[k].front()].effect)
         before = without(told.shop, before, i);
     told.chain[k] = before.ok ? refit(told.shop, before, Effort::full) : before;
-    if (!told.chain[k].ok) told.chain[k] = k == 0 ? books.base : told.chain[k + 1];
+    if (!told.chain[k].ok) told.chain[k] = k == 0 ? state.base : told.chain[k + 1];
   }
   of_all->count(told.shop.notes->runs());
   return told;
 }
 
 /// Of the candidates of all rounds the one that stands as this term.
-Tried tried_as(const Selection& selection, const Standing& s) {
+TriedEffect tried_as(const Selection& selection, const Standing& s) {
   for (auto round = selection.rounds().rbegin(); round != selection.rounds().rend(); ++round)
     for (const auto& r : round->rivals)
       if (r.tried.effect == s.effect && r.tried.place.where() == s.place.where()) {
-        Tried t = r.tried;
+        TriedEffect t = r.tried;
         for (std::size_t l = 0; l < t.laws.size(); ++l)
           if (t.laws[l].name == s.law.name) t.law = l;
         return t;
       }
-  Tried t;
+  TriedEffect t;
   t.effect = s.effect;
   t.place = s.place;
   t.laws = {s.law};
@@ -73,7 +73,7 @@ Tried tried_as(const Selection& selection, const Standing& s) {
 }
 
 /// Rivals that explain as much as the winner by other effects, each effect once.
-std::vector<Addition> tied(const Books& books, const Selection& selection, const TableModel& winner,
+std::vector<Addition> tied(const SearchState& state, const Selection& selection, const TableModel& winner,
                            const Effect& effect, std::vector<Addition> rivals) {
   std::vector<Addition> list;
   const double reach = tie_score_of(selection.score(), winner) - rules::tie;
@@ -81,7 +81,7 @@ std::vector<Addition> tied(const Books& books, const Selection& selection, const
     if (!r.fitted.ok() || r.tried.effect == &effect || tie_score_of(selection.score(), r.fitted) < reach) continue;
     // What a law says with one number more it does not say by what it could be bent to.
     const bool has_spare = r.fitted.parameters > winner.parameters + 1;
-    if (has_spare && is_the_winner_and_more(books, r.tried, effect)) continue;
+    if (has_spare && is_the_winner_and_more(state, r.tried, effect)) continue;
     if (!why_implausible(*r.tried.effect, r.tried.laws[r.tried.law], r.fitted.model, r.tried.excitation).empty())
       continue;
     if (std::any_of(list.begin(), list.end(), [&](const Addition& a) { return a.tried.effect == r.tried.effect; }))
@@ -97,14 +97,14 @@ std::string how_much_more(const Selection& selection, const TableModel& f, const
                      more < 0 ? "below" : "above", rules::by_score);
 }
 
-void tell_step(Books& books, Selection& selection, const Told& told, std::size_t k) {
+void tell_step(SearchState& state, Selection& selection, const Told& told, std::size_t k) {
   FoundStep found;
   const auto& term = told.terms[k];
   const Contender& whole = told.chain.back();
-  Tried w = tried_as(selection, whole.standing[term.front()]);
-  const ModelError before = books.evidence->error(told.chain[k].prediction);
+  TriedEffect w = tried_as(selection, whole.standing[term.front()]);
+  const ModelError before = state.evidence->error(told.chain[k].prediction);
   w.contender = told.chain[k + 1];
-  w.contender.error_of = books.evidence->error(w.contender.prediction);
+  w.contender.error_of = state.evidence->error(w.contender.prediction);
   w.fall_train = before.evidence_train - w.contender.error_of.evidence_train;
   w.fall_validate = before.evidence_validate - w.contender.error_of.evidence_validate;
   const double excess = before.excess_validate();
@@ -114,26 +114,26 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   w.reason = what_it_takes(w);
   const bool alone = told.chain.size() == 2;
   const int step = static_cast<int>(k) + 1;
-  unless_it_fails(books, [&] {
+  unless_it_fails(state, [&] {
     const Effect& effect = *whole.standing[term.front()].effect;
     auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
     if (alone)
       for (auto& hidden : selection.hidden_in_place_of(effect)) rivals.push_back(std::move(hidden));
     // Where others stand, too, it is compared as the last of them, as its rivals are.
-    Tried last = w;
+    TriedEffect last = w;
     TableModel winner = selection.best();
     if (!alone && !rivals.empty() && rivals.front().tried.effect == &effect && rivals.front().fitted.ok()) {
       winner = rivals.front().fitted;
       last = rivals.front().tried;
       last.contender = winner.model;
     }
-    for (const auto& r : tied(books, selection, winner, effect, rivals)) {
-      Tried rival = r.tried;
+    for (const auto& r : tied(state, selection, winner, effect, rivals)) {
+      TriedEffect rival = r.tried;
       rival.contender = r.fitted.model;
-      rival.contender.error_of = books.evidence->error(rival.contender.prediction);
+      rival.contender.error_of = state.evidence->error(rival.contender.prediction);
       rival.admitted = true;
       rival.reason = "explains the recordings as well as the one that was taken";
-      add_tie(books, step, found, last, rival);
+      add_tie(state, step, found, last, rival);
     }
     return true;
   });
@@ -144,43 +144,43 @@ void tell_step(Books& books, Selection& selection, const Told& told, std::size_t
   for (std::size_t i = 1; i < term.size(); ++i) found.winner.also_at.push_back(whole.standing[term[i]].place.where());
   found.change = w.contender.change;
   found.change.diagram = w.contender.diagram;
-  books.d.steps.push_back(std::move(found));
+  state.d.steps.push_back(std::move(found));
 }
 
-void tell_candidates(Books& books, const Selection& selection, const Told& told) {
+void tell_candidates(SearchState& state, const Selection& selection, const Told& told) {
   int step = 0;
   for (const auto& round : selection.rounds()) {
     ++step;
     const TableModel& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
     for (const auto& r : round.rivals) {
-      Tried t = r.tried;
+      TriedEffect t = r.tried;
       t.contender = r.fitted.model;
-      if (t.contender.ok) t.contender.error_of = books.evidence->error(t.contender.prediction);
+      if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
       t.reason =
           !r.fitted.ok() ? "could not be fitted: " + r.fitted.model.error : how_much_more(selection, r.fitted, before);
       Candidate c = candidate_of(t, step);
       for (const auto& s : told.chain.back().standing)
         c.claimed = c.claimed || (s.effect->id == c.effect && s.place.where() == c.place);
-      books.d.candidates.push_back(std::move(c));
+      state.d.candidates.push_back(std::move(c));
     }
   }
 }
 
-void tell_numbers(Books& books, const Told& told) {
+void tell_numbers(SearchState& state, const Told& told) {
   const FitResult& fit = told.chain.back().fit;
   for (const auto& e : fit.estimates)
     if (const auto n = told.kept.find(e.path);
         n != told.kept.end() && std::abs(e.used / n->second - 1) > as_written * known_to)
-      books.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
-  std::stable_sort(books.d.other_numbers.begin(), books.d.other_numbers.end(), [](const auto& a, const auto& b) {
+      state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
+  std::stable_sort(state.d.other_numbers.begin(), state.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });
 }
 
-void tell_starts(Books& books, const std::vector<std::string>& moving) {
-  books.d.found_starts = moving;
+void tell_starts(SearchState& state, const std::vector<std::string>& moving) {
+  state.d.found_starts = moving;
   if (moving.empty()) return;
-  books.d.warnings.push_back(fmt::format(
+  state.d.warnings.push_back(fmt::format(
       "{} {} not begin at rest: where {} was found with everything else. Say so in the data set: "
       "\"initial\": \"per_recording\"",
       fmt::join(moving, ", "), moving.size() == 1 ? "does" : "do", moving.size() == 1 ? "it begins" : "they begin"));
@@ -193,30 +193,30 @@ Discovery select_model(const Diagram& diagram, const DataSet& data, const Regist
   const std::vector<std::string> moving = begin_in_motion(diagram, data, registry, effects, options);
   Discovery facts;
   facts.found_starts = moving;
-  Books books(diagram, as_found(data, facts), registry, effects, options);
-  books.by_score = true;
-  books.d.asked_for = options.only;
-  fit_base(books);
-  Selection selection(books, numbers_not_exact(books));
-  books.unless_stopped([&] { selection.run(); });
-  books.d.broken_off = books.stopped();
-  books.closing = true;  // what was found is told in full
+  SearchState state(diagram, as_found(data, facts), registry, effects, options);
+  state.by_score = true;
+  state.d.asked_for = options.only;
+  fit_base(state);
+  Selection selection(state, numbers_not_exact(state));
+  state.unless_stopped([&] { selection.run(); });
+  state.d.broken_off = state.stopped();
+  state.closing = true;  // what was found is told in full
   if (selection.best().ok()) {
-    const Told told = to_be_told(books, selection);
-    books.base = told.chain.front();
-    books.current = told.chain.back();
-    books.settle(books.current);
-    for (std::size_t k = 0; k + 1 < told.chain.size(); ++k) tell_step(books, selection, told, k);
-    books.current = told.chain.back();
-    books.settle(books.current);
-    books.d.base_diagram = books.base.diagram;
-    tell_candidates(books, selection, told);
-    tell_numbers(books, told);
+    const Told told = to_be_told(state, selection);
+    state.base = told.chain.front();
+    state.current = told.chain.back();
+    state.settle(state.current);
+    for (std::size_t k = 0; k + 1 < told.chain.size(); ++k) tell_step(state, selection, told, k);
+    state.current = told.chain.back();
+    state.settle(state.current);
+    state.d.base_diagram = state.base.diagram;
+    tell_candidates(state, selection, told);
+    tell_numbers(state, told);
   }
-  tell_starts(books, moving);
-  conclude(books);
-  books.d.model_runs = books.shop.notes->runs();
-  return std::move(books.d);
+  tell_starts(state, moving);
+  conclude(state);
+  state.d.model_runs = state.shop.notes->runs();
+  return std::move(state.d);
 }
 
 }  // namespace hysteron

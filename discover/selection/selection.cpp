@@ -38,17 +38,17 @@ std::vector<Choice> term_of(const Addition& rival, std::size_t law) {
 }
 
 /// Type of the block that the effect varies there; "" where it stands on a wire.
-std::string varied_type(const Books& books, const Tried& t) {
+std::string varied_type(const SearchState& state, const TriedEffect& t) {
   if (t.effect->way != Way::vary && t.place.by.empty()) return "";
-  const Node* body = Wiring(books.current.diagram, books.registry).body(t.place.at);
+  const Node* body = Wiring(state.current.diagram, state.registry).body(t.place.at);
   return body == nullptr ? "" : body->type;
 }
 
 /// What acts in one of several like blocks acts in all of them: both tanks of a row have a hole for an outlet.
-std::vector<Addition> at_like_places(const Books& books, const std::vector<Addition>& alone) {
+std::vector<Addition> at_like_places(const SearchState& state, const std::vector<Addition>& alone) {
   std::map<std::pair<std::string, std::string>, Addition> groups;  // effect, type
   for (const auto& a : alone) {
-    const std::string type = varied_type(books, a.tried);
+    const std::string type = varied_type(state, a.tried);
     if (type.empty()) continue;
     const auto [group, is_new] = groups.try_emplace({a.tried.effect->id, type}, a);
     if (!is_new) group->second.also.push_back(a.tried);
@@ -83,14 +83,14 @@ bool is_in_a_loop(const Wiring& w, const std::string& signal) {
 
 /// How long a fit takes, roughly: inside a loop each row is solved in steps, more so where something remembers there,
 /// and so are several elements of memory in a block that moves.
-int slowness(const Books& books, const Tried& t) {
+int slowness(const SearchState& state, const TriedEffect& t) {
   constexpr std::size_t several = 4;
   if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? slowest : 0;
   const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
   const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
-  if (!on_a_wire || nested || !is_in_a_loop(Wiring(books.current.diagram, books.registry), t.place.moves_from()))
+  if (!on_a_wire || nested || !is_in_a_loop(Wiring(state.current.diagram, state.registry), t.place.moves_from()))
     return 0;
-  const Kernel* law = books.registry.find(t.laws.front().block.type);
+  const Kernel* law = state.registry.find(t.laws.front().block.type);
   return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
 }
 
@@ -110,8 +110,8 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
   return terms;
 }
 
-Selection::Selection(Books& books, std::map<std::string, double> numbers)
-    : books_(books), setting_(books, std::move(numbers)) {
+Selection::Selection(SearchState& state, std::map<std::string, double> numbers)
+    : books_(state), setting_(state, std::move(numbers)) {
   const auto before = std::exchange(books_.shop.notes, std::make_shared<Notebook>());  // of other recordings
   books_.shop.notes->count(before->runs());
 }
@@ -174,7 +174,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   std::vector<FitsOfRival> answers(jobs.size());
   books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
     const auto [i, law] = jobs[j];
-    const Tried& t = rivals[i].tried;
+    const TriedEffect& t = rivals[i].tried;
     books_.progress(
         fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
         (step - 1 + 0.6 * static_cast<double>(j) / static_cast<double>(jobs.size())) / books_.options.max_steps);
@@ -201,9 +201,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
 void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others) {
   sort(rivals);
   const bool race = others != nullptr && !others->empty() && others->front().fitted.ok();
-  const auto ahead = [&](const Addition& r) {
-    return !race || score_of(r.fitted) > score_of(others->front().fitted);
-  };
+  const auto ahead = [&](const Addition& r) { return !race || score_of(r.fitted) > score_of(others->front().fitted); };
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
@@ -252,7 +250,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
     const auto [i, law] = jobs[j];
-    const Tried& t = rivals[i].tried;
+    const TriedEffect& t = rivals[i].tried;
     // With the numbers of the simple law's model: those of the null bear what the effect does.
     std::vector<std::size_t> last(rivals[i].also.size() + 1);  // it came last
     std::iota(last.begin(), last.end(), rivals[i].fitted.model.standing.size() - last.size());

@@ -18,10 +18,10 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 
 /// A rival: one effect more than the model it stands on.
 struct Addition {
-  Tried tried;              ///< effect, place, laws; `contender` is that of `fitted`
-  std::vector<Tried> also;  ///< the same effect at like places, where it enters all of them at once
-  int slowness = 0;         ///< the quick ones are asked first
-  TableModel fitted;        ///< with its best law
+  TriedEffect tried;              ///< effect, place, laws; `contender` is that of `fitted`
+  std::vector<TriedEffect> also;  ///< the same effect at like places, where it enters all of them at once
+  int slowness = 0;               ///< the quick ones are asked first
+  TableModel fitted;              ///< with its best law
 };
 
 /// What was asked on top of one model.
@@ -35,7 +35,7 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model);
 
 class Selection {
  public:
-  Selection(Books& books, std::map<std::string, double> numbers);
+  Selection(SearchState& state, std::map<std::string, double> numbers);
   /// Finds the model. Throws Stopped where it is broken off: best() is what was found until then.
   void run();
 
@@ -76,7 +76,7 @@ class Selection {
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
 
-  Books& books_;
+  SearchState& books_;
   FitSetting setting_;
   Nulls nulls_;
   TableModel best_;

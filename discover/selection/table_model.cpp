@@ -62,7 +62,8 @@ double all_tried(const TableModel& f) {
 
 }  // namespace
 
-FitSetting::FitSetting(const Books& of, std::map<std::string, double> let_go) : books(of), numbers(std::move(let_go)) {
+FitSetting::FitSetting(const SearchState& of, std::map<std::string, double> let_go)
+    : state(of), numbers(std::move(let_go)) {
   DataSet data = *of.data;
   for (auto& r : data.recordings)
     if (r.role == Role::validate) r.role = Role::train;
@@ -92,7 +93,7 @@ TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
   for (const auto& s : f.model.standing)
     if (const auto known = tried.find(s.effect->id); known != tried.end()) f.tried.insert(*known);
   if (!f.model.ok) return f;
-  const Evidence& evidence = *setting.books.evidence;
+  const Evidence& evidence = *setting.state.evidence;
   f.left = left_sums(left_rows(evidence, f.model.prediction, f.weights));
   f.parameters = numbers_of(f.model, evidence.recordings().size());
   for (const auto& e : f.model.fit.estimates)
@@ -102,7 +103,7 @@ TableModel measured(const FitSetting& setting, Contender model, Numbers numbers,
 }
 
 NoiseModel weights_of(const FitSetting& setting, const TableModel& f) {
-  const Evidence& evidence = *setting.books.evidence;
+  const Evidence& evidence = *setting.state.evidence;
   return setting.score ? setting.score->weights(evidence, f.left)
                        : BlockScore(evidence, {f.left}).weights(evidence, f.left);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "discover/selection/block_score.h"
 
 namespace hysteron {
@@ -31,10 +31,10 @@ struct TableModel {
 
 /// What all fits of one selection share.
 struct FitSetting {
-  FitSetting(const Books& books, std::map<std::string, double> numbers);
+  FitSetting(const SearchState& state, std::map<std::string, double> numbers);
   FitSetting with(std::map<std::string, double> other_numbers) const;
 
-  const Books& books;
+  const SearchState& state;
   std::map<std::string, double> numbers;  ///< that may be let go, as written [SI]
   /// The data set with all recordings to fit to: what acts in one recording only is found wherever that stands, and a
   /// score that pays for each number needs none that were not seen. What is told at the end is fitted to those meant

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "discover/placement/excitation.h"
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "engine/program/program.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/two_axes.h"
@@ -22,8 +22,8 @@ TEST_F(Axes, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   const Diagram diagram = two_plain_axes();
   const DataSet data = of_two_axes(1e-3, same, same);
   const DiscoverOptions options;
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
+  SearchState state(diagram, data, registry, effects, options);
+  fit_base(state);
   const Effect& clamp = effects.get("saturation");
   const auto places = places_of(clamp, diagram, registry, &data);
   const auto on = [&](const std::string& wire) {
@@ -31,11 +31,11 @@ TEST_F(Axes, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
   };
   const auto at = circumstances_at(diagram, registry, data, on("u2"), {});
   const Contender model =
-      with_effect(books.shop, books.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
+      with_effect(state.shop, state.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
   ASSERT_TRUE(model.ok) << model.error;
-  EXPECT_TRUE(standing_before(books, model, clamp, on("u2")));
-  EXPECT_FALSE(standing_before(books, model, clamp, on("u")));
-  EXPECT_FALSE(standing_before(books, model, effects.get("asymmetry"), on("u2")));
+  EXPECT_TRUE(standing_before(state, model, clamp, on("u2")));
+  EXPECT_FALSE(standing_before(state, model, clamp, on("u")));
+  EXPECT_FALSE(standing_before(state, model, effects.get("asymmetry"), on("u2")));
 }
 
 TEST_F(Axes, TheGainOfOneOfTwoBranchesIsInSeriesWithNothing) {
@@ -60,22 +60,22 @@ TEST_F(Axes, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
   const DataSet data = of_two_axes(1e-3, same, same);
   const DiscoverOptions options;
   const Diagram diagram = two_plain_axes();
-  Books books(diagram, data, registry, effects, options);
-  std::vector<Tried> tried(3);
+  SearchState state(diagram, data, registry, effects, options);
+  std::vector<TriedEffect> tried(3);
   tried[0].effect = effects.find("dead_time");
   tried[1].effect = effects.find("rate_dependence");
   tried[2].effect = effects.find("amplifier_lag");
-  for (Tried& t : tried) t.sharp = t.admitted = true;
+  for (TriedEffect& t : tried) t.sharp = t.admitted = true;
   int winner = 0;
   std::vector<int> ties{1, 2};
-  as_on_another_axis(books, tried, winner, ties);
+  as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 0) << "nothing stands";
-  books.current.standing.emplace_back().effect = effects.find("amplifier_lag");
-  as_on_another_axis(books, tried, winner, ties);
+  state.current.standing.emplace_back().effect = effects.find("amplifier_lag");
+  as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 2);
   EXPECT_EQ(ties, (std::vector<int>{1, 0}));
-  books.current.standing.emplace_back().effect = effects.find("rate_dependence");
-  as_on_another_axis(books, tried, winner, ties);
+  state.current.standing.emplace_back().effect = effects.find("rate_dependence");
+  as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 2) << "it stands itself";
 }
 
@@ -83,18 +83,18 @@ TEST_F(Axes, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
 struct FirstAxisIsKnown {
   FirstAxisIsKnown(const Registry& registry, const Effects& effects, Response second)
       : data(of_two_axes(1e-3, late_and_bent(4e-3, 0.05), std::move(second))),
-        books(diagram, data, registry, effects, options) {
-    fit_base(books);
+        state(diagram, data, registry, effects, options) {
+    fit_base(state);
     for (const char* id : {"amplifier_lag", "asymmetry"}) {
       const Effect& e = effects.get(id);
-      for (const auto& place : places_of(e, books.current.diagram, registry, &data)) {
-        if (outputs_moved(books, books.current, place.wire) != std::vector<std::string>{"y"}) continue;
-        const auto at = circumstances_on(books, books.current, {place}).front();
-        books.current = with_effect(books.shop, books.current, e, e.laws(at).front(), place, at, Effort::full);
+      for (const auto& place : places_of(e, state.current.diagram, registry, &data)) {
+        if (outputs_moved(state, state.current, place.wire) != std::vector<std::string>{"y"}) continue;
+        const auto at = circumstances_on(state, state.current, {place}).front();
+        state.current = with_effect(state.shop, state.current, e, e.laws(at).front(), place, at, Effort::full);
         break;
       }
     }
-    books.settle(books.current);
+    state.settle(state.current);
   }
   static Response late_and_bent(double tau, double bend) {
     return [=](const std::vector<double>& t, const std::vector<double>& u) {
@@ -106,19 +106,19 @@ struct FirstAxisIsKnown {
   Diagram diagram = two_plain_axes();
   DiscoverOptions options;
   DataSet data;
-  Books books;
+  SearchState state;
 };
 
 TEST_F(Axes, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
   FirstAxisIsKnown both(registry, effects, FirstAxisIsKnown::late_and_bent(3e-3, 0.04));
-  ASSERT_EQ(both.books.current.standing.size(), 2u);
-  EXPECT_TRUE(as_a_set_on_another_output(both.books, 0));
-  EXPECT_EQ(both.books.current.standing.size(), 4u);
-  EXPECT_LT(both.books.current.error_of.over_floor(), 1.2) << "chi2 of 1600 rows is known to 4 %";
-  ASSERT_EQ(both.books.d.steps.size(), 2u);
-  EXPECT_EQ(both.books.d.steps[0].winner.effect, "amplifier_lag");
-  EXPECT_EQ(both.books.d.steps[1].winner.effect, "asymmetry");
-  EXPECT_FALSE(as_a_set_on_another_output(both.books, 0)) << "nothing is missing any more";
+  ASSERT_EQ(both.state.current.standing.size(), 2u);
+  EXPECT_TRUE(as_a_set_on_another_output(both.state, 0));
+  EXPECT_EQ(both.state.current.standing.size(), 4u);
+  EXPECT_LT(both.state.current.error_of.over_floor(), 1.2) << "chi2 of 1600 rows is known to 4 %";
+  ASSERT_EQ(both.state.d.steps.size(), 2u);
+  EXPECT_EQ(both.state.d.steps[0].winner.effect, "amplifier_lag");
+  EXPECT_EQ(both.state.d.steps[1].winner.effect, "asymmetry");
+  EXPECT_FALSE(as_a_set_on_another_output(both.state, 0)) << "nothing is missing any more";
   // Where one of them does nothing, or both, they are no set.
   for (const auto& [tau, bend] : {std::pair{3e-3, 0.0}, {0.0, 0.04}, {0.0, 0.0}}) {
     const Response law =
@@ -128,8 +128,8 @@ TEST_F(Axes, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
           return y;
         };
     FirstAxisIsKnown one(registry, effects, law);
-    EXPECT_FALSE(as_a_set_on_another_output(one.books, 0)) << tau << " " << bend;
-    EXPECT_EQ(one.books.current.standing.size(), 2u);
+    EXPECT_FALSE(as_a_set_on_another_output(one.state, 0)) << tau << " " << bend;
+    EXPECT_EQ(one.state.current.standing.size(), 2u);
   }
 }
 
@@ -222,33 +222,33 @@ TEST_F(Axes, AStructureOfOneAxisIsNoReproachToTheEffectOfTheOther) {
 /// Two axes by these responses, on which effects are claimed one by one, whatever else would explain the same.
 struct ClaimedOnAxes {
   ClaimedOnAxes(const Registry& registry, const Effects& all, const Response& first, const Response& second)
-      : effects(all), data(of_two_axes(1e-3, first, second)), books(diagram, data, registry, all, options) {
-    fit_base(books);
+      : effects(all), data(of_two_axes(1e-3, first, second)), state(diagram, data, registry, all, options) {
+    fit_base(state);
   }
   static Response late(double tau) {
     return [tau](const auto& t, const auto& u) { return lagged(t, u, tau); };
   }
   /// `tied`: which one the recordings are said not to have told from it, an experiment would; "" = none.
   void claim(const std::string& id, const std::string& output, const std::string& tied) {
-    Tried t;
+    TriedEffect t;
     t.effect = &effects.get(id);
-    for (const auto& place : places_of(*t.effect, books.current.diagram, books.registry, &data))
-      if (outputs_moved(books, books.current, place.wire) == std::vector<std::string>{output}) t.place = place;
-    t.excitation = circumstances_on(books, books.current, {t.place}).front();
+    for (const auto& place : places_of(*t.effect, state.current.diagram, state.registry, &data))
+      if (outputs_moved(state, state.current, place.wire) == std::vector<std::string>{output}) t.place = place;
+    t.excitation = circumstances_on(state, state.current, {t.place}).front();
     t.laws = t.effect->laws(t.excitation);
     t.contender =
-        with_effect(books.shop, books.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
+        with_effect(state.shop, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
     t.admitted = true;
     FoundStep found;
     if (!tied.empty()) found.ties.emplace_back().effect = tied;
     found.experiment_would_tell = !tied.empty();
-    take(books, static_cast<int>(books.d.steps.size()) + 1, t, std::move(found));
+    take(state, static_cast<int>(state.d.steps.size()) + 1, t, std::move(found));
   }
   const Effects& effects;
   Diagram diagram = two_plain_axes();
   DiscoverOptions options;
   DataSet data;
-  Books books;
+  SearchState state;
 };
 
 /// The first axis has a delay or a lag, which it cannot tell; the second a lag and nothing else. A delay was taken.
@@ -261,32 +261,32 @@ struct LaterAxisTells : ClaimedOnAxes {
 
 TEST_F(Axes, WhatCouldNotBeToldIsWhatStandsOnALaterAxis) {
   LaterAxisTells axes(registry, effects);
-  Books& books = axes.books;
-  ASSERT_EQ(books.d.steps.size(), 2U);
-  reconsider(books, 0);
-  ASSERT_EQ(books.d.steps.size(), 2U);
-  for (const auto& s : books.d.steps) EXPECT_EQ(s.winner.effect, "amplifier_lag");
-  const auto first = std::find_if(books.d.steps.begin(), books.d.steps.end(),
+  SearchState& state = axes.state;
+  ASSERT_EQ(state.d.steps.size(), 2U);
+  reconsider(state, 0);
+  ASSERT_EQ(state.d.steps.size(), 2U);
+  for (const auto& s : state.d.steps) EXPECT_EQ(s.winner.effect, "amplifier_lag");
+  const auto first = std::find_if(state.d.steps.begin(), state.d.steps.end(),
                                   [](const FoundStep& s) { return !s.winner.place.ends_with("2"); });
-  ASSERT_NE(first, books.d.steps.end());
+  ASSERT_NE(first, state.d.steps.end());
   ASSERT_EQ(first->ties.size(), 1U);
   EXPECT_EQ(first->ties[0].effect, "dead_time");
 }
 
 TEST_F(Axes, WhatStandsOnBothIsLeftOnlyForLessError) {
   LaterAxisTells axes(registry, effects);
-  Books& books = axes.books;
-  reconsider(books, 0);
-  Tried other;
+  SearchState& state = axes.state;
+  reconsider(state, 0);
+  TriedEffect other;
   other.effect = effects.find("dead_time");
-  other.contender = books.current;
-  other.contender.error_of.nrmse_validate = 1.01 * books.current.error_of.nrmse_validate;
-  EXPECT_FALSE(may_leave(books, books.current.standing[0], other));
-  other.contender.error_of.nrmse_validate = 0.99 * books.current.error_of.nrmse_validate;
-  EXPECT_TRUE(may_leave(books, books.current.standing[0], other));
-  books.current.standing.pop_back();
-  other.contender.error_of.nrmse_validate = 1.01 * books.current.error_of.nrmse_validate;
-  EXPECT_TRUE(may_leave(books, books.current.standing[0], other)) << "it stands on one axis alone";
+  other.contender = state.current;
+  other.contender.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
+  EXPECT_FALSE(may_leave(state, state.current.standing[0], other));
+  other.contender.error_of.nrmse_validate = 0.99 * state.current.error_of.nrmse_validate;
+  EXPECT_TRUE(may_leave(state, state.current.standing[0], other));
+  state.current.standing.pop_back();
+  other.contender.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
+  EXPECT_TRUE(may_leave(state, state.current.standing[0], other)) << "it stands on one axis alone";
 }
 
 TEST_F(Axes, ATieOfTheFirstStepIsLookedAtAgainBesideWhatCameLater) {
@@ -300,9 +300,9 @@ TEST_F(Axes, ATieOfTheFirstStepIsLookedAtAgainBesideWhatCameLater) {
     ClaimedOnAxes axes(registry, effects, ClaimedOnAxes::late(clear ? 8e-3 : 4e-4), bent);
     axes.claim("amplifier_lag", "y", "dead_time");
     axes.claim("asymmetry", "y2", "sensor_nonlinearity");
-    auto& steps = axes.books.d.steps;
-    ASSERT_LT(axes.books.current.error_of.over_floor(), rules::floor_gate);
-    ties_beside_what_came_later(axes.books, 0);
+    auto& steps = axes.state.d.steps;
+    ASSERT_LT(axes.state.current.error_of.over_floor(), rules::floor_gate);
+    ties_beside_what_came_later(axes.state, 0);
     EXPECT_EQ(steps[0].ties.empty(), clear);
     EXPECT_EQ(steps[0].experiment_would_tell, !clear);
     ASSERT_EQ(steps[1].ties.size(), 1U);

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "discover/effects/all.h"
-#include "discover/search/books.h"
 #include "discover/search/discover.h"
 #include "discover/search/investigation.h"
+#include "discover/search/search_state.h"
 
 namespace hysteron {
 namespace {
@@ -39,15 +39,15 @@ ModelError error(double train_slow, double train_fast, double validate_slow, dou
 class Judging : public ::testing::Test {
  protected:
   /// A candidate that leaves `after`, on top of laws that left `before` and may have left so much of their own.
-  Tried judged(const ModelError& before, const ModelError& after, const std::vector<double>& left,
-               const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
+  TriedEffect judged(const ModelError& before, const ModelError& after, const std::vector<double>& left,
+                     const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag") const {
     return judged_with(0, before, after, left, effect, on_top_of);
   }
   /// The same with that many numbers more than the model before has, and with a law of so many beginnings.
-  Tried judged_with(int numbers, const ModelError& before, const ModelError& after, const std::vector<double>& left,
-                    const std::string& effect = "backlash", const std::string& on_top_of = "amplifier_lag",
-                    std::size_t beginnings = 0) const {
-    Tried t;
+  TriedEffect judged_with(int numbers, const ModelError& before, const ModelError& after,
+                          const std::vector<double>& left, const std::string& effect = "backlash",
+                          const std::string& on_top_of = "amplifier_lag", std::size_t beginnings = 0) const {
+    TriedEffect t;
     t.effect = effects.find(effect);
     t.laws.resize(1);
     if (beginnings > 0) t.laws.front().free.emplace_back().scan.resize(beginnings);
@@ -68,11 +68,11 @@ TEST_F(Judging, WhatALawMayHaveLeftCountsWhereThatLawActs) {
   const ModelError before = error(1400, 1900, 1400, 1900);
   const ModelError in_the_slow = error(1000, 1850, 1000, 1850);
   const std::vector<double> of_the_fast{0, 900, 0, 900};  // a lag does nothing where nothing is fast
-  const Tried right = judged(before, in_the_slow, of_the_fast);
+  const TriedEffect right = judged(before, in_the_slow, of_the_fast);
   EXPECT_TRUE(right.admitted) << right.reason;
   EXPECT_GT(right.share, 0.9) << "of what no other law can have left";
   // The same fall where the law that stands acts may be that law's own.
-  const Tried wrong = judged(before, error(1395, 1300, 1395, 1300), of_the_fast);
+  const TriedEffect wrong = judged(before, error(1395, 1300, 1395, 1300), of_the_fast);
   EXPECT_FALSE(wrong.admitted);
   EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
 }
@@ -80,23 +80,24 @@ TEST_F(Judging, WhatALawMayHaveLeftCountsWhereThatLawActs) {
 TEST_F(Judging, WhatALawLeavesIsSeenWhereTheCandidateIsAtRest) {
   const std::vector<double> acts_alike(4, 300);  // 1.5 % of 1.3e6
   // Noise alone in the slow recordings: the law leaves at most 0.8 % of its own effect, 90 of chi2.
-  const Tried right = judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), acts_alike);
+  const TriedEffect right = judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), acts_alike);
   EXPECT_TRUE(right.admitted) << right.reason;
   // It leaves 1.2 % there, and may have left 190 in the fast ones.
-  const Tried wrong = judged(error(1100, 1130, 1100, 1130), error(1100, 1010, 1100, 1010), acts_alike);
+  const TriedEffect wrong = judged(error(1100, 1130, 1100, 1130), error(1100, 1010, 1100, 1010), acts_alike);
   EXPECT_FALSE(wrong.admitted);
   EXPECT_NE(wrong.reason.find("may have left of their own"), std::string::npos) << wrong.reason;
   // Who acts in the fitted ones alone at rest is not seen by one that judges.
-  const Tried unseen = judged(error(1000, 1110, 1110, 1110), error(1000, 1010, 1010, 1010), acts_alike);
+  const TriedEffect unseen = judged(error(1000, 1110, 1110, 1110), error(1000, 1010, 1010, 1010), acts_alike);
   EXPECT_FALSE(unseen.admitted);
   // Where the law hardly acts it shows nothing of what it leaves elsewhere.
-  const Tried elsewhere = judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), {100, 300, 100, 300});
+  const TriedEffect elsewhere =
+      judged(error(1000, 1180, 1000, 1180), error(1000, 1010, 1000, 1010), {100, 300, 100, 300});
   EXPECT_FALSE(elsewhere.admitted);
 }
 
 /// A mains that was looked for at 50 Hz, in rows of 1 s and 1 ms; `without` it this is left.
-Tried a_line(const Effects& effects, const ModelError& after, const ModelError& without) {
-  Tried t;
+TriedEffect a_line(const Effects& effects, const ModelError& after, const ModelError& without) {
+  TriedEffect t;
   t.effect = effects.find("mains_interference");
   Law law;
   law.free.emplace_back().path = "frequency";
@@ -118,7 +119,7 @@ Tried a_line(const Effects& effects, const ModelError& after, const ModelError& 
 }
 
 TEST_F(Judging, WhatTheFitLostWhereItHadLessToGoByIsNoLoss) {
-  Tried t = a_line(effects, error(1000, 1000, 1000, 1000), error(1000, 1000, 1000, 1000));
+  TriedEffect t = a_line(effects, error(1000, 1000, 1000, 1000), error(1000, 1000, 1000, 1000));
   ASSERT_EQ(own_values(t).size(), 1u);
   t.fall_train = 100;  // its one value is known to a tenth, and a tenth off leaves a hundredth of 6500
   t.fall_validate = 6500;
@@ -137,19 +138,19 @@ TEST_F(Judging, ALineProvesItselfWhereRowsResolveIt) {
   was.ok = true;
   was.error_of = error(1900, 1900, 1900, 1900);
   // Everybody gains in the slow rows, and by what others found since then in the fast ones: without the line no less.
-  Tried patch = a_line(effects, error(1000, 1500, 1000, 1500), error(1000, 1504, 1000, 1504));
+  TriedEffect patch = a_line(effects, error(1000, 1500, 1000, 1500), error(1000, 1504, 1000, 1504));
   judge(patch, was, {});
   EXPECT_FALSE(patch.admitted);
   EXPECT_NEAR(patch.fall_validate, 4, 1e-9);
   EXPECT_NE(patch.reason.find("no more than by chance"), std::string::npos) << patch.reason;
-  Tried mains = a_line(effects, error(1000, 1010, 1000, 1010), error(1000, 1900, 1000, 1900));
+  TriedEffect mains = a_line(effects, error(1000, 1010, 1000, 1010), error(1000, 1900, 1000, 1900));
   judge(mains, was, {});
   EXPECT_TRUE(mains.admitted) << mains.reason;
   EXPECT_NEAR(mains.fall_validate, 890, 1e-9);
 }
 
 TEST_F(Judging, WhatTakesASmallShareOfAllIsAPatchWhereverItLies) {
-  const Tried t = judged(error(1100, 3900, 1100, 3900), error(1010, 3850, 1010, 3850), {0, 3000, 0, 3000});
+  const TriedEffect t = judged(error(1100, 3900, 1100, 3900), error(1010, 3850, 1010, 3850), {0, 3000, 0, 3000});
   EXPECT_FALSE(t.admitted);
   EXPECT_NE(t.reason.find("a patch"), std::string::npos) << t.reason;
 }
@@ -158,7 +159,7 @@ TEST_F(Judging, WhatTheFittedRecordingsDoNotShowIsNoFurtherEffect) {
   // 100 on recordings that judge, and 6 or 12 on those that its values were found on.
   const ModelError before = error(1000, 1012, 1000, 1200);
   EXPECT_TRUE(judged(before, error(1000, 1000, 1000, 1010), {0, 1, 0, 1}).admitted);
-  const Tried t = judged(before, error(1000, 1006, 1000, 1010), {0, 1, 0, 1});
+  const TriedEffect t = judged(before, error(1000, 1006, 1000, 1010), {0, 1, 0, 1});
   EXPECT_FALSE(t.admitted);
   EXPECT_NE(t.reason.find("on the recordings that were fitted"), std::string::npos) << t.reason;
   EXPECT_TRUE(judged(before, error(1000, 1006, 1000, 1010), {}).admitted) << "nothing stands that could do it";
@@ -166,11 +167,11 @@ TEST_F(Judging, WhatTheFittedRecordingsDoNotShowIsNoFurtherEffect) {
 
 TEST_F(Judging, NoiseIsNothingThatALawIsTakenDownTo) {
   // Noise before: that it is noise afterwards says nothing for the candidate.
-  const Tried t = judged(error(1000, 1080, 1000, 1080), error(1000, 1010, 1000, 1010), {0, 300, 0, 300});
+  const TriedEffect t = judged(error(1000, 1080, 1000, 1080), error(1000, 1010, 1000, 1010), {0, 300, 0, 300});
   EXPECT_FALSE(t.admitted);
   EXPECT_NE(t.reason.find("may have left of their own"), std::string::npos) << t.reason;
   // Structure before, noise afterwards: no imperfect law is repaired so well by another effect's.
-  const Tried down = judged(error(1000, 1600, 1000, 1600), error(1000, 1010, 1000, 1010), {0, 900, 0, 900});
+  const TriedEffect down = judged(error(1000, 1600, 1000, 1600), error(1000, 1010, 1000, 1010), {0, 900, 0, 900});
   EXPECT_TRUE(down.admitted) << down.reason;
 }
 
@@ -179,7 +180,7 @@ TEST_F(Judging, WhoCanImitateAStandingLawTakesMoreThanThatMayHaveLeft) {
   const std::vector<double> left{0, 450, 0, 450};
   const ModelError before = error(1000, 1900, 1000, 1900), after = error(1000, 1010, 1000, 1010);
   EXPECT_TRUE(judged(before, after, left, "backlash", "friction").admitted);
-  const Tried imitated = judged(before, after, left, "hysteresis", "friction");
+  const TriedEffect imitated = judged(before, after, left, "hysteresis", "friction");
   EXPECT_FALSE(imitated.admitted);
   EXPECT_NE(imitated.reason.find("may have left of their own"), std::string::npos) << imitated.reason;
   EXPECT_TRUE(judged(before, after, left, "hysteresis", "calibration").admitted) << "a straight line is exact";
@@ -229,7 +230,7 @@ TEST_F(Judging, AChainOfRelaxationsLeavesALoopUseThatNobodyCountedAGainAndAPastA
 
 TEST_F(Judging, RecordingsThatProveAWeakEffectNeedOthersOnlyToAgree) {
   const ModelError before = error(1000, 1060, 1000, 1004), after = error(1000, 1020, 1000, 1000);
-  const Tried t = judged(before, after, {});
+  const TriedEffect t = judged(before, after, {});
   EXPECT_TRUE(t.admitted) << t.reason;
   EXPECT_FALSE(judged(before, error(1000, 1020, 1000, 1003), {}).admitted) << "chance agrees by as much";
   EXPECT_FALSE(judged(before, error(1000, 1055, 1000, 1000), {}).admitted) << "9 in all are too few";
@@ -251,7 +252,7 @@ TEST(ByChance, IsWhatChiSquaredReachesOnceInTwoThousandTimes) {
 TEST_F(Judging, AWeakSlowEffectPaysForItsNumbersWhatChanceTakesAway) {
   // 10 and 6 of chi2: two numbers take 15 away once in 2000 times, three 17.5; ln N of 4000 rows is 8.3 for each.
   const ModelError before = error(1000, 1010, 1000, 1006), after = error(1000, 1000, 1000, 1000);
-  const Tried two = judged_with(2, before, after, {});
+  const TriedEffect two = judged_with(2, before, after, {});
   EXPECT_TRUE(two.admitted) << two.reason;
   EXPECT_FALSE(judged_with(3, before, after, {}).admitted);
   EXPECT_FALSE(judged_with(2, before, error(1000, 996, 1000, 1004.5), {}).admitted) << "others do not agree";
@@ -269,10 +270,10 @@ TEST_F(Judging, AWeakSlowEffectPaysForItsNumbersWhatChanceTakesAway) {
 TEST_F(Judging, WhatEveryRecordingShowsAboveTheNoiseIsTheNoise) {
   // A data sheet that says 7 % too little: 40 of 330 are a small share of what stands above it.
   const ModelError before = error(1150, 1180, 1150, 1180), after = error(1150, 1140, 1150, 1140);
-  const Tried weak = judged(before, after, {});
+  const TriedEffect weak = judged(before, after, {});
   EXPECT_TRUE(weak.admitted) << weak.reason;
   // Half of the recordings know better: what stands above the noise in the others is there.
-  const Tried patch = judged(error(1000, 1330, 1000, 1330), error(1000, 1290, 1000, 1290), {});
+  const TriedEffect patch = judged(error(1000, 1330, 1000, 1330), error(1000, 1290, 1000, 1290), {});
   EXPECT_FALSE(patch.admitted);
   EXPECT_TRUE(patch.patch) << patch.reason;
   // No sensor is as much noisier than it is said to be.
@@ -282,7 +283,7 @@ TEST_F(Judging, WhatEveryRecordingShowsAboveTheNoiseIsTheNoise) {
 TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {
   // How large the noise is nobody knows to some per cent, so of 250 above 1000 rows half may be noise.
   EXPECT_TRUE(judged(error(1000, 1250, 1000, 1250), error(1000, 1150, 1000, 1150), {}).admitted);
-  const Tried little = judged(error(1000, 1250, 1000, 1250), error(1000, 1190, 1000, 1190), {});
+  const TriedEffect little = judged(error(1000, 1250, 1000, 1250), error(1000, 1190, 1000, 1190), {});
   EXPECT_FALSE(little.admitted) << "a structure would have to take more";
   EXPECT_TRUE(little.patch);
   EXPECT_FALSE(judged(error(1000, 1650, 1000, 1650), error(1000, 1390, 1000, 1390), {}).admitted);
@@ -291,10 +292,10 @@ TEST_F(Judging, WhoLeavesOnlyNoiseNeedNotTakeHalf) {
 TEST_F(Judging, WhetherItIsAPatchAllRecordingsTell) {
   // Beside another effect that the judging recordings show: four fifths of all, two fifths of these.
   const ModelError before = error(1000, 5000, 1000, 2000);
-  const Tried t = judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1});
+  const TriedEffect t = judged(before, error(1000, 1500, 1000, 1600), {0, 1, 0, 1});
   EXPECT_TRUE(t.admitted) << t.reason;
   EXPECT_NEAR(t.share, 3900.0 / 5000, 1e-12);
-  const Tried fitted = judged(before, error(1000, 1100, 1000, 1800), {0, 1, 0, 1});
+  const TriedEffect fitted = judged(before, error(1000, 1100, 1000, 1800), {0, 1, 0, 1});
   EXPECT_FALSE(fitted.admitted) << "a fifth of what judges: it was fitted to the others";
   EXPECT_TRUE(fitted.patch);
 }
@@ -347,17 +348,17 @@ TEST_F(Judging, ACurveIsWhatItTakesBeyondALine) {
 TEST_F(Judging, ARecordingTakenDownToTheNoiseIsOwnedByHalfOfIt) {
   // What the noise of a recording is nobody knows to some per cent: of 1200 over 1000 rows 1070 may be all noise.
   const std::vector<double> of_the_fast{0, 900, 0, 900};
-  const Tried t = judged(error(1200, 1900, 1180, 1900), error(1070, 1900, 1070, 1900), of_the_fast);
+  const TriedEffect t = judged(error(1200, 1900, 1180, 1900), error(1070, 1900, 1070, 1900), of_the_fast);
   EXPECT_TRUE(t.admitted) << t.reason;
   // The same share where structure stays is a patch.
-  const Tried patch = judged(error(1400, 1900, 1400, 1900), error(1150, 1900, 1150, 1900), of_the_fast);
+  const TriedEffect patch = judged(error(1400, 1900, 1400, 1900), error(1150, 1900, 1150, 1900), of_the_fast);
   EXPECT_FALSE(patch.admitted);
   EXPECT_NE(patch.reason.find("a patch"), std::string::npos) << patch.reason;
 }
 
 TEST_F(Judging, OfTwoThatFitAlikeTheOneWithFewerNumbersIsTaken) {
   const auto of = [&](int numbers, double chi2) {
-    Tried t = judged(error(1400, 1900, 1400, 1900), error(1000, chi2, 1000, chi2), {0, 0, 0, 0});
+    TriedEffect t = judged(error(1400, 1900, 1400, 1900), error(1000, chi2, 1000, chi2), {0, 0, 0, 0});
     t.laws.resize(1);
     for (int i = 0; i < numbers; ++i) t.laws[0].free.push_back({.path = std::to_string(i)});
     t.contender.parameters = 0;  // the score is the error alone
@@ -366,7 +367,7 @@ TEST_F(Judging, OfTwoThatFitAlikeTheOneWithFewerNumbersIsTaken) {
   EXPECT_EQ(best_admitted({of(4, 1000), of(2, 1000 + 0.4 * rules::alike)}), 1) << "0.8 of what is alike";
   EXPECT_EQ(best_admitted({of(4, 1000), of(2, 1000 + 0.6 * rules::alike)}), 0) << "the error decides";
   EXPECT_EQ(best_admitted({of(2, 1000), of(4, 1000)}), 0);
-  Tried barred = of(1, 1000);
+  TriedEffect barred = of(1, 1000);
   barred.admitted = false;
   EXPECT_EQ(best_admitted({of(4, 1000), barred}), 0);
 }

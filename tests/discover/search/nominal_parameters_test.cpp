@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -158,9 +158,9 @@ TEST_F(OwnNumbers, ZerosThresholdsDefaultsAndWhatIsFreeAreNotAmongThem) {
   DiscoverOptions options;
   options.free_paths = {"stage.weights[1]"};
   const Diagram diagram = plays();
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
-  const std::map<std::string, double> held = held_numbers(books);
+  SearchState state(diagram, data, registry, effects, options);
+  fit_base(state);
+  const std::map<std::string, double> held = held_numbers(state);
   EXPECT_EQ(held, (std::map<std::string, double>{{"stage.weights[0]", 1}, {"stage.weights[2]", 0.2}}));
 }
 

@@ -6,8 +6,8 @@
 
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
-#include "discover/search/books.h"
 #include "discover/search/discover.h"
+#include "discover/search/search_state.h"
 #include "engine/diagram/error.h"
 #include "tests/discover/synthetic.h"
 
@@ -57,55 +57,55 @@ class Sets : public ::testing::Test {
     return discover(plain_gain(), data, registry, effects, options);
   }
   /// The lag of the amplifier stands alone, whatever else would explain the same.
-  static bool begins_with_the_lag(Books& books) {
-    fit_base(books);
-    auto lags = list_candidates(books, 1);
-    std::erase_if(lags, [](const Tried& t) { return t.effect->id != "amplifier_lag"; });
-    fit_candidates(books, lags, 1);
-    return !lags.empty() && lags.front().contender.ok && tell_again(books, lags.front().contender);
+  static bool begins_with_the_lag(SearchState& state) {
+    fit_base(state);
+    auto lags = list_candidates(state, 1);
+    std::erase_if(lags, [](const TriedEffect& t) { return t.effect->id != "amplifier_lag"; });
+    fit_candidates(state, lags, 1);
+    return !lags.empty() && lags.front().contender.ok && tell_again(state, lags.front().contender);
   }
   /// This effect stands alone by the first law that `is` the one that is meant.
-  static bool begins_with(Books& books, const std::string& effect,
+  static bool begins_with(SearchState& state, const std::string& effect,
                           const std::function<bool(const hysteron::Law&)>& is) {
-    fit_base(books);
-    auto list = list_candidates(books, 1);
-    std::erase_if(list, [&](const Tried& t) { return t.effect->id != effect; });
+    fit_base(state);
+    auto list = list_candidates(state, 1);
+    std::erase_if(list, [&](const TriedEffect& t) { return t.effect->id != effect; });
     if (list.empty()) return false;
-    Tried& t = list.front();
+    TriedEffect& t = list.front();
     const auto law = std::find_if(t.laws.begin(), t.laws.end(), is);
     if (law == t.laws.end()) return false;
     t.law = static_cast<std::size_t>(law - t.laws.begin());
-    t.contender = with_effect(books.shop, books.current, *t.effect, *law, t.place, t.excitation, Effort::full);
-    return t.contender.ok && tell_again(books, t.contender) && books.d.steps.front().winner.effect == effect;
+    t.contender = with_effect(state.shop, state.current, *t.effect, *law, t.place, t.excitation, Effort::full);
+    return t.contender.ok && tell_again(state, t.contender) && state.d.steps.front().winner.effect == effect;
   }
   /// Hysteresis by its law that could hold a curve.
-  static bool begins_with_mixed_loops(Books& books) {
-    return begins_with(books, "hysteresis", [](const hysteron::Law& l) { return !l.holds.empty(); });
+  static bool begins_with_mixed_loops(SearchState& state) {
+    return begins_with(state, "hysteresis", [](const hysteron::Law& l) { return !l.holds.empty(); });
   }
-  static bool goes_on_with(Books& books, const std::string& effect) {
-    const int step = static_cast<int>(books.d.steps.size()) + 1;
-    auto list = list_candidates(books, step);
-    std::erase_if(list, [&](const Tried& t) { return t.effect->id != effect; });
+  static bool goes_on_with(SearchState& state, const std::string& effect) {
+    const int step = static_cast<int>(state.d.steps.size()) + 1;
+    auto list = list_candidates(state, step);
+    std::erase_if(list, [&](const TriedEffect& t) { return t.effect->id != effect; });
     if (list.empty()) return false;
-    fit_candidates(books, list, step);
-    take(books, step, list.front(), {});
-    return static_cast<int>(books.d.steps.size()) == step;
+    fit_candidates(state, list, step);
+    take(state, step, list.front(), {});
+    return static_cast<int>(state.d.steps.size()) == step;
   }
-  static bool goes_on_with_the_lag(Books& books) { return goes_on_with(books, "amplifier_lag"); }
-  /// The books of a search for a curve, its loops and a lag in a plain gain, before anything was tried.
+  static bool goes_on_with_the_lag(SearchState& state) { return goes_on_with(state, "amplifier_lag"); }
+  /// The state of a search for a curve, its loops and a lag in a plain gain, before anything was tried.
   struct Search {
-    Search(const Sets& of, const DataSet& data) : books(user, data, of.registry, of.effects, options) {}
+    Search(const Sets& of, const DataSet& data) : state(user, data, of.registry, of.effects, options) {}
     const DiscoverOptions options = [] {
       DiscoverOptions o;
       o.only = {"hysteresis", "asymmetry", "amplifier_lag"};
       return o;
     }();
     const Diagram user = plain_gain();
-    Books books;
+    SearchState state;
   };
-  static std::vector<std::string> standing(const Books& books) {
+  static std::vector<std::string> standing(const SearchState& state) {
     std::vector<std::string> list;
-    for (const auto& s : books.current.standing) list.push_back(s.effect->id);
+    for (const auto& s : state.current.standing) list.push_back(s.effect->id);
     return list;
   }
   static std::set<std::string> names(const Discovery& d) {
@@ -164,16 +164,16 @@ TEST_F(Sets, ACalibrationBesideACurveOfTheSensorMayBeItsZero) {
   DiscoverOptions o;
   o.only = {"calibration", "sensor_nonlinearity", "amplifier_lag"};
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, o);
-  ASSERT_TRUE(begins_with(books, "calibration", [](const hysteron::Law&) { return true; }));
-  ASSERT_TRUE(goes_on_with(books, "sensor_nonlinearity"));
-  const double score = books.current.score();
-  EXPECT_FALSE(with_the_zero_of_a_curve(books, [] { return false; })) << "nothing else is there";
-  EXPECT_EQ(standing(books), (std::vector<std::string>{"calibration", "sensor_nonlinearity"})) << "all is as before";
-  EXPECT_EQ(books.current.score(), score);
-  ASSERT_TRUE(with_the_zero_of_a_curve(books, [&] { return goes_on_with_the_lag(books); }));
-  EXPECT_EQ(standing(books), (std::vector<std::string>{"sensor_nonlinearity", "amplifier_lag"}));
-  EXPECT_LT(books.current.error_of.over_floor(), 1.12);
+  SearchState state(user, data, registry, effects, o);
+  ASSERT_TRUE(begins_with(state, "calibration", [](const hysteron::Law&) { return true; }));
+  ASSERT_TRUE(goes_on_with(state, "sensor_nonlinearity"));
+  const double score = state.current.score();
+  EXPECT_FALSE(with_the_zero_of_a_curve(state, [] { return false; })) << "nothing else is there";
+  EXPECT_EQ(standing(state), (std::vector<std::string>{"calibration", "sensor_nonlinearity"})) << "all is as before";
+  EXPECT_EQ(state.current.score(), score);
+  ASSERT_TRUE(with_the_zero_of_a_curve(state, [&] { return goes_on_with_the_lag(state); }));
+  EXPECT_EQ(standing(state), (std::vector<std::string>{"sensor_nonlinearity", "amplifier_lag"}));
+  EXPECT_LT(state.current.error_of.over_floor(), 1.12);
 }
 
 TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
@@ -183,14 +183,14 @@ TEST_F(Sets, WhatExplainsTheSameInPlaceOfAMemberIsTold) {
   DiscoverOptions options;
   options.only = {"amplifier_lag", "dead_time", "saturation"};
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
-  ASSERT_TRUE(begins_with_the_lag(books));
-  EXPECT_TRUE(books.d.steps.front().ties.empty());
-  reconsider(books, 0, Came::at_once);
-  ASSERT_EQ(books.d.steps.size(), 1u);
-  ASSERT_EQ(books.d.steps.front().ties.size(), 1u) << books.d.steps.front().sentence;
-  EXPECT_EQ(books.d.steps.front().ties.front().effect, "dead_time");
-  EXPECT_TRUE(books.d.steps.front().experiment.has_value());
+  SearchState state(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_the_lag(state));
+  EXPECT_TRUE(state.d.steps.front().ties.empty());
+  reconsider(state, 0, Came::at_once);
+  ASSERT_EQ(state.d.steps.size(), 1u);
+  ASSERT_EQ(state.d.steps.front().ties.size(), 1u) << state.d.steps.front().sentence;
+  EXPECT_EQ(state.d.steps.front().ties.front().effect, "dead_time");
+  EXPECT_TRUE(state.d.steps.front().experiment.has_value());
 }
 
 TEST_F(Sets, WhoCouldHoldAnotherEffectBesideItsOwnMayHaveStoodForThatOneAlone) {
@@ -200,12 +200,12 @@ TEST_F(Sets, WhoCouldHoldAnotherEffectBesideItsOwnMayHaveStoodForThatOneAlone) {
     return behind_a_lag(u, 0.6);
   });
   Search search(*this, data);
-  Books& books = search.books;
-  ASSERT_TRUE(begins_with_mixed_loops(books));
-  ASSERT_TRUE(goes_on_with_the_lag(books));
-  reconsider(books, 0);
-  EXPECT_EQ(names(books.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}))
-      << books.current.error_of.over_floor();
+  SearchState& state = search.state;
+  ASSERT_TRUE(begins_with_mixed_loops(state));
+  ASSERT_TRUE(goes_on_with_the_lag(state));
+  reconsider(state, 0);
+  EXPECT_EQ(names(state.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}))
+      << state.current.error_of.over_floor();
 }
 
 /// A curve that bends four times, of which a cubic leaves most, and a lag.
@@ -214,21 +214,21 @@ std::vector<double> curved_and_late(std::vector<double> u) {
   return behind_a_lag(u, 0.6);
 }
 
-bool has_law(const Books& books, const std::string& name) {
-  const auto& standing = books.current.standing;
+bool has_law(const SearchState& state, const std::string& name) {
+  const auto& standing = state.current.standing;
   return std::any_of(standing.begin(), standing.end(), [&](const Standing& s) { return s.law.name == name; });
 }
 
 TEST_F(Sets, WhatComesInAnothersPlaceIsRefinedAsAnyCandidateIs) {
   const DataSet data = seen_through(curved_and_late);
   Search search(*this, data);
-  Books& books = search.books;
-  ASSERT_TRUE(begins_with_mixed_loops(books));
-  ASSERT_TRUE(goes_on_with_the_lag(books));
-  reconsider(books, 0);
-  ASSERT_EQ(names(books.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}));
-  EXPECT_TRUE(has_law(books, "of order 5"));
-  EXPECT_LT(books.current.error_of.over_floor(), rules::floor_gate);
+  SearchState& state = search.state;
+  ASSERT_TRUE(begins_with_mixed_loops(state));
+  ASSERT_TRUE(goes_on_with_the_lag(state));
+  reconsider(state, 0);
+  ASSERT_EQ(names(state.d), (std::set<std::string>{"amplifier_lag", "asymmetry"}));
+  EXPECT_TRUE(has_law(state, "of order 5"));
+  EXPECT_LT(state.current.error_of.over_floor(), rules::floor_gate);
 }
 
 TEST_F(Sets, WhatStandsIsRefinedBesideWhatCameLater) {
@@ -236,15 +236,15 @@ TEST_F(Sets, WhatStandsIsRefinedBesideWhatCameLater) {
   DiscoverOptions options;
   options.only = {"asymmetry", "amplifier_lag"};
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
-  ASSERT_TRUE(begins_with(books, "asymmetry", [](const hysteron::Law& l) { return l.name == "cubic"; }));
-  EXPECT_FALSE(refine_what_stands(books, 0)) << "alone all its laws were compared";
-  ASSERT_TRUE(goes_on_with_the_lag(books));
-  ASSERT_GT(books.current.error_of.over_floor(), rules::floor_gate);
-  EXPECT_TRUE(refine_what_stands(books, 0));
-  EXPECT_TRUE(has_law(books, "of order 5"));
-  EXPECT_LT(books.current.error_of.over_floor(), rules::floor_gate);
-  EXPECT_FALSE(refine_what_stands(books, 0)) << "nothing is better than what it has";
+  SearchState state(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with(state, "asymmetry", [](const hysteron::Law& l) { return l.name == "cubic"; }));
+  EXPECT_FALSE(refine_what_stands(state, 0)) << "alone all its laws were compared";
+  ASSERT_TRUE(goes_on_with_the_lag(state));
+  ASSERT_GT(state.current.error_of.over_floor(), rules::floor_gate);
+  EXPECT_TRUE(refine_what_stands(state, 0));
+  EXPECT_TRUE(has_law(state, "of order 5"));
+  EXPECT_LT(state.current.error_of.over_floor(), rules::floor_gate);
+  EXPECT_FALSE(refine_what_stands(state, 0)) << "nothing is better than what it has";
 }
 
 TEST_F(Sets, WhatAMixedLawHoldsIsAskedForOnceItIsEnough) {
@@ -257,12 +257,12 @@ TEST_F(Sets, WhatAMixedLawHoldsIsAskedForOnceItIsEnough) {
   options.only = {"hysteresis", "asymmetry", "amplifier_lag"};
   options.enough = [&] { return enough; };
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
-  ASSERT_TRUE(begins_with_mixed_loops(books));
-  ASSERT_TRUE(goes_on_with_the_lag(books));
+  SearchState state(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_mixed_loops(state));
+  ASSERT_TRUE(goes_on_with_the_lag(state));
   enough = true;
-  conclude(books);
-  EXPECT_EQ(names(books.d), (std::set<std::string>{"amplifier_lag", "asymmetry"})) << books.d.headline;
+  conclude(state);
+  EXPECT_EQ(names(state.d), (std::set<std::string>{"amplifier_lag", "asymmetry"})) << state.d.headline;
 }
 
 TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
@@ -270,30 +270,30 @@ TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
   DiscoverOptions options;
   options.only = {"amplifier_lag", "saturation"};
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
-  ASSERT_TRUE(begins_with_the_lag(books));
-  leave_out_idle(books);
-  EXPECT_EQ(books.d.steps.size(), 1u) << "alone it stays, whatever it does";
+  SearchState state(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_the_lag(state));
+  leave_out_idle(state);
+  EXPECT_EQ(state.d.steps.size(), 1u) << "alone it stays, whatever it does";
   // A limit that no recording reaches, as if it had been claimed.
-  auto limits = list_candidates(books, 2);
+  auto limits = list_candidates(state, 2);
   ASSERT_FALSE(limits.empty());
-  fit_candidates(books, limits, 2);
-  const Tried& limit = limits.front();
+  fit_candidates(state, limits, 2);
+  const TriedEffect& limit = limits.front();
   ASSERT_TRUE(limit.contender.ok);
-  const double before = books.current.error_of.evidence();
-  books.current = limit.contender;
-  books.current.error_of = books.evidence->error(books.current.prediction);
-  ASSERT_NEAR(books.current.error_of.evidence(), before, 1) << "the limit limits something";
+  const double before = state.current.error_of.evidence();
+  state.current = limit.contender;
+  state.current.error_of = state.evidence->error(state.current.prediction);
+  ASSERT_NEAR(state.current.error_of.evidence(), before, 1) << "the limit limits something";
   FoundStep step;
   step.winner.effect = "saturation";
   step.winner.place = limit.place.where();
-  books.d.steps.push_back(step);
-  leave_out_idle(books);
-  ASSERT_EQ(books.d.steps.size(), 1u);
-  EXPECT_EQ(books.d.steps.front().winner.effect, "amplifier_lag") << "without which 0.6 rows of delay are left";
-  ASSERT_EQ(books.current.standing.size(), 1u);
-  EXPECT_EQ(books.current.standing.front().effect->id, "amplifier_lag");
-  EXPECT_NEAR(books.current.error_of.evidence(), before, 1);
+  state.d.steps.push_back(step);
+  leave_out_idle(state);
+  ASSERT_EQ(state.d.steps.size(), 1u);
+  EXPECT_EQ(state.d.steps.front().winner.effect, "amplifier_lag") << "without which 0.6 rows of delay are left";
+  ASSERT_EQ(state.current.standing.size(), 1u);
+  EXPECT_EQ(state.current.standing.front().effect->id, "amplifier_lag");
+  EXPECT_NEAR(state.current.error_of.evidence(), before, 1);
 }
 
 TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
@@ -305,33 +305,33 @@ TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
   options.only = {"amplifier_lag", "dead_time"};
   options.stop = [&] { return late; };
   const Diagram user = plain_gain();
-  Books books(user, data, registry, effects, options);
-  ASSERT_TRUE(begins_with_the_lag(books));
-  const double before = books.current.error_of.evidence();
-  const auto lag = parameters_of(books.current, 0).front();
-  books.current.diagram =
-      with_parameters(books.current.diagram, *books.current.program,
-                      {{parameter_index(*books.current.program, lag.estimate->path), lag.estimate->used / 2, -1}});
-  auto delays = list_candidates(books, 2);
-  std::erase_if(delays, [](const Tried& t) { return t.effect->id != "dead_time"; });
+  SearchState state(user, data, registry, effects, options);
+  ASSERT_TRUE(begins_with_the_lag(state));
+  const double before = state.current.error_of.evidence();
+  const auto lag = parameters_of(state.current, 0).front();
+  state.current.diagram =
+      with_parameters(state.current.diagram, *state.current.program,
+                      {{parameter_index(*state.current.program, lag.estimate->path), lag.estimate->used / 2, -1}});
+  auto delays = list_candidates(state, 2);
+  std::erase_if(delays, [](const TriedEffect& t) { return t.effect->id != "dead_time"; });
   ASSERT_FALSE(delays.empty());
-  Tried& delay = delays.front();
-  delay.contender = with_effect(books.shop, books.current, *delay.effect, delay.laws.front(), delay.place,
+  TriedEffect& delay = delays.front();
+  delay.contender = with_effect(state.shop, state.current, *delay.effect, delay.laws.front(), delay.place,
                                 delay.excitation, Effort::screen);
   ASSERT_TRUE(delay.contender.ok);
   ASSERT_NEAR(delay.contender.error_of.evidence(), before, 8) << "a screening ends a few of chi2 early";
-  take(books, 2, delay, {});
-  ASSERT_EQ(books.d.steps.size(), 2u);
+  take(state, 2, delay, {});
+  ASSERT_EQ(state.d.steps.size(), 2u);
   late = true;
-  leave_out_idle(books);
-  EXPECT_EQ(books.d.steps.size(), 2u) << "neither is idle, and for more there is no time";
+  leave_out_idle(state);
+  EXPECT_EQ(state.d.steps.size(), 2u) << "neither is idle, and for more there is no time";
   late = false;
-  leave_out_idle(books);
-  ASSERT_EQ(books.d.steps.size(), 1u);
-  EXPECT_EQ(books.d.steps.front().winner.effect, "dead_time") << "the last one was compared when it was claimed";
-  ASSERT_EQ(books.current.standing.size(), 1u);
-  EXPECT_NEAR(books.current.error_of.evidence(), before, 2);
-  EXPECT_EQ(books.d.steps.front().after.rms_validate, books.current.error_of.rms_validate);
+  leave_out_idle(state);
+  ASSERT_EQ(state.d.steps.size(), 1u);
+  EXPECT_EQ(state.d.steps.front().winner.effect, "dead_time") << "the last one was compared when it was claimed";
+  ASSERT_EQ(state.current.standing.size(), 1u);
+  EXPECT_NEAR(state.current.error_of.evidence(), before, 2);
+  EXPECT_EQ(state.d.steps.front().after.rms_validate, state.current.error_of.rms_validate);
 }
 
 TEST_F(Sets, NothingIsClaimedOfWhichNotAllWereAskedOnceItIsEnough) {

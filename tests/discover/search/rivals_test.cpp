@@ -2,7 +2,7 @@
 // which only the names, the laws and the falls matter.
 #include <gtest/gtest.h>
 
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -37,8 +37,8 @@ class Rivals : public Discoveries {
   const Diagram diagram_ = plain_gain();
   const DataSet data_ = sines();
   const DiscoverOptions options_;
-  Books books_;
-  std::vector<Tried> tried_;
+  SearchState books_;
+  std::vector<TriedEffect> tried_;
 };
 
 TEST_F(Rivals, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {

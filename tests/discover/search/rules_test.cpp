@@ -5,7 +5,7 @@
 
 #include "discover/models/own_resonances.h"
 #include "discover/placement/excitation.h"
-#include "discover/search/books.h"
+#include "discover/search/search_state.h"
 #include "engine/program/program.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/two_axes.h"
@@ -163,19 +163,19 @@ TEST_F(Rules, EachBlockThatRemembersHasAPastOfItsOwn) {
       data_set({recording("a.csv", Role::train, t, u, y), recording("b.csv", Role::validate, t, u, y)}, 1e-3);
   DiscoverOptions options;
   options.only = {"initial_remanence"};
-  Books books(d, data, registry, effects, options);
-  fit_base(books);
-  const auto where = [](const std::vector<Tried>& list) {
+  SearchState state(d, data, registry, effects, options);
+  fit_base(state);
+  const auto where = [](const std::vector<TriedEffect>& list) {
     std::vector<std::string> places;
-    for (const Tried& one : list) places.push_back(one.place.where());
+    for (const TriedEffect& one : list) places.push_back(one.place.where());
     return places;
   };
-  auto list = list_candidates(books, 1);
+  auto list = list_candidates(state, 1);
   ASSERT_EQ(where(list), (std::vector<std::string>{"joint", "nut"}));
-  fit_candidates(books, list, 1);
+  fit_candidates(state, list, 1);
   ASSERT_TRUE(list[0].contender.ok) << list[0].contender.error;
-  take(books, 1, list[0], {});
-  EXPECT_EQ(where(list_candidates(books, 2)), std::vector<std::string>{"nut"});
+  take(state, 1, list[0], {});
+  EXPECT_EQ(where(list_candidates(state, 2)), std::vector<std::string>{"nut"});
 }
 
 // --- slow noise ------------------------------------------------------------------------------------------------------
@@ -246,30 +246,30 @@ TEST_F(Rules, ARicherLawBeginsAmongWhatWasFittedTogetherWithTheSimpleOne) {
   const Diagram diagram = plain_gain();
   DiscoverOptions options;
   options.only = {"amplifier_lag", "creep"};
-  Books books(diagram, data, registry, effects, options);
-  fit_base(books);
+  SearchState state(diagram, data, registry, effects, options);
+  fit_base(state);
   const Effect& lag = effects.get("amplifier_lag");
   const Place place = places_of(lag, diagram, registry, &data).front();
   const auto at = circumstances_at(diagram, registry, data, place, {});
-  const Contender first = with_effect(books.shop, books.base, lag, lag.laws(at).front(), place, at, Effort::full);
-  books.current = first;
-  books.settle(books.current);
-  auto tried = list_candidates(books, 2, {}, {&effects.get("creep")});
-  fit_candidates(books, tried, 2);
+  const Contender first = with_effect(state.shop, state.base, lag, lag.laws(at).front(), place, at, Effort::full);
+  state.current = first;
+  state.settle(state.current);
+  auto tried = list_candidates(state, 2, {}, {&effects.get("creep")});
+  fit_candidates(state, tried, 2);
   join_twins(tried);
   ASSERT_EQ(tried.size(), 1U);
-  compare_all(books, tried, As::further);
-  refit_best(books, tried, As::further, 0);
+  compare_all(state, tried, As::further);
+  refit_best(state, tried, As::further, 0);
   const Contender simple = tried.front().contender;
   ASSERT_TRUE(simple.ok) << simple.error;
   EXPECT_LT(values_of(simple, 0).front(), 0.95 * values_of(first, 0).front()) << "time of the lag";
 
-  const Contender held = before_last(books.shop, simple);
+  const Contender held = before_last(state.shop, simple);
   EXPECT_EQ(held.standing.size(), 1U);
   EXPECT_EQ(held.parameters, first.parameters);
   EXPECT_DOUBLE_EQ(values_of(held, 0).front(), values_of(simple, 0).front());
 
-  enrich(books, tried, 2, As::further, 0);
+  enrich(state, tried, 2, As::further, 0);
   EXPECT_EQ(tried.front().law, 1U);
   EXPECT_LT(tried.front().contender.score(), simple.score() - 100);
 }
