@@ -1,5 +1,6 @@
 // Decides what a simulation in adaptive steps keeps between two of them, so that it can also be taken piece by piece
-// (stepped_simulation.h) without the integrator starting anew. Internal to the ways of simulating; defined in adaptive_step.cpp.
+// (stepped_simulation.h) without the integrator starting anew. Internal to the ways of simulating; defined in
+// adaptive_step.cpp.
 #pragma once
 
 #include <functional>

@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"draw", {"engine"}},
     {"studio", {"engine", "io", "draw"}},
     {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw", "studio"}},
+    {"interop", {"engine", "io", "report", "app"}},
 };
 
 /// The rooms of each folder, from the ground up: a room includes only what stands before it. "" are the files that lie
@@ -52,6 +53,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"draw", {""}},
     {"studio", {""}},
     {"app", {"cli", "facts", "jobs", "cluster", "study", "verbs", ""}},
+    {"interop", {"c"}},
 };
 
 /// Rooms that a text includes from.
