@@ -61,6 +61,26 @@ void discrete_rows(std::vector<double>& y) {
   }
 }
 
+/// What u was at t [s], straight between the rows; at rest before the first.
+double past(const std::vector<double>& u, double t) {
+  const double place = std::max(0.0, t / row);
+  const auto k = std::min(static_cast<std::size_t>(place), samples - 2);
+  return u[k] + (place - static_cast<double>(k)) * (u[k + 1] - u[k]);
+}
+
+void delayed_rows(std::vector<double>& y) {
+  for (std::size_t k = 0; k < samples; ++k)
+    y[k] = past(input(0), static_cast<double>(k) * row - std::clamp(input(1)[k], 0.0, 0.5));
+}
+
+/// Two impulses that leave a mode of 20 Hz and a damping of 0.1 at rest.
+void shaped_rows(std::vector<double>& y) {
+  const double root = std::sqrt(1 - 0.1 * 0.1), k1 = std::exp(-std::numbers::pi * 0.1 / root),
+               delay = 1 / (2 * 20 * root);
+  for (std::size_t k = 0; k < samples; ++k)
+    y[k] = (input(0)[k] + k1 * past(input(0), static_cast<double>(k) * row - delay)) / (1 + k1);
+}
+
 }  // namespace
 
 std::vector<Case> more_cases() {
@@ -77,6 +97,20 @@ std::vector<Case> more_cases() {
                  })});
   all.push_back({"switch", node("switch", {}), {"", "", ""}, "", of_inputs<3>([](const auto& u) {
                    return u[1] > 0 ? u[0] : u[2];
+                 })});
+  all.push_back(
+      {"manual_switch", node("manual_switch", {}), {"", ""}, "", of_inputs<2>([](const auto& u) { return u[0]; })});
+  all.push_back(
+      {"variable_dead_time", node("variable_dead_time", {{"longest", "0.5 s"}}), {"", "s"}, "", delayed_rows, true});
+  all.push_back(
+      {"input_shaper", node("input_shaper", {{"frequency", "20 Hz"}, {"damping", 0.1}}), {""}, "", shaped_rows, true});
+  all.push_back({"h_bridge_with_dead_time",
+                 node("h_bridge_with_dead_time", {{"supply", "24 V"}, {"resistance", "0.1 ohm"}, {"loss", "1 V"}}),
+                 {"", "A"},
+                 "",
+                 of_inputs<2>([](const auto& u) {
+                   const double way = u[1] > 0 ? 1 : u[1] < 0 ? -1 : 0;
+                   return 24 * u[0] - 0.1 * u[1] - way;
                  })});
   all.push_back({"logic (and)", node("logic", {}), {"", ""}, "", of_inputs<2>([](const auto& u) {
                    return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0;
