@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import importlib.util
 import os
 import signal
 import subprocess
@@ -159,6 +160,27 @@ class Values(unittest.TestCase):
                 self.assertEqual(os.listdir("."), [])  # looking at a diagram leaves nothing behind
             finally:
                 os.chdir(before)
+
+
+class Others(unittest.TestCase):
+    def test_a_figure_of_matplotlib(self) -> None:
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("matplotlib is not there")
+        run = hy.load(DRIVEN).run(data=hy.Recording(t=np.arange(1000.0), u=(np.ones(1000), "V"), y=(np.zeros(1000), "um")))
+        figure = run.plot()
+        self.assertEqual(len(figure.axes), len(set(run.trace.units.values())) - 1)  # one for each unit but that of t
+        line = figure.axes[-1].get_lines()[0]
+        np.testing.assert_array_equal(line.get_xdata(), run.t)
+        self.assertEqual(len(hy.load(STAGE).run().plot("y").axes[0].get_lines()), 1)
+
+    def test_a_table_of_pandas(self) -> None:
+        if importlib.util.find_spec("pandas") is None:
+            self.skipTest("pandas is not there")
+        run = hy.load(STAGE).run()
+        frame = run.to_pandas()
+        self.assertEqual(list(frame.columns), ["drive", "y"])
+        self.assertEqual(frame.attrs["units"]["y"], "V")
+        np.testing.assert_array_equal(frame["y"].to_numpy(), run["y"])
 
 
 class Distribution(unittest.TestCase):
