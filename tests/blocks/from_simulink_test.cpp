@@ -1,6 +1,7 @@
 // The table of docs/from-simulink.md names types that are there, and the program says of each name what the table says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <regex>
 #include <set>
