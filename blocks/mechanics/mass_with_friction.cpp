@@ -8,7 +8,7 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
   spec.name("mass_with_friction", "one mass with dry friction that truly sticks, driven by a force");
   spec.law(
           "sliding: mass dv/dt = force - damping v - stiffness x - sign(v) (coulomb + (breakaway - coulomb) "
-          "exp(-(v/stribeck_velocity)^2)); sticking: v = 0 until |force - stiffness x| reaches breakaway")
+          "exp(-|v/stribeck_velocity|^stribeck_exponent)); sticking: v = 0 until |force - stiffness x| reaches breakaway")
       .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
   spec.remark(
       "Three modes: sticking, sliding up, sliding down. A sticking mass does not creep, however long it sticks.");
@@ -17,11 +17,14 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
   describe_motion(spec).optional("0");
   describe_dry_friction(spec);
   describe_start(spec);
+  describe_beyond_linear(spec);
 }
 
 void describe_dry_friction(Declaration& d, const MotionWords& words) {
   d.parameter("coulomb", words.cause_unit, "dry friction of fast sliding").not_negative();
-  d.parameter("breakaway", words.cause_unit, std::string(words.cause) + " at which sticking ends, at least coulomb")
+  d.parameter("breakaway", words.cause_unit,
+              std::string(words.cause) + " at which sticking ends, at least coulomb; 0 = coulomb (1 + excess)")
+      .optional("0")
       .not_negative();
   d.parameter("stribeck_velocity", words.speed_unit(), "over which breakaway falls to coulomb; 0 = at once")
       .optional("0")
@@ -29,11 +32,17 @@ void describe_dry_friction(Declaration& d, const MotionWords& words) {
   d.parameter("rest_speed", words.speed_unit(), "a slower turn of the motion counts as standing still")
       .optional(std::string("1 n") + words.speed_unit())
       .positive();
+  d.parameter("excess", "", "breakaway over coulomb, less one, where breakaway is not given")
+      .optional("0")
+      .not_negative();
+  d.parameter("stribeck_exponent", "", "of the speed by which breakaway falls: 2 = Gauss's bell, 1 = an exponential")
+      .optional("2")
+      .positive();
 }
 
 std::string MassWithFriction::check(const Params<double>& p) {
-  if (p.breakaway >= p.coulomb) return "";
-  return fmt::format("breakaway ({:.4g}) is below coulomb ({:.4g}) [SI]; give at least coulomb", p.breakaway,
+  if (p.breakaway >= p.coulomb || p.breakaway == 0) return "";
+  return fmt::format("breakaway ({:.4g}) is below coulomb ({:.4g}) [SI]; give at least coulomb, or none", p.breakaway,
                      p.coulomb);
 }
 

@@ -62,7 +62,7 @@ Effect friction() {
   e.title = "Friction";
   e.cause = "Guideways, cables, wipers. Flexure stages have none.";
   e.equation =
-      "F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips at "
+      "F = coulomb*sgn(v); or, giving way before it slides, F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips at "
       "stiffness*distance; without a mass "
       "y = u - level*z/distance, v of y; beside a damping b: F = b*(v + level*z/distance)";
   e.source =
@@ -78,6 +78,7 @@ Effect friction() {
   e.else_a_block = true;
   e.is_memory = true;
   e.parameters = {
+      {"coulomb", "N, N*m", "at any speed, where it does not give way before it slides", ""},
       {"contact_stiffness", "N/m, N*m/rad", "while it sticks", ""},
       {"slip_distance", "m, rad", "after which it slides", "0.1 .. 50 um"},
       {"excess", "", "richer law: breakaway over the friction of fast sliding, less one", "0 .. 1"},
@@ -93,7 +94,7 @@ Effect friction() {
                    {"backlash", "triangle", "lost motion is the same at all amplitudes"},
                    {"quadratic_drag", "triangle", "a drag grows with the square of the speed, at low speed it is gone"},
                    {"stiffening", "sine_amplitudes", "a stiffening spring has no memory"}};
-  e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
+  e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     if (at.damping) return told_beside_damping(values, at);
     if (at.by.empty() && is_motion(at.unit))
       return fmt::format(
@@ -103,7 +104,13 @@ Effect friction() {
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
-    const double share = 100 * values[0] * values[1] / std::max(driving_range(at), 1e-300);
+    const double per_cent = 100 / std::max(driving_range(at), 1e-300);
+    if (is_dry(law))
+      return fmt::format(
+          "{:.3g} {} ({:.2g} % of the {}){}", values[0], turns(at) ? "N m" : "N", per_cent * values[0],
+          turns(at) ? "torque" : "force",
+          values.size() > 1 ? fmt::format(", {:.2g} % more before it slides fast", 100 * values[1]) : "");
+    const double share = per_cent * values[0] * values[1];
     if (turns(at))
       return fmt::format("{:.3g} N m ({:.2g} % of the torque), after {:.3g} mrad", values[0] * values[1], share,
                          values[1] * 1e3);
@@ -120,7 +127,9 @@ Effect friction() {
     damped.name = "presliding in a damped contact";
     all.name = "presliding with excess and a damped contact (LuGre)";
     // The contact first: without it an excess at no speed at all stands for it, and a search that begins there stays.
-    return std::vector<Law>{presliding(at), damped, all, sticky};
+    std::vector<Law> laws{presliding(at), damped, all, sticky};
+    if (can_be_dry(at)) laws.insert(laws.begin() + 1, {dry(at), dry_with_excess(at), dry_with_quick_excess(at)});
+    return laws;
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Excitation&) -> std::string {
     if (law.block.type != "guide_friction") return "";

@@ -47,6 +47,50 @@ bool is_motion(const Unit& unit) {
   return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
 }
 
+namespace {
+
+constexpr const char *of_a_mass = "mass_with_friction", *of_an_inertia = "inertia_with_friction";
+
+std::string dry_type(const Excitation& at) {
+  return at.by == "mass_with_presliding" ? of_a_mass : at.by == "inertia_with_presliding" ? of_an_inertia : "";
+}
+
+}  // namespace
+
+bool can_be_dry(const Excitation& at) { return !dry_type(at).empty(); }
+bool is_dry(const Law& law) { return law.block.type == of_a_mass || law.block.type == of_an_inertia; }
+
+Law dry(const Excitation& at) {
+  Law law;
+  law.name = "dry (Coulomb)";
+  law.apart = true;
+  law.block.type = dry_type(at);
+  const double force = driving_range(at) > 0 ? driving_range(at) : 1;
+  LawParameter level;
+  level.path = "coulomb";
+  level.start = 0.05 * force;
+  level.lower = 0;  // it takes energy
+  level.upper = force;
+  for (const double share : {0.003, 0.01, 0.03, 0.1, 0.3}) level.scan.push_back(share * force);
+  give(law.block, "coulomb", with_unit(level.start, parse_unit(turns(at) ? "N m" : "N")));
+  law.free = {level};
+  return law;
+}
+
+Law dry_with_excess(const Excitation& at) {
+  Law law = with_excess(dry(at), largest_speed(travel(at), at), parse_unit(turns(at) ? "rad/s" : "m/s"));
+  law.apart = false;
+  law.name = "dry with Stribeck's excess";
+  return law;
+}
+
+Law dry_with_quick_excess(const Excitation& at) {
+  Law law = dry_with_excess(at);
+  law.name = "dry with an excess that falls as an exponential (Tustin)";
+  give(law.block, "stribeck_exponent", 1.0);
+  return law;
+}
+
 Law presliding(const Excitation& at) {
   Law law;
   law.name = "presliding (Dahl)";

@@ -9,6 +9,14 @@
 
 namespace hysteron::effects {
 
+/// Of a mass or an inertia on a linear spring, or one that bends: holds with the same force at any speed, sticks
+/// without giving way (Coulomb), and with more at low speed (Stribeck). Where the block has such a variation.
+bool can_be_dry(const Excitation& at);
+Law dry(const Excitation& at);
+Law dry_with_excess(const Excitation& at);        ///< that falls as Gauss's bell
+Law dry_with_quick_excess(const Excitation& at);  ///< that falls as an exponential
+bool is_dry(const Law& law);
+
 /// Beside the spring of a mass: sticks like a spring, slides at a force (Dahl).
 Law presliding(const Excitation& at);
 /// The same, holding more before it slides fast (Stribeck's excess in LuGre's law).

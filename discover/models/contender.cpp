@@ -36,7 +36,7 @@ Prediction predicted_with(const Workshop& shop, const Contender& c, Effort effor
   Trial trial;
   for (const auto& v : c.of_recordings)
     trial.push_back({parameter_index(*c.program, v.path), silent(v) ? 0 : v.value, v.recording});
-  DataModel model(c.program, shop.data, accuracy(shop, effort));
+  DataModel model(c.program, shop.data, accuracy(shop, *c.program, effort));
   begin_as_found(c, model);
   if (shop.evidence != nullptr) model.choose_substeps(trial, noise_of(shop, model).white());
   return model.predict(trial, train_and_validate(*shop.data));
@@ -203,7 +203,7 @@ Prediction without_lines(const Workshop& shop, const Contender& contender) {
 Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings) {
   Contender c = contender;
   c.program = compile(c.diagram, *shop.registry);
-  DataModel model(c.program, shop.data, accuracy(shop, Effort::final));
+  DataModel model(c.program, shop.data, accuracy(shop, *c.program, Effort::final));
   std::vector<FreeParameter> free;
   for (const auto& s : c.standing)
     for (auto& f : free_of_law(*c.program, s, false, recordings))

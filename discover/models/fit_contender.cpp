@@ -138,7 +138,7 @@ void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& 
 }
 
 DataModel model_of(const Workshop& shop, const Contender& c, const ProgramPointer& program, Effort effort) {
-  DataModelOptions options = accuracy(shop, effort);
+  DataModelOptions options = accuracy(shop, *program, effort);
   if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
   DataModel model(program, shop.data, options);
   begin_as_found(c, model);
@@ -378,7 +378,7 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
 
 /// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
 /// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
-DataModelOptions accuracy(const Workshop& shop, Effort effort) {
+DataModelOptions accuracy(const Workshop& shop, const Program& program, Effort effort) {
   DataModelOptions options;
   options.threads = shop.threads;
   options.max_substeps = 1024;
@@ -386,7 +386,10 @@ DataModelOptions accuracy(const Workshop& shop, Effort effort) {
   for (const auto& r : shop.data->recordings)
     if (r.role == Role::train) rows += static_cast<double>(r.last);
   options.bdf_otherwise = shop.bdf_otherwise;
-  while (effort != Effort::final && options.max_substeps > 32 && options.max_substeps * rows > shop.simulation_steps) {
+  const double work = rows * work_of_a_step(program);
+  const double fewest = 32 / work_of_a_step(program);
+  while (effort != Effort::final && options.max_substeps > fewest &&
+         options.max_substeps * work > shop.simulation_steps) {
     options.max_substeps /= 2;
     options.bdf_otherwise = false;
   }

@@ -23,7 +23,7 @@ bool has_line(const Law& law);
 void begin_as_found(const Contender& c, DataModel& model);
 
 /// How finely candidates are simulated.
-DataModelOptions accuracy(const Workshop& shop, Effort effort);
+DataModelOptions accuracy(const Workshop& shop, const Program& program, Effort effort);
 std::vector<int> train_and_validate(const DataSet& data);
 /// Noise of the outputs of `model`, which may be some of those that are judged.
 NoiseModel noise_of(const Workshop& shop, const DataModel& model);

@@ -37,6 +37,14 @@ double linear_ones(const Contender& c, const std::vector<FreeParameter>& free) {
 
 }  // namespace
 
+double work_of_a_step(const Program& program) {
+  constexpr double of_a_mass = 2;
+  double states = 0;
+  for (const auto& b : program.blocks)
+    if (!b.kernel->declaration.is_linear) states = std::max(states, static_cast<double>(b.sizes.states));
+  return std::max(1.0, states / of_a_mass);
+}
+
 double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
                   const std::vector<FreeParameter>& free) {
   Trial start;  // as the fit begins: substeps are chosen once
@@ -49,6 +57,7 @@ double steps_from(DataModel& model, const std::vector<double>& noise, const Tria
     steps += static_cast<double>(model.steps(r));
     most = std::max(most, model.substeps(r));
   }
+  steps *= work_of_a_step(model.program());
   if (model.goes_by_points()) return cost_of_a_point * steps;
   return most == 1 && !model.integrates() ? 0 : steps;  // linear and static: nothing is slow
 }

@@ -13,7 +13,11 @@ inline constexpr double screening_steps = 5e6;
 /// Steps that may be spent on the fit of one candidate with nonlinear states: some seconds.
 inline constexpr double fit_steps = 4e7;
 
-/// Steps of one simulation of the train recordings from the start values: rows times substeps. 0: nothing is slow.
+/// What a step of the program costs, in steps of one mass or tank: elements that remember beside a mass are asked at
+/// each place that it passes.
+double work_of_a_step(const Program& program);
+/// Steps of one simulation of the train recordings from the start values: rows times substeps times
+/// their work. 0: nothing is slow.
 double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
                   const std::vector<FreeParameter>& free);
 /// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.

@@ -34,7 +34,8 @@ std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& g
   // The same model and numbers from rest.
   Workshop at_rest = free.shop;
   at_rest.data = std::make_shared<const DataSet>(given);
-  DataModel from_rest(compile(best.model.diagram, free.registry), at_rest.data, accuracy(at_rest, Effort::full));
+  const auto program = compile(best.model.diagram, free.registry);
+  DataModel from_rest(program, at_rest.data, accuracy(at_rest, *program, Effort::full));
   const Prediction rest = from_rest.predict({}, free.evidence->recordings());
   if (!rest.ok) return {};
   const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));

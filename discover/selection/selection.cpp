@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -92,6 +93,18 @@ int slowness(const SearchState& state, const TriedEffect& t) {
     return 0;
   const Kernel* law = state.registry.find(t.laws.front().block.type);
   return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
+}
+
+/// What a score needs.
+TableModel without_prediction(const TableModel& f) {
+  TableModel one;
+  one.model.ok = f.model.ok;
+  one.numbers = f.numbers;
+  one.left = f.left;
+  one.parameters = f.parameters;
+  one.tried = f.tried;
+  one.moved = f.moved;
+  return one;
 }
 
 }  // namespace
@@ -197,18 +210,27 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
 }
 
 /// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left. Where
-/// others have been fitted so, of the rest only those that explain more than the best of them already.
-void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others) {
+/// others have been fitted so, of the rest only the first and those that explain more than the best of the others; of
+/// the slowest only those that explain more than the others did before their numbers were let go.
+void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others,
+                                 const std::vector<TableModel>& others_at_first) {
   sort(rivals);
   const bool race = others != nullptr && !others->empty() && others->front().fitted.ok();
-  const auto ahead = [&](const Addition& r) { return !race || score_of(r.fitted) > score_of(others->front().fitted); };
+  double best = -std::numeric_limits<double>::infinity(), best_at_first = best;
+  if (race) best = score_of(others->front().fitted);
+  for (const auto& f : others_at_first) best_at_first = std::max(best_at_first, score_of(f));
+  const auto is_asked = [&](std::size_t i) {
+    const Addition& r = rivals[i];
+    if (!race) return true;
+    return r.slowness < slowest ? i < finalists || score_of(r.fitted) > best : score_of(r.fitted) > best_at_first;
+  };
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
     std::vector<FitsOfRival> answers(n);
     books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
       const Addition& rival = rivals[first + i];
-      if (rival.fitted.ok() && (first + i < finalists || ahead(rival)))
+      if (rival.fitted.ok() && is_asked(first + i))
         answers[i] = {{first + i, rival.tried.law, refitted(setting_, shop, rival.fitted, numbers, few_renewals)}};
       return false;
     });
@@ -235,7 +257,8 @@ void Selection::settle_best(std::vector<Addition>& rivals) {
   sort(rivals);
 }
 
-/// Of the best names the other laws, from where the first one's model stands.
+/// Of the best names the other laws, from where the first one's model stands. Of each name those of the block that
+/// explains most from there are fitted with the user's numbers, which make up for what the first law lacks until then.
 void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   std::set<std::string> names;
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
@@ -247,20 +270,39 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
       if (!rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);  // those stood among the first
   }
   std::vector<FitsOfRival> answers(jobs.size());
-  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
     const auto [i, law] = jobs[j];
-    const TriedEffect& t = rivals[i].tried;
     // With the numbers of the simple law's model: those of the null bear what the effect does.
     std::vector<std::size_t> last(rivals[i].also.size() + 1);  // it came last
     std::iota(last.begin(), last.end(), rivals[i].fitted.model.standing.size() - last.size());
     const TableModel bare = without_term(setting_, shop, rivals[i].fitted, last);
     if (!bare.ok()) return false;
-    TableModel f = with_term(setting_, shop, bare, term_of(rivals[i], law), ln_tried(rivals, *t.effect), Effort::full);
-    if (f.ok()) answers[j] = {{i, law, refitted(setting_, shop, f, numbers, few_renewals)}};
+    const double tried = ln_tried(rivals, *rivals[i].tried.effect);
+    answers[j] = {{i, law, with_term(setting_, shop, bare, term_of(rivals[i], law), tried, Effort::full)}};
     return false;
   });
-  take_up(rivals, std::move(answers));
+  for (const auto& list : answers)
+    for (const auto& a : list) remember(a.fitted);
+  measure();
+  const auto type_of = [&](const FitOfRival& a) { return rivals[a.rival].tried.laws[a.law].block.type; };
+  std::vector<const FitOfRival*> best(rivals.size(), nullptr);
+  for (const auto& list : answers)
+    for (const auto& a : list) {
+      const FitOfRival*& ahead = best[a.rival];
+      if (a.fitted.ok() && (ahead == nullptr || score_of(a.fitted) > score_of(ahead->fitted))) ahead = &a;
+    }
+  std::vector<const FitOfRival*> asked;
+  for (const auto& list : answers)
+    for (const auto& a : list)
+      if (a.fitted.ok() && type_of(a) == type_of(*best[a.rival])) asked.push_back(&a);
+  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
+  std::vector<FitsOfRival> settled(asked.size());
+  books_.side_by_side(asked.size(), [&](std::size_t k, const Workshop& shop) {
+    const FitOfRival& a = *asked[k];
+    settled[k] = {{a.rival, a.law, refitted(setting_, shop, a.fitted, numbers, few_renewals)}};
+    return false;
+  });
+  take_up(rivals, std::move(settled));
   sort(rivals);
 }
 
@@ -273,6 +315,7 @@ bool Selection::is_itself(const Addition& rival) const {
 /// Those that are quick first; the others where these leave more than noise.
 void Selection::fit(std::vector<Addition>& rivals, int step) {
   std::vector<Addition> all;
+  std::vector<TableModel> at_first;  // what they left, before the user's numbers were let go beside them
   for (int slow = 0; slow <= slowest; ++slow) {
     std::vector<Addition> some;
     for (auto& r : rivals)
@@ -281,7 +324,11 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
         !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < near_noise;
     if (!some.empty() && !only_noise && !books_.stopped()) {
       fit_first_laws(some, step);
-      fit_with_numbers(some, slow == 0 ? nullptr : &all);
+      std::vector<TableModel> begun;
+      for (const auto& r : some)
+        if (r.fitted.ok()) begun.push_back(without_prediction(r.fitted));
+      fit_with_numbers(some, slow == 0 ? nullptr : &all, at_first);
+      at_first.insert(at_first.end(), begun.begin(), begun.end());
     }
     all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     sort(all);

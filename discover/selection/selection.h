@@ -57,7 +57,8 @@ class Selection {
   void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
   void fit_richer_laws(std::vector<Addition>& rivals);
-  void fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others);
+  void fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others,
+                        const std::vector<TableModel>& others_at_first);
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
   std::vector<Addition> take_hidden(const Effect& effect);

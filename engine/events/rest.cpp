@@ -259,10 +259,21 @@ bool enable_for(const Program& program, Run& run, double t) {
   return changed;
 }
 
+/// Whether every mode may stay there: what sticks moves at no place, and is at rest only where it is held.
+bool modes_stay(const Program& program, const Run& run, double t, const Eigen::VectorXd& z) {
+  Work work(program);
+  evaluate_guards(program, run, work, t, z.data());
+  for (const auto& block : program.blocks) {
+    const bool is_held = block.mode_index >= 0 && block.kernel->rest != nullptr;
+    if (is_held && !(work.guard[static_cast<std::size_t>(block.mode_index)] > 0)) return false;
+  }
+  return true;
+}
+
 void settle_what_runs(const Program& program, Run& run, double t) {
   RestProblem problem(program, run, t);
   Settled end = settle_from(problem, problem.start());
-  if (!end.reached_rest())
+  if (!end.reached_rest() || !modes_stay(program, run, t, end.z))
     if (Settled second = settle_from(problem, problem.block_by_block()); second.reached_rest()) end = std::move(second);
   if (!end.finite()) problem.check_loops(end.z);
   if (!end.reached_rest()) no_rest(program, t, end.rate, end.relative);

@@ -400,6 +400,12 @@ void Fitting::search(const std::vector<PointPointer>& starts) {
   }
 }
 
+double Fitting::steps_of_all() const {
+  double steps = 0;
+  for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
+  return steps;
+}
+
 /// Where the result needs finer substeps than the start, the search goes on with them.
 void Fitting::refine_substeps() {
   std::map<int, long> before;
@@ -419,19 +425,23 @@ void Fitting::refine_substeps() {
   });
   if (!best_) best_ = coarse;  // stopped, or not to be had with finer rows: then as it is with the coarse ones
   if (result_.stopped || !again || !again->ok) return;
-  double steps = 0;
-  for (const int r : fitted_) steps += static_cast<double>(model_.steps(r));
   constexpr double iterations = 3;  // fewer than that hardly ever end a search
-  const bool in_time = iterations * (1 + static_cast<double>(free_.size())) * steps <= options_.search_again_steps;
+  const bool in_time =
+      iterations * (1 + static_cast<double>(free_.size())) * steps_of_all() <= options_.search_again_steps;
   if (projection_->n_nonlinear() > 0 && in_time) search_from(again->z);
 }
 
 /// Where the way from a start to the outputs is not linear, it is found for given values, and these for a given start:
-/// in turn, until neither moves.
+/// in turn, until neither moves, or the steps for searching again are spent.
 void Fitting::refine_starts() {
   constexpr int most = 8;
   constexpr double settled = 1e-4;  // of chi2, between one turn and the next
-  for (int turn = 0; turn < most; ++turn) {
+  const double a_run = steps_of_all() / static_cast<double>(std::max<std::size_t>(fitted_.size(), 1));
+  const long begun = model_.runs();
+  const auto in_time = [&] {
+    return a_run * static_cast<double>(model_.runs() - begun) <= options_.search_again_steps;
+  };
+  for (int turn = 0; turn < most && in_time(); ++turn) {
     const auto values = projection_->values(best_->z, best_->theta);
     if (!improve_starts(model_, judge_, values, judged_)) return;
     projection_->forget();

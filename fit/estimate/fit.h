@@ -48,7 +48,7 @@ struct FitOptions {
   /// worth asking for them.
   double profile_steps = std::numeric_limits<double>::infinity();
   /// Where the values that were found need finer rows, they are searched again from there; not where some steps of that
-  /// search would take more steps of simulation than this.
+  /// search would take more steps of simulation than this. Nor are starts and values searched in turn for longer.
   double search_again_steps = std::numeric_limits<double>::infinity();
   int starts = 0;  ///< further points spread evenly over the box, tried like those of a scan
   /// A method of global.h that looks for a start before the local search; "" = none. Needs finite bounds.

@@ -42,6 +42,7 @@ class Fitting {
   bool search_from(const std::vector<double>& start);
   void refine_substeps();
   void refine_starts();
+  double steps_of_all() const;  ///< of one simulation of each recording that is fitted
   void finish();
   void write_estimates();
   struct Column;

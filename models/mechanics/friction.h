@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "models/mechanics/mass_spring_damper.h"
+
 namespace hysteron::friction {
 
 enum Mode { stick, slide_up, slide_down };
@@ -17,16 +19,29 @@ struct Params {
   T breakaway{0};          ///< [N]      force at which sticking ends, at least coulomb
   T stribeck_velocity{0};  ///< [m/s]    over which breakaway falls to coulomb; 0 = at once
   T rest_speed{1e-9};      ///< [m/s]    a slower motion against the sliding direction counts as none; positive
+  T stiffening{0}, quadratic{0}, quintic{0}, drag{0};  ///< as in mass_spring_damper::Params
+  T falls_by{2};  ///< [-] d: how breakaway falls, 2 = Gauss's bell, 1 = an exponential; positive
 };
 
-/// Dry friction while sliding: F_c + (F_b - F_c) exp(-(v/v_s)^2) [N], without its sign.
-/// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138 (Gaussian Stribeck curve).
+/// The mass without its dry friction.
+template <class T>
+mass_spring_damper::Params<T> body(const Params<T>& p) {
+  return {p.mass, p.damping, p.stiffness, p.stiffening, p.quadratic, p.quintic, p.drag};
+}
+
+/// Dry friction while sliding: F_c + (F_b - F_c) exp(-|v/v_s|^d) [N], without its sign.
+/// Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138; d = 1: Tustin, J. IEE 94 (1947)
+/// 143-151; others: Bo, Pavelescu, Wear 82 (1982) 277-289.
 template <class T>
 T sliding_force(const Params<T>& p, const T& velocity) {
+  using std::abs;
   using std::exp;
+  using std::pow;
   if (!(p.stribeck_velocity > T{0})) return p.coulomb;
-  const T ratio = velocity / p.stribeck_velocity;
-  return p.coulomb + (p.breakaway - p.coulomb) * exp(-(ratio * ratio));
+  const T ratio = velocity / p.stribeck_velocity, more = p.breakaway - p.coulomb;
+  if (p.falls_by == T{2}) return p.coulomb + more * exp(-(ratio * ratio));
+  if (!(abs(ratio) > T{0})) return p.breakaway;
+  return p.coulomb + more * exp(-pow(T(abs(ratio)), p.falls_by));
 }
 
 /// Nothing to stick to: the mass slides for ever, whichever way, and no turn of its motion is an event.
@@ -35,19 +50,20 @@ bool is_absent(const Params<T>& p) {
   return !(p.coulomb > T{0}) && !(p.breakaway > T{0});
 }
 
-/// Force on a mass at rest, before friction: F - k x [N].
+/// Force on a mass at rest, before friction: F - spring(x) [N].
 template <class T>
 T pull(const Params<T>& p, const T& position, const T& force) {
-  return force - p.stiffness * position;
+  return force - mass_spring_damper::spring(body(p), position);
 }
 
-/// dv/dt: m v' = F - k x - d v -/+ sliding_force on slide_up/slide_down, 0 while it sticks (where v = 0). [m/s^2]
+/// dv/dt: m v' = F - spring(x) - d v - drag -/+ sliding_force on slide_up/slide_down, 0 while it sticks (where v = 0).
+/// [m/s^2]
 template <class T>
 T acceleration(const Params<T>& p, Mode mode, const T& position, const T& velocity, const T& force) {
   if (mode == stick) return T{0};
   const T dry = sliding_force(p, velocity);
   const bool up = is_absent(p) ? !(velocity < T{0}) : mode == slide_up;  // zero, but its slopes have a sign
-  return (pull(p, position, force) - p.damping * velocity - (up ? dry : T{-dry})) / p.mass;
+  return mass_spring_damper::acceleration(body(p), position, velocity, T(force - (up ? dry : T{-dry})));
 }
 
 /// Positive = the mode may stay: reserve of the holding force [N] while it sticks, speed [m/s] while it slides. Sliding

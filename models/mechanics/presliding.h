@@ -76,7 +76,8 @@ class YieldingShare {
     const auto k = static_cast<int>(place);
     const double c = place - k;
     const auto& piece = table.pieces_[static_cast<std::size_t>(k)];
-    return std::copysign(piece[0] + c * (piece[1] + c * (piece[2] + c * piece[3])), way);
+    // A cubic may pass 1 by its rounding: what is above its largest force would be relaxed at each step.
+    return std::copysign(std::fmin(piece[0] + c * (piece[1] + c * (piece[2] + c * piece[3])), 1.0), way);
   }
 
  private:
@@ -109,7 +110,7 @@ class YieldingShare {
 /// other side. Newton in the logarithm of what is above 1: 1 plus what rounding leaves above it has no digits of that.
 /// The way is convex there, and nearly linear near 1: from too far down Newton's steps come back without passing.
 inline double relaxed_share(double share, double way) {
-  if (share - 1 < 1e-9) return 1 + (share - 1) * std::exp(-4 * way);  // but for the square of what is above
+  if (share - 1 < 1e-7) return 1 + (share - 1) * std::exp(-4 * way);  // but for the square of what is above
   constexpr double nothing = -45;                                     // 1 + exp(nothing) is 1
   const auto way_of = [](double above) { return 0.25 * std::log1p(2 / above) + 0.5 * std::atan(1 + above); };
   const double whole = way_of(share - 1) + way;

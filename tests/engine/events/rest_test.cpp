@@ -57,6 +57,19 @@ TEST(Rest, AnIntegralControllerFindsTheCommandThatRemovesTheError) {
   EXPECT_NEAR(run.x[static_cast<std::size_t>(state(*program, "c"))], 2e-6 * 1.822e16 / 1.377e16, 1e-14);
 }
 
+TEST(Rest, WhatSticksRestsWhereItIsHeld) {
+  // 100 N/m and a breakaway of 10 N: 5 N are held where it is, 20 N are not, and without friction it is at 0.2 m.
+  for (const double force : {5.0, 20.0, -20.0}) {
+    const auto program = compiled(diagram(
+        {{"u", block("constant", {{"value", std::to_string(force) + " N"}})},
+         {"m", block("mass_with_friction",
+                     {{"mass", "1 kg"}, {"stiffness", "100 N/m"}, {"coulomb", "8 N"}, {"breakaway", "10 N"}}, {"u"})}},
+        {"m.position"}));
+    const auto run = settled(*program);
+    EXPECT_EQ(run.x[static_cast<std::size_t>(state(*program, "m"))], std::abs(force) < 10 ? 0 : force / 100) << force;
+  }
+}
+
 TEST(Rest, MemoryInsideALoopFollowsToItsEquilibrium) {
   // y = play(1.5 (r - y)) behind a lag, radius 0.2: rising to it, y = 1.5 (r - y) - 0.2, so y = (1.5 r - 0.2) / 2.5.
   const auto program = compiled(diagram({{"r", block("constant", {{"value", "3 V"}})},
