@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "discover/models/fit_cost.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/stop.h"
 
@@ -257,8 +258,9 @@ void Selection::settle_best(std::vector<Addition>& rivals) {
   sort(rivals);
 }
 
-/// Of the best names the other laws, from where the first one's model stands. Of each name those of the block that
-/// explains most from there are fitted with the user's numbers, which make up for what the first law lacks until then.
+/// Of the best names the other laws, from where the first one's model stands. Of each name those that are quick,
+/// and those of the block that explains most from there, are fitted with the user's numbers, which make up for what the
+/// first law lacks until then.
 void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   std::set<std::string> names;
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
@@ -285,6 +287,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     for (const auto& a : list) remember(a.fitted);
   measure();
   const auto type_of = [&](const FitOfRival& a) { return rivals[a.rival].tried.laws[a.law].block.type; };
+  const auto is_quick = [](const FitOfRival& a) { return work_of_a_step(*a.fitted.model.program) <= 1; };
   std::vector<const FitOfRival*> best(rivals.size(), nullptr);
   for (const auto& list : answers)
     for (const auto& a : list) {
@@ -294,7 +297,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   std::vector<const FitOfRival*> asked;
   for (const auto& list : answers)
     for (const auto& a : list)
-      if (a.fitted.ok() && type_of(a) == type_of(*best[a.rival])) asked.push_back(&a);
+      if (a.fitted.ok() && (is_quick(a) || type_of(a) == type_of(*best[a.rival]))) asked.push_back(&a);
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   std::vector<FitsOfRival> settled(asked.size());
   books_.side_by_side(asked.size(), [&](std::size_t k, const Workshop& shop) {
