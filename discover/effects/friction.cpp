@@ -128,7 +128,7 @@ Effect friction() {
     all.name = "presliding with excess and a damped contact (LuGre)";
     // The contact first: without it an excess at no speed at all stands for it, and a search that begins there stays.
     std::vector<Law> laws{presliding(at), damped, all, sticky};
-    if (can_be_dry(at)) laws.insert(laws.begin() + 1, {dry(at), dry_with_excess(at), dry_with_quick_excess(at)});
+    if (can_be_dry(at)) laws.insert(laws.end(), {dry(at), dry_with_excess(at), dry_with_quick_excess(at)});
     return laws;
   };
   e.implausible = [](const Law& law, const std::vector<double>& values, const Excitation&) -> std::string {
