@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <unordered_map>
 
 #include "engine/compile/enabled.h"
 #include "engine/compile/infinite.h"
@@ -68,14 +69,15 @@ void name_states(const GraphBlock& g, Program& program) {
   }
 }
 
-void lay_out_block(const GraphBlock& g, Program& program) {
+/// Takes the shape, which nobody asks the graph for afterwards.
+void lay_out_block(GraphBlock& g, Program& program) {
   BlockInstance b;
   b.path = g.path;
   b.key = key_of(g.path);
   b.origin = g.origin;
   b.kernel = g.kernel;
   b.sizes = g.sizes;
-  b.shape = g.shape;
+  b.shape = std::move(g.shape);
   b.p_begin = program.n_p;
   b.p_at.push_back(0);
   for (const auto& parameter : g.parameters) {
@@ -247,16 +249,19 @@ class ParameterTable {
 
   void apply_bounds() {
     Problems problems;
-    for (const auto& parameter : graph_.parameters)
-      for (std::size_t i = 0; i < program_.parameters.size(); ++i) {
-        auto& info = program_.parameters[i];
-        if (info.path != parameter.path && info.path.rfind(parameter.path + "[", 0) != 0) continue;
-        try {
-          apply_bounds(info, *parameter.given, *declared_[i]);
+    std::unordered_map<std::string, std::vector<std::size_t>> numbers;  // "gains" -> "gains[0]", "gains[1]" ...
+    for (std::size_t i = 0; i < program_.parameters.size(); ++i)
+      if (const std::string& path = program_.parameters[i].path; !graph_.parameters.empty())
+        numbers[path.substr(0, path.find('['))].push_back(i);
+    for (const auto& parameter : graph_.parameters) {
+      const auto own = numbers.find(parameter.path);
+      if (own == numbers.end()) continue;
+      for (const std::size_t i : own->second) try {
+          apply_bounds(program_.parameters[i], *parameter.given, *declared_[i]);
         } catch (const Error& e) {
           for (const auto& p : e.problems) problems.add(p.code, p.path, p.what, p.cure);
         }
-      }
+    }
     problems.throw_if_any();
   }
 
@@ -276,9 +281,11 @@ ProgramPointer compile_graph(Graph graph, const Diagram& diagram) {
   check_units(graph);
   auto program = std::make_shared<Program>();
   program->kernels = graph.kernels;
-  program->signals = graph.signals;
-  program->n_y = static_cast<int>(graph.signals.size());
-  for (const auto& block : graph.blocks) lay_out_block(block, *program);
+  program->signals = std::move(graph.signals);
+  program->n_y = static_cast<int>(program->signals.size());
+  program->blocks.reserve(graph.blocks.size());
+  for (auto& block : graph.blocks) lay_out_block(block, *program);
+  program->index_names();
   program->enablings = graph.enablings;
   list_enabled_blocks(*program);
   order_steps(graph, loop_wishes(diagram.simulate, *program), *program);
@@ -291,12 +298,13 @@ ProgramPointer compile_graph(Graph graph, const Diagram& diagram) {
   for (const auto& [name, signal] : graph.open) {
     program->input_names.push_back(name);
     program->input_signals.push_back(signal);
-    program->input_units.push_back(graph.signals[static_cast<std::size_t>(signal)].unit);
+    program->input_units.push_back(program->signals[static_cast<std::size_t>(signal)].unit);
   }
   for (const auto& [name, signal] : graph.outputs) {
     program->output_names.push_back(name);
     program->output_signals.push_back(signal);
   }
+  program->index_names();  // with those of the outputs
   program->record_signals = graph.record;
   if (program->record_signals.empty()) program->record_signals = program->output_signals;
   if (program->record_signals.empty())

@@ -128,13 +128,14 @@ class Connector {
 
   void check_nested_wires(int index, const BlockOfScope& entry, const Node& wires) {
     const ScopeOfBlocks& inner = scopes_[entry.scope];
-    const auto names = inner.scope.diagram->inputs.names();
+    const auto& inputs = inner.scope.diagram->inputs;
+    const auto names = inputs.names();
     const std::string place = entry.origin + "/in";
     std::set<std::string> seen;
     for (std::size_t i = 0; i < wires.in.size(); ++i) {
       PortEnd end = scopes_.resolve(index, wires.in[i].from, place);
       const std::string port = wires.in[i].port.empty() ? (i < names.size() ? names[i] : "") : wires.in[i].port;
-      if (std::find(names.begin(), names.end(), port) == names.end())
+      if (inputs.find(port) == nullptr)
         problems_.add("unknown_input", place,
                       port.empty()
                           ? fmt::format("the nested diagram takes {} inputs, found {}", names.size(), wires.in.size())
@@ -143,7 +144,7 @@ class Connector {
       else if (!seen.insert(port).second)
         problems_.add("double_connection", place,
                       fmt::format("input \"{}\" of the nested diagram is connected twice", port), "keep one wire");
-      else if (const int length = inner.scope.diagram->inputs.find(port)->length; length > 0 && end.block >= 0)
+      else if (const int length = inputs.find(port)->length; length > 0 && end.block >= 0)
         wired_.stated.push_back({std::move(end), length, inner.scope.prefix + port});
     }
     for (const auto& name : names)

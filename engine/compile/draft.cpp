@@ -4,6 +4,7 @@
 #include <deque>
 #include <set>
 #include <string_view>
+#include <unordered_set>
 
 #include "engine/compile/compile.h"
 #include "engine/compile/lengths.h"
@@ -43,11 +44,11 @@ class Draft {
     if (repaired_ || wired.blocks.empty()) return false;
     places_.clear();
     for (const auto& block : wired.blocks)
-      if (!block.origin.empty()) places_.push_back(block.origin);
+      if (!block.origin.empty()) places_.insert(block.origin);
     take_out_bounds(wired.parameters);
     try {
       infer_lengths(wired);
-      result_.program = compile_graph(scalarize_vectors(wired, registry_), diagram_);
+      result_.program = compile_graph(scalarize_vectors(std::move(wired), registry_), diagram_);
       return true;
     } catch (const Error& error) {
       for (const auto& p : error.problems) take(p);
@@ -87,8 +88,8 @@ class Draft {
     leave_out("memory", diagram_.simulate.memory);
   }
 
-  void take_out_bounds(std::vector<GraphParameter>& parameters) {
-    for (auto& parameter : parameters) {
+  void take_out_bounds(Ordered<GraphParameter>& parameters) {
+    for (auto& [path, parameter] : parameters) {
       const auto is_meant = [&](const std::string& wrong) {  // "kp", "kp/bounds", "weights[2]"
         return wrong.starts_with(parameter.path) && wrong.substr(parameter.path.size()).find_first_not_of("/[") != 0;
       };
@@ -100,19 +101,20 @@ class Draft {
     }
   }
 
-  /// The innermost block that stands there.
-  void leave_out_block(const std::string& path) {
-    const std::string* innermost = nullptr;
-    for (const auto& place : places_)
-      if (speaks_of(path, place) && (innermost == nullptr || place.size() > innermost->size())) innermost = &place;
-    if (innermost != nullptr && gaps_.left_out.insert(*innermost).second) repaired_ = true;
+  /// The innermost block that stands there: "/blocks/a" for "/blocks/a/gain", not for "/blocks/ab".
+  void leave_out_block(std::string path) {
+    while (!path.empty() && !places_.contains(path)) {
+      const auto slash = path.rfind('/');
+      path.resize(slash == std::string::npos ? 0 : slash);
+    }
+    if (!path.empty() && gaps_.left_out.insert(path).second) repaired_ = true;
   }
 
   Diagram diagram_;  // without settings that are wrong
   const Registry& registry_;
   Gaps gaps_{};
   Problems problems_{};
-  std::vector<std::string> places_{};  // of the blocks of the attempt
+  std::unordered_set<std::string> places_{};  // of the blocks of the attempt
   std::set<std::string> wrong_settings_{};
   std::set<std::string> wrong_bounds_{};  // of these parameters
   std::deque<DiagramParameter> boundless_{};

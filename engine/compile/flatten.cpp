@@ -19,7 +19,7 @@ class Builder {
  public:
   /// `gaps`: of a draft, else null.
   Builder(const Diagram& diagram, const Registry& registry, Gaps* gaps) : registry_(registry), gaps_(gaps) {
-    scopes_.add(diagram, "", -1, nullptr, "");
+    scopes_.add(diagram, "", -1, nullptr, nullptr, "");
   }
 
   WiredDiagram build() {
@@ -73,7 +73,7 @@ class Builder {
       entry.body = chosen(node, name, entry.origin);
       if (entry.body != nullptr) add_block(index, name, entry);
       auto& scope = scopes_[index];
-      scope.blocks[name] = entry;
+      scope.blocks[name] = std::move(entry);
       scope.order.push_back(name);
     }
     if (index == 0) wired_.places = diagram.places;
@@ -132,7 +132,7 @@ class Builder {
           problems_.add("unknown_parameter", origin + "/" + key,
                         fmt::format("the diagram of \"{}\" has no parameter \"{}\"", name, key),
                         did_you_mean(key, body.nested->parameters.names()));
-      entry.scope = scopes_.add(*body.nested, prefix + name + "/", index, &body, origin);
+      entry.scope = scopes_.add(*body.nested, prefix + name + "/", index, &body, entry.node, origin);
       if (body.runs) enable(index, name, origin, entry);
       collect(entry.scope);
       return;

@@ -63,7 +63,7 @@ struct WiredDiagram {
   std::vector<std::pair<std::string, PortEnd>> outputs;
   std::vector<PortEnd> record, places_read;
   std::vector<StatedLength> stated;
-  std::vector<GraphParameter> parameters;
+  Ordered<GraphParameter> parameters;  ///< by their paths
   Ordered<std::vector<std::string>> places;
 
   /// Elements that a wire carries, once inferred.

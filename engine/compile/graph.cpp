@@ -10,7 +10,7 @@ namespace hysteron {
 Graph build_graph(const Diagram& diagram, const Registry& registry) {
   WiredDiagram flattened = wire_diagram(diagram, registry);
   infer_lengths(flattened);
-  return scalarize_vectors(flattened, registry);
+  return scalarize_vectors(std::move(flattened), registry);
 }
 
 }  // namespace hysteron

@@ -34,10 +34,9 @@ struct Scope {
   const Node* node = nullptr;  ///< the block of the parent that holds this diagram
 };
 
-struct GraphParameter {  ///< a parameter of some diagram scope
-  std::string path;      ///< "kp", "stage/kp"
+struct GraphParameter {  ///< a parameter of some diagram scope that a block has asked for
+  std::string path{};    ///< "kp", "stage/kp"
   const DiagramParameter* given = nullptr;
-  bool used = false;
   std::string stands_for{};  ///< the parameter of this diagram, or of the one around it, that it refers to, if any
 };
 

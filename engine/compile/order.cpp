@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 #include "engine/program/components.h"
@@ -34,7 +33,11 @@ class Scheduler {
         n_(static_cast<int>(graph.blocks.size())),
         edges_(static_cast<std::size_t>(3 * n_)),
         needed_(static_cast<std::size_t>(3 * n_), false),
-        loop_of_(static_cast<std::size_t>(3 * n_), -1) {}
+        loop_of_(static_cast<std::size_t>(3 * n_), -1),
+        readers_(static_cast<std::size_t>(n_)) {
+    for (int b = 0; b < n_; ++b)
+      for (const int s : block(b).source) readers_[static_cast<std::size_t>(source_block(s))].push_back(b);
+  }
 
   void run() {
     smoothness_ = own_smoothness();
@@ -61,7 +64,7 @@ class Scheduler {
   int rate(int b) const { return n_ + b; }
   int derivative(int b) const { return 2 * n_ + b; }
   int block_of(int node) const { return node % n_; }
-  int source_block(int signal) const { return graph_.signals[static_cast<std::size_t>(signal)].block; }
+  int source_block(int signal) const { return program_.signals[static_cast<std::size_t>(signal)].block; }
   bool stateful(int b) const { return block(b).sizes.states > 0; }
   bool sampled(int b) const { return block(b).kernel->is_sampled(); }
   /// Do the outputs depend on the inputs at the same instant: at sampling instants (hits_), or between.
@@ -78,19 +81,21 @@ class Scheduler {
     return list;
   }
 
-  /// A block that feeds through passes on what its inputs do; a dead time passes on jumps too, later.
+  /// Does what its inputs do come out: through a block that feeds through, or a dead time, later.
+  bool passes_on(int b) const { return feeds_through(b) || block(b).sizes.history; }
+
+  /// A block passes on what its inputs do; a dead time passes on jumps too, later.
   void spread(std::vector<Smoothness>& smooth) const {
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (int b = 0; b < n_; ++b) {
-        if (!feeds_through(b) && !block(b).sizes.history) continue;
-        for (const int s : block(b).source) {
-          const auto from = smooth[static_cast<std::size_t>(source_block(s))];
-          if (from > smooth[static_cast<std::size_t>(b)]) {
-            smooth[static_cast<std::size_t>(b)] = from;
-            changed = true;
-          }
-        }
+    std::vector<int> todo;
+    for (int b = n_ - 1; b >= 0; --b)
+      if (smooth[static_cast<std::size_t>(b)] != Smoothness::smooth) todo.push_back(b);
+    while (!todo.empty()) {
+      const int from = todo.back();
+      todo.pop_back();
+      for (const int b : readers_[static_cast<std::size_t>(from)]) {
+        if (!passes_on(b) || smooth[static_cast<std::size_t>(b)] >= smooth[static_cast<std::size_t>(from)]) continue;
+        smooth[static_cast<std::size_t>(b)] = smooth[static_cast<std::size_t>(from)];
+        todo.push_back(b);
       }
     }
   }
@@ -100,7 +105,7 @@ class Scheduler {
       if (!wants_rate(b)) continue;
       for (const int s : block(b).source) {
         const auto smooth = smoothness_[static_cast<std::size_t>(source_block(s))];
-        const std::string from = graph_.signals[static_cast<std::size_t>(s)].path;
+        const std::string from = program_.signals[static_cast<std::size_t>(s)].path;
         if (smooth == Smoothness::jumps && !follows_jumps(b))
           problems_.add(
               "jump_into_rate", block(b).origin,
@@ -122,42 +127,66 @@ class Scheduler {
   /// A rate-independent law follows a jump as the path of a fast ramp (path.h).
   bool follows_jumps(int b) const { return block(b).kernel->declaration.is_rate_independent; }
 
+  /// The block that the signal has it from: the first that is found against the direction of the signals, depth first.
   std::string origin_of(int signal, Smoothness kind) const {
     const auto own = own_smoothness();
     std::vector<bool> seen(static_cast<std::size_t>(n_), false);
-    std::function<std::string(int)> search = [&](int b) -> std::string {
-      if (seen[static_cast<std::size_t>(b)]) return "";
+    std::vector<int> todo{source_block(signal)};
+    while (!todo.empty()) {
+      const int b = todo.back();
+      todo.pop_back();
+      if (seen[static_cast<std::size_t>(b)]) continue;
       seen[static_cast<std::size_t>(b)] = true;
       if (own[static_cast<std::size_t>(b)] == kind)
         return fmt::format("{} \"{}\"", block(b).kernel->declaration.type, block(b).path);
-      if (!feeds_through(b) && !block(b).sizes.history) return "";
-      for (const int s : block(b).source)
-        if (auto found = search(source_block(s)); !found.empty()) return found;
-      return "";
-    };
-    return search(source_block(signal));
+      if (!passes_on(b)) continue;
+      for (auto s = block(b).source.rbegin(); s != block(b).source.rend(); ++s) todo.push_back(source_block(*s));
+    }
+    return "";
   }
 
-  /// How an input of the diagram moves is known only when it is bound: remember whom its jumps would reach.
+  /// How an input of the diagram moves is known only when it is bound: remember whom its jumps would reach first.
   void check_input_jumps() {
+    // Of what each block passes on: the first block that wants a rate and would read it, n_ for none.
+    std::vector<int> first(static_cast<std::size_t>(n_), n_);
+    int anyway = n_;  // what reads a signal that is not smooth, however the inputs move
+    for (int b = 0; b < n_; ++b) {
+      if (!wants_rate(b) || follows_jumps(b)) continue;
+      for (const int s : block(b).source) {
+        if (smoothness_[static_cast<std::size_t>(source_block(s))] != Smoothness::smooth) anyway = std::min(anyway, b);
+        std::vector<int> todo{source_block(s)};
+        while (!todo.empty()) {
+          const int from = todo.back();
+          todo.pop_back();
+          if (first[static_cast<std::size_t>(from)] <= b) continue;
+          first[static_cast<std::size_t>(from)] = b;
+          if (passes_on(from))
+            for (const int source : block(from).source) todo.push_back(source_block(source));
+        }
+      }
+    }
     for (const auto& [name, signal] : graph_.inputs) {
-      auto smooth = own_smoothness();
-      smooth[static_cast<std::size_t>(source_block(signal))] = Smoothness::jumps;
-      spread(smooth);
-      std::string reached;
-      for (int b = 0; b < n_ && reached.empty(); ++b)
-        if (wants_rate(b) && !follows_jumps(b))
-          for (const int s : block(b).source)
-            if (smooth[static_cast<std::size_t>(source_block(s))] != Smoothness::smooth) reached = block(b).path;
-      program_.input_jump_reaches.push_back(reached);
+      const int reached = std::min(anyway, first[static_cast<std::size_t>(source_block(signal))]);
+      program_.input_jump_reaches.push_back(reached < n_ ? block(reached).path : "");
     }
   }
 
   // --- nodes --------------------------------------------------------------------------------------------------------
 
-  void need(int node) {
-    if (needed_[static_cast<std::size_t>(node)]) return;
-    needed_[static_cast<std::size_t>(node)] = true;
+  void need(int wanted) {
+    std::vector<int> todo{wanted};
+    while (!todo.empty()) {
+      const int node = todo.back();
+      todo.pop_back();
+      if (needed_[static_cast<std::size_t>(node)]) continue;
+      needed_[static_cast<std::size_t>(node)] = true;
+      list_edges(node);
+      const auto& edges = edges_[static_cast<std::size_t>(node)];
+      todo.insert(todo.end(), edges.begin(), edges.end());
+    }
+  }
+
+  void list_edges(int node) {
     const int b = block_of(node);
     auto& edges = edges_[static_cast<std::size_t>(node)];
     if (node < n_) {
@@ -174,7 +203,6 @@ class Scheduler {
         if (block(b).kernel->derivative_wants_rate) edges.push_back(rate(source_block(s)));
       }
     }
-    for (const int next : std::vector<int>(edges)) need(next);
   }
 
   /// Memory and dead time wish the rate of their inputs (to locate reversals, to remember slopes); they run without it
@@ -286,14 +314,17 @@ class Scheduler {
   /// Where the loops find their numbers in Run::warm, and where they begin.
   void place_warm_starts() {
     std::vector<bool> used(wishes_.guesses.size(), false);
+    std::multimap<int, std::size_t> guess_of;  // a signal
+    for (std::size_t i = 0; i < used.size(); ++i) guess_of.emplace(wishes_.guesses[i].first, i);
     for (Loop& loop : program_.loops) {
       loop.warm_begin = static_cast<int>(program_.guess.size());
       for (const Slot& tear : loop.tears) {
         program_.guess.push_back(0.0);
-        for (std::size_t i = 0; i < used.size(); ++i) {
-          if (tear.order != Order::value || wishes_.guesses[i].first != tear.index) continue;
-          program_.guess.back() = wishes_.guesses[i].second;
-          used[i] = true;
+        if (tear.order != Order::value) continue;
+        const auto [begin, end] = guess_of.equal_range(tear.index);
+        for (auto i = begin; i != end; ++i) {
+          program_.guess.back() = wishes_.guesses[i->second].second;
+          used[i->second] = true;
         }
       }
     }
@@ -341,7 +372,7 @@ class Scheduler {
     program_.all_values = steps(closure(values, all));
     program_.value_order = blocks_in_order();
     place_warm_starts();
-    program_.has_rate.assign(graph_.signals.size(), false);
+    program_.has_rate.assign(program_.signals.size(), false);
     for (int b = 0; b < n_; ++b)
       if (needed_[static_cast<std::size_t>(rate(b))]) {
         rates.push_back(rate(b));
@@ -352,7 +383,7 @@ class Scheduler {
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = wanted[i] && !for_derivatives[i];
     program_.rate_steps = steps(wanted);
     for (std::size_t s = 0; s < program_.signals.size(); ++s)
-      program_.signals[s].smoothness = smoothness_[static_cast<std::size_t>(graph_.signals[s].block)];
+      program_.signals[s].smoothness = smoothness_[static_cast<std::size_t>(program_.signals[s].block)];
   }
 
   /// The order of values at sampling instants, in which inputs of sampled blocks feed through. What is a loop there is
@@ -374,8 +405,9 @@ class Scheduler {
   Program& program_;
   int n_;
   std::vector<std::vector<int>> edges_;
-  std::vector<bool> needed_, demanded_;  // needed: demanded, or wished
-  std::vector<int> loop_of_;             // per node: index into Program::loops, -1 = in none
+  std::vector<bool> needed_, demanded_;    // needed: demanded, or wished
+  std::vector<int> loop_of_;               // per node: index into Program::loops, -1 = in none
+  std::vector<std::vector<int>> readers_;  // per block: of its signals
   std::vector<Smoothness> smoothness_;
   std::vector<int> order_;
   Problems problems_;

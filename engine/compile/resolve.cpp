@@ -18,7 +18,7 @@ namespace {
 class Resolver {
  public:
   Resolver(const Scope& scope, const Node& node, const Declaration& declaration, std::string origin,
-           std::vector<GraphParameter>& parameters, Problems& problems)
+           Ordered<GraphParameter>& parameters, Problems& problems)
       : scope_(scope),
         node_(node),
         declaration_(declaration),
@@ -191,7 +191,7 @@ class Resolver {
       }
       const Value* value = &given->value;
       const std::string path = scope->prefix + name;
-      mark_used(path, given);
+      note_used(path, given);
       const Value* outer = scope->node != nullptr ? scope->node->parameters.find(name) : nullptr;
       if (outer != nullptr) {
         value = outer;
@@ -210,19 +210,12 @@ class Resolver {
     }
   }
 
-  void mark_used(const std::string& path, const DiagramParameter* given) {
-    for (auto& known : parameters_)
-      if (known.path == path) {
-        known.used = true;
-        return;
-      }
-    parameters_.push_back({path, given, true});
+  void note_used(const std::string& path, const DiagramParameter* given) {
+    GraphParameter& known = parameters_[path];
+    if (known.given == nullptr) known = {path, given};
   }
 
-  void stands_for(const std::string& path, const std::string& other) {
-    for (auto& known : parameters_)
-      if (known.path == path) known.stands_for = other;
-  }
+  void stands_for(const std::string& path, const std::string& other) { parameters_[path].stands_for = other; }
 
   ResolvedNumber resolve(const ParameterDeclaration& p, const Number& number, const std::string& name,
                          const std::string& origin) {
@@ -306,14 +299,14 @@ class Resolver {
   const Node& node_;
   const Declaration& declaration_;
   std::string origin_;
-  std::vector<GraphParameter>& parameters_;
+  Ordered<GraphParameter>& parameters_;
   Problems& problems_;
 };
 
 }  // namespace
 
 std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node& node, const Declaration& declaration,
-                                                  const std::string& origin, std::vector<GraphParameter>& parameters,
+                                                  const std::string& origin, Ordered<GraphParameter>& parameters,
                                                   Problems& problems) {
   return Resolver(scope, node, declaration, origin, parameters, problems).all();
 }

@@ -10,7 +10,7 @@ namespace hysteron {
 
 /// The values of one block's parameters. Problems go to `problems` at `origin`.
 std::vector<ResolvedParameter> resolve_parameters(const Scope& scope, const Node& node, const Declaration& declaration,
-                                                  const std::string& origin, std::vector<GraphParameter>& parameters,
+                                                  const std::string& origin, Ordered<GraphParameter>& parameters,
                                                   Problems& problems);
 
 }  // namespace hysteron

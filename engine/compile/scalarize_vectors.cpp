@@ -17,9 +17,12 @@ std::string indexed(const std::string& path, int length, int element) {
 
 class Apart {
  public:
-  Apart(const WiredDiagram& diagram, const Registry& registry) : d_(diagram), pass_(registry.find("pass")) {}
+  Apart(WiredDiagram diagram, const Registry& registry) : d_(std::move(diagram)), pass_(registry.find("pass")) {}
 
   Graph run() {
+    graph_.blocks.reserve(d_.blocks.size());
+    graph_.signals.reserve(d_.blocks.size());
+    first_.reserve(d_.blocks.size());
     for (std::size_t b = 0; b < d_.blocks.size(); ++b) add_signals(static_cast<int>(b));
     for (std::size_t b = 0; b < d_.blocks.size(); ++b) wire(static_cast<int>(b));
     for (const auto& [name, b] : d_.inputs) {
@@ -35,7 +38,7 @@ class Apart {
     graph_.enablings = d_.enablings;
     for (auto& enabling : graph_.enablings) enabling.block = graph_.signals[at(signal(enabling.block, 0, 0))].block;
     graph_.kernels = d_.kernels;
-    graph_.parameters = d_.parameters;
+    for (const auto& [path, parameter] : d_.parameters) graph_.parameters.push_back(parameter);
     graph_.places = d_.places;
     return std::move(graph_);
   }
@@ -57,15 +60,16 @@ class Apart {
     return always || declared.size() > 1 ? own.path + "." + declared[at(port)].name : own.path;
   }
 
-  GraphBlock block_of(const WiredBlock& own, const std::string& path) const {
+  /// `own` hands over its values where it becomes one block.
+  GraphBlock block_of(WiredBlock& own, const std::string& path, bool one) const {
     GraphBlock b;
     b.path = path;
     b.owner = own.path;
     b.origin = own.origin;
     b.kernel = own.kernel;
-    b.shape = own.shape;
-    b.sizes = own.sizes;
-    b.parameters = own.parameters;
+    b.shape = one ? std::move(own.shape) : own.shape;
+    b.sizes = one ? std::move(own.sizes) : own.sizes;
+    b.parameters = one ? std::move(own.parameters) : own.parameters;
     b.series = own.series;
     b.enabling = own.enabling;
     b.unit_known = own.unit_known;
@@ -87,13 +91,13 @@ class Apart {
 
   /// Blocks and signals, in the order of the diagram; wires come when all signals are known.
   void add_signals(int b) {
-    const WiredBlock& own = d_.blocks[at(b)];
+    WiredBlock& own = d_.blocks[at(b)];
     const int ports = static_cast<int>(own.lengths.size());
     first_.emplace_back(own.lengths.size());
     if (!own.sizes.route.empty()) {
       for (int p = 0; p < ports; ++p)
         for (int k = 0; k < own.lengths[at(p)]; ++k) {
-          GraphBlock one = block_of(own, indexed(port_path(own, p, false), own.lengths[at(p)], k));
+          GraphBlock one = block_of(own, indexed(port_path(own, p, false), own.lengths[at(p)], k), false);
           one.kernel = pass_;
           one.parameters.clear();
           one.shape = Shape{};
@@ -105,7 +109,7 @@ class Apart {
           graph_.blocks.push_back(std::move(one));
         }
     } else if (own.has_vector_ports()) {
-      GraphBlock whole = block_of(own, own.path);
+      GraphBlock whole = block_of(own, own.path, true);
       for (int p = 0; p < ports; ++p)
         for (int k = 0; k < own.lengths[at(p)]; ++k) {
           whole.output.push_back({p, own.kernel->declaration.outputs[at(p)].is_vector ? k : -1});
@@ -115,7 +119,7 @@ class Apart {
     } else {
       const int n = own.lengths.front();  // more than one: elementwise, or an input of the diagram
       for (int k = 0; k < n; ++k) {
-        GraphBlock one = block_of(own, indexed(own.path, n, k));
+        GraphBlock one = block_of(own, indexed(own.path, n, k), n == 1);
         for (int p = 0; p < ports; ++p) {
           one.output.push_back({p, -1});
           add_signal(own, p, k);
@@ -162,7 +166,7 @@ class Apart {
       }
   }
 
-  const WiredDiagram& d_;
+  WiredDiagram d_;  ///< blocks that become one block each give it what they have
   const Kernel* pass_;
   Graph graph_;
   std::vector<std::vector<std::vector<int>>> first_;  ///< per block, port and element: signal
@@ -170,8 +174,8 @@ class Apart {
 
 }  // namespace
 
-Graph scalarize_vectors(const WiredDiagram& diagram, const Registry& registry) {
-  return Apart(diagram, registry).run();
+Graph scalarize_vectors(WiredDiagram diagram, const Registry& registry) {
+  return Apart(std::move(diagram), registry).run();
 }
 
 }  // namespace hysteron

@@ -5,6 +5,6 @@
 
 namespace hysteron {
 
-Graph scalarize_vectors(const WiredDiagram& diagram, const Registry& registry);
+Graph scalarize_vectors(WiredDiagram diagram, const Registry& registry);
 
 }  // namespace hysteron

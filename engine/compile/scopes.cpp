@@ -30,11 +30,13 @@ std::vector<std::string> output_names(const WiredBlock& b) {
 
 }  // namespace
 
-int Scopes::add(const Diagram& diagram, const std::string& prefix, int parent, const Node* node,
+int Scopes::add(const Diagram& diagram, const std::string& prefix, int parent, const Node* node, const Node* written,
                 const std::string& origin) {
   ScopeOfBlocks s;
   s.scope = {&diagram, prefix, parent < 0 ? nullptr : &(*this)[parent].scope, node};
   s.origin = origin;
+  s.outer = node != nullptr && node->in.empty() ? written : node;  // a candidate without wires has those of the choice
+  s.blocks.reserve(diagram.blocks.size());
   if (parent >= 0) s.enabling = (*this)[parent].enabling;
   parents_.push_back(parent);
   scopes_.push_back(std::move(s));
@@ -89,7 +91,7 @@ PortEnd Scopes::resolve_whole(int index, const std::string& name, const std::str
       return resolve(found->second.scope, name.substr(slash + 1), place, depth + 1);
     if (found != scope.blocks.end() && found->second.leaf < 0) return {};
     problems_.add("unknown_signal", place, fmt::format("there is no nested diagram \"{}\" in \"{}\"", head, name),
-                  did_you_mean(head, known_names(index)));
+                  cure_for(head, index));
     return {};
   }
   const auto dot = name.find('.');
@@ -99,8 +101,7 @@ PortEnd Scopes::resolve_whole(int index, const std::string& name, const std::str
   if (scope.scope.diagram->inputs.find(block) != nullptr) return resolve_input(index, block, depth);
   const auto found = scope.blocks.find(block);
   if (found == scope.blocks.end()) {
-    problems_.add("unknown_signal", place, fmt::format("there is no signal \"{}\"", name),
-                  did_you_mean(block, known_names(index)));
+    problems_.add("unknown_signal", place, fmt::format("there is no signal \"{}\"", name), cure_for(block, index));
     return {};
   }
   const BlockOfScope& entry = found->second;
@@ -113,27 +114,17 @@ PortEnd Scopes::resolve_input(int index, const std::string& name, int depth) {
   if (index == 0) return {inputs_.at(name), 0, -1, {}, {}};
   const ScopeOfBlocks& scope = (*this)[index];
   const int parent = parents_[static_cast<std::size_t>(index)];
-  const Node& node = *outer_node(index);
-  const auto names = scope.scope.diagram->inputs.names();
+  const Node& node = *scope.outer;
+  const auto position = scope.scope.diagram->inputs.place(name);
   for (std::size_t i = 0; i < node.in.size(); ++i) {
     const Wire& wire = node.in[i];
-    if (wire.port.empty() ? (i < names.size() && names[i] == name) : wire.port == name)
+    if (wire.port.empty() ? static_cast<std::ptrdiff_t>(i) == position : wire.port == name)
       return resolve(parent, wire.from, scope.origin + "/in", depth + 1);
   }
   problems_.add("missing_connection", scope.origin + "/in",
                 fmt::format("input \"{}\" of the nested diagram is not connected", name),
                 fmt::format("connect it: \"in\": {{\"{}\": \"...\"}}", name));
   return {};
-}
-
-/// The node with the wires of a nested scope: the choice, where the nested diagram is a candidate without wires of
-/// its own.
-const Node* Scopes::outer_node(int index) const {
-  const auto& scope = (*this)[index];
-  const auto& parent = (*this)[parents_[static_cast<std::size_t>(index)]];
-  for (const auto& [name, entry] : parent.blocks)
-    if (entry.body == scope.scope.node) return entry.body->in.empty() ? entry.node : entry.body;
-  return scope.scope.node;
 }
 
 PortEnd Scopes::resolve_nested(const BlockOfScope& entry, const std::string& block, const std::string& port,
@@ -168,11 +159,14 @@ PortEnd Scopes::resolve_leaf(int leaf, const std::string& block, const std::stri
   return {};
 }
 
-std::vector<std::string> Scopes::known_names(int index) const {
+/// The nearest names; where most wires are wrong nobody reads them, and they would take longest of all.
+std::string Scopes::cure_for(const std::string& name, int index) const {
+  constexpr std::size_t most_looked_up = 100;
+  if (problems_.list().size() >= most_looked_up) return "name a block, or an input of the diagram";
   const auto& scope = (*this)[index];
   auto names = scope.scope.diagram->blocks.names();
-  for (const auto& name : scope.scope.diagram->inputs.names()) names.push_back(name);
-  return names;
+  for (const auto& input : scope.scope.diagram->inputs.names()) names.push_back(input);
+  return did_you_mean(name, names);
 }
 
 void Scopes::check_unused() const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,10 +26,11 @@ struct BlockOfScope {
 
 struct ScopeOfBlocks {
   Scope scope;
-  std::map<std::string, BlockOfScope> blocks;
+  std::unordered_map<std::string, BlockOfScope> blocks;
   std::vector<std::string> order;
-  std::string origin;  ///< JSON pointer of the node that holds it, "" at the top
-  int enabling = -1;   ///< into WiredDiagram::enablings: the innermost that it is inside of
+  std::string origin;           ///< JSON pointer of the node that holds it, "" at the top
+  int enabling = -1;            ///< into WiredDiagram::enablings: the innermost that it is inside of
+  const Node* outer = nullptr;  ///< with the wires to its inputs; null at the top
 };
 
 /// The diagram and every diagram in it, by index; 0 is the diagram itself.
@@ -37,8 +39,10 @@ class Scopes {
   /// `leaves`: what BlockOfScope::leaf counts. Problems of names go to `problems`.
   Scopes(const std::vector<WiredBlock>& leaves, Problems& problems) : leaves_(leaves), problems_(problems) {}
 
-  /// The index of a new one, behind all others.
-  int add(const Diagram& diagram, const std::string& prefix, int parent, const Node* node, const std::string& origin);
+  /// The index of a new one, behind all others. `node`: the block in use that holds it, `written`: the same or the
+  /// choice around it; both null at the top.
+  int add(const Diagram& diagram, const std::string& prefix, int parent, const Node* node, const Node* written,
+          const std::string& origin);
   std::size_t size() const { return scopes_.size(); }
   ScopeOfBlocks& operator[](int index) { return scopes_[static_cast<std::size_t>(index)]; }
   const ScopeOfBlocks& operator[](int index) const { return scopes_[static_cast<std::size_t>(index)]; }
@@ -63,8 +67,7 @@ class Scopes {
   PortEnd resolve_nested(const BlockOfScope& entry, const std::string& block, const std::string& port,
                          const std::string& place, int depth);
   PortEnd resolve_leaf(int leaf, const std::string& block, const std::string& port, const std::string& place);
-  const Node* outer_node(int index) const;
-  std::vector<std::string> known_names(int index) const;
+  std::string cure_for(const std::string& name, int index) const;
 
   const std::vector<WiredBlock>& leaves_;
   Problems& problems_;

@@ -5,8 +5,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <queue>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "engine/block/instance.h"
 
@@ -15,8 +22,8 @@ namespace {
 
 /// "$b/$a*s" taken apart: a known dimension times powers of variables.
 struct Expression {
-  Dimension known;
-  std::map<std::string, int> variables;
+  Dimension known{};
+  std::map<std::string, int> variables{};
 };
 
 Expression parse_expression(const std::string& text) {
@@ -64,10 +71,19 @@ Dimension to_power(const Dimension& d, int n) {
 
 using Known = std::optional<Dimension>;
 
-/// What is known of one block's unit variables, and what fixed each ("$a" -> "input u (from drive)").
-struct BlockUnits {
-  std::map<std::string, Dimension> variables;
-  std::map<std::string, std::string> fixed_by;
+/// What says something of a unit: an input, a parameter (or one number of it) or an output of a block.
+struct Witness {
+  enum class Kind { input, parameter, output };
+  Kind kind = Kind::input;
+  std::size_t index = 0;   ///< of inputs and outputs: into the numbers of the block; of a parameter: as declared
+  std::size_t number = 0;  ///< of a parameter with several
+};
+
+/// What is known of one unit variable of a block ("$a"), and what fixed it.
+struct Variable {
+  std::string name;
+  Dimension dimension{};
+  Witness fixed_by{};
 };
 
 class UnitCheck {
@@ -78,31 +94,76 @@ class UnitCheck {
     for (const auto& block : graph.blocks)
       if (const auto s = static_cast<std::size_t>(block.first_signal); block.unit_known)
         signals_[s] = graph.signals[s].unit.dimension;
+    for (std::size_t b = 0; b < graph.blocks.size(); ++b)
+      for (const int source : graph.blocks[b].source) readers_.emplace_back(source, b);
+    std::sort(readers_.begin(), readers_.end());
   }
 
   void run() {
+    const auto blocks_that = [&](auto wanted) {
+      std::vector<std::size_t> list;
+      for (std::size_t b = 0; b < graph_.blocks.size(); ++b)
+        if (wanted(b)) list.push_back(b);
+      return list;
+    };
     find_contested();
     // What was set on the command line stands against what the file says, not the other way round; and a block whose
     // own parameters contradict each other against what its wires say, or its neighbours would be blamed for it.
-    for (const auto& [those_set, those_contested] : {std::pair{false, false}, {true, false}, {true, true}}) {
-      believe_those_set_ = those_set;
-      believe_contested_ = those_contested;
-      settle();
-    }
+    settle(blocks_that([](std::size_t) { return true; }));
+    believe_those_set_ = true;
+    settle(blocks_that([&](std::size_t b) { return has_value_set(graph_.blocks[b]); }));
+    believe_contested_ = true;
+    settle(blocks_that([&](std::size_t b) { return contested_[b]; }));
     // What is known of inputs by the laws that read them comes last: a guess where nothing else says it.
     ask_for_inputs_ = true;
-    settle();
+    settle(blocks_that([&](std::size_t b) { return graph_.blocks[b].kernel->units != nullptr; }));
     report();
     for (std::size_t s = 0; s < signals_.size(); ++s) graph_.signals[s].dimension = signals_[s].value_or(Dimension{});
     show_units();
   }
 
  private:
-  void settle() {
-    do {
-      changed_ = false;
-      for (std::size_t b = 0; b < graph_.blocks.size(); ++b) visit(b);
-    } while (changed_);
+  using Queue = std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>>;
+
+  /// Looks at these blocks (ascending), and at every block around which something has become known: one after the
+  /// other as the diagram has them, again and again, until nothing changes.
+  void settle(const std::vector<std::size_t>& blocks) {
+    waiting_.assign(graph_.blocks.size(), false);
+    for (const std::size_t b : blocks) waiting_[b] = true;
+    Queue now{{}, blocks};
+    while (!now.empty()) {
+      Queue later;
+      while (!now.empty()) {
+        const std::size_t b = now.top();
+        now.pop();
+        waiting_[b] = false;
+        changed_.clear();
+        visit(b);
+        for (const std::size_t next : changed_) {
+          if (waiting_[next]) continue;
+          waiting_[next] = true;
+          (next > b ? now : later).push(next);
+        }
+      }
+      now = std::move(later);
+    }
+  }
+
+  static bool has_value_set(const GraphBlock& block) {
+    for (const auto& parameter : block.parameters)
+      for (const auto& number : parameter.numbers)
+        if (was_set(number.origin)) return true;
+    return false;
+  }
+
+  /// A signal has become known: its block and its readers may learn from it.
+  void found(std::size_t signal, const Dimension& dimension) {
+    signals_[signal] = dimension;
+    changed_.push_back(static_cast<std::size_t>(graph_.signals[signal].block));
+    const int s = static_cast<int>(signal);
+    for (auto r = std::lower_bound(readers_.begin(), readers_.end(), std::pair(s, std::size_t{0}));
+         r != readers_.end() && r->first == s; ++r)
+      changed_.push_back(r->second);
   }
 
   /// Blocks whose parameters do not agree among themselves on a unit.
@@ -110,73 +171,83 @@ class UnitCheck {
     contested_.assign(graph_.blocks.size(), false);
     for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
       const auto each_of_parameters = [&](auto visit) {
-        each_constraint(b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal,
-                               const std::string&) {
-          if (signal < 0 && actual) visit(parse_expression(unit), *actual, why);
-        });
+        each_parameter(
+            b, [&](const Expression& e, const Known& actual, const Witness& by, int) { visit(e, *actual, by); });
       };
       do {
-        changed_ = false;
-        each_of_parameters(
-            [&](const Expression& e, const Dimension& d, const std::string& why) { learn(b, e, d, why); });
-      } while (changed_);
-      each_of_parameters([&](const Expression& e, const Dimension& d, const std::string&) {
+        changed_.clear();
+        each_of_parameters([&](const Expression& e, const Dimension& d, const Witness& by) { learn(b, e, d, by); });
+      } while (!changed_.empty());
+      if (units_[b].empty()) continue;
+      each_of_parameters([&](const Expression& e, const Dimension& d, const Witness&) {
         const Known expected = value(b, e);
         if (expected && dimension_factor(d, *expected) != 1) contested_[b] = true;
       });
-      units_[b] = {};
+      units_[b].clear();
     }
+  }
+
+  const Variable* find(std::size_t b, const std::string& name) const {
+    for (const auto& variable : units_[b])
+      if (variable.name == name) return &variable;
+    return nullptr;
   }
 
   Known value(std::size_t b, const Expression& e) const {
     Dimension d = e.known;
     for (const auto& [name, power] : e.variables) {
-      const auto found = units_[b].variables.find(name);
-      if (found == units_[b].variables.end()) return {};
-      d = d * to_power(found->second, power);
+      const Variable* found = find(b, name);
+      if (found == nullptr) return {};
+      d = d * to_power(found->dimension, power);
     }
     return d;
   }
 
   /// Uses that `e` is `actual` to find a variable that is still open.
-  void learn(std::size_t b, const Expression& e, const Dimension& actual, const std::string& why) {
-    std::string open;
+  void learn(std::size_t b, const Expression& e, const Dimension& actual, const Witness& by) {
+    const std::string* open = nullptr;
+    int open_power = 0;
     Dimension rest = e.known;
     for (const auto& [name, power] : e.variables) {
-      const auto found = units_[b].variables.find(name);
-      if (found != units_[b].variables.end()) {
-        rest = rest * to_power(found->second, power);
-      } else if (!open.empty() || std::abs(power) != 1) {
+      const Variable* found = find(b, name);
+      if (found != nullptr) {
+        rest = rest * to_power(found->dimension, power);
+      } else if (open != nullptr || std::abs(power) != 1) {
         return;
       } else {
-        open = name;
+        open = &name;
+        open_power = power;
       }
     }
-    if (open.empty()) return;
-    units_[b].variables[open] = e.variables.at(open) > 0 ? actual / rest : rest / actual;
-    units_[b].fixed_by[open] = why;
-    changed_ = true;
+    if (open == nullptr) return;
+    units_[b].push_back({*open, open_power > 0 ? actual / rest : rest / actual, by});
+    changed_.push_back(b);
   }
 
-  /// The block's own unit for this element, or the one declared for the port.
-  static std::string unit_at(const std::vector<UnitExpression>& own, std::size_t i, const UnitExpression& declared,
-                             int element) {
-    if (i < own.size()) return own[i];
-    return element < 0 ? declared : of_element(declared, "[i]", element);
+  /// Each text is taken apart once; those that speak of an element are not kept, for there are many.
+  const Expression& expression(const std::string& text) {
+    const auto [known, is_new] = expressions_.try_emplace(text);
+    if (is_new) known->second = parse_expression(text);
+    return known->second;
+  }
+
+  /// Calls `visit` with the block's own unit for this number of a port, or with the one declared for the port.
+  template <class Visit>
+  void at_port(const std::vector<UnitExpression>& own, const PortDeclaration& port, int element, int signal,
+               const Witness& by, Visit& visit) {
+    const Known actual = signals_[static_cast<std::size_t>(signal)];
+    if (by.index < own.size())
+      visit(parse_expression(own[by.index]), actual, by, signal);
+    else if (element < 0)
+      visit(expression(port.unit), actual, by, signal);
+    else
+      visit(parse_expression(of_element(port.unit, "[i]", element)), actual, by, signal);
   }
 
   template <class Visit>
-  void each_constraint(std::size_t b, Visit visit) {
+  void each_parameter(std::size_t b, Visit visit) {
     const GraphBlock& block = graph_.blocks[b];
     const Declaration& d = block.kernel->declaration;
-    if (d.type == "input") return;
-    for (std::size_t i = 0; i < block.source.size(); ++i) {
-      const auto [p, element] = block.input[i];
-      const auto& port = d.inputs[static_cast<std::size_t>(p)];
-      const auto s = static_cast<std::size_t>(block.source[i]);
-      visit(unit_at(block.sizes.input_units, i, port.unit, element), signals_[s],
-            fmt::format("input {} (from {})", port.name, graph_.signals[s].path), block.source[i], block.origin);
-    }
     for (std::size_t i = 0; i < d.parameters.size(); ++i) {
       if (d.parameters[i].unit.find('$') == std::string::npos || d.parameters[i].kind == ParameterKind::text) continue;
       const int columns = block.parameters[i].columns;
@@ -184,39 +255,67 @@ class UnitCheck {
         const auto& number = block.parameters[i].numbers[k];
         if (fits_any_unit(number)) continue;
         if (was_set(number.origin) && !believe_those_set_) continue;
-        std::string unit = d.parameters[i].unit;
-        if (columns > 0)
-          unit = of_element(of_element(std::move(unit), "[row]", static_cast<int>(k) / columns), "[column]",
-                            static_cast<int>(k) % columns);
-        visit(unit, Known(number.dimension.value_or(Dimension{})),
-              fmt::format("parameter {} ({})", d.parameters[i].name,
-                          number.has_unit ? "in " + number.unit.text : "without a unit"),
-              -1, was_set(number.origin) ? number.origin : block.origin);
+        const Known actual(number.dimension.value_or(Dimension{}));
+        const Witness by{Witness::Kind::parameter, i, k};
+        if (columns == 0)
+          visit(expression(d.parameters[i].unit), actual, by, -1);
+        else
+          visit(parse_expression(of_element(of_element(d.parameters[i].unit, "[row]", static_cast<int>(k) / columns),
+                                            "[column]", static_cast<int>(k) % columns)),
+                actual, by, -1);
       }
-    }
-    for (std::size_t i = 0; i < block.output.size(); ++i) {
-      const auto [p, element] = block.output[i];
-      const auto& port = d.outputs[static_cast<std::size_t>(p)];
-      const int s = block.first_signal + static_cast<int>(i);
-      visit(unit_at(block.sizes.output_units, i, port.unit, element), signals_[static_cast<std::size_t>(s)],
-            element < 0 ? fmt::format("output {}", port.name) : fmt::format("output {}[{}]", port.name, element), s,
-            block.origin);
     }
   }
 
+  template <class Visit>
+  void each_constraint(std::size_t b, Visit visit) {
+    const GraphBlock& block = graph_.blocks[b];
+    const Declaration& d = block.kernel->declaration;
+    if (d.type == "input") return;
+    for (std::size_t i = 0; i < block.source.size(); ++i)
+      at_port(block.sizes.input_units, d.inputs[static_cast<std::size_t>(block.input[i].port)], block.input[i].element,
+              block.source[i], {Witness::Kind::input, i}, visit);
+    each_parameter(b, visit);
+    for (std::size_t i = 0; i < block.output.size(); ++i)
+      at_port(block.sizes.output_units, d.outputs[static_cast<std::size_t>(block.output[i].port)],
+              block.output[i].element, block.first_signal + static_cast<int>(i), {Witness::Kind::output, i}, visit);
+  }
+
   void visit(std::size_t b) {
-    each_constraint(
-        b, [&](const std::string& unit, const Known& actual, const std::string& why, int signal, const std::string&) {
-          if (signal < 0 && contested_[b] && !believe_contested_) return;
-          const Expression e = parse_expression(unit);
-          if (actual) {
-            learn(b, e, *actual, why);
-          } else if (const Known v = value(b, e); v && signal >= 0) {
-            signals_[static_cast<std::size_t>(signal)] = v;
-            changed_ = true;
-          }
-        });
+    each_constraint(b, [&](const Expression& e, const Known& actual, const Witness& by, int signal) {
+      if (signal < 0 && contested_[b] && !believe_contested_) return;
+      if (actual)
+        learn(b, e, *actual, by);
+      else if (const Known v = value(b, e); v && signal >= 0)
+        found(static_cast<std::size_t>(signal), *v);
+    });
     if (graph_.blocks[b].kernel->units != nullptr) ask_law(b);
+  }
+
+  /// "input u (from drive)"
+  std::string told(std::size_t b, const Witness& by) const {
+    const GraphBlock& block = graph_.blocks[b];
+    const Declaration& d = block.kernel->declaration;
+    if (by.kind == Witness::Kind::input) {
+      const auto& port = d.inputs[static_cast<std::size_t>(block.input[by.index].port)];
+      return fmt::format("input {} (from {})", port.name,
+                         graph_.signals[static_cast<std::size_t>(block.source[by.index])].path);
+    }
+    if (by.kind == Witness::Kind::output) {
+      const auto [p, element] = block.output[by.index];
+      const std::string& name = d.outputs[static_cast<std::size_t>(p)].name;
+      return element < 0 ? fmt::format("output {}", name) : fmt::format("output {}[{}]", name, element);
+    }
+    const ResolvedNumber& number = block.parameters[by.index].numbers[by.number];
+    return fmt::format("parameter {} ({})", d.parameters[by.index].name,
+                       number.has_unit ? "in " + number.unit.text : "without a unit");
+  }
+
+  /// The place to tell of it.
+  const std::string& place_of(const GraphBlock& block, const Witness& by) const {
+    if (by.kind != Witness::Kind::parameter) return block.origin;
+    const std::string& origin = block.parameters[by.index].numbers[by.number].origin;
+    return was_set(origin) ? origin : block.origin;
   }
 
   /// What the law itself says of its units (Kernel::units).
@@ -241,11 +340,8 @@ class UnitCheck {
     InstanceUnits units = known_of(b);
     block.kernel->units(block.shape, units);
     if (!units.error.empty()) return;  // told by report()
-    const auto take = [&](int signal, const Known& found) {
-      Known& own = signals_[static_cast<std::size_t>(signal)];
-      if (own || !found) return;
-      own = found;
-      changed_ = true;
+    const auto take = [&](int signal, const Known& told) {
+      if (told && !signals_[static_cast<std::size_t>(signal)]) found(static_cast<std::size_t>(signal), *told);
     };
     for (std::size_t i = 0; ask_for_inputs_ && i < block.source.size(); ++i) take(block.source[i], units.inputs[i]);
     for (std::size_t i = 0; i < block.output.size(); ++i)
@@ -265,19 +361,18 @@ class UnitCheck {
     Problems problems;
     for (std::size_t b = 0; b < graph_.blocks.size(); ++b) {
       if (graph_.blocks[b].kernel->units != nullptr) report_law(b, problems);
-      each_constraint(
-          b, [&](const std::string& unit, const Known& actual, const std::string& why, int, const std::string& where) {
-            const Known expected = value(b, parse_expression(unit));
-            if (!expected || !actual || dimension_factor(*actual, *expected) == 1) return;
-            std::string chain;
-            for (const auto& [name, power] : parse_expression(unit).variables)
-              if (const auto f = units_[b].fixed_by.find(name); f != units_[b].fixed_by.end())
-                chain += fmt::format("; {} says {}", f->second, named(units_[b].variables[name]));
-            problems.add("wrong_unit", where,
-                         fmt::format("\"{}\": {} is {}, expected {}{}", graph_.blocks[b].path, why, named(*actual),
-                                     named(*expected), chain),
-                         "give the value the expected unit, or put a gain between");
-          });
+      each_constraint(b, [&](const Expression& e, const Known& actual, const Witness& by, int) {
+        const Known expected = value(b, e);
+        if (!expected || !actual || dimension_factor(*actual, *expected) == 1) return;
+        std::string chain;
+        for (const auto& [name, power] : e.variables)
+          if (const Variable* v = find(b, name); v != nullptr)
+            chain += fmt::format("; {} says {}", told(b, v->fixed_by), named(v->dimension));
+        problems.add("wrong_unit", place_of(graph_.blocks[b], by),
+                     fmt::format("\"{}\": {} is {}, expected {}{}", graph_.blocks[b].path, told(b, by), named(*actual),
+                                 named(*expected), chain),
+                     "give the value the expected unit, or put a gain between");
+      });
     }
     problems.throw_if_any();
   }
@@ -307,41 +402,44 @@ class UnitCheck {
 
   // Signals are shown in the units that the file uses: the first unit of that dimension that it names.
   void show_units() {
-    std::vector<Unit> written;
+    std::map<std::array<std::int8_t, 9>, Unit> shown;
     const auto note = [&](const Unit& unit) {
       // "K/%" has the dimension of a temperature, but nobody reads a temperature in it: only units of one word.
       const bool one_word = unit.text.find_first_of("/*() ") == std::string::npos;
-      if (one_word && !(unit.dimension.none() && unit.scale == 1)) written.push_back(unit);
+      if (one_word && !unit.dimension.none()) shown.try_emplace(unit.dimension.power, unit);
+    };
+    const auto each_unit_written = [&](auto visit) {
+      for (const auto& block : graph_.blocks)
+        for (const auto& parameter : block.parameters)
+          for (const auto& number : parameter.numbers)
+            if (number.has_unit) visit(number.unit);
     };
     for (const auto& unit : graph_.input_units) note(unit);
-    for (const auto& block : graph_.blocks)
-      for (const auto& parameter : block.parameters)
-        for (const auto& number : parameter.numbers)
-          if (number.has_unit) note(number.unit);
+    each_unit_written(note);
     for (const auto& block : graph_.blocks)
       for (const auto* units : {&block.sizes.input_units, &block.sizes.output_units})
         for (const auto& unit : *units)
           if (unit.find('$') == std::string::npos) note(parse_unit(unit));
-    for (const auto& block : graph_.blocks)  // "um/V" also shows lengths in um
-      for (const auto& parameter : block.parameters)
-        for (const auto& number : parameter.numbers)
-          if (number.has_unit) note_words(number.unit.text, note);
+    std::unordered_set<std::string> seen;
+    each_unit_written([&](const Unit& unit) {  // "um/V" also shows lengths in um
+      if (seen.insert(unit.text).second) note_words(unit.text, note);
+    });
     for (auto& signal : graph_.signals) {
       if (!signal.unit.text.empty()) continue;
-      signal.unit = si_unit(signal.dimension);
-      for (const auto& unit : written)
-        if (unit.dimension == signal.dimension && !unit.dimension.none()) {
-          signal.unit = unit;
-          break;
-        }
+      const auto [unit, is_new] = shown.try_emplace(signal.dimension.power);
+      if (is_new) unit->second = si_unit(signal.dimension);
+      signal.unit = unit->second;
     }
   }
 
   Graph& graph_;
-  std::vector<BlockUnits> units_;
+  std::vector<std::vector<Variable>> units_;  ///< per block
   std::vector<Known> signals_;
-  std::vector<bool> contested_;
-  bool changed_ = false, believe_those_set_ = false, believe_contested_ = false, ask_for_inputs_ = false;
+  std::vector<std::pair<int, std::size_t>> readers_;  ///< signal and block that reads it, sorted
+  std::vector<bool> contested_, waiting_;
+  std::vector<std::size_t> changed_;  ///< blocks that the last visit has told something new
+  std::unordered_map<std::string, Expression> expressions_;
+  bool believe_those_set_ = false, believe_contested_ = false, ask_for_inputs_ = false;
 };
 
 }  // namespace

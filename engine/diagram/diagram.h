@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "engine/diagram/name_index.h"
 #include "engine/diagram/series.h"
 
 namespace hysteron {
@@ -52,34 +54,39 @@ struct Value {
   Value(const char* text) : Value(std::string(text)) {}  // NOLINT
 };
 
-/// A list that keeps the order of the file and is looked up by name.
+/// A list that keeps the order of the file and is looked up by name, however long it is.
 template <class T>
 class Ordered {
  public:
   using Item = std::pair<std::string, T>;
   T* find(const std::string& name) {
-    for (auto& item : items_)
-      if (item.first == name) return &item.second;
-    return nullptr;
+    const auto place = index_.find(name, items_.size(), name_at());
+    return place < 0 ? nullptr : &items_[static_cast<std::size_t>(place)].second;
   }
   const T* find(const std::string& name) const { return const_cast<Ordered*>(this)->find(name); }
   T& operator[](const std::string& name) {
     if (T* found = find(name)) return *found;
     items_.emplace_back(name, T{});
+    index_.added(items_.size(), name_at());
     return items_.back().second;
   }
   bool erase(const std::string& name) {
-    for (auto i = items_.begin(); i != items_.end(); ++i)
-      if (i->first == name) return items_.erase(i), true;
-    return false;
+    const auto place = index_.find(name, items_.size(), name_at());
+    if (place < 0) return false;
+    items_.erase(items_.begin() + place);
+    index_.rebuild(items_.size(), name_at());
+    return true;
   }
   /// Inserts behind `after` (at the end if `after` is not there).
   T& insert_after(const std::string& after, const std::string& name, T value) {
-    auto i = items_.begin();
-    while (i != items_.end() && i->first != after) ++i;
-    if (i != items_.end()) ++i;
-    return items_.insert(i, {name, std::move(value)})->second;
+    const auto place = index_.find(after, items_.size(), name_at());
+    const auto i = items_.insert(place < 0 ? items_.end() : items_.begin() + place + 1, {name, std::move(value)});
+    index_.rebuild(items_.size(), name_at());
+    return i->second;
   }
+  /// Where it stands in the list; -1 if it is not there.
+  std::ptrdiff_t place(const std::string& name) const { return index_.find(name, items_.size(), name_at()); }
+  void reserve(std::size_t size) { items_.reserve(size); }
   bool empty() const { return items_.empty(); }
   std::size_t size() const { return items_.size(); }
   auto begin() { return items_.begin(); }
@@ -88,12 +95,18 @@ class Ordered {
   auto end() const { return items_.end(); }
   std::vector<std::string> names() const {
     std::vector<std::string> list;
+    list.reserve(items_.size());
     for (const auto& item : items_) list.push_back(item.first);
     return list;
   }
 
  private:
+  auto name_at() const {
+    return [items = items_.data()](std::size_t place) { return std::string_view(items[place].first); };
+  }
+
   std::vector<Item> items_;
+  NameIndex index_;
 };
 
 /// Where a block takes one input from. `port` is empty where the inputs are listed by position.

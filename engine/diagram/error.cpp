@@ -68,8 +68,7 @@ void fail_numerics(std::string code, std::string path, std::string what, std::st
 }
 
 void Problems::add(std::string code, std::string path, std::string what, std::string cure) {
-  const auto told = [&](const Problem& p) { return p.code == code && p.path == path && p.what == what; };
-  if (std::any_of(problems_.begin(), problems_.end(), told)) return;  // each element of a list says the same
+  if (!told_.insert(code + '\0' + path + '\0' + what).second) return;  // each element of a list says the same
   problems_.push_back({std::move(code), std::move(path), std::move(what), std::move(cure), {}, 0});
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace hysteron {
@@ -48,6 +49,7 @@ class Problems {
 
  private:
   std::vector<Problem> problems_;
+  std::unordered_set<std::string> told_;
 };
 
 /// "choose one of a, b, c. Did you mean "b"?" for a name that is not among the known ones.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "engine/program/loops.h"
 #include "engine/program/names.h"
@@ -17,15 +18,35 @@ bool Program::has_rate_loops() const {
 
 bool Program::remembers() const { return n_m > 0 || n_histories > 0 || !loops.empty(); }
 
+namespace {
+
+/// The path of what stands at a place of a list (std::vector of blocks or of signals).
+template <class List, class Text>
+auto names_of(const List& list, Text text) {
+  return [first = list.data(), text](std::size_t place) { return std::string_view(first[place].*text); };
+}
+
+auto output_at(const std::vector<std::string>& names) {
+  return [&names](std::size_t place) { return std::string_view(names[place]); };
+}
+
+}  // namespace
+
+void Program::index_names() {
+  block_names.rebuild(blocks.size(), names_of(blocks, &BlockInstance::path));
+  signal_names.rebuild(signals.size(), names_of(signals, &SignalInfo::path));
+  port_names.rebuild(signals.size(), names_of(signals, &SignalInfo::port_path));
+  outputs_by_name.rebuild(output_names.size(), output_at(output_names));
+}
+
 int Program::find_signal(const std::string& path) const {
-  for (std::size_t s = 0; s < signals.size(); ++s)
-    if (signals[s].path == path) return static_cast<int>(s);
+  const auto by_path = signal_names.find(path, signals.size(), names_of(signals, &SignalInfo::path));
+  if (by_path >= 0) return static_cast<int>(by_path);
   // "block.port" also where the block has one output, and the names of the diagram's outputs.
-  for (std::size_t s = 0; s < signals.size(); ++s)
-    if (signals[s].port_path == path) return static_cast<int>(s);
-  for (std::size_t i = 0; i < output_names.size(); ++i)
-    if (output_names[i] == path) return output_signals[i];
-  return -1;
+  const auto by_port = port_names.find(path, signals.size(), names_of(signals, &SignalInfo::port_path));
+  if (by_port >= 0) return static_cast<int>(by_port);
+  const auto output = outputs_by_name.find(path, output_names.size(), output_at(output_names));
+  return output < 0 ? -1 : output_signals[static_cast<std::size_t>(output)];
 }
 
 int Program::signal(const std::string& path) const { return named_signal(*this, path); }
@@ -36,9 +57,7 @@ const ParameterInfo* Program::find_parameter(const std::string& path) const {
 }
 
 int Program::block_index(const std::string& path) const {
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (blocks[b].path == path) return static_cast<int>(b);
-  return -1;
+  return static_cast<int>(block_names.find(path, blocks.size(), names_of(blocks, &BlockInstance::path)));
 }
 
 std::vector<bool> Program::downstream_of(int from, bool between_samples) const {

@@ -128,7 +128,8 @@ struct Program {
   std::vector<Enabling> enablings;
   std::vector<KernelPointer> kernels;  ///< those that blocks have of their own (engine/block/instance.h)
   std::vector<SignalInfo> signals;
-  std::vector<Step> all_values;        ///< every value
+  NameIndex block_names{}, signal_names{}, port_names{}, outputs_by_name{};  ///< see index_names()
+  std::vector<Step> all_values;                                              ///< every value
   std::vector<Step> derivative_steps;  ///< values, rates and derivatives that dx/dt needs
   std::vector<Step> rate_steps;        ///< what the rates of memory inputs need, behind derivative_steps
   std::vector<bool> has_rate;          ///< per signal: can its rate be computed
@@ -167,6 +168,7 @@ struct Program {
   bool remembers() const;                          ///< accept() has something to keep
   int signal(const std::string& path) const;       ///< throws Error "unknown_signal" with the nearest name
   int find_signal(const std::string& path) const;  ///< -1 if there is none
+  void index_names();                              ///< blocks, signals and outputs have their names: found by hash
   const ParameterInfo* find_parameter(const std::string& path) const;
   int block_index(const std::string& path) const;  ///< -1 if there is none
   /// Blocks whose outputs depend (through any path, states included) on block `from`, itself not counted unless in a
