@@ -1,8 +1,10 @@
 #include "io/data/csv.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <unordered_set>
@@ -37,6 +39,37 @@ class Records {
  public:
   explicit Records(std::string_view text) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
+  }
+
+  /// The next record where it is a row of numbers and nothing else, which is what nearly all of them are: one for each
+  /// of `row`. False where it is anything else, or the end; then next() tells.
+  bool next_numbers(std::vector<double>& row, int& line) {
+    const char* at = text_.data() + at_;
+    const char* const end = text_.data() + text_.size();
+    const auto skip_blanks = [&] {
+      while (at < end && (*at == ' ' || *at == '\t')) ++at;
+    };
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0 && (at == end || *at++ != ',')) return false;
+      skip_blanks();
+      const auto [behind, status] = std::from_chars(at, end, row[i]);
+      if (status != std::errc{} || !std::isfinite(row[i])) return false;
+      at = behind;
+      skip_blanks();
+    }
+    if (at < end && *at == '\r') ++at;
+    if (at < end && *at != '\n') return false;
+    line = line_;
+    if (at < end) ++line_, ++at;
+    at_ = static_cast<std::size_t>(at - text_.data());
+    return true;
+  }
+
+  /// No more than that many rows are still to come.
+  std::size_t most_rows(std::size_t cells) const {
+    const auto rest = text_.substr(std::min(at_, text_.size()));
+    const auto lines = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
+    return std::min(lines, rest.size() / (2 * std::max(cells, std::size_t{1})) + 1);
   }
 
   /// The next record; false at the end. `line` is where it begins.
@@ -157,9 +190,19 @@ class Reader {
 
   CsvTable read() {
     header();
+    std::vector<double> numbers(table_.columns.size());
+    const std::size_t most = records_.most_rows(numbers.size());
+    table_.lines.reserve(most);
+    for (auto& column : table_.columns) column.values.reserve(most);
     std::vector<Field> fields;
     int line = 0;
-    while (problems_.size() < problems_until_giving_up && records_.next(fields, line)) row(fields, line);
+    while (problems_.size() < problems_until_giving_up)
+      if (records_.next_numbers(numbers, line))
+        add(numbers, line);
+      else if (records_.next(fields, line))
+        row(fields, line);
+      else
+        break;
     if (problems_.empty() && table_.rows() == 0)
       add("empty_file", line_of_header_, table_.file, "the file holds a header and no row",
           "record again, or name another file");
@@ -213,6 +256,11 @@ class Reader {
     table_.columns.push_back(std::move(column));
   }
 
+  void add(const std::vector<double>& numbers, int line) {
+    table_.lines.push_back(line);
+    for (std::size_t i = 0; i < numbers.size(); ++i) table_.columns[i].values.push_back(numbers[i]);
+  }
+
   void row(const std::vector<Field>& fields, int line) {
     const std::size_t expected = table_.columns.size();
     if (fields.size() != expected) {
@@ -260,9 +308,20 @@ std::string csv_cell(const std::string& text) {
 }
 
 const CsvColumn* CsvTable::find(const std::string& name) const {
-  for (const auto& column : columns)
-    if (column.name == name) return &column;
-  return nullptr;
+  const auto name_at = [&](std::size_t place) { return std::string_view(columns[place].name); };
+  std::shared_ptr<const Names> known = std::atomic_load(&names);  // threads may ask at once
+  if (!known || known->columns != columns.size()) {
+    auto now = std::make_shared<Names>();
+    now->columns = columns.size();
+    now->index.rebuild(columns.size(), name_at);
+    std::atomic_store(&names, known = std::move(now));
+  }
+  if (const auto place = known->index.find(name, columns.size(), name_at); place >= 0)
+    return &columns[static_cast<std::size_t>(place)];
+  // Not there, or a column was renamed.
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const auto& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
 }
 
 bool has_plain_header(std::string_view text) {
@@ -290,8 +349,8 @@ bool has_plain_header(std::string_view text) {
 CsvTable read_csv(const std::string& file) { return Reader(file).read(); }
 
 std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments) {
-  fmt::memory_buffer out;
-  for (const auto& comment : comments) fmt::format_to(std::back_inserter(out), "# {}\n", comment);
+  std::string out;
+  for (const auto& comment : comments) out += fmt::format("# {}\n", comment);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto& column = table.columns[i];
     if (column.values.size() != table.rows())
@@ -299,19 +358,27 @@ std::string csv_text(const CsvTable& table, const std::vector<std::string>& comm
           "row_length", table.file,
           fmt::format("column \"{}\" has {} values, the first has {}", column.name, column.values.size(), table.rows()),
           "give every column one value per row");
-    fmt::format_to(std::back_inserter(out), "{}{}", i > 0 ? "," : "", heading_text(column));
+    if (i > 0) out += ',';
+    out += heading_text(column);
   }
-  out.push_back('\n');
+  out += '\n';
+  constexpr std::size_t longest = 32;  // a number is 24 characters at most, its comma or end of line one more
   LookUp look_up;
+  std::size_t used = out.size();
   for (std::size_t row = 0; row < table.rows(); ++row) {
     look_up();
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      if (i > 0) out.push_back(',');
-      fmt::format_to(std::back_inserter(out), "{}", table.columns[i].values[row]);
+    if (const std::size_t needed = used + longest * table.columns.size(); out.size() < needed)
+      out.resize(std::max(needed, row == 0 ? 0 : used + used / row * (table.rows() - row) + used / 16));
+    char* at = out.data() + used;
+    for (const auto& column : table.columns) {
+      at = fmt::format_to(at, FMT_COMPILE("{}"), column.values[row]);
+      *at++ = ',';
     }
-    out.push_back('\n');
+    at[-1] = '\n';
+    used = static_cast<std::size_t>(at - out.data());
   }
-  return {out.data(), out.size()};
+  out.resize(used);
+  return out;
 }
 
 void write_csv(const std::string& file, const CsvTable& table, const std::vector<std::string>& comments) {

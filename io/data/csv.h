@@ -1,10 +1,12 @@
 // Decides how a table of numbers is read from and written to CSV (RFC 4180, one header line, # comments).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/diagram/name_index.h"
 #include "engine/diagram/units.h"
 
 namespace hysteron {
@@ -20,7 +22,14 @@ struct CsvTable {
   std::vector<CsvColumn> columns;
   std::vector<int> lines;  ///< line of each row in the file, 1-based, for messages
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
-  const CsvColumn* find(const std::string& name) const;
+  const CsvColumn* find(const std::string& name) const;  ///< the first of that name, or null; of any number of them
+
+  /// What find() keeps, once it was asked: names of so many columns.
+  struct Names {
+    std::size_t columns = 0;
+    NameIndex index{};
+  };
+  mutable std::shared_ptr<const Names> names{};
 };
 
 /// Reads a CSV. Throws Error naming file, line and column: "no_file", "is_directory", "empty_file", "no_header",

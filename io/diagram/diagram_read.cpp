@@ -63,6 +63,7 @@ class DiagramReader {
     for_members(root, "inputs", "{\"u\": {\"unit\": \"V\"}}",
                 [&](const std::string& name, const JsonPlace& place) { input(name, place); });
     root.need("blocks", "write \"blocks\": {\"drive\": {\"type\": \"sine\", ...}, ...}");
+    if (const auto blocks = root.find("blocks")) diagram_.blocks.reserve(blocks->size());
     for_members(root, "blocks", "{\"drive\": {\"type\": \"sine\", ...}}",
                 [&](const std::string& name, const JsonPlace& place) {
                   if (check_name(place, name, "a block")) diagram_.blocks[name] = node(place, true);

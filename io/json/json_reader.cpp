@@ -12,8 +12,6 @@
 namespace hysteron {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int newest_format = 1;
 
 [[noreturn]] void fail_at(const std::string& file, int line, std::string code, std::string path, std::string what,
@@ -46,12 +44,12 @@ std::string plain_message(const std::string& message) {
           cure);
 }
 
-Json parse(const std::string& file, const std::string& text) {
+JsonTree parse(const std::string& file, const std::string& text) {
   try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
+    return JsonTree(text);
+  } catch (const nlohmann::json::parse_error& error) {
     fail_syntax(file, text, error.byte > 0 ? error.byte - 1 : 0, error.what());
-  } catch (const Json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     // A number too large for a double: the message quotes it and gives no position.
     const std::string message = error.what();
     const auto first = message.find('\''), last = message.rfind('\'');
@@ -92,25 +90,22 @@ JsonFile::JsonFile(const std::string& file) : file_(file) {
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     fail_at(file, 1, "empty_file", file, "the file is empty",
             "write a diagram or data set into it, or name another file");
-  json_ = std::make_unique<const Json>(parse(file, text));
-  positions_ = JsonPositions(text);
-  if (positions_.too_deep_line() > 0)
-    fail_at(file, positions_.too_deep_line(), "too_deep", file, "brackets are nested more than 100 deep",
+  tree_ = parse(file, text);
+  if (tree_.too_deep_line() > 0)
+    fail_at(file, tree_.too_deep_line(), "too_deep", file, "brackets are nested more than 100 deep",
             "move inner parts into diagrams of their own");
-  for (const auto& twice : positions_.duplicates())
+  for (const auto& twice : tree_.duplicates())
     add("duplicate_key", twice.pointer,
         fmt::format("this key stands here a second time; the first is in line {}", twice.first_line),
         "take one of them out, or give it another name");
-  for (std::size_t i = 0; i < problems_.size(); ++i) problems_[i].line = positions_.duplicates()[i].line;
+  for (std::size_t i = 0; i < problems_.size(); ++i) problems_[i].line = tree_.duplicates()[i].line;
   throw_if_any();
 }
 
-JsonFile::~JsonFile() = default;
-
-JsonPlace JsonFile::root() { return {*this, *json_, ""}; }
+JsonPlace JsonFile::root() { return {*this, 0, ""}; }
 
 void JsonFile::add(std::string code, const std::string& pointer, std::string what, std::string cure) {
-  problems_.push_back({std::move(code), pointer, std::move(what), std::move(cure), file_, positions_.line(pointer)});
+  problems_.push_back({std::move(code), pointer, std::move(what), std::move(cure), file_, tree_.line(pointer)});
 }
 
 void JsonFile::add(const Error& error) {
@@ -125,18 +120,20 @@ void JsonPlace::add(std::string code, std::string what, std::string cure) const 
   file_->add(std::move(code), pointer_, std::move(what), std::move(cure));
 }
 
-bool JsonPlace::is_object() const { return json_->is_object(); }
-bool JsonPlace::is_array() const { return json_->is_array(); }
-bool JsonPlace::is_text() const { return json_->is_string(); }
-bool JsonPlace::is_number() const { return json_->is_number(); }
-bool JsonPlace::is_null() const { return json_->is_null(); }
+bool JsonPlace::is_object() const { return kind() == JsonTree::Kind::object; }
+bool JsonPlace::is_array() const { return kind() == JsonTree::Kind::list; }
+bool JsonPlace::is_text() const { return kind() == JsonTree::Kind::text; }
+bool JsonPlace::is_number() const {
+  return kind() == JsonTree::Kind::whole || kind() == JsonTree::Kind::natural || kind() == JsonTree::Kind::real;
+}
+bool JsonPlace::is_null() const { return kind() == JsonTree::Kind::null; }
 
 std::string JsonPlace::found() const {
-  if (json_->is_object()) return "an object {...}";
-  if (json_->is_array()) return "a list [...]";
-  if (json_->is_string()) return "the text " + json_->dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (json_->is_number()) return "the number " + json_->dump();
-  return json_->dump();  // true, false, null
+  if (is_object()) return "an object {...}";
+  if (is_array()) return "a list [...]";
+  if (is_text()) return "the text " + file_->tree().dump(at_);
+  if (is_number()) return "the number " + file_->tree().dump(at_);
+  return file_->tree().dump(at_);  // true, false, null
 }
 
 void JsonPlace::add_wrong_type(const std::string& expected) const {
@@ -144,19 +141,19 @@ void JsonPlace::add_wrong_type(const std::string& expected) const {
 }
 
 std::optional<std::string> JsonPlace::text() const {
-  if (json_->is_string()) return json_->get<std::string>();
+  if (is_text()) return std::string(file_->tree().text(at_));
   add_wrong_type("a text in quotes");
   return {};
 }
 
 std::optional<double> JsonPlace::number() const {
-  if (json_->is_number()) return json_->get<double>();
+  if (is_number()) return file_->tree().number(at_);
   add_wrong_type("a number");
   return {};
 }
 
 std::optional<bool> JsonPlace::truth() const {
-  if (json_->is_boolean()) return json_->get<bool>();
+  if (kind() == JsonTree::Kind::truth) return file_->tree().truth(at_);
   add_wrong_type("true or false");
   return {};
 }
@@ -172,9 +169,10 @@ bool JsonPlace::expect_array(const char* example) const {
 }
 
 std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {
-  const auto found_at = json_->find(key);
-  if (found_at == json_->end()) return {};
-  return JsonPlace(*file_, *found_at, pointer_to(pointer_, key));
+  if (!is_object()) return {};
+  const JsonTree::Index found = file_->tree().find(at_, key);
+  if (found == JsonTree::none) return {};
+  return JsonPlace(*file_, found, pointer_to(pointer_, key));
 }
 
 std::optional<JsonPlace> JsonPlace::need(const std::string& key, const std::string& cure) const {
@@ -190,15 +188,21 @@ void JsonPlace::only(const std::vector<std::string>& known) const {
 }
 
 std::vector<std::pair<std::string, JsonPlace>> JsonPlace::members() const {
+  const JsonTree& tree = file_->tree();
   std::vector<std::pair<std::string, JsonPlace>> list;
-  for (const auto& item : json_->items())
-    list.emplace_back(item.key(), JsonPlace(*file_, item.value(), pointer_to(pointer_, item.key())));
+  if (!is_object()) return list;
+  list.reserve(tree.size(at_));
+  for (auto member = tree.first(at_); member != JsonTree::none; member = tree.next(member, at_))
+    list.emplace_back(tree.key(member), JsonPlace(*file_, member, pointer_to(pointer_, tree.key(member))));
   return list;
 }
 
 std::vector<JsonPlace> JsonPlace::elements() const {
+  const JsonTree& tree = file_->tree();
   std::vector<JsonPlace> list;
-  for (const auto& element : *json_)
+  if (!is_array()) return list;
+  list.reserve(tree.size(at_));
+  for (auto element = tree.first(at_); element != JsonTree::none; element = tree.next(element, at_))
     list.emplace_back(*file_, element, pointer_to(pointer_, std::to_string(list.size())));
   return list;
 }

@@ -2,8 +2,6 @@
 // there. Does not know what the files mean. Every problem leaves with file and line.
 #pragma once
 
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "engine/diagram/error.h"
 #include "io/json/json_position.h"
+#include "io/json/json_tree.h"
 
 namespace hysteron {
 
@@ -22,14 +21,14 @@ class JsonFile {
   /// Throws Error "no_file", "is_directory", "not_a_file", "empty_file", "bad_json" (with line and column),
   /// "duplicate_key".
   explicit JsonFile(const std::string& file);
-  ~JsonFile();
   JsonFile(const JsonFile&) = delete;
   JsonFile& operator=(const JsonFile&) = delete;
 
   JsonPlace root();
   const std::string& file() const { return file_; }
-  int line(const std::string& pointer) const { return positions_.line(pointer); }
-  bool has(const std::string& pointer) const { return positions_.has(pointer); }
+  int line(const std::string& pointer) const { return tree_.line(pointer); }
+  bool has(const std::string& pointer) const { return tree_.at(pointer) != JsonTree::none; }
+  const JsonTree& tree() const { return tree_; }
 
   /// Notes a problem at a pointer of this file.
   void add(std::string code, const std::string& pointer, std::string what, std::string cure);
@@ -39,16 +38,16 @@ class JsonFile {
 
  private:
   std::string file_;
-  std::unique_ptr<const nlohmann::ordered_json> json_;
-  JsonPositions positions_;
+  JsonTree tree_;
   std::vector<Problem> problems_;
 };
 
 /// A value in a file. What is wrong with it is noted in the file; the reads then return nothing.
 class JsonPlace {
  public:
-  JsonPlace(JsonFile& file, const nlohmann::ordered_json& json, std::string pointer)
-      : file_(&file), json_(&json), pointer_(std::move(pointer)) {}
+  /// `at`: in the file's tree.
+  JsonPlace(JsonFile& file, JsonTree::Index at, std::string pointer)
+      : file_(&file), at_(at), pointer_(std::move(pointer)) {}
 
   JsonFile& file() const { return *file_; }
   const std::string& pointer() const { return pointer_; }
@@ -74,13 +73,16 @@ class JsonPlace {
 
   std::vector<std::pair<std::string, JsonPlace>> members() const;  ///< of an object, in the order of the file
   std::vector<JsonPlace> elements() const;                         ///< of a list
+  std::size_t size() const { return file_->tree().size(at_); }     ///< how many of either
 
   std::string found() const;  ///< what stands here, for messages: "text \"abc\"", "the number 5", "a list"
   void add_wrong_type(const std::string& expected) const;
 
  private:
+  JsonTree::Kind kind() const { return file_->tree().kind(at_); }
+
   JsonFile* file_;
-  const nlohmann::ordered_json* json_;
+  JsonTree::Index at_;
   std::string pointer_;
 };
 

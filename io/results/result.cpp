@@ -97,19 +97,21 @@ Json write(const Section& s) {
 
 /// A key that may be absent: what a newer writer of the same format leaves out keeps its default.
 template <class T>
-void take(const Json& j, const char* key, T& value) {
+void take(const nlohmann::json& j, const char* key, T& value) {
   if (const auto found = j.find(key); found != j.end()) value = found->get<T>();
 }
 
-double number_or_nan(const Json& j) { return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>(); }
+double number_or_nan(const nlohmann::json& j) {
+  return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>();
+}
 
 /// NaN stands as null in JSON: a gap in a curve.
-void take_numbers(const Json& j, const char* key, std::vector<double>& values) {
+void take_numbers(const nlohmann::json& j, const char* key, std::vector<double>& values) {
   if (const auto found = j.find(key); found != j.end())
     for (const auto& item : *found) values.push_back(number_or_nan(item));
 }
 
-void read(const Json& j, Curve& c) {
+void read(const nlohmann::json& j, Curve& c) {
   take(j, "name", c.name);
   take(j, "style", c.style);
   take(j, "role", c.role);
@@ -124,24 +126,24 @@ void read(const Json& j, Curve& c) {
   take(j, "colour", c.colour);
 }
 
-void read(const Json& j, Bar& b) {
+void read(const nlohmann::json& j, Bar& b) {
   take(j, "label", b.label);
   if (j.contains("value")) b.value = number_or_nan(j["value"]);
   take(j, "text", b.text);
   take(j, "role", b.role);
 }
 
-void read(const Json& j, Figure& f);
-void read(const Json& j, Table& t);
-void read(const Json& j, Section& s);
+void read(const nlohmann::json& j, Figure& f);
+void read(const nlohmann::json& j, Table& t);
+void read(const nlohmann::json& j, Section& s);
 
 template <class T>
-void read_all(const Json& j, const char* key, std::vector<T>& list) {
+void read_all(const nlohmann::json& j, const char* key, std::vector<T>& list) {
   if (const auto found = j.find(key); found != j.end())
     for (const auto& item : *found) read(item, list.emplace_back());
 }
 
-void read(const Json& j, Figure& f) {
+void read(const nlohmann::json& j, Figure& f) {
   take(j, "title", f.title);
   take(j, "kind", f.kind);
   take(j, "x_label", f.x_label);
@@ -156,13 +158,13 @@ void read(const Json& j, Figure& f) {
   take(j, "caption", f.caption);
 }
 
-void read(const Json& j, Table& t) {
+void read(const nlohmann::json& j, Table& t) {
   take(j, "title", t.title);
   take(j, "columns", t.columns);
   take(j, "rows", t.rows);
 }
 
-void read(const Json& j, Section& s) {
+void read(const nlohmann::json& j, Section& s) {
   take(j, "title", s.title);
   take(j, "text", s.text);
   read_all(j, "tables", s.tables);
@@ -173,7 +175,7 @@ void read(const Json& j, Section& s) {
   }
 }
 
-void check_header(const Json& j, const std::string& file) {
+void check_header(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || j.value("program", "") != "hysteron")
     fail("not_a_result", file, "this is not a result of hysteron: it has no \"program\": \"hysteron\"",
          "give the folder that a verb wrote with -o");
@@ -214,7 +216,7 @@ Document read_result(const std::string& folder) {
   const std::string text = read_file(file);
   Document d;
   try {
-    const Json j = Json::parse(text);
+    const auto j = nlohmann::json::parse(text);  // sorted by name: facts may have very many members
     check_header(j, file);
     take(j, "verb", d.verb);
     take(j, "title", d.title);
@@ -223,7 +225,7 @@ Document read_result(const std::string& folder) {
     take(j, "sentences", d.sentences);
     take(j, "warnings", d.warnings);
     take(j, "data", d.data);
-    d.facts = std::make_shared<nlohmann::json>(j.value("facts", Json::object()));
+    d.facts = std::make_shared<nlohmann::json>(j.value("facts", nlohmann::json::object()));
     read_all(j, "answer", d.answer);
     read_all(j, "sections", d.sections);
     for (const auto& name : j.value("traces", std::vector<std::string>{})) {

@@ -53,6 +53,59 @@ TEST(Csv, ManyColumnsAreReadAndTheTwiceNamedOneIsFound) {
   }
 }
 
+TEST(Csv, EachOfManyColumnsIsFoundByItsName) {
+  CsvTable table;
+  constexpr int many = 100'000;  // searched from the first each time, some minutes
+  for (int k = 0; k < many; ++k) table.columns.push_back({"c" + std::to_string(k), {}, {}});
+  for (int k = 0; k < many; ++k)
+    ASSERT_EQ(table.find("c" + std::to_string(k)), &table.columns[static_cast<std::size_t>(k)]);
+  EXPECT_EQ(table.find("d"), nullptr);
+  table.columns[5].name = "d";  // after it was asked
+  EXPECT_EQ(table.find("d"), &table.columns[5]);
+  EXPECT_EQ(table.find("c5"), nullptr);
+  table.columns.erase(table.columns.begin(), table.columns.begin() + 5);
+  EXPECT_EQ(table.find("c6"), &table.columns[1]);
+}
+
+TEST(Csv, RowsOfEveryFormStandBesideEachOtherAndKeepTheirLines) {
+  // Plain rows are read in one go, each other one field by field; the outcome must not tell which was which.
+  const auto table = read_text(
+      "a,b\n"        // 1
+      "1,2\n"        // 2
+      " 3 ,\t4 \n"   // 3
+      "# 5,5\n"      // 4
+      "\"5\",6\r\n"  // 5
+      "\n"           // 6
+      "+7,8\r\n"     // 7
+      "9,10\r"       // 8: a line may end so, too
+      "13,1e-400\n"  // 9
+      "15,16");      // 10
+  EXPECT_EQ(table.columns[0].values, (Numbers{1, 3, 5, 7, 9, 13, 15}));
+  EXPECT_EQ(table.columns[1].values, (Numbers{2, 4, 6, 8, 10, 0, 16}));
+  EXPECT_EQ(table.lines, (Lines{2, 3, 5, 7, 8, 9, 10}));
+}
+
+TEST(Csv, WhatIsWrongInAPlainRowIsToldWithItsLine) {
+  for (const auto& [row, code] : {std::pair("1,2,3", "row_length"),
+                                  {"1", "row_length"},
+                                  {"1,", "bad_number"},
+                                  {"1,2x", "bad_number"},
+                                  {"1,inf", "bad_number"},
+                                  {"nan,2", "bad_number"},
+                                  {"1,1e999", "bad_number"},
+                                  {"1;2", "row_length"},
+                                  {"1,--2", "bad_number"}}) {
+    try {
+      read_text(std::string("a,b\n5,6\n") + row + "\n7,8\n");
+      ADD_FAILURE() << row;
+    } catch (const Error& e) {
+      ASSERT_EQ(e.problems.size(), 1U) << row;
+      EXPECT_EQ(e.problems[0].code, code) << row;
+      EXPECT_EQ(e.problems[0].line, 3) << row;
+    }
+  }
+}
+
 TEST(Csv, AnElementOfAVectorIsANameAndNoUnit) {
   const TemporaryFolder folder;
   const std::string file = folder.write("x.csv", "t [s],tilt[0],tilt[1] [urad],a [1]\n0,1,2,3\n");
