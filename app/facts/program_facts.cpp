@@ -1,11 +1,11 @@
 #include "app/facts/program_facts.h"
 
 #include <algorithm>
-#include <deque>
 #include <functional>
 #include <set>
 
 #include "engine/diagram/index.h"
+#include "engine/program/components.h"
 
 namespace hysteron {
 namespace {
@@ -18,61 +18,64 @@ std::vector<std::vector<int>> readers(const Program& program) {
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     for (const int s : program.blocks[b].source) {
       auto& of = list[at(program.signals[at(s)].block)];
-      if (std::find(of.begin(), of.end(), static_cast<int>(b)) == of.end()) of.push_back(static_cast<int>(b));
+      if (of.empty() || of.back() != static_cast<int>(b)) of.push_back(static_cast<int>(b));
     }
   return list;
 }
 
-std::vector<bool> reached_from(const std::vector<std::vector<int>>& next, int start) {
-  std::vector<bool> seen(next.size(), false);
-  std::vector<int> todo{start};
-  while (!todo.empty()) {
-    const int b = todo.back();
-    todo.pop_back();
-    for (const int to : next[at(b)])
-      if (!seen[at(to)]) seen[at(to)] = true, todo.push_back(to);
-  }
-  return seen;
-}
-
-/// The shortest way from a block back to itself.
-std::vector<int> way_around(const std::vector<std::vector<int>>& next, int start) {
-  std::vector<int> from(next.size(), -1);
-  std::deque<int> todo{start};
-  while (!todo.empty()) {
-    const int b = todo.front();
-    todo.pop_front();
-    for (const int to : next[at(b)]) {
+/// The shortest way from a block back to itself, which there is. `from`: one -1 for each block, and so again
+/// afterwards.
+std::vector<int> way_around(const std::vector<std::vector<int>>& next, int start, std::vector<int>& from) {
+  std::vector<int> todo{start}, way;
+  for (std::size_t k = 0; way.empty(); ++k)
+    for (const int to : next[at(todo[k])]) {
       if (to == start) {
-        std::vector<int> way;
-        for (int k = b; k != start; k = from[at(k)]) way.push_back(k);
+        for (int b = todo[k]; b != start; b = from[at(b)]) way.push_back(b);
         way.push_back(start);
         std::reverse(way.begin(), way.end());
-        return way;
+        break;
       }
-      if (from[at(to)] < 0) from[at(to)] = b, todo.push_back(to);
+      if (from[at(to)] < 0) from[at(to)] = todo[k], todo.push_back(to);
     }
-  }
-  return {};
+  for (const int b : todo) from[at(b)] = -1;
+  return way;
+}
+
+/// Per block: the blocks that it reaches and that reach it, in so far as they read each other; empty where it is in no
+/// loop.
+std::vector<std::vector<int>> readers_in_loops(const std::vector<std::vector<int>>& next) {
+  std::vector<int> knot(next.size());
+  const auto components = strong_components(next);
+  for (std::size_t c = 0; c < components.size(); ++c)
+    for (const int b : components[c]) knot[at(b)] = static_cast<int>(c);
+  std::vector<std::vector<int>> inside(next.size());
+  for (std::size_t b = 0; b < next.size(); ++b)
+    for (const int to : next[b])
+      if (knot[at(to)] == knot[b]) inside[b].push_back(to);
+  return inside;
 }
 
 }  // namespace
 
 std::vector<FeedbackLoop> feedback_loops(const Program& program) {
-  const auto next = readers(program);
+  const auto next = readers_in_loops(readers(program));
   std::vector<FeedbackLoop> list;
   std::vector<bool> done(program.blocks.size(), false);
+  std::vector<int> from(program.blocks.size(), -1), todo;
   for (std::size_t b = 0; b < program.blocks.size(); ++b) {
     if (done[b] || next[b].empty()) continue;
-    const auto ahead = reached_from(next, static_cast<int>(b));
-    if (!ahead[b]) continue;
     FeedbackLoop loop;
-    loop.blocks = way_around(next, static_cast<int>(b));
+    loop.blocks = way_around(next, static_cast<int>(b), from);
     for (const int k : loop.blocks)
       if (!depends_at_once(program.blocks[at(k)])) loop.opened_by.push_back(k);
     // The others that reach each other with this block belong to the same knot of loops.
-    for (std::size_t k = 0; k < program.blocks.size(); ++k)
-      if (ahead[k] && !done[k] && reached_from(next, static_cast<int>(k))[b]) done[k] = true;
+    for (todo = {static_cast<int>(b)}; !todo.empty();) {
+      const int k = todo.back();
+      todo.pop_back();
+      if (done[at(k)]) continue;
+      done[at(k)] = true;
+      todo.insert(todo.end(), next[at(k)].begin(), next[at(k)].end());
+    }
     list.push_back(std::move(loop));
   }
   return list;
@@ -88,20 +91,23 @@ std::vector<NeededRate> needed_rates(const Program& program) {
   };
   look(program.derivative_steps);
   look(program.rate_steps);
+  std::vector<std::vector<int>> readers_of(program.signals.size());
+  for (std::size_t b = 0; b < program.blocks.size(); ++b)
+    for (const int s : program.blocks[b].source)
+      if (auto& of = readers_of[at(s)]; of.empty() || of.back() != static_cast<int>(b))
+        of.push_back(static_cast<int>(b));
   std::vector<NeededRate> list;
   for (std::size_t s = 0; s < program.signals.size(); ++s) {
     if (!computed.contains(program.signals[s].block)) continue;
     NeededRate rate;
     rate.signal = static_cast<int>(s);
-    for (std::size_t b = 0; b < program.blocks.size(); ++b) {
-      const auto& block = program.blocks[b];
-      if (std::find(block.source.begin(), block.source.end(), static_cast<int>(s)) == block.source.end()) continue;
+    for (const int b : readers_of[s]) {
+      const auto& block = program.blocks[at(b)];
       if (block.kernel->derivative_wants_rate) rate.asked_by.push_back(block.path + " (its law is driven by the rate)");
       if (block.kernel->guard_wants_rate) rate.asked_by.push_back(block.path + " (its change of mode depends on it)");
       if (block.sizes.memory > 0) rate.asked_by.push_back(block.path + " (to locate reversals)");
       if (block.sizes.history) rate.asked_by.push_back(block.path + " (to remember slopes)");
-      if (computed.contains(static_cast<int>(b)) && depends_at_once(block))
-        rate.asked_by.push_back(block.path + " (for its own rate)");
+      if (computed.contains(b) && depends_at_once(block)) rate.asked_by.push_back(block.path + " (for its own rate)");
     }
     if (!rate.asked_by.empty()) list.push_back(std::move(rate));
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
@@ -262,14 +263,14 @@ class Explanation {
           {"every " + time_words(clock.period), "from " + time_words(clock.offset), joined(paths(clock.blocks))});
     show({}, rows);
     std::vector<std::string> taken, held;
+    std::set<std::string> told;
     for (std::size_t b = 0; b < program_.blocks.size(); ++b)
       for (const int s : program_.blocks[b].source) {
         const auto& from = program_.blocks[at(program_.signals[at(s)].block)];
         const bool sampled = program_.blocks[b].kernel->is_sampled();
-        auto& list = sampled ? taken : held;
-        const std::string text = program_.signals[at(s)].path + " for " + program_.blocks[b].path;
-        if (sampled != from.kernel->is_sampled() && std::find(list.begin(), list.end(), text) == list.end())
-          list.push_back(text);
+        if (sampled == from.kernel->is_sampled()) continue;
+        auto text = program_.signals[at(s)].path + " for " + program_.blocks[b].path;
+        if (told.insert(text).second) (sampled ? taken : held).push_back(std::move(text));
       }
     if (!taken.empty()) say("continuous signals read at instants: " + joined(taken));
     if (!held.empty()) say("held between instants: " + joined(held));
@@ -311,21 +312,21 @@ class Explanation {
   void parameters() {
     head("parameters");
     TableRows rows;
-    for (const auto& info : program_.parameters) {
+    std::vector<std::vector<std::string>> names(program_.parameters.size());
+    for (const auto& [name, i] : program_.parameter_names) names[at(i)].push_back(name);
+    for (std::size_t i = 0; i < program_.parameters.size(); ++i) {
+      const ParameterInfo& info = program_.parameters[i];
       const std::string value =
           info.difference ? difference_text(info.value, info.unit, 6) : quantity_text(info.value, info.unit, 6);
-      rows.push_back({info.path, value, origin_text(info.origin) + used_as(info)});
+      rows.push_back({info.path, value, origin_text(info.origin) + used_as(info, names[i])});
     }
     if (rows.empty()) return say("none");
     show({"parameter", "value", "from"}, rows);
   }
 
-  /// Of a diagram parameter: the places that read it.
-  std::string used_as(const ParameterInfo& info) const {
-    std::vector<std::string> places;
-    const int index = static_cast<int>(&info - program_.parameters.data());
-    for (const auto& [name, i] : program_.parameter_names)
-      if (i == index && name != info.path) places.push_back(name);
+  /// Of a diagram parameter: the places that read it, all of its `names` but the own one.
+  static std::string used_as(const ParameterInfo& info, std::vector<std::string> places) {
+    std::erase(places, info.path);
     return (places.empty() ? "" : "; read as " + joined(places)) + (info.free ? "; free for a fit" : "");
   }
 

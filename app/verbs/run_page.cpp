@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "engine/program/feedthrough.h"
@@ -13,22 +14,20 @@
 namespace hysteron {
 namespace {
 
-/// The name under which a signal is recorded: an output by its own name, anything else by its path.
-std::string signal_name(const Program& program, int signal) {
-  if (program.record_signals.empty())
-    for (std::size_t i = 0; i < program.output_signals.size(); ++i)
-      if (program.output_signals[i] == signal) return program.output_names[i];
-  return program.signals[static_cast<std::size_t>(signal)].path;
-}
-
 /// Takes the rows out of `traces`.
 CsvTable table_of(const Program& program, Traces& traces, const std::string& file) {
+  // An output stands under its own name, anything else under its path.
+  std::map<int, std::string> output_names;
+  for (std::size_t i = 0; i < program.output_signals.size() && program.record_signals.empty(); ++i)
+    output_names.emplace(program.output_signals[i], program.output_names[i]);
   CsvTable table;
   table.file = file;
   table.columns.push_back({"t", parse_unit("s"), std::move(traces.t)});
   for (std::size_t i = 0; i < traces.signals.size(); ++i) {
-    const Unit& unit = program.signals[static_cast<std::size_t>(traces.signals[i])].unit;
-    CsvColumn column{signal_name(program, traces.signals[i]), unit, std::move(traces.values[i])};
+    const SignalInfo& signal = program.signals[static_cast<std::size_t>(traces.signals[i])];
+    const Unit& unit = signal.unit;
+    const auto output = output_names.find(traces.signals[i]);
+    CsvColumn column{output == output_names.end() ? signal.path : output->second, unit, std::move(traces.values[i])};
     for (auto& value : column.values) value = unit.from_si(value);
     table.columns.push_back(std::move(column));
   }
@@ -92,8 +91,7 @@ Loops loops_of(const Program& program, const std::vector<int>& signals, const Cs
     Figure figure = loop_figure(table, {drive->name, drive->name, drive->name}, all.back());
     if (!figure.curves.empty()) loops.over_drive.push_back(std::move(figure));
   }
-  loops.planes = phase_planes(table, all);
-  loops.planes.resize(std::min(most, loops.planes.size()));
+  loops.planes = phase_planes(table, all, most);
   return loops;
 }
 
@@ -110,7 +108,7 @@ std::vector<Figure> answer_of(const std::vector<Figure>& over_time, const Loops&
 Facts add_ranges(Section& section, const CsvTable& table) {
   Table ranges;
   ranges.columns = {"signal", "smallest", "largest", "last"};
-  Facts entries;
+  Facts::Members entries;  // of columns, which have different names
   for (std::size_t i = 1; i < table.columns.size(); ++i) {
     const auto& column = table.columns[i];
     if (column.values.empty()) continue;
@@ -120,10 +118,10 @@ Facts add_ranges(Section& section, const CsvTable& table) {
       return number_text(value, 6) + (unit.empty() ? "" : " " + unit);
     };
     ranges.rows.push_back({column.name, text(*low), text(*high), text(column.values.back())});
-    entries.set(column.name, Facts::object({{"unit", unit_text(column.unit)},
-                                            {"smallest", *low},
-                                            {"largest", *high},
-                                            {"last", column.values.back()}}));
+    entries.push_back({column.name, Facts::object({{"unit", unit_text(column.unit)},
+                                                   {"smallest", *low},
+                                                   {"largest", *high},
+                                                   {"last", column.values.back()}})});
   }
   section.tables.push_back(std::move(ranges));
   return entries;
@@ -210,8 +208,8 @@ void add_traces(Document& document, RunFacts& facts, const Program& program, Tra
   facts.phases.integrate += s.phases.integrate;
   facts.phases.events += s.phases.events;
   facts.phases.output += s.phases.output;
-  Facts changes = Facts::object({});
-  for (const auto& [block, count] : s.mode_changes) changes.set(block, count);
+  Facts::Members changes;
+  for (const auto& [block, count] : s.mode_changes) changes.push_back({block, count});
   facts.statistics.set(table.file, Facts::object({{"method", s.method},
                                                   {"why", s.why},
                                                   {"steps", s.steps},

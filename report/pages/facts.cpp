@@ -2,6 +2,8 @@
 #include "report/pages/facts.h"
 
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <unordered_set>
 
 namespace hysteron {
 namespace {
@@ -23,7 +25,19 @@ struct Visitor {
   }
   Json operator()(const Facts::Members& members) const {
     auto object = Json::object();
-    for (const auto& member : members) object[member.name] = json_of<Json>(member.value);
+    auto& list = object.template get_ref<typename Json::object_t&>();
+    if constexpr (requires { list.emplace_back(std::string(), Json()); }) {
+      // In order: nlohmann would look through all members before each new one, and copy all of them as they grow.
+      std::unordered_set<std::string_view> names;
+      list.reserve(members.size());
+      for (const auto& member : members)
+        if (names.insert(member.name).second)
+          list.emplace_back(member.name, json_of<Json>(member.value));
+        else
+          object[member.name] = json_of<Json>(member.value);
+    } else {
+      for (const auto& member : members) object[member.name] = json_of<Json>(member.value);
+    }
     return object;
   }
 };

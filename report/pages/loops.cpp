@@ -138,7 +138,7 @@ Figure loop_figure(const CsvTable& table, const Plotted& u, const Plotted& y) {
   return over(table, u, y);
 }
 
-std::vector<Figure> phase_planes(const CsvTable& table, const std::vector<Plotted>& signals) {
+std::vector<Figure> phase_planes(const CsvTable& table, const std::vector<Plotted>& signals, std::size_t most) {
   std::vector<const Plotted*> forces, velocities, displacements;
   for (const auto& signal : signals) {
     if (!there(table, signal)) continue;
@@ -151,7 +151,8 @@ std::vector<Figure> phase_planes(const CsvTable& table, const std::vector<Plotte
   if (velocities.empty()) return figures;
   for (const auto* motions : {&velocities, &displacements})
     for (const auto* motion : *motions)
-      for (const auto* force : forces) figures.push_back(over(table, *motion, *force));
+      for (const auto* force : forces)
+        if (figures.size() < most) figures.push_back(over(table, *motion, *force));
   return figures;
 }
 

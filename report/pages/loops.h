@@ -2,6 +2,7 @@
 // the part of the time in which model and measurement differ most. Does not simulate and does not judge.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct Plotted {
 Figure loop_figure(const CsvTable& table, const Plotted& u, const Plotted& y);
 
 /// Each force and torque among the signals over each velocity and each displacement among them, where there is a
-/// velocity: dry friction is a step at zero, viscous friction a slope, stiffness a slope over the displacement.
-std::vector<Figure> phase_planes(const CsvTable& table, const std::vector<Plotted>& signals);
+/// velocity: dry friction is a step at zero, viscous friction a slope, stiffness a slope over the displacement. The
+/// first `most` of them.
+std::vector<Figure> phase_planes(const CsvTable& table, const std::vector<Plotted>& signals,
+                                 std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Measured and simulated in that twelfth of the time in which the squared residual is largest; no curves where the
 /// recording is too short to have parts.
