@@ -20,7 +20,8 @@ void InertiaWithFriction::describe(BlockSpec<InertiaWithFriction>& spec) {
   spec.name("inertia_with_friction", "one inertia with dry friction that truly sticks, turned by a torque");
   spec.law(
           "sliding: inertia dw/dt = torque - damping w - stiffness angle - sign(w) (coulomb + (breakaway - coulomb) "
-          "exp(-|w/stribeck_velocity|^stribeck_exponent)); sticking: w = 0 until |torque - stiffness angle| reaches breakaway")
+          "exp(-|w/stribeck_velocity|^stribeck_exponent)); sticking: w = 0 until |torque - stiffness angle| reaches "
+          "breakaway")
       .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
   spec.remark("Three modes: sticking, turning forwards, backwards. coulomb and breakaway 0 give inertia.");
   describe_motion(spec, rotation).optional("0");

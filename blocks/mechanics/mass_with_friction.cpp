@@ -8,7 +8,8 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
   spec.name("mass_with_friction", "one mass with dry friction that truly sticks, driven by a force");
   spec.law(
           "sliding: mass dv/dt = force - damping v - stiffness x - sign(v) (coulomb + (breakaway - coulomb) "
-          "exp(-|v/stribeck_velocity|^stribeck_exponent)); sticking: v = 0 until |force - stiffness x| reaches breakaway")
+          "exp(-|v/stribeck_velocity|^stribeck_exponent)); sticking: v = 0 until |force - stiffness x| reaches "
+          "breakaway")
       .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
   spec.remark(
       "Three modes: sticking, sliding up, sliding down. A sticking mass does not creep, however long it sticks.");

@@ -8,8 +8,8 @@
 namespace hysteron::blocks {
 namespace {
 
-constexpr int most_legs = 16;      // of a row: it slides, turns, sticks, breaks away, again
-constexpr int most_halvings = 60;  // of the time in which it turns
+constexpr int most_legs = 16;     // of a row: it slides, turns, sticks, breaks away, again
+constexpr int most_guesses = 60;  // at the instant at which it turns
 
 }  // namespace
 
@@ -45,11 +45,11 @@ mass_motion::Motion StepWithFriction::short_row(Motion now, double from, double 
     const auto on = [&](const Motion& m) { return up ? m.velocity : -m.velocity; };
     const Motion end = slide(now, begin, to, left, up);
     if (!(on(end) < 0)) return end;
-    // It turns before: by bisection until the false position is between.
+    // It turns before that: where the speed would be zero on a straight line, each third time in the middle.
     double early = 0, late = left, speed_early = on(now), speed_late = on(end);
     Motion turned = now;
     double when = 0;
-    for (int i = 0; i < most_halvings && late - early > 1e-12 * h; ++i) {
+    for (int i = 0; i < most_guesses && late - early > 1e-12 * h; ++i) {
       const double guess = early + (late - early) * speed_early / (speed_early - speed_late);
       when = i % 3 == 2 || !(guess > early && guess < late) ? 0.5 * (early + late) : guess;
       turned = slide(now, begin, begin + rise * when, when, up);

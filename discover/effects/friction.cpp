@@ -62,7 +62,9 @@ Effect friction() {
   e.title = "Friction";
   e.cause = "Guideways, cables, wipers. Flexure stages have none.";
   e.equation =
-      "F = coulomb*sgn(v); or, giving way before it slides, F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips at "
+      "F = coulomb*sgn(v), with more at low speed: coulomb*excess*exp(-|v/stribeck_velocity|^d), d = 1, 2; or, giving "
+      "way before it slides, F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips "
+      "at "
       "stiffness*distance; without a mass "
       "y = u - level*z/distance, v of y; beside a damping b: F = b*(v + level*z/distance)";
   e.source =

@@ -126,7 +126,8 @@ TEST_F(Selected, DryFrictionIsFoundWithHowItFallsWithTheSpeed) {
   EXPECT_EQ(winner(d), "friction") << tried(d);
   EXPECT_NE(d.steps[0].winner.law.find("exponential"), std::string::npos)
       << tried(d) << "rms " << d.final_error.rms_train << " " << d.final_error.rms_validate;
-  // 2e-5 m of noise on 3000 rows, over 0.2 N/400 N/m = 0.5 mm: a part in a thousand of the level where it is alone.
+  // 2e-5 m of noise on 3000 rows, over 0.2 N/400 N/m = 0.5 mm: a part in a thousand of the level where it is alone;
+  // what it holds more is seen below 10 mm/s only, in some rows of each turn.
   EXPECT_NEAR(value(d, "coulomb"), 0.2, 0.01);
   EXPECT_NEAR(value(d, "excess"), 1.1, 0.15);
   EXPECT_NEAR(value(d, "stribeck_velocity"), 0.01, 0.001);
