@@ -19,7 +19,7 @@ def steps(rng, n, dt, tau):
 def prbs(rng, n, dt, tau):
     lengths = np.maximum(1, np.round(tau * rng.uniform(0.7, 6, n) / dt).astype(int))
     two = np.repeat(np.tile([1.0, -1.0], n // 2 + 1)[:n], lengths)[:n]
-    two[:max(3, n // 50)] = 0
+    two[: max(3, n // 50)] = 0
     return two
 
 
@@ -57,7 +57,8 @@ def hand(rng, n, dt, tau):
 def drive(rng, kind, n, dt, tau):
     """n rows between -1 and 1, from 0 on; tau: what the machine settles in [s]."""
     if kind == "multisine":
-        return 2 * multisine(rng, n, dt, min(rng.uniform(0.3, 0.9) / tau, 0.15 / dt)) - 1
+        rise = np.minimum(1, np.arange(n) / (0.04 * (n - 1)))  # as it swells there, about one half
+        return 2 * multisine(rng, n, dt, min(rng.uniform(0.3, 0.9) / tau, 0.15 / dt)) - rise * rise * (3 - 2 * rise)
     return np.clip(globals()[kind](rng, n, dt, tau), -1, 1)
 
 
@@ -65,7 +66,10 @@ def wandering(rng, n, swing):
     """A slow signal of that swing: ramps and a wave, from anywhere in it."""
     x = np.linspace(0, 1, n)
     points = rng.uniform(-0.5, 0.5, 5)
-    return swing * (np.interp(x, np.linspace(0, 1, 5), points) + 0.08 * np.sin(2 * np.pi * (rng.uniform(0.5, 3) * x + rng.uniform())))
+    return swing * (
+        np.interp(x, np.linspace(0, 1, 5), points)
+        + 0.08 * np.sin(2 * np.pi * (rng.uniform(0.5, 3) * x + rng.uniform()))
+    )
 
 
 def neighbour(rng, n, dt, tau):

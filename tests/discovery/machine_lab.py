@@ -17,10 +17,10 @@ class Played:
     kind: str
     role: str
     dt: float
-    skip: int             # rows before the recording begins
+    skip: int  # rows before the recording begins
     moving: bool
-    u: np.ndarray         # drive, or what the loop aims at; with the rows before
-    w: np.ndarray         # temperature, other
+    u: np.ndarray  # drive, or what the loop aims at; with the rows before
+    w: np.ndarray  # temperature, other
     luck: np.ndarray
     seed: int
     events: np.ndarray
@@ -54,18 +54,30 @@ WIRES = dict(
     saturation_s=lambda a, lab: dict(s_high=lab.ends[0][1] - 0.8 * a * lab.half_of(0)),
     sensor_nonlinearity=lambda a, lab: dict(s_curve=0.6 * a),
     quantization=lambda a, lab: dict(s_step=a * lab.half_of(0)),
-    mains_interference=lambda a, lab: dict(s_line=a * lab.half_of(0), s_line_hz=50 + 0.2 * (lab.mode * lab.machine.dt - 0.1)),
+    mains_interference=lambda a, lab: dict(
+        s_line=a * lab.half_of(0), s_line_hz=50 + 0.2 * (lab.mode * lab.machine.dt - 0.1)
+    ),
     sensor_drift=lambda a, lab: dict(s_drift=a * lab.half_of(0) / lab.longest),
-    thermal_expansion=lambda a, lab: dict(s_expand=0.1 * a * lab.half_of(0), s_expand_s=3 * lab.machine.slowest + 5 * lab.machine.tau,
-                                          s_expand_at=lab.machine.sides[0][3]),
+    thermal_expansion=lambda a, lab: dict(
+        s_expand=0.1 * a * lab.half_of(0),
+        s_expand_s=3 * lab.machine.slowest + 5 * lab.machine.tau,
+        s_expand_at=lab.machine.sides[0][3],
+    ),
     cross_coupling_s=lambda a, lab: dict(s_cross=0.5 * a * lab.half_of(0) / lab.machine.sides[1][4]),
-    sensor_periodic=lambda a, lab: dict(s_period=0.1 * a * lab.half_of(0), s_period_of=lab.period))
-ONE_TEMPERATURE = ("kelvin_starved",)
-HEAT = ("temperature_gain", "thermal_expansion", "kelvin_r")
+    sensor_periodic=lambda a, lab: dict(s_period=0.1 * a * lab.half_of(0), s_period_of=lab.period),
+)
+HEAT = ("temperature_gain", "thermal_expansion")
 
 
 def effect_of(key):
     return key.removesuffix("_s")
+
+
+def straight(trace, base):
+    """Gain and offset by which the one follows the other."""
+    a = np.column_stack([base - base.mean(), np.ones(len(base))])
+    gain, level = np.linalg.lstsq(a, trace, rcond=None)[0]
+    return gain, level - gain * base.mean()
 
 
 class Lab:
@@ -81,20 +93,24 @@ class Lab:
         kinds = [only] * count if only else list(rng.permutation(machine.kinds))
         if {"hysteresis", "backlash", "friction", "stribeck_friction", "backlash_s"} & set(keys):
             kinds = ["triangle", "sine"] + [k for k in kinds if k not in ("triangle", "sine")]
-            kinds = kinds[:max(2, count - 1)] + ["triangle"]
+            kinds = kinds[: max(2, count - 1)] + ["triangle"]
             count = len(kinds)
         moving = [start != "rest" and (k == 0 or rng.random() < 0.6) for k in range(count)]
-        self.recordings = [self.play(kinds[k % len(kinds)], "validate" if k >= count - tests else "train", moving[k], closed, swing)
-                           for k in range(count)]
+        self.recordings = [
+            self.play(kinds[k % len(kinds)], "validate" if k >= count - tests else "train", moving[k], closed, swing)
+            for k in range(count)
+        ]
         if "dropped" in keys or "knocked" in keys:
             for r in self.recordings:
                 for a, b in machine_drives.spans(rng, r.rows, int(rng.integers(2, 4)), 0.03):
-                    r.events[r.skip + a:r.skip + b] = 1 if "dropped" in keys else 2
+                    r.events[r.skip + a : r.skip + b] = 1 if "dropped" in keys else 2
         self.longest = max(r.rows * r.dt for r in self.recordings)
         self.noise = np.zeros(len(machine.outputs))
         self.ends = [(0.0, 1.0)] * len(machine.outputs)
         clean = [self.run(r, {})[0] for r in self.recordings]
-        self.ends = [(min(y[:, o].min() for y in clean), max(y[:, o].max() for y in clean)) for o in range(len(machine.outputs))]
+        self.ends = [
+            (min(y[:, o].min() for y in clean), max(y[:, o].max() for y in clean)) for o in range(len(machine.outputs))
+        ]
         share = [np.exp(rng.uniform(*np.log(s[2]))) for s in machine.outputs]
         self.noise = np.array([float("%.3g" % (s * max(np.std(y[:, o]) for y in clean))) for o, s in enumerate(share)])
         self.period = float("%.3g" % ((self.ends[0][1] - self.ends[0][0]) / rng.uniform(8, 20)))
@@ -113,7 +129,11 @@ class Lab:
     def play(self, kind, role, moving, closed, swing):
         rng, m = self.rng, self.machine
         dt = m.dt * float(rng.choice([0.5, 1, 1, 1, 2]))
-        n = int(np.exp(rng.uniform(np.log(600), np.log(5000)))) if rng.random() > 0.06 else int(rng.uniform(9000, 16000))
+        n = (
+            int(np.exp(rng.uniform(np.log(600), np.log(5000))))
+            if rng.random() > 0.06
+            else int(rng.uniform(9000, 16000))
+        )
         skip = int(8 * m.slowest / dt) + 2 if not moving else int(m.tau * rng.uniform(6, 12) / dt)
         shape = machine_drives.drive(rng, kind, n, dt, m.tau)
         before = np.zeros(skip) if not moving else machine_drives.drive(rng, "multisine", skip + 3, dt, m.tau)[3:]
@@ -127,12 +147,33 @@ class Lab:
         u = np.round(middle + half * shape, m.drive[3] if not closed else 6)
         sides = m.sides
         warm = self.temperatures(n + skip, swing)
-        other = sides[1][3] + sides[1][4] * (machine_drives.neighbour(rng, n + skip, dt, m.tau) if sides[1][4] else np.zeros(n + skip))
+        other = sides[1][3] + sides[1][4] * (
+            machine_drives.neighbour(rng, n + skip, dt, m.tau) if sides[1][4] else np.zeros(n + skip)
+        )
         if not moving:
             warm[:skip] = warm[skip]
             other[:skip] = other[skip]
-        return Played(kind, role, dt, skip, moving, u, np.round(np.column_stack([warm, other]), 4), np.array([rng.uniform(0, 6.28), rng.choice([-1, 1]) * rng.uniform(0.4, 1)]),
-                      int(rng.integers(2**31)), np.zeros(n + skip, np.int64), closed, self.hold)
+        events = np.zeros(n + skip, np.int64)
+        if not moving:
+            events[: skip + 2] = 3  # the loop is closed when the recording runs
+        elif m.integrates:  # it coasts, for there is no rest under a drive
+            events[skip : skip + 2] = 3
+            u[skip : skip + 2] = u[skip : skip + 2] if closed else m.drive[1]
+        luck = np.array([rng.uniform(0, 6.28), rng.choice([-1, 1]) * rng.uniform(0.4, 1)])
+        return Played(
+            kind,
+            role,
+            dt,
+            skip,
+            moving,
+            u,
+            np.round(np.column_stack([warm, other]), 4),
+            luck,
+            int(rng.integers(2**31)),
+            events,
+            closed,
+            self.hold,
+        )
 
     def temperatures(self, n, swing):
         """None: as of a room; 0: one and the same in all recordings, not that of the numbers; else they span so many kelvin."""
@@ -142,7 +183,9 @@ class Lab:
         if swing is None:
             return middle + machine_drives.wandering(rng, n, usual)
         quick = self.machine.tau < 0.05  # nothing warms up while these last
-        return middle + rng.uniform(-0.5, 0.5) * swing + machine_drives.wandering(rng, n, swing * (0.03 if quick else 0.7))
+        return (
+            middle + rng.uniform(-0.5, 0.5) * swing + machine_drives.wandering(rng, n, swing * (0.03 if quick else 0.7))
+        )
 
     def settings(self, hidden):
         """hidden: key -> amount. -> (of the wires, of the plant)"""
@@ -150,7 +193,9 @@ class Lab:
         for key, amount in hidden.items():
             for name, value in (self.machine.effects.get(key) or WIRES[key])(amount, self).items():
                 (wires if name in machine_run.OFF else plant)[name] = value
-        wires |= dict(middle=self.middle, half=self.half, s_middle=0.5 * sum(self.ends[0]), s_half=max(self.half_of(0), 1e-30))
+        wires |= dict(
+            middle=self.middle, half=self.half, s_middle=0.5 * sum(self.ends[0]), s_half=max(self.half_of(0), 1e-30)
+        )
         return machine_run.settings(wires), plant
 
     def run(self, r, hidden, numbers=None, drive=None):
@@ -162,15 +207,33 @@ class Lab:
         p = m.plant(n, plant)
         at_rest = m.drive[1]
         x0 = m.start(p, at_rest, r.w[0, 0])
-        loop = np.array([*m.loop, m.drive[1], m.drive[1] - 1.3 * m.drive[2], m.drive[1] + 1.3 * m.drive[2], 10.0 ** -m.drive[3]])
+        loop = np.array(
+            [*m.loop, m.drive[1], m.drive[1] - 1.3 * m.drive[2], m.drive[1] + 1.3 * m.drive[2], 10.0 ** -m.drive[3]]
+        )
         closed = r.closed and drive is None
         u = r.u if drive is None else drive
         if closed:
             u = np.full(len(r.u), at_rest)
-        events = r.events if ("dropped" in hidden or "knocked" in hidden) else 0 * r.events
-        shown, u = machine_run.run(m.rate, m.sense, p, x0, u, r.u, r.w, events, e, noise if drive is None else 0 * noise, r.dt, m.parts,
-                                   r.hold, loop if closed else np.zeros(0), r.luck, len(self.noise))
-        return shown[r.skip:], u, (noise if drive is None else 0 * noise)[r.skip:]
+        events = r.events if ("dropped" in hidden or "knocked" in hidden) else np.where(r.events == 3, 3, 0)
+        shown, u = machine_run.run(
+            m.rate,
+            m.sense,
+            p,
+            x0,
+            u,
+            r.u,
+            r.w,
+            events,
+            e,
+            noise if drive is None else 0 * noise,
+            r.dt,
+            m.parts,
+            r.hold,
+            loop if closed else np.zeros(0),
+            r.luck,
+            len(self.noise),
+        )
+        return shown[r.skip :], u, (noise if drive is None else 0 * noise)[r.skip :]
 
     def traces(self, hidden, over=()):
         """What all of `hidden` but the effects `over` change, for the drive as it was recorded: one per recording."""
@@ -189,13 +252,19 @@ class Lab:
         return r.kept[key]
 
     def height(self, hidden, over=()):
-        """rms of it over the noise, gain and offset taken out, in the output and recording that shows it most."""
-        most = 0.0
-        for trace, base in self.traces(hidden, over):
-            for o, sigma in enumerate(self.noise):
-                a = np.column_stack([np.ones(len(base)), base[:, o] - base[:, o].mean()])
-                left = trace[:, o] - a @ np.linalg.lstsq(a, trace[:, o], rcond=None)[0]
-                most = max(most, float(np.sqrt(np.mean(left**2))) / sigma)
+        """rms of it over the noise in the output and recording that shows it most, gain and offset taken out.
+
+        Each recording has its own, but where a temperature makes the gain one is the same in all of them. Recordings
+        that cannot tell an effect from a gain show all of it."""
+        found, most = self.traces(hidden, over), 0.0
+        together = bool({*HEAT} & {*hidden} - {*over})
+        for o, sigma in enumerate(self.noise):
+            pieces = [(trace[:, o], base[:, o]) for trace, base in found]
+            if together:
+                shared = straight(*(np.concatenate(x) for x in zip(*pieces)))
+            for trace, base in pieces:
+                gain, offset = (0.0, 0.0) if self.only else shared if together else straight(trace, base)
+                most = max(most, float(np.sqrt(np.mean((trace - gain * base - offset) ** 2))) / sigma)
         return most if np.isfinite(most) else np.inf
 
     def amount(self, key, target, beside=None, accuracy=0.03):
@@ -219,7 +288,11 @@ class Lab:
             elif low is None:
                 a *= np.clip(0.8 * target / max(high[1], 1e-9), 0.01, 0.7)
             else:  # straight on double logarithmic paper, halved now and then
-                share = np.log(target / low[1]) / np.log(high[1] / low[1]) if k % 3 and low[1] > 0 and np.isfinite(high[1]) else 0.5
+                share = (
+                    np.log(target / low[1]) / np.log(high[1] / low[1])
+                    if k % 3 and low[1] > 0 and np.isfinite(high[1])
+                    else 0.5
+                )
                 a = low[0] * (high[0] / low[0]) ** np.clip(share, 0.05, 0.95)
             if a < 1e-7:
                 return None

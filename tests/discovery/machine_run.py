@@ -8,14 +8,85 @@ from numba import njit
 
 # Settings of what may lie on the wires; those of the drive first. All are off at the value of OFF.
 OFF = dict(
-    mix=0.0, low=-np.inf, high=np.inf, rise=np.inf, lag=0.0, delay=0.0, gap=0.0, curve=0.0, loop=0.0, creep=0.0, creep_from=1.0,
-    kelvin=0.0, kelvin_at=20.0, cross=0.0, mode_share=0.0, mode_hz=1.0, mode_damping=0.05, knock=0.0,
-    middle=0.0, half=1.0,
-    s_lag=0.0, s_delay=0.0, s_gap=0.0, s_curve=0.0, s_low=-np.inf, s_high=np.inf, s_step=0.0, s_line=0.0, s_line_hz=50.0, s_drift=0.0,
-    s_expand=0.0, s_expand_s=1.0, s_expand_at=20.0, s_cross=0.0, s_period=0.0, s_period_of=1.0, s_middle=0.0, s_half=1.0)
-(MIX, LOW, HIGH, RISE, LAG, DELAY, GAP, CURVE, LOOP, CREEP, CREEP_FROM, KELVIN, KELVIN_AT, CROSS, SHARE, HZ, DAMPING, KNOCK, MIDDLE, HALF,
- S_LAG, S_DELAY, S_GAP, S_CURVE, S_LOW, S_HIGH, S_STEP, S_LINE, S_LINE_HZ, S_DRIFT, S_EXPAND, S_EXPAND_S, S_EXPAND_AT, S_CROSS, S_PERIOD,
- S_PERIOD_OF, S_MIDDLE, S_HALF) = range(len(OFF))
+    mix=0.0,
+    low=-np.inf,
+    high=np.inf,
+    rise=np.inf,
+    lag=0.0,
+    delay=0.0,
+    gap=0.0,
+    curve=0.0,
+    loop=0.0,
+    creep=0.0,
+    creep_from=1.0,
+    kelvin=0.0,
+    kelvin_at=20.0,
+    cross=0.0,
+    mode_share=0.0,
+    mode_hz=1.0,
+    mode_damping=0.05,
+    knock=0.0,
+    middle=0.0,
+    half=1.0,
+    s_lag=0.0,
+    s_delay=0.0,
+    s_gap=0.0,
+    s_curve=0.0,
+    s_low=-np.inf,
+    s_high=np.inf,
+    s_step=0.0,
+    s_line=0.0,
+    s_line_hz=50.0,
+    s_drift=0.0,
+    s_expand=0.0,
+    s_expand_s=1.0,
+    s_expand_at=20.0,
+    s_cross=0.0,
+    s_period=0.0,
+    s_period_of=1.0,
+    s_middle=0.0,
+    s_half=1.0,
+)
+(
+    MIX,
+    LOW,
+    HIGH,
+    RISE,
+    LAG,
+    DELAY,
+    GAP,
+    CURVE,
+    LOOP,
+    CREEP,
+    CREEP_FROM,
+    KELVIN,
+    KELVIN_AT,
+    CROSS,
+    SHARE,
+    HZ,
+    DAMPING,
+    KNOCK,
+    MIDDLE,
+    HALF,
+    S_LAG,
+    S_DELAY,
+    S_GAP,
+    S_CURVE,
+    S_LOW,
+    S_HIGH,
+    S_STEP,
+    S_LINE,
+    S_LINE_HZ,
+    S_DRIFT,
+    S_EXPAND,
+    S_EXPAND_S,
+    S_EXPAND_AT,
+    S_CROSS,
+    S_PERIOD,
+    S_PERIOD_OF,
+    S_MIDDLE,
+    S_HALF,
+) = range(len(OFF))
 RELAXATIONS = 13  # two per decade
 # Memory of the wires: slew, lag, play, loop and its last input, mode (2), held value, relaxations; of the sensor: lag, play, warmth
 Z_SLEW, Z_LAG, Z_PLAY, Z_LOOP, Z_LAST, Z_Q, Z_QV, Z_HELD, Z_SLAG, Z_SPLAY, Z_WARM, Z_WAS, Z_CREEP = range(13)
@@ -43,7 +114,7 @@ def late(ring, place, delay, h, now):
 
 @njit
 def before_plant(u, e, z, h, ring, place, kelvin, other, event):
-    """From the drive to what the plant is given, over one fine step. event: 1 frozen, 2 knocked."""
+    """From the drive to what the plant is given, over one fine step. event: 1 frozen, 2 knocked, 3 the loop is not closed yet."""
     v = (1 - e[MIX]) * u + e[MIX] * abs(u)
     v = min(max(v, e[LOW]), e[HIGH])
     if e[RISE] < np.inf:
@@ -112,7 +183,9 @@ def sensor_shows(y, e, z, t, kelvin, other, luck):
     y += e[S_CURVE] * e[S_HALF] * (np.sin(1.9 * s) / 1.9 - s + 0.35 * s * s)  # odd and even, no polynomial
     if e[S_PERIOD] != 0:
         y += e[S_PERIOD] * np.sin(2 * np.pi * y / e[S_PERIOD_OF])
-    y += e[S_LINE] * (np.sin(2 * np.pi * e[S_LINE_HZ] * t + luck[0]) + 0.15 * np.sin(6 * np.pi * e[S_LINE_HZ] * t + 2 * luck[0]))
+    y += e[S_LINE] * (
+        np.sin(2 * np.pi * e[S_LINE_HZ] * t + luck[0]) + 0.15 * np.sin(6 * np.pi * e[S_LINE_HZ] * t + 2 * luck[0])
+    )
     y += e[S_DRIFT] * luck[1] * t
     return min(max(y, e[S_LOW]), e[S_HIGH])
 
@@ -148,7 +221,7 @@ def run(rate, sense, p, x0, u, target, w, events, e, noise, dt, parts, hold, c, 
     z[Z_WARM] = w[0, 0]
     x, y, shown = x0.copy(), np.zeros(ny), np.zeros((rows, ny))
     k1, k2, k3, k4 = np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
-    memory, side, v = np.zeros(3), w[0].copy(), u[0]
+    memory, side, v, was = np.zeros(3), w[0].copy(), u[0], u[0]
     sense(x, v, side, p, y)
     z[Z_SLAG] = z[Z_WAS] = y[0]
     ring_y[:] = y[0]
@@ -161,13 +234,14 @@ def run(rate, sense, p, x0, u, target, w, events, e, noise, dt, parts, hold, c, 
                 sense(x, v, w[i], p, y)
                 y[0] = sensor_shows(first if i else y[0], e, z, i * dt, w[i, 0], w[i, 1], luck)
                 shown[i] = y + noise[i]
-                u[i] = control(c, memory, target[i] - shown[i, 0], dt)
+                u[i] = control(c, memory, target[i] - shown[i, 0], dt) if events[i] != 3 else c[3]
+            to_row = v + 0.5 * (v - was)  # the drive may bend there: from the left
             was = v
             side = w[i] + (w[nxt] - w[i]) * f
             now = u[i] if hold else u[i] + (u[nxt] - u[i]) * f
             v = before_plant(now, e, z, h, ring_u, i * parts + j, side[0], side[1], events[i])
             if j == 0 and not closed:
-                sense(x, v if hold or i == 0 else 0.5 * (was + v), w[i], p, y)
+                sense(x, v if hold else to_row, w[i], p, y)
                 moved = e[S_LAG] > 0 or e[S_DELAY] > 0 or e[S_GAP] > 0
                 y[0] = sensor_shows(first if i and moved else y[0], e, z, i * dt, w[i, 0], w[i, 1], luck)
                 shown[i] = y + noise[i]

@@ -9,6 +9,12 @@ import numpy as np
 from machine_lab import WIRES, effect_of
 
 TIE = 16.0
+# What is taken for each other: late, bent, with a memory of turns. Anything else was further from a tie by a hundred times.
+LOOK_ALIKE = (
+    ("amplifier_lag", "dead_time", "slew_limit", "sensor_lag", "structural_resonance"),
+    ("saturation", "asymmetry", "sensor_nonlinearity", "saturation_s", "stiffening", "quadratic_drag"),
+    ("backlash", "hysteresis", "friction", "stribeck_friction", "backlash_s", "creep"),
+)
 UNSURE = 0.5  # a number's logarithm before any recording: known to half of itself
 
 
@@ -18,7 +24,9 @@ def directions(lab, runs):
     base = stack(lab, [lab.run(r, {}, drive=u)[0] for r, u in zip(lab.recordings, runs)])
     for name in lab.machine.numbers:
         other = {**lab.numbers, name: lab.numbers[name] * 1.002}
-        found[name] = (stack(lab, [lab.run(r, {}, other, u)[0] for r, u in zip(lab.recordings, runs)]) - base) / math.log(1.002)
+        found[name] = (
+            stack(lab, [lab.run(r, {}, other, u)[0] for r, u in zip(lab.recordings, runs)]) - base
+        ) / math.log(1.002)
     return found
 
 
@@ -46,16 +54,17 @@ def rivals(lab, key, hidden, found, runs):
     columns, left = list(found.values()), {}
     base = stack(lab, [lab.run(r, {}, drive=u)[0] for r, u in zip(lab.recordings, runs)])
     size = lab.height(hidden, tuple(beside))
-    possible = lab.machine.rivals or [k for k in WIRES if k not in ("dropped", "knocked", "sensor_periodic", "temperature_gain", "thermal_expansion",
-                                                                   "cross_coupling", "cross_coupling_s", "mains_interference", "quantization", "sensor_drift")]
-    for other in [*possible, *lab.machine.effects]:
+    alike = {k for family in LOOK_ALIKE if key in family for k in family}
+    for other in sorted(alike & {*WIRES, *lab.machine.effects}):
         if effect_of(other) == effect_of(key):
             continue
         amount = lab.amount(other, size, accuracy=0.5)
         if amount is None:
             continue
-        traces = [stack(lab, [lab.run(r, {other: a}, drive=u)[0] for r, u in zip(lab.recordings, runs)]) - base
-                  for a in (amount, 0.6 * amount)]
+        traces = [
+            stack(lab, [lab.run(r, {other: a}, drive=u)[0] for r, u in zip(lab.recordings, runs)]) - base
+            for a in (amount, 0.6 * amount)
+        ]
         left[effect_of(other)] = min(left.get(effect_of(other), np.inf), left_of(want, [*columns, *traces]))
     return left_of(want, columns), left
 
@@ -71,25 +80,77 @@ def case_json(lab, spec, hidden, wrong, heights, clean, stated):
     listed = names if group not in ("outside", "starved") else []
     for key in hidden if listed else ():
         numbers_leave, left = rivals(lab, key, hidden, found, runs)
-        remaining[key] = dict(numbers=round(numbers_leave, 1), **{k: round(v, 1) for k, v in sorted(left.items(), key=lambda x: x[1])[:4]})
+        remaining[key] = dict(
+            numbers=round(numbers_leave, 1), **{k: round(v, 1) for k, v in sorted(left.items(), key=lambda x: x[1])[:4]}
+        )
         explain |= numbers_leave < TIE
-        alternatives += [dict(effect=k, instead_of=effect_of(key)) for k, v in left.items() if v < TIE and v < numbers_leave]
-        alternatives += [dict(effect=b, instead_of=a) for a, b in (("friction", "stribeck_friction"), ("stribeck_friction", "friction")) if effect_of(key) == a]
-    verdicts = dict(none=["adequate"], wrong=["adequate", "missing_effect"], outside=["unexplained"], starved=["not_distinguishable"])
-    expected = dict(verdicts=verdicts.get(group, ["missing_effect"]), effects=names if group != "outside" else [],
-                    acceptable_alternatives=alternatives, numbers_explain=bool(explain))
+        alternatives += [
+            dict(effect=k, instead_of=effect_of(key)) for k, v in left.items() if v < TIE and v < numbers_leave
+        ]
+        alternatives += [
+            dict(effect=b, instead_of=a)
+            for a, b in (("friction", "stribeck_friction"), ("stribeck_friction", "friction"))
+            if effect_of(key) == a
+        ]
+    verdicts = dict(
+        none=["adequate"],
+        wrong=["adequate", "missing_effect"],
+        outside=["unexplained"],
+        starved=["not_distinguishable"],
+    )
+    expected = dict(
+        verdicts=verdicts.get(group, ["missing_effect"]),
+        effects=names if group != "outside" else [],
+        acceptable_alternatives=alternatives,
+        numbers_explain=bool(explain),
+    )
     if group == "starved":
         expected["either"] = [names[0], spec["either"]]
     if group == "outside":
         expected["location"] = location(lab, hidden)
     return dict(
-        id=spec["id"], device=m.name, family="M", group=group, title=m.title, strength=strength if hidden and group != "outside" else "-",
+        id=spec["id"],
+        device=m.name,
+        family="M",
+        group=group,
+        title=m.title,
+        strength=strength if hidden and group != "outside" else "-",
         outside=next(iter(hidden)) if group == "outside" else None,
-        effects=[dict(effect=effect_of(k), key=k, strength=strength, height=round(heights[k], 3), amount=a, settings=entered(lab, k, a)) for k, a in hidden.items()],
-        wrong_numbers=[dict(number=n, path=m.paths[n], true=lab.numbers[n], written=v, factor=v / lab.numbers[n], sd_log=float("%.4g" % sd[n])) for n, v in wrong.items()],
-        scale_groups=m.scale_groups, gains=m.gains, expected=expected, start=spec["start"], moving=[r.moving for r in lab.recordings],
-        closed_loop=spec["closed"], hold=lab.hold, noise_stated=stated, outputs=[o[0] for o in m.outputs], noise_floor=floor(lab, clean),
-        recordings=[dict(kind=r.kind, rows=r.rows, dt=r.dt, role=r.role, loop=int(r.closed)) for r in lab.recordings], left_chi2=remaining)
+        effects=[
+            dict(
+                effect=effect_of(k),
+                key=k,
+                strength=strength,
+                height=round(heights[k], 3),
+                amount=a,
+                settings=entered(lab, k, a),
+            )
+            for k, a in hidden.items()
+        ],
+        wrong_numbers=[
+            dict(
+                number=n,
+                path=m.paths[n],
+                true=lab.numbers[n],
+                written=v,
+                factor=v / lab.numbers[n],
+                sd_log=float("%.4g" % sd[n]),
+            )
+            for n, v in wrong.items()
+        ],
+        scale_groups=m.scale_groups,
+        gains=m.gains,
+        expected=expected,
+        start=spec["start"],
+        moving=[r.moving for r in lab.recordings],
+        closed_loop=spec["closed"],
+        hold=lab.hold,
+        noise_stated=stated,
+        outputs=[o[0] for o in m.outputs],
+        noise_floor=floor(lab, clean),
+        recordings=[dict(kind=r.kind, rows=r.rows, dt=r.dt, role=r.role, loop=int(r.closed)) for r in lab.recordings],
+        left_chi2=remaining,
+    )
 
 
 def entered(lab, key, amount):
@@ -107,6 +168,8 @@ def location(lab, hidden):
         return dict(variable="y", period=lab.period)
     intervals = {}
     for k, r in enumerate(lab.recordings):
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], (r.events[r.skip:] > 0).astype(int), [0]])))
-        intervals["%02d.csv" % (k + 1)] = [[round(float(a * r.dt), 6), round(float(b * r.dt), 6)] for a, b in edges.reshape(-1, 2)]
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], np.isin(r.events[r.skip :], (1, 2)).astype(int), [0]])))
+        intervals["%02d.csv" % (k + 1)] = [
+            [round(float(a * r.dt), 6), round(float(b * r.dt), 6)] for a, b in edges.reshape(-1, 2)
+        ]
     return dict(variable="t", intervals=intervals)

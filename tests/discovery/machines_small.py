@@ -20,30 +20,55 @@ def proof_sense(x, v, side, p, y):
 
 
 def proof_diagram(n):
-    blocks = {"shaken": gain(1e-9 * n["shaken"], "N/(m/s^2)", "a"),
-              "proof": {"type": "mass_spring_damper", "mass": f"{n['mass']:.9g} ug", "damping": f"{n['film']:.9g} uN s/m", "stiffness": f"{n['springs']:.9g} N/m",
-                        "in": "shaken"},
-              "readout": gain(n["readout"], "mV/um", "proof.position")}
+    blocks = {
+        "shaken": gain(1e-9 * n["shaken"], "N/(m/s^2)", "a"),
+        "proof": {
+            "type": "mass_spring_damper",
+            "mass": f"{n['mass']:.9g} ug",
+            "damping": f"{n['film']:.9g} uN s/m",
+            "stiffness": f"{n['springs']:.9g} N/m",
+            "in": "shaken",
+        },
+        "readout": gain(n["readout"], "mV/um", "proof.position"),
+    }
     return {"a": {"unit": "m/s^2"}}, blocks, {"y": "readout"}
 
 
 PROOF = Machine(
-    "accelerometer", "Accelerometer of silicon", ("m/s^2", 0.0, 80.0, 3), [("y", "mV", (0.003, 0.01))],
+    "accelerometer",
+    "Accelerometer of silicon",
+    ("m/s^2", 0.0, 80.0, 3),
+    [("y", "mV", (0.003, 0.01))],
     dict(shaken=(1.0, 1.6), mass=(1.0, 1.6), film=(15, 40), springs=(0.3, 0.6), readout=(30, 70)),
     dict(mass="proof.mass", film="proof.damping", springs="proof.stiffness", readout="readout.gain"),
-    [["shaken.gain", "proof.mass", "proof.damping", "proof.stiffness", "readout.gain"]], ["shaken.gain", "readout.gain"], 4e-4, 2.5e-5, 1e-3,
-    proof_rate, proof_sense,
-    lambda n, hidden: np.array([1e-9 * n["shaken"], 1e-9 * n["mass"], 1e-6 * n["film"], n["springs"], n["readout"], *off(hidden, "hardens")]),
-    lambda p, u, kelvin: np.zeros(2), proof_diagram,
+    [["shaken.gain", "proof.mass", "proof.damping", "proof.stiffness", "readout.gain"]],
+    ["shaken.gain", "readout.gain"],
+    4e-4,
+    2.5e-5,
+    1e-3,
+    proof_rate,
+    proof_sense,
+    lambda n, hidden: np.array(
+        [1e-9 * n["shaken"], 1e-9 * n["mass"], 1e-6 * n["film"], n["springs"], n["readout"], *off(hidden, "hardens")]
+    ),
+    lambda p, u, kelvin: np.zeros(2),
+    proof_diagram,
     dict(stiffening=lambda a, lab: dict(hardens=a / (lab.half_of(0) / lab.numbers["readout"]) ** 2)),
-    sides=(("T_chip", "degC", "", 26.0, 0.6), ("", "", "", 0.0, 0.0)), parts=20,
-    rivals=("amplifier_lag", "dead_time", "saturation", "slew_limit", "sensor_lag", "sensor_nonlinearity", "asymmetry", "hysteresis", "creep",
-            "structural_resonance", "saturation_s"),
-    cases=[("none", (), "-"), ("single", ("temperature_gain",), "medium"), ("single", ("stiffening",), "weak"), ("wrong", (), "-"),
-           ("wrong_plus", ("saturation_s",), "strong"), ("starved", ("temperature_gain",), "medium", "calibration", "prbs")])
+    sides=(("T_chip", "degC", "", 26.0, 0.6), ("", "", "", 0.0, 0.0)),
+    parts=20,
+    cases=[
+        ("none", (), "-"),
+        ("single", ("temperature_gain",), "medium"),
+        ("single", ("stiffening",), "weak"),
+        ("wrong", (), "-"),
+        ("wrong_plus", ("saturation_s",), "strong"),
+        ("starved", ("temperature_gain",), "medium", "calibration", "prbs"),
+    ],
+)
 
 
 # ---- rod of Terfenol-D about its bias (Engdahl, Handbook of Giant Magnetostrictive Materials) ----------------------------------
+
 
 @njit
 def rod_rate(x, v, side, p, dx):
@@ -63,18 +88,40 @@ def rod_start(p, u, kelvin):
 
 
 def rod_diagram(n):
-    blocks = {"coil": {"type": "lag", "times": [f"{n['coil']:.9g} ms"], "in": "i"}, "rod": gain(n["stroke"], "um/A", "coil"),
-              "horn": {"type": "resonance", "frequency": f"{n['horn']:.9g} Hz", "damping": n["damping"], "in": "rod"}}
+    blocks = {
+        "coil": {"type": "lag", "times": [f"{n['coil']:.9g} ms"], "in": "i"},
+        "rod": gain(n["stroke"], "um/A", "coil"),
+        "horn": {"type": "resonance", "frequency": f"{n['horn']:.9g} Hz", "damping": n["damping"], "in": "rod"},
+    }
     return {"i": {"unit": "A"}}, blocks, {"x": "horn"}
 
 
 ROD = Machine(
-    "rod", "Magnetostrictive actuator", ("A", 0.0, 3.0, 4), [("x", "um", (0.002, 0.008))],
+    "rod",
+    "Magnetostrictive actuator",
+    ("A", 0.0, 3.0, 4),
+    [("x", "um", (0.002, 0.008))],
     dict(coil=(0.6, 1.5), stroke=(6, 12), horn=(250, 450), damping=(0.05, 0.2)),
-    dict(coil="coil.times[0]", stroke="rod.gain", horn="horn.frequency", damping="horn.damping"), [], ["rod.gain"], 4e-3, 3e-4, 0.01,
-    rod_rate, rod_sense, lambda n, hidden: np.array([1e-3 * n["coil"], n["stroke"], n["horn"], n["damping"]]), rod_start, rod_diagram, {},
-    sides=(("T_rod", "degC", "", 30.0, 1.0), ("", "", "", 0.0, 0.0)), parts=20,
-    rivals=("amplifier_lag", "dead_time", "saturation", "slew_limit", "sensor_lag", "sensor_nonlinearity", "asymmetry", "hysteresis", "creep",
-            "structural_resonance", "backlash"),
-    cases=[("none", (), "-"), ("single", ("creep",), "medium"), ("single", ("hysteresis",), "strong"), ("wrong", (), "-"),
-           ("wrong_plus", ("asymmetry",), "medium"), ("pair", ("hysteresis", "temperature_gain"), "strong")])
+    dict(coil="coil.times[0]", stroke="rod.gain", horn="horn.frequency", damping="horn.damping"),
+    [],
+    ["rod.gain"],
+    4e-3,
+    3e-4,
+    0.01,
+    rod_rate,
+    rod_sense,
+    lambda n, hidden: np.array([1e-3 * n["coil"], n["stroke"], n["horn"], n["damping"]]),
+    rod_start,
+    rod_diagram,
+    {},
+    sides=(("T_rod", "degC", "", 30.0, 1.0), ("", "", "", 0.0, 0.0)),
+    parts=20,
+    cases=[
+        ("none", (), "-"),
+        ("single", ("creep",), "medium"),
+        ("single", ("hysteresis",), "strong"),
+        ("wrong", (), "-"),
+        ("wrong_plus", ("asymmetry",), "medium"),
+        ("pair", ("hysteresis", "temperature_gain"), "strong"),
+    ],
+)

@@ -12,6 +12,7 @@ import argparse
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -38,9 +39,21 @@ def specification(number, machine):
     group, keys, strength, *more = machine.cases[number]
     start = STARTS[(number + place) % len(STARTS)]
     either, only = more if more else ("", "")
-    closed = bool(machine.loop) and (machine.mostly_closed or (number + place) % 3 == 1) and group not in ("starved", "outside")
-    return dict(group=group, keys=keys, strength=strength, start="rest" if only or (start == "stated" and group == "none") else start,
-                closed=closed, either=either, only=only, id="%03d" % (place * CASES_EACH + number + 1))
+    closed = (
+        bool(machine.loop)
+        and (machine.mostly_closed or (number + place) % 3 == 1)
+        and group not in ("starved", "outside")
+    )
+    return dict(
+        group=group,
+        keys=keys,
+        strength=strength,
+        start="rest" if only or (start == "stated" and group == "none") else start,
+        closed=closed,
+        either=either,
+        only=only,
+        id="%03d" % (place * CASES_EACH + number + 1),
+    )
 
 
 def hide(lab, spec):
@@ -57,7 +70,7 @@ def hide(lab, spec):
 
 def write_wrong(rng, machine, numbers):
     """1 to 3 numbers as the user has them: too large or too small by 1.05 to 1.4."""
-    names = list(rng.permutation(list(machine.paths)))[:int(rng.integers(1, 4))]
+    names = list(rng.permutation(list(machine.paths)))[: int(rng.integers(1, 4))]
     return {str(n): float("%.3g" % (numbers[n] * rng.uniform(1.05, 1.4) ** rng.choice([-1, 1]))) for n in names}
 
 
@@ -83,13 +96,13 @@ def make(machine, number, seed):
 def columns(lab, r, played):
     """(header, format, values) of every column but the time."""
     m, (shown, u, _) = lab.machine, played
-    found = [(f"{next(iter(m.diagram(lab.numbers)[0]))} [{m.drive[0]}]", f"%.{m.drive[3]}f", u[r.skip:])]
+    found = [(f"{next(iter(m.diagram(lab.numbers)[0]))} [{m.drive[0]}]", f"%.{m.drive[3]}f", u[r.skip :])]
     for o, (name, unit, _) in enumerate(m.outputs):
         digits = max(0, int(np.ceil(-np.log10(lab.noise[o]))) + 1)
         found.append((f"{name} [{unit}]", f"%.{digits}f", shown[:, o]))
     for k, (name, unit, *_) in enumerate(m.sides):
         if name:
-            found.append((f"{name} [{unit}]", "%.4f", r.w[r.skip:, k]))
+            found.append((f"{name} [{unit}]", "%.4f", r.w[r.skip :, k]))
     return found
 
 
@@ -106,16 +119,22 @@ def write_case(folder, lab, spec, hidden, wrong, heights):
         texts = [t] + [[form % x for x in values] for _, form, values in table]
         lines = [",".join(["t [s]"] + [c[0] for c in table])] + [",".join(row) for row in zip(*texts)]
         (folder / name).write_text("\n".join(lines) + "\n")
-        recordings.append({"file": name, "role": r.role} | ({"initial": "per_recording"} if spec["start"] == "stated" else {}))
+        recordings.append(
+            {"file": name, "role": r.role} | ({"initial": "per_recording"} if spec["start"] == "stated" else {})
+        )
     inputs, blocks, outputs = m.diagram({**lab.numbers, **wrong})
     drive = next(iter(inputs))
     entries = {drive: {"to": drive} | ({"between_samples": "hold"} if lab.hold else {})}
     for o, (name, unit, _) in enumerate(m.outputs):
-        entries[name] = {"to": name} | ({"noise": {"white": f"{lab.noise[o]:.3g} {'K' if unit == 'degC' else unit}"}} if stated else {})
+        entries[name] = {"to": name} | (
+            {"noise": {"white": f"{lab.noise[o]:.3g} {'K' if unit == 'degC' else unit}"}} if stated else {}
+        )
     for name, _, bound, *_ in m.sides:
         if bound:
             entries[name] = {"to": bound}
-    write(folder / "diagram.json", {"format": 1, "title": m.title, "inputs": inputs, "blocks": blocks, "outputs": outputs})
+    write(
+        folder / "diagram.json", {"format": 1, "title": m.title, "inputs": inputs, "blocks": blocks, "outputs": outputs}
+    )
     write(folder / "dataset.json", {"format": 1, "title": m.title, "columns": entries, "recordings": recordings})
     write(folder / "case.json", machine_truth.case_json(lab, spec, hidden, wrong, heights, clean, stated))
 
@@ -125,6 +144,7 @@ def write(path, content):
 
 
 # ---- held against the program -------------------------------------------------------------------------------------------------
+
 
 def put(diagram, path, value):
     """The number at a path such as cell.times[0], its unit kept."""
@@ -142,7 +162,7 @@ def compare(program, folder, diagram, dataset):
     with tempfile.TemporaryDirectory() as place:
         there = pathlib.Path(place)
         for file in folder.glob("*.csv"):
-            (there / file.name).symlink_to(file.resolve())
+            shutil.copy(file, there)  # a link would lead out of the project
         write(there / "diagram.json", diagram)
         write(there / "dataset.json", dataset)
         for words in (["check", "diagram.json"], ["compare", "diagram.json", "--data", "dataset.json", "-o", "out"]):
@@ -153,13 +173,16 @@ def compare(program, folder, diagram, dataset):
 
 
 def rms_of(result):
-    error = result["facts"]["error"]
-    return {o["output"]: o["rms"] for o in error["outputs"] if o["role"] == "validate"}
+    return {
+        m["output"]: m["rms"] for m in result["facts"]["metrics"] if (m["recording"], m["role"]) == ("all", "validate")
+    }
 
 
 def check(program, folder):
     """-> text of one line; raises where the program refuses, or where the truth does not leave the noise."""
-    case, diagram, dataset = (json.loads((folder / f).read_text()) for f in ("case.json", "diagram.json", "dataset.json"))
+    case, diagram, dataset = (
+        json.loads((folder / f).read_text()) for f in ("case.json", "diagram.json", "dataset.json")
+    )
     told = rms_of(compare(program, folder, diagram, dataset))
     ratios = [told[o] / s for o, s in zip(case["outputs"], case["noise_floor"])]
     text = f"{case['id']} {case['device']:10} {case['group']:10} as drawn " + " ".join("%.3f" % x for x in ratios)

@@ -38,15 +38,31 @@ def on_a_wire(u, dt, warm=20.0, **entered):
     """What a held drive becomes, 20 fine steps in a row, no plant and no noise."""
     rows = len(u)
     side = np.column_stack([np.full(rows, warm), np.zeros(rows)])
-    shown, _ = machine_run.run(still, passed_on, np.zeros(1), np.zeros(1), np.asarray(u, float), np.zeros(rows), side, np.zeros(rows, np.int64),
-                               machine_run.settings(entered), np.zeros((rows, 1)), dt, 20, True, np.zeros(0), np.zeros(2), 1)
+    shown, _ = machine_run.run(
+        still,
+        passed_on,
+        np.zeros(1),
+        np.zeros(1),
+        np.asarray(u, float),
+        np.zeros(rows),
+        side,
+        np.zeros(rows, np.int64),
+        machine_run.settings(entered),
+        np.zeros((rows, 1)),
+        dt,
+        20,
+        True,
+        np.zeros(0),
+        np.zeros(2),
+        1,
+    )
     return shown[:, 0]
 
 
 class Wires(unittest.TestCase):
     def setUp(self):
         self.step = np.concatenate([np.zeros(10), np.ones(190)])  # up at row 10; the first fine step of a row shows it
-        self.after = (np.arange(190) + 0.025) * 0.01              # its middle, seconds after the step
+        self.after = (np.arange(190) + 0.025) * 0.01  # its middle, seconds after the step
 
     def test_a_lag_settles_exponentially(self):
         """The mean over a fine step stands for its middle: wrong by (h/tau)^2/24 = 3e-7 and less."""
@@ -57,7 +73,9 @@ class Wires(unittest.TestCase):
             np.testing.assert_allclose(y[1:], 1 - np.exp(-(moved[1:] - late) / 0.2), atol=1e-4)
 
     def test_a_delay_shifts_and_a_rate_is_not_passed(self):
-        self.assertTrue(np.array_equal(on_a_wire(self.step, 0.01, delay=0.25), np.concatenate([np.zeros(35), np.ones(165)])))
+        self.assertTrue(
+            np.array_equal(on_a_wire(self.step, 0.01, delay=0.25), np.concatenate([np.zeros(35), np.ones(165)]))
+        )
         y = on_a_wire(self.step, 0.01, rise=2.0)
         self.assertAlmostEqual(y[30], 2.0 * (20 + 1 / 20) * 0.01, places=12)
         self.assertEqual(y[-1], 1.0)
@@ -79,7 +97,7 @@ class Wires(unittest.TestCase):
     def test_a_loop_comes_back_and_warmth_makes_the_gain(self):
         u = np.concatenate([np.linspace(0, 1, 100), *[np.linspace(a, -a, 200) for a in (1, -1, 1, -1)]])
         y = on_a_wire(u, 0.01, loop=0.1)
-        self.assertGreater(abs(y[200] - y[400]), 0.05)          # down and up through zero: the loop is open
+        self.assertGreater(abs(y[200] - y[400]), 0.05)  # down and up through zero: the loop is open
         self.assertAlmostEqual(y[99 + 200], y[99 + 600], delta=1e-3)  # and closes, Bouc-Wen's memory fading
         self.assertAlmostEqual(on_a_wire(np.ones(3), 0.01, 30.0, kelvin=0.01, kelvin_at=20.0)[-1], 1.1, places=12)
 
@@ -129,8 +147,25 @@ class OneMachine(unittest.TestCase):
     def test_a_case_has_what_is_scored(self):
         case, dataset = self.read(5, "case.json"), self.read(5, "dataset.json")
         self.assertEqual((case["group"], case["expected"]["verdicts"]), ("outside", ["unexplained"]))
-        self.assertLessEqual({"id", "device", "family", "strength", "start", "noise_stated", "closed_loop", "wrong_numbers", "scale_groups", "gains",
-                              "outputs", "noise_floor", "moving", "outside"}, set(case))
+        self.assertLessEqual(
+            {
+                "id",
+                "device",
+                "family",
+                "strength",
+                "start",
+                "noise_stated",
+                "closed_loop",
+                "wrong_numbers",
+                "scale_groups",
+                "gains",
+                "outputs",
+                "noise_floor",
+                "moving",
+                "outside",
+            },
+            set(case),
+        )
         self.assertTrue(2.0 * 0.9 <= case["effects"][0]["height"] <= 8.0 * 1.15)
         self.assertIn("validate", [r["role"] for r in dataset["recordings"]])
         for r, told in zip(dataset["recordings"], case["recordings"]):
