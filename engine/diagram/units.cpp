@@ -9,6 +9,7 @@
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "engine/diagram/error.h"
@@ -66,6 +67,8 @@ class Table {
     if (const UnitPointer degree(ut_parse(system_, all ? "arc_degree" : degree_definition, UT_UTF8)); degree)
       ut_map_name_to_unit("deg", UT_ASCII, degree.get());
   }
+
+  void learn(const Unit& unit) { cache_.emplace(unit.text, unit); }
 
   /// nullptr if the text is no unit of this table.
   const Unit* find(const std::string& text) {
@@ -199,10 +202,25 @@ std::string to_text(const Dimension& d) {
   return text.empty() ? "1" : text;
 }
 
+namespace {
+
+/// What parse_unit() knows.
+struct KnownUnits {
+  std::mutex mutex;
+  Table common{false};
+  std::unique_ptr<Table> all;
+  std::map<std::string, Unit>* log = nullptr;
+};
+
+KnownUnits& known_units() {
+  static KnownUnits known;
+  return known;
+}
+
+}  // namespace
+
 Unit parse_unit(std::string_view text, const std::string& path) {
-  static std::mutex mutex;
-  static Table common(false);
-  static std::unique_ptr<Table> all;
+  auto& [mutex, common, all, log] = known_units();
   const std::lock_guard lock(mutex);
   const auto first = text.find_first_not_of(' ');
   const auto last = text.find_last_not_of(' ');
@@ -212,12 +230,37 @@ Unit parse_unit(std::string_view text, const std::string& path) {
          "write the unit alone and take the origin into the number; temperatures may be in degC or degF");
   if (const Unit* unit = common.find(trimmed)) return *unit;
   if (!all) all = std::make_unique<Table>(true);
-  if (const Unit* unit = all->find(trimmed)) return *unit;
+  if (const Unit* unit = all->find(trimmed)) {
+    if (log != nullptr) log->emplace(trimmed, *unit);
+    return *unit;
+  }
   const bool decimal_comma = trimmed.size() > 1 && trimmed[0] == ',' && trimmed[1] >= '0' && trimmed[1] <= '9';
   fail("bad_unit", path, fmt::format("\"{}\" is not a unit", trimmed),
        decimal_comma
            ? "write decimals with a point, not with a comma: 0.8"
            : "write SI or derived units with prefixes, e.g. \"um\", \"V/um\", \"1/s\", \"Hz\", \"deg\", \"degC\"");
+}
+
+UnitLog::UnitLog() {
+  const std::lock_guard lock(known_units().mutex);
+  known_units().log = new std::map<std::string, Unit>;
+}
+
+UnitLog::~UnitLog() {
+  const std::lock_guard lock(known_units().mutex);
+  delete std::exchange(known_units().log, nullptr);
+}
+
+std::vector<Unit> UnitLog::units() const {
+  const std::lock_guard lock(known_units().mutex);
+  std::vector<Unit> list;
+  for (const auto& [text, unit] : *known_units().log) list.push_back(unit);
+  return list;
+}
+
+void learn_units(const std::vector<Unit>& units) {
+  const std::lock_guard lock(known_units().mutex);
+  for (const auto& unit : units) known_units().common.learn(unit);
 }
 
 Unit parse_unit_in_full_table(std::string_view text) {

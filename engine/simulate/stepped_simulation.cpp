@@ -49,9 +49,12 @@ bool keeps_a_grid(Method method) { return method == Method::exact || method == M
 }  // namespace
 
 SteppedSimulation::SteppedSimulation(ProgramPointer program, const SimulateOptions& options)
+    : SteppedSimulation(program, options, hysteron::start(*program)) {}
+
+SteppedSimulation::SteppedSimulation(ProgramPointer program, const SimulateOptions& options, Run start)
     : program_(std::move(program)),
       options_(held_tolerance(*program_, options)),
-      start_(start(*program_)),
+      start_(std::move(start)),
       inputs_(held_inputs(*program_)),
       wanted_(inputs_.size(), 0.0) {
   if (!(options_.until > options_.begin) || !std::isfinite(options_.until))

@@ -21,6 +21,8 @@ class SteppedSimulation {
   /// probably going to last [s], against which a step is too small. Throws Error "jump_into_rate" where an input must
   /// not jump.
   SteppedSimulation(ProgramPointer program, const SimulateOptions& options);
+  /// The same with a run at its start, e.g. one with other parameters.
+  SteppedSimulation(ProgramPointer program, const SimulateOptions& options, Run start);
   SteppedSimulation(const SteppedSimulation& other);
   SteppedSimulation& operator=(const SteppedSimulation&) = delete;
   ~SteppedSimulation();

@@ -2,7 +2,6 @@
 // any other (delimited_text.h). Formulas count by the values that were saved with them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <zip.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
+#include "io/files/zip_archive.h"
 #include "io/formats/cells.h"
 #include "io/formats/delimited_text.h"
 #include "io/formats/file_format.h"
@@ -21,49 +21,19 @@
 namespace hysteron {
 namespace {
 
-constexpr std::uint64_t largest_part = 1ULL << 30;  // [byte] unpacked: more is an archive made to fill the memory
 constexpr std::size_t most_columns = 16384, most_rows = 1 << 20;  // of a sheet
 
-[[noreturn]] void damaged(const std::string& file, const std::string& why) {
-  throw Error(Fault::input, {{"damaged_file", file, fmt::format("this workbook cannot be read: {}", why),
-                              "open it in a spreadsheet and save it again, or save it as CSV", file, 0}});
-}
-
-class Archive {
+class Workbook : public ZipArchive {
  public:
-  explicit Archive(const std::string& file) : file_(file) {
-    int code = 0;
-    zip_.reset(zip_open(file.c_str(), ZIP_RDONLY, &code));
-    if (!zip_) damaged(file, fmt::format("its zip archive is damaged (code {})", code));
-  }
-
-  bool has(const std::string& name) const { return zip_name_locate(zip_.get(), name.c_str(), 0) >= 0; }
-
-  std::string part(const std::string& name) const {
-    zip_stat_t stat;
-    if (zip_stat(zip_.get(), name.c_str(), 0, &stat) != 0) damaged(file_, "it has no " + name);
-    if (stat.size > largest_part) damaged(file_, name + " is larger than 1 GB");
-    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> in(zip_fopen(zip_.get(), name.c_str(), 0), zip_fclose);
-    if (!in) damaged(file_, name + " cannot be opened");
-    std::string text(stat.size, '\0');
-    if (zip_fread(in.get(), text.data(), text.size()) != static_cast<zip_int64_t>(text.size()))
-      damaged(file_, name + " is damaged");
-    return text;
-  }
+  explicit Workbook(const std::string& file)
+      : ZipArchive(file, {"workbook", "open it in a spreadsheet and save it again, or save it as CSV"}) {}
 
   pugi::xml_document xml(const std::string& name) const {
     pugi::xml_document document;
     const std::string text = part(name);
-    if (!document.load_buffer(text.data(), text.size())) damaged(file_, name + " is no XML");
+    if (!document.load_buffer(text.data(), text.size())) damaged(name + " is no XML");
     return document;
   }
-
- private:
-  struct Close {
-    void operator()(zip_t* zip) const { zip_discard(zip); }
-  };
-  std::string file_;
-  std::unique_ptr<zip_t, Close> zip_;
 };
 
 /// "xl/worksheets/sheet1.xml", seen from "xl/workbook.xml".
@@ -73,7 +43,7 @@ std::string resolved(const std::string& target) {
 }
 
 /// The file of the sheet that the user names, else of the first.
-std::string sheet_part(const Archive& archive, const std::string& file, const std::string& wanted, std::string& name) {
+std::string sheet_part(const Workbook& archive, const std::string& file, const std::string& wanted, std::string& name) {
   const auto book = archive.xml("xl/workbook.xml");
   std::vector<std::string> names;
   std::string id;
@@ -89,7 +59,7 @@ std::string sheet_part(const Archive& archive, const std::string& file, const st
   const auto links = archive.xml("xl/_rels/workbook.xml.rels");
   for (const auto link : links.child("Relationships").children("Relationship"))
     if (id == link.attribute("Id").value()) return resolved(link.attribute("Target").value());
-  damaged(file, "it has no sheet");
+  archive.damaged("it has no sheet");
 }
 
 std::string text_of(const pugi::xml_node& node) {  // of <si> or <is>: one run, or several
@@ -112,7 +82,7 @@ std::optional<std::size_t> column_of(std::string_view reference) {
 }
 
 /// Which styles show a number as a date or a time of day.
-std::vector<bool> time_styles(const Archive& archive) {
+std::vector<bool> time_styles(const Workbook& archive) {
   std::vector<bool> is_time;
   if (!archive.has("xl/styles.xml")) return is_time;
   const auto styles = archive.xml("xl/styles.xml");
@@ -149,7 +119,7 @@ std::string clock_text(double days) {
 
 class Sheet {
  public:
-  Sheet(const Archive& archive, const std::string& file) : file_(file), is_time_(time_styles(archive)) {
+  explicit Sheet(const Workbook& archive) : archive_(archive), is_time_(time_styles(archive)) {
     if (!archive.has("xl/sharedStrings.xml")) return;
     const auto shared = archive.xml("xl/sharedStrings.xml");
     for (const auto text : shared.child("sst").children("si")) texts_.push_back(text_of(text));
@@ -161,7 +131,7 @@ class Sheet {
     std::size_t row = 0;
     for (const auto node : sheet.child("worksheet").child("sheetData").children("row")) {
       const auto number = static_cast<std::size_t>(node.attribute("r").as_ullong(row + 1));
-      if (number > most_rows) damaged(file_, "it has a row beyond the last one that a sheet has");
+      if (number > most_rows) archive_.damaged("it has a row beyond the last one that a sheet has");
       for (; row + 1 < number; ++row) lines += '\n';
       lines += line(node);
       ++row;
@@ -175,7 +145,7 @@ class Sheet {
     for (const auto cell : row.children("c")) {
       const auto at = column_of(cell.attribute("r").value());
       const std::size_t column = at ? *at : cells.size();
-      if (column >= most_columns) damaged(file_, "it has a column beyond the last one that a sheet has");
+      if (column >= most_columns) archive_.damaged("it has a column beyond the last one that a sheet has");
       if (column >= cells.size()) cells.resize(column + 1);
       cells[column] = content(cell);
     }
@@ -198,7 +168,7 @@ class Sheet {
     return is_clock && number && *number >= 0 && *number < 1e5 ? clock_text(*number) : value;
   }
 
-  std::string file_;
+  const Workbook& archive_;
   std::vector<bool> is_time_;
   std::vector<std::string> texts_;
 };
@@ -212,7 +182,7 @@ bool is_xlsx(std::string_view bytes) {
 }
 
 MeasuredTable read_xlsx(const std::string& file, const ReadingChoices& choices) {
-  const Archive archive(file);
+  const Workbook archive(file);
   if (!archive.has("xl/workbook.xml")) {  // a document of another kind in the same kind of archive
     const KnownFile known = known_file("PK\x03\x04", file);
     throw Error(Fault::input,
@@ -221,7 +191,7 @@ MeasuredTable read_xlsx(const std::string& file, const ReadingChoices& choices) 
   }
   std::string name;
   const std::string part = sheet_part(archive, file, choices.sheet, name);
-  const std::string text = Sheet(archive, file).text(archive.xml(part));
+  const std::string text = Sheet(archive).text(archive.xml(part));
   ReadingChoices of_text = choices;
   of_text.decimal = "point";  // numbers stand so in the file, whatever the spreadsheet shows
   MeasuredTable table = read_delimited_text(file, text, of_text);

@@ -64,6 +64,7 @@ const std::map<std::string, std::vector<Words>>& lines() {
        {{"diagram.json", "--data", "dataset.json", "--only", "creep"},
         {"diagram.json", "--data", "dataset.json", "--only", "creep", "--check", "-o", "checked"}}},
       {"study", {{"job.json", "--shard", "1/4"}, {"job.json", "--slurm-dry-run"}, {"job.json", "--csv"}}},
+      {"export", {{"fmu", "lag.json"}, {"fmu", "lag.json", "--fmi", "3", "-o", "three.fmu"}}},
       {"reproduce", {{"all", "--from", "jobs"}}},
       {"blocks", {{}, {"tank"}, {"play"}}},
       {"effects", {{}, {"creep", "-o", "creep.svg"}}},

@@ -17,9 +17,9 @@ namespace {
 using process::Folder;
 using process::Outcome;
 
-const std::vector<std::string> verbs{"new",      "run",     "check",    "explain", "draw",   "linearize",
-                                     "inspect",  "compare", "diagnose", "add",     "remove", "fit",
-                                     "discover", "study",   "blocks",   "effects", "schema"};
+const std::vector<std::string> verbs{"new",      "run",     "check",    "explain", "draw",    "linearize",
+                                     "inspect",  "compare", "diagnose", "add",     "remove",  "fit",
+                                     "discover", "study",   "export",   "blocks",  "effects", "schema"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);

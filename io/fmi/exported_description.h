@@ -1,0 +1,23 @@
+// Decides what the model description says of a diagram that is exported: ranges, sizes, dependencies, the experiment.
+// Does not write it (fmi_description.h).
+#pragma once
+
+#include <string>
+
+#include "engine/program/program.h"
+#include "io/fmi/fmi_description.h"
+
+namespace hysteron {
+
+/// For co-simulation, with the variables of fmi_variables(). `version`: 2 or 3; `identifier`: a name of C.
+FmiDescription exported_description(const Program& program, int version, const std::string& identifier,
+                                    const std::string& token);
+
+/// The diagram with all that it needs on a machine that has nothing of it (packed_diagram.h). `blocks` makes the
+/// registry: what it reads of units is packed, too.
+std::string exported_program(const Diagram& diagram, Registry (*blocks)());
+
+/// A name of C that is like `text`: "stage_2" of "stage-2", "m_2" of "2".
+std::string c_name(const std::string& text);
+
+}  // namespace hysteron

@@ -1,0 +1,228 @@
+// Exported diagrams as others drive them: every diagram of the project that runs by itself goes in steps where run()
+// goes, through both versions of the interface; a walk through all phases in C (walk.c); what lies in the archive.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "blocks/fmi/native_fmu.h"
+#include "blocks/register_all.h"
+#include "engine/simulate/simulate.h"
+#include "io/diagram/diagram_file.h"
+#include "io/diagram/packed_diagram.h"
+#include "io/files/zip_archive.h"
+#include "io/fmi/exported_description.h"
+#include "tests/app/hysteron_process.h"
+#include "tests/io/temporary_folder.h"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int rows = 42;
+
+const Registry& blocks_of_all() {
+  static const Registry all = all_blocks();
+  return all;
+}
+
+/// Diagrams that say how often they are recorded and need nothing from outside.
+std::vector<std::string> diagrams_that_run() {
+  std::vector<std::string> list;
+  for (const auto& entry : fs::recursive_directory_iterator(HYSTERON_SOURCE_DIR "/diagrams"))
+    if (entry.path().extension() == ".json" && is_diagram_file(entry.path().string()))
+      list.push_back(entry.path().string());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// What it puts out in a simulation, and in steps.
+class Ways {
+ public:
+  explicit Ways(const std::string& file)
+      : diagram_(read_diagram(file)),
+        program_(compile(diagram_, blocks_of_all())),
+        options_(simulate_options(*program_)) {}
+
+  bool run_alone() const { return program_->input_names.empty() && options_.every > 0; }
+
+  void compare(int version) {
+    const std::string packed = exported_program(diagram_, all_blocks);
+    const auto description = exported_description(*program_, version, "stage", packed_token(packed));
+    std::vector<unsigned> references;
+    options_.signals.clear();
+    for (const auto& output : description.outputs) references.push_back(output.reference);
+    options_.signals = program_->output_signals.empty() ? program_->record_signals : program_->output_signals;
+    ASSERT_EQ(options_.signals.size(), references.size());
+    folder_.write("resources/program.json", packed);
+    SimulateOptions options = options_;
+    options.until = options_.begin + rows * options_.every;
+    const Traces run = simulate(*program_, start(*program_), options);
+    for (const double factor : {0.1, 1.0, 7.0}) {
+      NativeFmu fmu({version, HYSTERON_FMU, folder_.path("resources"), packed_token(packed), "stage"});
+      fmu.enter_initialization(options_.begin, {});
+      fmu.exit_initialization();
+      follow(fmu, factor, references, run);
+    }
+  }
+
+ private:
+  /// Each way is held to 1e-6 of what signals usually are, and some are rounding beside others of their unit.
+  std::map<std::string, double> sizes(const Traces& run) const {
+    std::map<std::string, double> size;
+    for (std::size_t s = 0; s < run.signals.size(); ++s)
+      for (const double v : run.values[s]) {
+        double& most = size[unit(s).text];
+        most = std::max(most, std::abs(unit(s).from_si(v)));
+      }
+    return size;
+  }
+  const Unit& unit(std::size_t s) const {
+    return program_->signals[static_cast<std::size_t>(options_.signals[s])].unit;
+  }
+
+  void follow(NativeFmu& fmu, double factor, const std::vector<unsigned>& references, const Traces& run) const {
+    auto size = sizes(run);
+    std::vector<double> seen(references.size());
+    const auto last = static_cast<int>(std::round(rows / factor));
+    double t = run.t.front();
+    for (int k = 1; k <= last; ++k) {
+      const double row = k * factor;
+      const bool whole = std::abs(row - std::round(row)) < 1e-9;
+      const auto place = static_cast<std::size_t>(std::round(row));
+      const double until = whole ? run.t[place] : run.t.front() + row * options_.every;
+      fmu.step(t, until - t);
+      t = until;
+      if (!whole) continue;
+      fmu.get(references, seen);
+      for (std::size_t s = 0; s < seen.size(); ++s)
+        ASSERT_NEAR(seen[s], unit(s).from_si(run.values[s][place]), 1e-4 * size[unit(s).text])
+            << program_->signals[static_cast<std::size_t>(options_.signals[s])].path << " at " << t << " s, steps "
+            << factor;
+    }
+  }
+
+  Diagram diagram_;
+  ProgramPointer program_;
+  SimulateOptions options_;
+  TemporaryFolder folder_;
+};
+
+TEST(Fmu, EveryDiagramOfTheProjectGoesInStepsWhereARunGoes) {
+  int seen = 0;
+  for (const auto& file : diagrams_that_run()) {
+    SCOPED_TRACE(file);
+    Ways ways(file);
+    if (!ways.run_alone()) continue;
+    ways.compare(2);
+    ways.compare(3);
+    ++seen;
+  }
+  EXPECT_GT(seen, 40);
+}
+
+const std::string driven = HYSTERON_SOURCE_DIR "/tests/interop/driven.json";
+
+/// An exported diagram, unpacked.
+class Exported {
+ public:
+  explicit Exported(const std::string& diagram, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words{"export", "fmu", diagram, "-o", "exported.fmu"};
+    words.insert(words.end(), options.begin(), options.end());
+    outcome = process::hysteron(folder.path(), words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const ZipArchive archive(folder.path("exported.fmu"), {"FMU", "export it again"});
+    names = archive.names();
+    text = archive.part("modelDescription.xml");
+    description = read_fmi_description(text, "exported.fmu");
+    archive.unpack(folder.path());
+  }
+
+  TemporaryFolder folder;
+  process::Outcome outcome;
+  std::vector<std::string> names;
+  std::string text;
+  FmiDescription description;
+};
+
+TEST(Fmu, AProgramInCWalksThroughAllPhases) {
+  const Exported fmu(driven);
+  const auto reference = [&](const std::string& name) {
+    const FmiScalar* v = fmu.description.find(name);
+    EXPECT_NE(v, nullptr) << name;
+    return std::to_string(v == nullptr ? 0 : v->reference);
+  };
+  const auto walked = process::shell(
+      fmu.folder.path(), std::string(HYSTERON_FMU_WALK) + " " + fmu.folder.path(fmi_binary_name(fmu.description)) +
+                             " file://" + fmu.folder.path("resources") + " " + fmu.description.token + " " +
+                             reference("u") + " " + reference("y") + " " + reference("gain.gain"));
+  EXPECT_EQ(walked.code, 0) << walked.err;
+}
+
+TEST(Fmu, ItsDescriptionSaysUnitsRangesAndDependencies) {
+  const Exported fmu(driven);
+  EXPECT_EQ(fmu.names, (std::vector<std::string>{"modelDescription.xml", "resources/program.json",
+                                                 "binaries/linux64/exported.so"}));
+  EXPECT_EQ(fmu.outcome.out, "wrote exported.fmu: FMI 2.0 for co-simulation, 1 input, 1 output, 2 parameters\n");
+  const FmiDescription& d = fmu.description;
+  EXPECT_EQ(fmi_description_faults(d), std::vector<std::string>());
+  EXPECT_EQ(d.name, "A lag of what is set from outside");
+  EXPECT_EQ(d.stop, 1);
+  EXPECT_EQ(d.tolerance, 1e-9);
+  EXPECT_TRUE(d.copies_state && d.variable_step);
+  const FmiScalar& gain = *d.find("gain.gain");
+  EXPECT_EQ(gain.causality + " " + gain.variability + " " + gain.unit, "parameter fixed um/V");
+  EXPECT_EQ(gain.start, 1);
+  const FmiScalar& times = *d.find("y.times[0]");
+  EXPECT_EQ(times.start, 20);
+  EXPECT_EQ(times.unit, "ms");
+  EXPECT_EQ(times.lower, 0);
+  const auto unit = std::find_if(d.units.begin(), d.units.end(), [](const auto& u) { return u.name == "um/V"; });
+  ASSERT_NE(unit, d.units.end());
+  EXPECT_EQ(unit->unit->scale, 1e-6);
+  EXPECT_EQ(unit->unit->dimension, parse_unit("um/V").dimension);
+  ASSERT_EQ(d.outputs.size(), 1U);
+  EXPECT_EQ(d.outputs[0].dependencies, std::vector<unsigned>());  // behind a lag
+}
+
+TEST(Fmu, VersionThreeSaysTheSame) {
+  const Exported fmu(driven, {"--fmi", "3", "--set", "gain.gain=2 um/V"});
+  EXPECT_EQ(fmu.names.back(), "binaries/x86_64-linux/exported.so");
+  EXPECT_EQ(fmu.description.version, 3);
+  EXPECT_EQ(fmi_description_faults(fmu.description), std::vector<std::string>());
+  EXPECT_EQ(fmu.description.find("gain.gain")->start, 2);
+  EXPECT_EQ(fmu.description.find("u")->causality, "input");
+}
+
+TEST(Fmu, ItStandsOnTheLibraryOfCAlone) {
+  const auto needs = process::shell(".", "objdump -p " HYSTERON_FMU
+                                         " | grep NEEDED | grep -v -e 'libc[.]so' -e "
+                                         "'libm[.]so' -e 'ld-linux'");
+  EXPECT_EQ(needs.out, "") << "only with a sanitizer may there be more";
+}
+
+TEST(Fmu, UnitsThatStandInTheWholeTableAloneAreTakenAlong) {
+  TemporaryFolder folder;
+  Diagram diagram = read_diagram(folder.write("d.json", R"({"format": 1, "title": "t", "simulate": {"until": "1 s"},
+    "blocks": {"a": {"type": "constant", "value": "2 fathom"}}, "record": ["a"]})"));
+  const PackedDiagram packed = unpacked_diagram(exported_program(diagram, all_blocks));
+  ASSERT_EQ(packed.units.size(), 1U);
+  EXPECT_EQ(packed.units[0].text, "fathom");
+  EXPECT_EQ(packed.units[0].scale, parse_unit("fathom").scale);
+}
+
+TEST(Fmu, AnInputThatMustNotJumpIsRefusedAtOnce) {
+  TemporaryFolder folder;
+  folder.write("d.json", R"({"format": 1, "title": "t", "inputs": {"u": {"unit": "V"}}, "simulate": {"until": "1 s"},
+    "blocks": {"core": {"type": "jiles_atherton", "in": "u"}}, "outputs": {"y": "core"}})");
+  const auto outcome = process::hysteron(folder.path(), {"export", "fmu", "d.json"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_FALSE(fs::exists(folder.path("d.fmu")));
+}
+
+}  // namespace
+}  // namespace hysteron
