@@ -89,7 +89,9 @@ class Lab:
         self.only, self.hold = only, bool(closed or rng.random() < 0.5)
         swing = rng.uniform(12, 20) if any(k in HEAT for k in keys) else 0.0 if only else None
         count = int(rng.integers(2, 7)) if not only else 3
-        tests = 1 if count < 4 else int(rng.integers(1, 3))
+        if swing:  # a gain at one temperature tells nothing of another
+            count = max(count, 5)
+        tests = 1 if count < 4 or swing else int(rng.integers(1, 3))
         kinds = [only] * count if only else list(rng.permutation(machine.kinds))
         if {"hysteresis", "backlash", "friction", "stribeck_friction", "backlash_s"} & set(keys):
             kinds = ["triangle", "sine"] + [k for k in kinds if k not in ("triangle", "sine")]
@@ -97,7 +99,7 @@ class Lab:
             count = len(kinds)
         moving = [start != "rest" and (k == 0 or rng.random() < 0.6) for k in range(count)]
         self.recordings = [
-            self.play(kinds[k % len(kinds)], "validate" if k >= count - tests else "train", moving[k], closed, swing)
+            self.play(kinds[k % len(kinds)], "validate" if k >= count - tests else "train", moving[k], closed, swing, k)
             for k in range(count)
         ]
         if "dropped" in keys or "knocked" in keys:
@@ -126,7 +128,7 @@ class Lab:
     def high(self, share):
         return self.middle + share * self.half
 
-    def play(self, kind, role, moving, closed, swing):
+    def play(self, kind, role, moving, closed, swing, place):
         rng, m = self.rng, self.machine
         dt = m.dt * float(rng.choice([0.5, 1, 1, 1, 2]))
         n = (
@@ -146,7 +148,7 @@ class Lab:
         middle, half = m.aims if closed else (m.drive[1], m.drive[2])
         u = np.round(middle + half * shape, m.drive[3] if not closed else 6)
         sides = m.sides
-        warm = self.temperatures(n + skip, swing)
+        warm = self.temperatures(n + skip, swing, place)
         other = sides[1][3] + sides[1][4] * (
             machine_drives.neighbour(rng, n + skip, dt, m.tau) if sides[1][4] else np.zeros(n + skip)
         )
@@ -175,17 +177,16 @@ class Lab:
             self.hold,
         )
 
-    def temperatures(self, n, swing):
-        """None: as of a room; 0: one and the same in all recordings, not that of the numbers; else they span so many kelvin."""
+    def temperatures(self, n, swing, place):
+        """swing None: as of a room; 0: one and the same in all recordings, not that of the numbers; else they span so many kelvin."""
         rng, (_, _, _, middle, usual) = self.rng, self.machine.sides[0]
         if swing == 0:
             return np.full(n, middle + 9.0)
         if swing is None:
             return middle + machine_drives.wandering(rng, n, usual)
         quick = self.machine.tau < 0.05  # nothing warms up while these last
-        return (
-            middle + rng.uniform(-0.5, 0.5) * swing + machine_drives.wandering(rng, n, swing * (0.03 if quick else 0.7))
-        )
+        level = (0.618 * place + 0.1 * rng.random()) % 1 - 0.5  # another in each recording
+        return middle + level * swing + machine_drives.wandering(rng, n, swing * (0.03 if quick else 0.5))
 
     def settings(self, hidden):
         """hidden: key -> amount. -> (of the wires, of the plant)"""
