@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Machines of many fields as their users draw them, with something hidden in most: diagram, data set, recordings, truth.
 
-    make_machines.py FOLDER [--only buck,speaker] [--seed 1] [--check PROGRAM]
+    make_machines.py FOLDER [--only buck,034] [--seed 1] [--check PROGRAM]
 
 writes FOLDER/NNN/ with diagram.json, dataset.json, 01.csv ... and case.json, which no program under test may read. The
 machines are integrated in fine steps from the equations of their fields and share nothing with the program's blocks.
@@ -201,28 +201,43 @@ def check(program, folder):
     return text
 
 
+def chosen(only):
+    """The cases (machine, number) that names of machines or numbers of cases with commas mean."""
+    every = {specification(k, m)["id"]: (m, k) for m in MACHINES.values() for k in range(len(m.cases))}
+    cases = []
+    for word in only.split(","):
+        found = [every[word]] if word in every else [c for c in every.values() if c[0].name == word]
+        if not found:
+            raise ValueError(
+                f"there is no machine or case {word!r}; known: {', '.join(MACHINES)}, 001 to {len(every):03}"
+            )
+        cases += found
+    return cases
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("folder", type=pathlib.Path)
-    words.add_argument("--only", default=",".join(MACHINES), help="names with commas")
+    words.add_argument("--only", default=",".join(MACHINES), help="names of machines or numbers of cases, with commas")
     words.add_argument("--seed", type=int, default=1)
     words.add_argument("--check", metavar="PROGRAM", type=pathlib.Path)
     words.add_argument("--checked", action="store_true", help="with --check: of what lies in FOLDER, nothing is made")
     wish = words.parse_args()
+    try:
+        cases = chosen(wish.only)
+    except ValueError as wrong:
+        words.error(str(wrong))
     bad = 0
-    for name in wish.only.split(","):
-        if name not in MACHINES:
-            words.error(f"there is no machine {name!r}; known: {', '.join(MACHINES)}")
-        for number in range(len(MACHINES[name].cases)):
-            folder = wish.folder / specification(number, MACHINES[name])["id"]
-            if not wish.checked:
-                write_case(folder, *make(MACHINES[name], number, wish.seed))
-            if wish.check:
-                try:
-                    print(check(wish.check, folder), flush=True)
-                except RuntimeError as wrong:
-                    bad += 1
-                    print(wrong, flush=True)
+    for machine, number in cases:
+        folder = wish.folder / specification(number, machine)["id"]
+        if not wish.checked:
+            write_case(folder, *make(machine, number, wish.seed))
+        if wish.check:
+            try:
+                print(check(wish.check, folder), flush=True)
+            except RuntimeError as wrong:
+                bad += 1
+                print(wrong, flush=True)
     sys.exit(1 if bad else 0)
 
 

@@ -120,6 +120,12 @@ class Machines(unittest.TestCase):
         self.assertGreaterEqual(len(make_machines.MACHINES), 10)
         self.assertEqual(len(names), make_machines.CASES_EACH * len(make_machines.MACHINES))
 
+    def test_cases_are_chosen_by_machine_and_by_number(self):
+        cell = make_machines.MACHINES["cell"]
+        self.assertEqual(make_machines.chosen("008,cell"), [(cell, 1)] + [(cell, k) for k in range(6)])
+        with self.assertRaisesRegex(ValueError, "'067'.*rod, 001 to 066"):
+            make_machines.chosen("067")
+
     def test_a_number_is_put_where_its_path_says(self):
         diagram = {"blocks": {"cell": {"times": ["3 s", "40 s"], "ratio": 5}}}
         make_machines.put(diagram, "cell.times[1]", 44.5)
