@@ -42,7 +42,7 @@ std::string law_check(const P& p) {
   if (!(p.d_p != 0)) return "d_p is zero: no command can be found; give the actuator's slope";
   if (!((p.d_p - p.alpha) / p.d_p > 0))
     return fmt::format(
-        "the actuator's slope at z = 0, d_p - alpha = {:.4g} [SI], is not of the sign of d_p: it has no inverse; give "
+        "the actuator's slope at z = 0, d_p - alpha = {{{} in d_p}}, is not of the sign of d_p: it has no inverse; give "
         "alpha below d_p",
         p.d_p - p.alpha);
   return bouc_wen_limit_check(p.alpha, p.beta, p.gamma);

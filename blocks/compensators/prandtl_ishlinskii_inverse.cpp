@@ -44,7 +44,8 @@ std::string PrandtlIshlinskiiInverse::check(const View<double>& v) {
   const auto r = v.list(thresholds);
   if (r[0] != 0)
     return fmt::format(
-        "the first threshold is {:.4g} [SI], so small moves have no inverse; begin with 0, the linear part", r[0]);
+        "the first threshold is {{{} in thresholds}}, so small moves have no inverse; begin with 0, the linear part",
+        r[0]);
   const std::size_t rising = prandtl_ishlinskii::rising_slopes(v.list(weights));
   if (rising < r.size())
     return fmt::format(

@@ -35,11 +35,9 @@ void LimitedIntegrator<resets>::describe(BlockSpec<LimitedIntegrator>& spec) {
 
 template <bool resets>
 std::string LimitedIntegrator<resets>::check(const Params<double>& p) {
-  if (!(p.lower < p.upper))
-    return fmt::format("lower ({:.4g}) is not below upper ({:.4g}) [SI]; exchange them", p.lower, p.upper);
+  if (!(p.lower < p.upper)) return "lower, {lower}, is not below upper, {upper}; exchange them";
   if (p.initial < p.lower || p.initial > p.upper)
-    return fmt::format("the start at {:.4g} is not between the limits; give initial from {:.4g} to {:.4g} [SI]",
-                       p.initial, p.lower, p.upper);
+    return "the start at {initial} is not between the limits; give initial from {lower} to {upper}";
   return "";
 }
 

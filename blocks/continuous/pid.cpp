@@ -51,8 +51,7 @@ std::string check_pid(const PidNumbers& p, pid::AntiWindup windup, double tracki
   if (!parallel && (p.ki != 0 || p.kd != 0))
     return "ki and kd belong to the form parallel; write \"integral_time\" and \"derivative_time\", or \"form\": "
            "\"parallel\"";
-  if (!(p.lower < p.upper))
-    return fmt::format("lower ({:.4g}) is not below upper ({:.4g}) [SI]; exchange them", p.lower, p.upper);
+  if (!(p.lower < p.upper)) return "lower, {lower}, is not below upper, {upper}; exchange them";
   if (p.kd != 0 && p.kp == 0 && !(p.filter > 0))
     return "without kp nothing says how fast the derivative's filter is; give \"filter\", e.g. \"1 ms\"";
   const bool is_limited = !std::isinf(p.lower) || !std::isinf(p.upper) || p.rate > 0;

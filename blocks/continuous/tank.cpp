@@ -34,8 +34,7 @@ void Tank::describe(BlockSpec<Tank>& spec) {
 
 std::string Tank::check(const Params<double>& p) {
   if (p.brim > 0 && p.initial > p.brim)
-    return fmt::format("the level at the start ({:.4g}) is above the brim ({:.4g}) [SI]; give at most the brim",
-                       p.initial, p.brim);
+    return "the level at the start, {initial}, is above the brim, {brim}; give at most the brim";
   return "";
 }
 

@@ -48,9 +48,9 @@ std::string BoucWen::check(const Params<double>& p) {
 std::string bouc_wen_limit_check(double alpha, double beta, double gamma) {
   if (bouc_wen::is_bounded({.alpha = alpha, .beta = beta, .gamma = gamma})) return "";
   return fmt::format(
-      "beta = {:.4g} and gamma = {:.4g} [SI] leave the hysteretic part without a limit; give beta not below zero and "
+      "beta = {{beta}} and gamma = {{gamma}} leave the hysteretic part without a limit; give beta not below zero and "
       "beta {} gamma above zero",
-      beta, gamma, alpha < 0 ? "-" : "+");
+      alpha < 0 ? "-" : "+");
 }
 
 Kernel bouc_wen_block() { return kernel<BoucWen>(); }

@@ -44,7 +44,7 @@ Sizes axes_of(const Shape& shape) {
 
 std::string check_first(double first) {
   if (first == 0) return "";
-  return fmt::format("the first threshold is {:.4g} [SI]; begin with 0, the linear part", first);
+  return fmt::format("the first threshold is {{{} in thresholds}}; begin with 0, the linear part", first);
 }
 
 }  // namespace

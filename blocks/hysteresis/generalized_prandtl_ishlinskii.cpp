@@ -40,9 +40,7 @@ Sizes GeneralizedPrandtlIshlinskii::sizes(const Shape& shape) { return PrandtlIs
 
 std::string GeneralizedPrandtlIshlinskii::check(const View<double>& v) {
   if (!(v.parameter(lower) < v.parameter(upper)))
-    return fmt::format(
-        "lower, {:.6g}, is not below upper, {:.6g} [SI]; give the range of the drive, its lower end first",
-        v.parameter(lower), v.parameter(upper));
+    return "lower, {lower}, is not below upper, {upper}; give the range of the drive, its lower end first";
   const double steepest = std::max(v.parameter(slope_at_lower), v.parameter(slope_at_upper));
   if (steepest > curved_drive::steepest)
     return fmt::format("a slope of {:.4g}: the curve would fall in between; take at most {:.0f}", steepest,

@@ -83,8 +83,7 @@ void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
 }
 std::string JilesAtherton::check(const Params<double>& p) {
   if (!(std::fabs(p.initial) <= p.p_s))
-    return fmt::format("initial is {:.4g} [SI], beyond the saturation p_s = {:.4g}; give it between -p_s and p_s",
-                       p.initial, p.p_s);
+    return "initial is {initial}, beyond the saturation p_s = {p_s}; give it between -p_s and p_s";
   return law_check(p);
 }
 

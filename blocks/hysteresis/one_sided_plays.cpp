@@ -20,7 +20,8 @@ void start_one_sided_plays(const View<double>& v, std::span<const double> thresh
 
 std::string begins_at_zero(double first) {
   if (first != 0)
-    return fmt::format("the first threshold is {:.4g} [SI]; begin with 0, the linear part, which bends", first);
+    return fmt::format("the first threshold is {{{} in thresholds}}; begin with 0, the linear part, which bends",
+                       first);
   return "";
 }
 

@@ -46,8 +46,8 @@ std::string check_nested(play::Sides sides, std::span<const double> thresholds, 
   const std::size_t i = prandtl_ishlinskii::nested_until(sides, thresholds, memory, slack);
   if (i == memory.size()) return "";
   return fmt::format(
-      "the operators of the thresholds {:.6g} and {:.6g} cannot stand at {:.6g} and {:.6g}: the first less the second "
-      "must lie between {:.6g} and {:.6g} [SI]",
+      "the operators of the thresholds {{{} in thresholds}} and {{{} in thresholds}} cannot stand at {{{} in thresholds}} "
+      "and {{{} in thresholds}}: the first less the second must lie between {{{} in thresholds}} and {{{} in thresholds}}",
       thresholds[i], thresholds[i + 1], memory[i], memory[i + 1],
       sides == play::Sides::one ? 0 : thresholds[i] - thresholds[i + 1], thresholds[i + 1] - thresholds[i]);
 }

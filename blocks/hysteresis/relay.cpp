@@ -21,8 +21,7 @@ void Relay::describe(BlockSpec<Relay>& spec) {
 
 std::string Relay::check(const Params<double>& p) {
   if (p.off_at < p.on_at) return "";
-  return fmt::format("off_at ({:.4g}) is not below on_at ({:.4g}) [SI]; leave a distance, or the relay chatters",
-                     p.off_at, p.on_at);
+  return "off_at, {off_at}, is not below on_at, {on_at}; leave a distance, or the relay chatters";
 }
 
 Kernel relay_block() { return kernel<Relay>(); }

@@ -16,7 +16,7 @@ void DeadZone::describe(BlockSpec<DeadZone>& spec) {
 
 std::string DeadZone::check(const Params<double>& p) {
   if (p.lower < p.upper) return "";
-  return fmt::format("lower ({:.4g}) is not below upper ({:.4g}) [SI]; exchange them", p.lower, p.upper);
+  return "lower, {lower}, is not below upper, {upper}; exchange them";
 }
 
 void Wrap::describe(BlockSpec<Wrap>& spec) {

@@ -36,9 +36,7 @@ Sizes Polynomial::sizes(const Shape& shape) {
 }
 
 std::string Polynomial::check(const View<double>& v) {
-  if (!(v.parameter(lower) < v.parameter(upper)))
-    return fmt::format("lower ({}) is not below upper ({}) [SI]; exchange them", v.parameter(lower),
-                       v.parameter(upper));
+  if (!(v.parameter(lower) < v.parameter(upper))) return "lower, {lower}, is not below upper, {upper}; exchange them";
   return "";
 }
 

@@ -18,8 +18,7 @@ void Saturation::describe(BlockSpec<Saturation>& spec) {
 
 std::string Saturation::check(const Params<double>& p) {
   if (std::isinf(p.lower) && std::isinf(p.upper)) return "neither limit is finite; give one, or use a pass block";
-  if (!(p.lower < p.upper))
-    return fmt::format("lower ({}) is not below upper ({}) [SI]; exchange them", p.lower, p.upper);
+  if (!(p.lower < p.upper)) return "lower, {lower}, is not below upper, {upper}; exchange them";
   return "";
 }
 

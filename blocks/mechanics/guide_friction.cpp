@@ -45,9 +45,9 @@ std::string GuideFriction::check(const Params<double>& p) {
            "\"1 mm/s\"";
   if (guide::may_jump(law(p)))
     return fmt::format(
-        "level times excess is {:.4g}, not below slip_distance, {:.4g} [SI]: such a guide jumps when it breaks away; "
+        "level times excess is {{{} in slip_distance}}, not below slip_distance, {{slip_distance}}: such a guide jumps when it breaks away; "
         "take a longer slip distance, or a mass (mass_with_friction)",
-        p.level * p.excess, p.slip_distance);
+        p.level * p.excess);
   if (std::fabs(p.initial) > 1 + p.excess)
     return fmt::format(
         "initial is {:.4g}, but a guide holds {:.4g} at most before it slides; write a share between -{:.4g} and "

@@ -43,8 +43,7 @@ void describe_dry_friction(Declaration& d, const MotionWords& words) {
 
 std::string MassWithFriction::check(const Params<double>& p) {
   if (p.breakaway >= p.coulomb || p.breakaway == 0) return "";
-  return fmt::format("breakaway ({:.4g}) is below coulomb ({:.4g}) [SI]; give at least coulomb, or none", p.breakaway,
-                     p.coulomb);
+  return "breakaway, {breakaway}, is below coulomb, {coulomb}; give at least coulomb, or none";
 }
 
 Kernel mass_with_friction_block() { return kernel<MassWithFriction>(); }

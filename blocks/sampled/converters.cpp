@@ -40,8 +40,7 @@ std::string Quantizer::check(const Params<double>& p) {
   if (std::floor(p.bits) != p.bits || p.bits > 32)
     return fmt::format("{:.4g} bits are no converter; give a whole number from 1 to 32", p.bits);
   if (!(p.lower < p.upper) || !std::isfinite(p.upper - p.lower))
-    return fmt::format("the range {:.4g} to {:.4g} [SI] has no steps; give a finite lower below a finite upper",
-                       p.lower, p.upper);
+    return "the range {lower} to {upper} has no steps; give a finite lower below a finite upper";
   return "";
 }
 

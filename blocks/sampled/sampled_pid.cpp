@@ -46,7 +46,7 @@ void SampledPid::describe(BlockSpec<SampledPid>& spec) {
 
 std::string SampledPid::check(const Params<double>& p) {
   if (p.lower < p.upper) return "";
-  return fmt::format("lower ({:.4g}) is not below upper ({:.4g}) [SI]; exchange them", p.lower, p.upper);
+  return "lower, {lower}, is not below upper, {upper}; exchange them";
 }
 
 Kernel sampled_pid_block() { return kernel<SampledPid>(); }

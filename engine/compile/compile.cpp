@@ -18,6 +18,7 @@
 #include "engine/compile/loop_wishes.h"
 #include "engine/compile/order.h"
 #include "engine/compile/unit_check.h"
+#include "engine/diagram/value_text.h"
 #include "engine/program/names.h"
 #include "engine/program/past.h"
 
@@ -241,10 +242,12 @@ class ParameterTable {
     if (given.lower) info.lower = std::max(info.lower, in_si(info, given, p, *given.lower));
     if (given.upper) info.upper = std::min(info.upper, in_si(info, given, p, *given.upper));
     if (!(info.lower <= info.value && info.value <= info.upper))
-      fail(
-          "bad_value", "/parameters/" + info.path,
-          fmt::format("\"{}\" is {} (SI), outside its bounds {} ... {}", info.path, info.value, info.lower, info.upper),
-          "move the value or the bounds");
+      fail("bad_value", "/parameters/" + info.path,
+           fmt::format("\"{}\" is {}, outside its bounds {} ... {}", info.path,
+                       value_text(info.value, info.unit, info.difference),
+                       value_text(info.lower, info.unit, info.difference),
+                       value_text(info.upper, info.unit, info.difference)),
+           "move the value or the bounds");
   }
 
   void apply_bounds() {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/block/instance.h"
+#include "engine/diagram/value_text.h"
 #include "engine/program/parameter_values.h"
 
 namespace hysteron {
@@ -250,7 +251,7 @@ class Resolver {
       for (const auto& problem : e.problems) problems_.add(problem.code, where, problem.what, problem.cure);
       return nobody_knows(n);
     }
-    check_range(p, n.si, where);
+    check_range(p, n, where);
     if (p.is_structural && (n.si != std::floor(n.si) || std::abs(n.si) > 1e6))
       problems_.add("bad_value", where,
                     fmt::format("\"{}\" of {} holds {}, which is no whole number", p.name, declaration_.type, n.si),
@@ -264,16 +265,19 @@ class Resolver {
     return n;
   }
 
-  void check_range(const ParameterDeclaration& p, double si, const std::string& where) {
+  void check_range(const ParameterDeclaration& p, const ResolvedNumber& n, const std::string& where) {
+    const double si = n.si;
+    const auto in_its_unit = [&](double value) { return value_text(value, n.unit, p.is_difference); };
     if (std::isnan(si))
       problems_.add("bad_value", where, fmt::format("\"{}\" of {} is not a number", p.name, declaration_.type),
                     "give a finite number");
     else if (!lies_in_range(p, si))
-      problems_.add("bad_value", where,
-                    fmt::format("\"{}\" of {} is {} (SI), which is outside its range", p.name, declaration_.type, si),
-                    !(si > p.maximum) ? fmt::format("it must be {} {} (SI)",
-                                                    p.exclusive_minimum ? "greater than" : "at least", p.minimum)
-                                      : fmt::format("it must be at most {} (SI)", p.maximum));
+      problems_.add(
+          "bad_value", where,
+          fmt::format("\"{}\" of {} is {}, which is outside its range", p.name, declaration_.type, in_its_unit(si)),
+          !(si > p.maximum) ? fmt::format("it must be {} {}", p.exclusive_minimum ? "greater than" : "at least",
+                                          in_its_unit(p.minimum))
+                            : fmt::format("it must be at most {}", in_its_unit(p.maximum)));
   }
 
   void check_lengths(const std::vector<ResolvedParameter>& list) {

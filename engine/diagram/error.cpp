@@ -115,6 +115,14 @@ std::string nearest_of_many(std::string_view name, const std::vector<std::string
   return fmt::format("Did you mean {}? They are the nearest of {}.", text, known.size());
 }
 
+/// "bad.csv:50", "stage.json:3: /blocks/x/gain": a file that is its own place is named once.
+std::string place_of(const Problem& p) {
+  if (p.file.empty()) return p.path;
+  const std::string file = p.line > 0 ? fmt::format("{}:{}", p.file, p.line) : p.file;
+  const bool is_the_file = p.path.empty() || p.path == p.file || p.file.ends_with("/" + p.path);
+  return is_the_file ? file : file + ": " + p.path;
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
@@ -130,8 +138,7 @@ std::string to_text(const std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < std::min(problems.size(), problems_in_full); ++i) {
     const auto& p = problems[i];
     if (i > 0) text += '\n';
-    if (!p.file.empty()) text += p.line > 0 ? fmt::format("{}:{}: ", p.file, p.line) : p.file + ": ";
-    text += fmt::format("{}\n  {}\n  {}", p.path, p.what, p.cure);
+    text += fmt::format("{}\n  {}\n  {}", place_of(p), p.what, p.cure);
   }
   if (problems.size() > problems_in_full) text += fmt::format("\n... and {} more", problems.size() - problems_in_full);
   return text;

@@ -5,15 +5,18 @@
 #include <algorithm>
 
 #include "engine/diagram/index.h"
+#include "engine/diagram/value_text.h"
 
 namespace hysteron {
 namespace {
 
 void check_value(const Program& program, const Run& run, int parameter, double si) {
   const ParameterInfo& info = program.parameters[at(parameter)];
+  const auto shown = [&](double value) { return value_text(value, info.unit, info.difference); };
   if (!(si >= info.lower && si <= info.upper))
     fail("bad_value", info.path,
-         fmt::format("\"{}\" is {} (SI), outside its range {} ... {}", info.path, si, info.lower, info.upper),
+         fmt::format("\"{}\" is {}, outside its range {} ... {}", info.path, shown(si), shown(info.lower),
+                     shown(info.upper)),
          "draw it inside its range");
   for (const int slot : info.slots)
     for (const BlockInstance& b : program.blocks) {
@@ -24,7 +27,7 @@ void check_value(const Program& program, const Run& run, int parameter, double s
                  end = at(b.p_at[static_cast<std::size_t>(which) + 1]);
       if (!lies_in_range(p, si))
         fail("bad_value", info.path,
-             fmt::format("\"{}\" is {} (SI), and must be greater than {}", info.path, si, p.minimum),
+             fmt::format("\"{}\" is {}, and must be greater than {}", info.path, shown(si), shown(p.minimum)),
              "draw it inside its range");
       if (p.is_increasing && first_that_does_not_increase({run.p.data() + at(b.p_begin) + begin, end - begin}) > 0)
         fail("bad_value", info.path, fmt::format("\"{}\" of \"{}\" does not increase", p.name, b.path),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/diagram/units.h"
+#include "engine/program/refusal.h"
 
 namespace hysteron {
 namespace {
@@ -194,7 +195,8 @@ void check_memories(const Program& program, const Run& run) {
     view.m = past.memory.data();
     if (const std::string wrong = b.kernel->check_memory(view); !wrong.empty())
       problems.add("bad_value", place_in("memory", b.path),
-                   fmt::format("{} \"{}\": {}", b.kernel->declaration.type, b.path, wrong),
+                   fmt::format("{} \"{}\": {}", b.kernel->declaration.type, b.path,
+                               refusal_text(program, run, past.block, wrong)),
                    "give numbers that a past of the input can leave behind, or that past itself "
                    "(\"simulate\": {\"past\": ...})");
   }

@@ -8,6 +8,7 @@
 #include "engine/program/loops.h"
 #include "engine/program/names.h"
 #include "engine/program/past.h"
+#include "engine/program/refusal.h"
 #include "engine/program/tolerances.h"
 
 namespace hysteron {
@@ -107,7 +108,8 @@ void prepare(const Program& program, Run& run, int block) {
   View<double> v = view_of(program, run, block);
   if (b.kernel->check)
     if (const std::string wrong = b.kernel->check(v); !wrong.empty())
-      fail("bad_value", b.origin, fmt::format("{} \"{}\": {}", b.kernel->declaration.type, b.path, wrong),
+      fail("bad_value", b.origin,
+           fmt::format("{} \"{}\": {}", b.kernel->declaration.type, b.path, refusal_text(program, run, block, wrong)),
            "correct the parameter values");
   std::copy(b.sizes.code.begin(), b.sizes.code.end(), run.c.begin() + b.c_begin);
   if (b.kernel->prepare) {

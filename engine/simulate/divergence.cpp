@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/diagram/index.h"
+#include "engine/diagram/value_text.h"
 #include "engine/program/loops.h"
 #include "engine/program/nominal.h"
 
@@ -13,6 +14,29 @@ namespace hysteron {
 namespace {
 
 constexpr double runaway = 1e8;  // times its usual size
+
+/// The unit of state k of a block: as it is declared, else that of an output declared alike; where neither says one it
+/// is SI.
+Unit unit_of_state(const Program& program, const BlockInstance& block, int k) {
+  const auto& declaration = block.kernel->declaration;
+  Unit unknown;
+  unknown.text = "[SI]";
+  if (declaration.states.size() != at(block.sizes.states)) return unknown;
+  const UnitExpression& expression = declaration.states[at(k)].unit;
+  for (std::size_t i = 0; i < declaration.outputs.size() && i < at(block.sizes.outputs); ++i)
+    if (declaration.outputs[i].unit == expression) return program.signals[at(block.y_begin) + i].unit;
+  return expression.find('$') == expression.npos ? parse_unit(expression) : unknown;
+}
+
+/// Of a signal or a state.
+Unit unit_of(const Program& program, const WatchedQuantity& q) {
+  const auto& block = program.blocks[at(q.block)];
+  for (int i = block.y_begin; i < block.y_begin + block.sizes.outputs; ++i)
+    if (program.signals[at(i)].path == q.name) return program.signals[at(i)].unit;
+  for (int k = 0; k < block.sizes.states; ++k)
+    if (program.state_names[at(block.x_begin + k)] == q.name) return unit_of_state(program, block, k);
+  return {};
+}
 
 double size_of(const WatchedQuantity& q) { return std::abs(q.value) / q.usual; }
 
@@ -89,10 +113,12 @@ void throw_if_grown(const Program& program, const std::vector<WatchedQuantity>& 
       **std::max_element(first.begin(), first.end(),
                          [](const WatchedQuantity* a, const WatchedQuantity* b) { return size_of(*a) < size_of(*b); });
   const auto& path = program.blocks[at(worst.block)].path;
+  const Unit unit = unit_of(program, worst);
   fail_numerics("diverged", path,
-                fmt::format("{} grows without bound: it left its usual size, about {:.2g} [SI], at t = {:.6g} s, and "
-                            "is {:.4g} [SI] at t = {:.9g} s{}",
-                            worst.name, worst.usual, worst.since, worst.value, t, met.empty() ? "" : "\n  " + met),
+                fmt::format("{} grows without bound: it left its usual size, about {}, at t = {:.6g} s, and is {} at "
+                            "t = {:.9g} s{}",
+                            worst.name, value_text(worst.usual, unit, true), worst.since, value_text(worst.value, unit),
+                            t, met.empty() ? "" : "\n  " + met),
                 cure_of(program, worst.block));
 }
 
@@ -105,11 +131,13 @@ void throw_if_upright(const Program& program, const Work& work, const std::vecto
       most = sizes, rate = work.dx[i], fastest = &quantities[i];
   if (fastest == nullptr) return;
   const auto& block = program.blocks[at(fastest->block)];
+  const Unit unit = unit_of(program, *fastest);
   fail_numerics(
       "diverged", block.path,
-      fmt::format("{} = {:.6g} [SI] changes by {:.3g} [SI] a second at t = {:.9g} s, faster than any step can "
-                  "follow: the law of {} does not hold beyond",
-                  fastest->name, fastest->value, rate, t, block.kernel->declaration.type),
+      fmt::format("{} = {} changes by {} a second at t = {:.9g} s, faster than any step can follow: the law of {} does "
+                  "not hold beyond",
+                  fastest->name, value_text(fastest->value, unit), value_text(rate, unit, true), t,
+                  block.kernel->declaration.type),
       law_cure(block));
 }
 
@@ -166,11 +194,15 @@ void not_finite(const Program& program, const Run& run, Work& work, double t, co
   const auto tell = [&](const BlockInstance& block, const std::string& of, double value) {
     std::vector<std::string> near;
     const auto name_state = [&](int i) {
-      near.push_back(fmt::format("state {} = {:.6g}", program.state_names[static_cast<std::size_t>(i)], x[i]));
+      const auto owner = std::find_if(program.blocks.begin(), program.blocks.end(), [&](const BlockInstance& b) {
+        return i >= b.x_begin && i < b.x_begin + b.sizes.states;
+      });
+      near.push_back(fmt::format("state {} = {}", program.state_names[at(i)],
+                                 value_text(x[i], unit_of_state(program, *owner, i - owner->x_begin))));
     };
     for (const int s : block.source)
-      near.push_back(fmt::format("{} = {:.6g}", program.signals[static_cast<std::size_t>(s)].path,
-                                 work.y[static_cast<std::size_t>(s)]));
+      near.push_back(
+          fmt::format("{} = {}", program.signals[at(s)].path, value_text(work.y[at(s)], program.signals[at(s)].unit)));
     for (int i = block.x_begin; i < block.x_begin + block.sizes.states; ++i) name_state(i);
     if (block.sizes.states == 0 && program.n_x > 0) {
       const auto* largest =
@@ -180,12 +212,12 @@ void not_finite(const Program& program, const Run& run, Work& work, double t, co
     const auto& declaration = block.kernel->declaration;
     if (std::isnan(value) && has_finite_surroundings(block, work.y, x))
       fail_numerics("diverged", block.path,
-                    fmt::format("{} has no value at t = {:.9g} s: the law of {} does not hold there; [SI]: {}", of, t,
+                    fmt::format("{} has no value at t = {:.9g} s: the law of {} does not hold there; {}", of, t,
                                 declaration.type, fmt::join(near, ", ")),
                     law_cure(block));
     fail_numerics(
         "diverged", block.path,
-        fmt::format("{} is {} at t = {:.9g} s (of block type {}); there [SI]: {}", of, value, t, declaration.type,
+        fmt::format("{} is {} at t = {:.9g} s (of block type {}); there {}", of, value, t, declaration.type,
                     fmt::join(near, ", ")),
         fmt::format("the simulation runs away or leaves the range of \"{}\": check its parameters, and gain and sign "
                     "of the loop around it",

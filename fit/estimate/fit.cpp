@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/diagram/stop.h"
+#include "engine/diagram/value_text.h"
 #include "fit/estimate/fitting.h"
 #include "fit/estimate/profile.h"
 #include "fit/estimate/starts.h"
@@ -83,11 +84,14 @@ void Fitting::check() const {
          "free fewer parameters, or record more");
   Problems problems;
   for (const auto& f : free_) {
-    const auto& path = model_.program().parameters[static_cast<std::size_t>(f.parameter)].path;
+    const auto& info = model_.program().parameters[static_cast<std::size_t>(f.parameter)];
+    const auto& path = info.path;
+    const auto shown = [&](double si) { return value_text(si, info.unit, info.difference); };
     if (!std::isfinite(f.start) || f.start < f.lower || f.start > f.upper)
-      problems.add("start_outside", path,
-                   fmt::format("start {} (SI) is outside the bounds {} ... {}", f.start, f.lower, f.upper),
-                   "move the start value or the bounds");
+      problems.add(
+          "start_outside", path,
+          fmt::format("the start, {}, is outside the bounds {} ... {}", shown(f.start), shown(f.lower), shown(f.upper)),
+          "move the start value or the bounds");
     if (f.log_scale && !(f.start > 0))
       problems.add("start_outside", path, "a logarithmic scale needs a start above zero",
                    "give a positive start value");

@@ -1,7 +1,9 @@
 // Values and shapes that do not go together are refused, each with a cure behind the semicolon.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <regex>
 #include <string>
 
 #include "tests/blocks/samples.h"
@@ -30,6 +32,13 @@ TEST_P(Refused, NamesWhatIsWrongAndTheCure) {
   const auto cure = text.find("; ");
   ASSERT_NE(cure, std::string::npos) << text;
   EXPECT_GT(text.size(), cure + 5) << "the cure is empty: " << text;
+  // A mark that the engine fills in, "{upper}" or "{0.1 in upper}", names a parameter of the block.
+  static const std::regex mark("\\{([^{}\":]* in )?([a-z_]+)\\}");
+  for (std::sregex_iterator i(text.begin(), text.end(), mark), end; i != end; ++i) {
+    const auto& declared = b.kernel.declaration.parameters;
+    EXPECT_TRUE(std::any_of(declared.begin(), declared.end(), [&](const auto& p) { return p.name == (*i)[2].str(); }))
+        << text;
+  }
 }
 INSTANTIATE_TEST_SUITE_P(
     Table, Refused,
