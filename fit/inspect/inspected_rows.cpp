@@ -24,6 +24,19 @@ std::span<const double> rows_of(const DataSet& data, const InspectedPart& part, 
   return std::span(found->second).subspan(part.first, part.last - part.first);
 }
 
+bool is_left_out(const DataSet& data, const InspectedPart& part, std::size_t row) {
+  const auto& left_out = data.recordings[static_cast<std::size_t>(part.recording)].left_out;
+  return !left_out.empty() && left_out[part.first + row];
+}
+
+std::vector<double> judged_of(const DataSet& data, const InspectedPart& part, const std::string& column) {
+  const auto rows = rows_of(data, part, column);
+  std::vector<double> judged;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!is_left_out(data, part, i)) judged.push_back(rows[i]);
+  return judged;
+}
+
 std::span<const double> times_of(const DataModel& model, const InspectedPart& part) {
   return std::span(model.recording(part.recording).t).subspan(part.first, part.last - part.first);
 }

@@ -25,6 +25,10 @@ std::span<const double> rows_of(const DataSet& data, const InspectedPart& part, 
 inline std::span<const double> rows_of(const DataModel& model, const InspectedPart& part, const std::string& column) {
   return rows_of(model.data(), part, column);
 }
+/// The data set leaves this row of the part out ("exclude", "limits"): it is simulated, and nothing is judged by it.
+bool is_left_out(const DataSet& data, const InspectedPart& part, std::size_t row);
+/// What stands in the rows that are judged.
+std::vector<double> judged_of(const DataSet& data, const InspectedPart& part, const std::string& column);
 /// [s]
 std::span<const double> times_of(const DataModel& model, const InspectedPart& part);
 

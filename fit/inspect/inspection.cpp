@@ -84,7 +84,11 @@ class Inspector {
         for (const auto& part : parts_) {
           const auto rows = rows_of(model_, part, name);
           if (rows.empty()) continue;
-          const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+          // An input acts in every row; of what is measured rows that are left out say nothing.
+          const auto shown =
+              c.role == "input" ? std::vector(rows.begin(), rows.end()) : judged_of(model_.data(), part, name);
+          if (shown.empty()) continue;
+          const auto [low, high] = std::minmax_element(shown.begin(), shown.end());
           c.lowest = std::min(c.lowest, *low);
           c.highest = std::max(c.highest, *high);
           rough.push_back(roughness(rows));

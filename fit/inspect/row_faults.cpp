@@ -36,6 +36,12 @@ class RowFaults {
                          [&](const InspectedColumn& c) { return c.name == name; });
   }
 
+  /// Those that the data set does not leave out: who left them out knows of them.
+  std::vector<std::size_t> judged_rows(const InspectedPart& part, std::vector<std::size_t> rows) const {
+    std::erase_if(rows, [&](std::size_t row) { return is_left_out(model_.data(), part, row); });
+    return rows;
+  }
+
   /// Per row: a drive moves there by more than 0.5 % of its range within two rows on each side.
   std::vector<bool> moving(const InspectedPart& part) const {
     std::vector<bool> rows(part.last - part.first, false);
@@ -77,15 +83,15 @@ class RowFaults {
       const auto rows = rows_of(model_, part, c.name);
       if (range_of(rows) <= 0) continue;
       ++judged;
-      const auto stuck = repeats_in_motion(rows, c.finest);
+      const auto stuck = judged_rows(part, repeats_in_motion(rows, c.finest));
       for (const auto row : stuck) ++repeated[row];
-      if (const auto leaps = leaps_in_motion(rows, c.finest); c.role == "input" && !leaps.empty())
+      if (const auto leaps = judged_rows(part, leaps_in_motion(rows, c.finest)); c.role == "input" && !leaps.empty())
         seen_.faults.push_back(fmt::format(
             "{}: {} leaps at {} by twice its pace and more, the first at {}: rows before them may be lost though the "
             "clock does not show it.",
             part.name, c.name, count_of(leaps.size(), "row"), when(part, leaps.front())));
       if (c.role == "output")
-        if (const long more = unexplained_repeats(rows, c.finest); more > 0)
+        if (const long more = unexplained_repeats(judged_of(model_.data(), part, c.name), c.finest); more > 0)
           seen_.faults.push_back(
               fmt::format("{}: at about {} ({}) {} repeats the value before exactly, more often than "
                           "its noise explains: those readings were not fetched anew.",
@@ -116,7 +122,7 @@ class RowFaults {
 
   void apart(const InspectedPart& part, const std::string& output) {
     const auto rows = rows_of(model_, part, output);
-    const auto lone = rows_apart(rows);
+    const auto lone = judged_rows(part, rows_apart(rows));
     if (lone.empty()) return;
     const std::size_t i = lone.front();
     seen_.spoiling.push_back(fmt::format(
@@ -131,7 +137,8 @@ class RowFaults {
   void ends(const InspectedPart& part, const std::string& output) {
     const auto rows = rows_of(model_, part, output);
     if (rows.empty()) return;
-    const auto moves = moving(part);
+    auto moves = moving(part);
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = moves[i] && !is_left_out(model_.data(), part, i);
     const auto say = [&](const Plateau& p, const char* which) {
       if (p.found)
         seen_.faults.push_back(fmt::format(

@@ -45,6 +45,27 @@ TEST_F(InspectVerb, InspectPrintsTheSameFactsAsJsonAndWritesNothing) {
   for (const auto& [name, fact] : result("out")["facts"].items()) EXPECT_EQ(facts[name], fact) << name;
 }
 
+TEST_F(InspectVerb, RowsThatTheDataSetLeavesOutAreNoFaultOfIt) {
+  // One reading of 1000 um among readings below 5 um, one second after the start.
+  std::string spoilt = lab::noisy_recording(1);
+  const auto row = spoilt.find("\n1.000,");
+  ASSERT_NE(row, spoilt.npos) << spoilt.substr(0, 200);
+  const auto end = spoilt.find('\n', row + 1), comma = spoilt.rfind(',', end);
+  spoilt.replace(comma + 1, end - comma - 1, "1000");
+  folder_.write("spoilt.csv", spoilt);
+  const auto inspected = [&](const std::string& more) {
+    folder_.write("set.json", R"({"format": 1, "title": "t", "recordings": [{"file": "spoilt.csv", "role": "train")" +
+                                  more + R"(}, {"file": "b.csv", "role": "validate"}]})");
+    const Outcome outcome = hysteron(folder_.path(), {"inspect", "set.json", "--diagram", "diagram.json", "-o", "out"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return result("out")["facts"]["inspection"];
+  };
+  const json whole = inspected(""), without = inspected(R"(, "exclude": [["0.99 s", "1.01 s"]])");
+  EXPECT_NE(whole["faults"].dump().find("far from all others"), std::string::npos) << whole["faults"];
+  EXPECT_TRUE(without["faults"].empty()) << without["faults"];
+  EXPECT_LT(without["columns"][1]["highest"].get<double>(), 10) << without["columns"];
+}
+
 TEST_F(InspectVerb, InspectNeedsNoDiagramAndSaysWhatItAssumed) {
   const Outcome outcome = hysteron(folder_.path(), {"inspect", "a.csv", "-o", "out"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
