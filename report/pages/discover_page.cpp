@@ -99,18 +99,27 @@ Table structures_table(const Discovery& found) {
 Section candidates_section(const Seen& seen) {
   Section section;
   section.title = "What was tried";
-  section.text.emplace_back(
-      "Each candidate was fitted, together with everything that was free, on the train recordings. The fall of chi2 is "
-      "counted "
-      "in units of the noise: chance alone reaches a few. The score is chi2 on train and validate plus p ln N; lower "
-      "is better.");
+  const auto& candidates = seen.found.candidates;
+  // A search by whole models knows their scores alone.
+  const bool with_falls = std::any_of(candidates.begin(), candidates.end(),
+                                      [](const auto& c) { return c.fall_train != 0 || c.fall_validate != 0; });
+  section.text.push_back(fmt::format(
+      "Each candidate was fitted, together with everything that was free, on the train recordings. {}The score is chi2 "
+      "on train and validate plus p ln N; lower is better.",
+      with_falls ? "The fall of chi2 is counted in units of the noise: chance alone reaches a few. " : ""));
   Table table;
-  table.columns = {"step",  "effect",          "law", "place", "p", "chi2 fall, train", "chi2 fall, validate",
-                   "score", "error, validate", "why"};
-  for (const auto& c : seen.found.candidates)
-    table.rows.push_back({std::to_string(c.step), c.effect, c.law, c.place, std::to_string(c.parameters),
-                          c.failed ? "-" : number_text(c.fall_train), c.failed ? "-" : number_text(c.fall_validate),
-                          c.failed ? "-" : number_text(c.score, 6), c.failed ? "-" : judged_error(c.error), c.reason});
+  table.columns = {"step", "effect", "law", "place", "p"};
+  if (with_falls) table.columns.insert(table.columns.end(), {"chi2 fall, train", "chi2 fall, validate"});
+  table.columns.insert(table.columns.end(), {"score", "error, validate", "why"});
+  for (const auto& c : candidates) {
+    std::vector<std::string> row{std::to_string(c.step), c.effect, c.law, c.place, std::to_string(c.parameters)};
+    if (with_falls)
+      for (const double fall : {c.fall_train, c.fall_validate}) row.push_back(c.failed ? "-" : number_text(fall));
+    row.push_back(c.failed ? "-" : std::abs(c.score) < 1e4 ? number_text(c.score, 5) : fmt::format("{:.0f}", c.score));
+    row.push_back(c.failed ? "-" : judged_error(c.error));
+    row.push_back(c.reason);
+    table.rows.push_back(std::move(row));
+  }
   section.tables.push_back(std::move(table));
   if (!seen.found.structures.empty()) section.tables.push_back(structures_table(seen.found));
   if (!seen.found.refused.empty()) {

@@ -14,7 +14,7 @@ namespace hysteron {
 
 std::string number_text(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "-" : (value > 0 ? "infinite" : "-infinite");
-  if (value == 0) return "0";
+  if (value == 0 || digits <= 0) return "0";
   // Whole numbers of six digits are read at a glance, 1.234e+04 is not.
   if (std::abs(value) >= 1000 && std::abs(value) < 999999.5 && std::abs(value) >= std::pow(10, digits))
     return fmt::format("{:.0f}", value);
@@ -26,7 +26,8 @@ int digits_within(double value, double low, double high) {
   const double half = (high - low) / 2;
   if (!(half > 0) || value == 0 || !std::isfinite(value) || !std::isfinite(half)) return 5;
   const auto decade = [](double v) { return static_cast<int>(std::floor(std::log10(std::abs(v)))); };
-  return std::clamp(decade(value) - decade(half) + 2, fewest, most);
+  const int digits = decade(value) - decade(half) + 2;
+  return digits < 0 ? 0 : std::clamp(digits, fewest, most);
 }
 
 std::string unit_text(const Unit& unit) { return unit.text.empty() || unit.text == "1" ? "" : unit.text; }

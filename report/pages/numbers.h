@@ -12,7 +12,7 @@ namespace hysteron {
 std::string number_text(double value, int digits = 4);
 
 /// So many digits that the half width of an interval about the value shows two: 0.4744 within 0.4730 .. 0.4758. 5 where
-/// the interval has no width.
+/// the interval has no width; 0 where the value is nothing beside it: 0.014 within -24 .. 24 is "0".
 int digits_within(double value, double low, double high);
 
 /// "0.2129 um" of a value in SI; a small value of a unit without a prefix gets one ("5.04 um" of 5.04e-6 m). Offsets of

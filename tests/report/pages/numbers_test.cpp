@@ -33,6 +33,7 @@ TEST(DigitsWithin, ShowTwoOfTheHalfWidth) {
   EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);  // 0.011102, within 0.000011
   EXPECT_EQ(digits_within(1234, 1000, 1500), 3);              // 1230, within 250
   EXPECT_EQ(digits_within(10, -1000, 1000), 2);               // and never fewer
+  EXPECT_EQ(number_text(0.014, digits_within(0.014, -24, 24)), "0");  // nothing, within 24
   EXPECT_EQ(digits_within(3, 3, 3), 5);                       // an interval without width says nothing
 }
 
