@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/lanes/lanes.h"
@@ -25,7 +26,7 @@ std::string rate_text(std::uint64_t n, std::uint64_t draws, bool independent) {
 
 std::string with_unit(double value, const Unit& unit) {
   const std::string text = unit.text;
-  return number_text(value, 6) + (text.empty() ? "" : " " + text);
+  return number_text(value) + (text.empty() ? "" : " " + text);
 }
 
 std::string condition_text(const Condition& c, const Study& study) {
@@ -54,10 +55,13 @@ class Page {
                     counts_.accepted, percent_text(share(counts_.accepted, counts_.draws)));
     sentences();
     document_.sections = {draws(), columns()};
-    if (!merged_.figures.empty()) {
+    const auto first =
+        merged_.figures.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(merged_.figures.size(), 2));
+    document_.answer = {merged_.figures.begin(), first};
+    if (first != merged_.figures.end()) {
       Section figures;
-      figures.title = "Figures";
-      figures.figures = merged_.figures;
+      figures.title = "Further figures";
+      figures.figures = {first, merged_.figures.end()};
       document_.sections.push_back(std::move(figures));
     }
     document_.facts = to_json(facts());
