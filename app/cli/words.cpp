@@ -17,35 +17,6 @@
 namespace hysteron {
 namespace {
 
-constexpr char overview[] =
-    "hysteron compares a model with recordings, names the physical effect that is missing,\n"
-    "adds it to the diagram, fits it, and shows the error falling on other recordings.";
-
-constexpr char first_steps[] =
-    "The way through:\n"
-    "  hysteron new --from lab.csv -o stage/                           a starter diagram from a recording\n"
-    "  hysteron compare stage/diagram.json --data stage/dataset.json   how far off is the model, and where\n"
-    "  hysteron discover stage/diagram.json --data stage/dataset.json  what is missing: found, added, fitted\n\n"
-    "\"hysteron VERB --help\" teaches each verb.\n"
-    "Exit codes: 0 done, 1 the answer to a yes-or-no question is no, 2 the input is wrong,\n"
-    "            3 the numerics failed, 130 interrupted.";
-
-/// What every verb takes; `values`: the only words that the option may have.
-struct CommonOption {
-  OptionSpec spec;
-  std::vector<std::string> values{};
-};
-
-const std::vector<CommonOption>& common_options() {
-  static const std::vector<CommonOption> list{
-      {{"--quiet", "", "print no more than the result"}},
-      {{"--json", "", "print the answer as one JSON object, for programs; failures, too (docs/programs.md)"}},
-      {{"--progress", "FORM", "tell how far it is as \"text\" (default, on a terminal) or \"json\", a line per event"},
-       {"text", "json"}},
-      {{"--errors", "FORM", "print failures as \"text\" (default) or \"json\""}, {"text", "json"}}};
-  return list;
-}
-
 /// A verb as the parser sees it, with the places where it stores what it reads.
 struct ParsedVerb {
   Verb verb;
@@ -134,9 +105,36 @@ void check_verb_name(const std::vector<std::string>& words, const std::deque<Par
 
 }  // namespace
 
+const std::vector<CommonOption>& common_options() {
+  static const std::vector<CommonOption> list{
+      {{"--quiet", "", "print no more than the result"}},
+      {{"--json", "", "print the answer as one JSON object, for programs; failures, too (docs/programs.md)"}},
+      {{"--progress", "FORM", "tell how far it is as \"text\" (default, on a terminal) or \"json\", a line per event"},
+       {"text", "json"}},
+      {{"--errors", "FORM", "print failures as \"text\" (default) or \"json\""}, {"text", "json"}}};
+  return list;
+}
+
+const char* overview_of_program() {
+  return "hysteron compares a model with recordings, names the physical effect that is missing,\n"
+         "adds it to the diagram, fits it, and shows the error falling on other recordings.";
+}
+
+const char* first_steps() {
+  return "The way through:\n"
+         "  hysteron new --from lab.csv -o stage/                           a starter diagram from a recording\n"
+         "  hysteron compare stage/diagram.json --data stage/dataset.json   how far off is the model, and where\n"
+         "  hysteron discover stage/diagram.json --data stage/dataset.json  what is missing: found, added, fitted\n\n"
+         "\"hysteron VERB --help\" teaches each verb.\n"
+         "Exit codes: 0 done, 1 the answer to a yes-or-no question is no, 2 the input is wrong,\n"
+         "            3 the numerics failed, 130 interrupted.";
+}
+
+const char* version_of_program() { return HYSTERON_VERSION; }
+
 AskedVerb read_words(const std::vector<std::string>& words) {
-  CLI::App app{overview, "hysteron"};
-  app.footer(first_steps);
+  CLI::App app{overview_of_program(), "hysteron"};
+  app.footer(first_steps());
   app.set_version_flag("--version", "hysteron " HYSTERON_VERSION);
   app.get_formatter()->column_width(26);
   app.require_subcommand(0, 1);

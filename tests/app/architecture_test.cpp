@@ -52,7 +52,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"report", {"page", "pages"}},
     {"draw", {""}},
     {"studio", {""}},
-    {"app", {"cli", "facts", "jobs", "cluster", "study", "verbs", ""}},
+    {"app", {"cli", "facts", "jobs", "cluster", "study", "manual", "verbs", ""}},
     {"interop", {"fmi", "c"}},
 };
 

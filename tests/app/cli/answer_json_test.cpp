@@ -68,7 +68,8 @@ const std::map<std::string, std::vector<Words>>& lines() {
       {"reproduce", {{"all", "--from", "jobs"}}},
       {"blocks", {{}, {"tank"}, {"play"}}},
       {"effects", {{}, {"creep", "-o", "creep.svg"}}},
-      {"schema", {{}}}};
+      {"schema", {{}}},
+      {"manual", {{"compare"}, {"-o", "share"}}}};
   return all;
 }
 
