@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "tests/app/hysteron_process.h"
 #include "tests/app/schema_check.h"
+#include "tests/app/shown.h"
 #include "tests/app/source_files.h"
 
 namespace hysteron {
@@ -20,61 +18,16 @@ namespace {
 
 using process::Folder;
 using process::Outcome;
+using shown::do_as_shown;
+using shown::fences_of;
 using sources::text_of;
-
-struct Fence {
-  std::string language;
-  std::string text;
-};
-
-std::vector<Fence> fences_of(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<Fence> fences;
-  bool inside = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (inside) fences.push_back({line.substr(3), ""});
-    } else if (inside) {
-      fences.back().text += line + "\n";
-    }
-  }
-  return fences;
-}
-
-/// What the README shows of an output: its lines without the "..." that stand for more.
-std::vector<std::string> shown_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty() && line.find("...") == std::string::npos) lines.push_back(line);
-  return lines;
-}
 
 TEST(Readme, ItsDiagramRunsAndItsCommandsPrintWhatItShows) {
   const std::string root = HYSTERON_SOURCE_DIR;
   const Folder folder;
   std::filesystem::create_directory_symlink(root + "/diagrams", folder.path() + "/diagrams");
-  std::string output;
-  int commands = 0, diagrams = 0;
-  for (const auto& fence : fences_of(root + "/README.md")) {
-    if (fence.language.starts_with("json")) {
-      folder.write(fence.language == "json" ? "first.json" : fence.language.substr(5), fence.text);
-      ++diagrams;
-    } else if (fence.language == "sh") {
-      const Outcome outcome = process::shell(folder.path(), "set -e\n" + fence.text);
-      ASSERT_EQ(outcome.code, 0) << fence.text << outcome.err;
-      output = outcome.out;
-      ++commands;
-    } else if (fence.language == "text") {
-      for (const auto& line : shown_lines(fence.text))
-        EXPECT_NE(output.find(line), std::string::npos) << "README shows\n"
-                                                        << line << "\nbut the program printed\n"
-                                                        << output;
-    }
-  }
-  EXPECT_EQ(diagrams, 2);  // a piezo and a motor
-  EXPECT_GE(commands, 5);
+  EXPECT_GE(shown::do_as_shown("README.md", folder, "first.json"), 5);
+  EXPECT_TRUE(folder.has("first.json") && folder.has("axis.json")) << "a piezo and a motor";
 }
 
 TEST(Docs, TheDiagramThatTheyExplainRunsAndTheDataSetIsValid) {
@@ -92,27 +45,9 @@ TEST(Docs, TheDiagramThatTheyExplainRunsAndTheDataSetIsValid) {
   EXPECT_EQ(schema::refuses("dataset", first_json(docs + "datasets.md")), "");
 }
 
-/// Does what a page shows: a block "json NAME" is the file NAME; each block of commands runs behind all that stands
-/// above it, and prints what the block of text below it shows.
-void do_as_shown(const std::string& page, const Folder& folder) {
-  std::string output;
-  for (const auto& fence : fences_of(std::string(HYSTERON_SOURCE_DIR) + "/docs/" + page)) {
-    if (fence.language.starts_with("json ")) {
-      folder.write(fence.language.substr(5), fence.text);
-    } else if (fence.language == "sh") {
-      const Outcome outcome = process::shell(folder.path(), "set -e\n" + fence.text);
-      ASSERT_EQ(outcome.code, 0) << fence.text << outcome.err;
-      output = outcome.out;
-    } else if (fence.language == "text") {
-      for (const auto& line : shown_lines(fence.text))
-        EXPECT_NE(output.find(line), std::string::npos) << line << "\nis not in\n" << output;
-    }
-  }
-}
-
 TEST(Docs, ACompensatorOfOnesOwnStageLowersTheTrackingErrorAsTheySay) {
   const Folder folder;
-  do_as_shown("compensate.md", folder);
+  do_as_shown("docs/compensate.md", folder);
   const auto error = [&](const std::string& run) {
     const auto result = nlohmann::json::parse(folder.read("error_" + run + "/result.json"));
     const auto& pair = result.at("facts").at("signals").at(0);
@@ -133,7 +68,7 @@ TEST(Docs, ACompensatorOfOnesOwnStageLowersTheTrackingErrorAsTheySay) {
 
 TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
   const Folder folder;
-  do_as_shown("fit.md", folder);
+  do_as_shown("docs/fit.md", folder);
   EXPECT_EQ(schema::refuses("job", folder.read("job.json")), "");
   EXPECT_EQ(schema::refuses("result", folder.read("job.fit/result.json")), "");
   const auto facts = nlohmann::json::parse(folder.read("job.fit/result.json"))["facts"];
