@@ -11,13 +11,16 @@ set(copyright ${PROJECT_SOURCE_DIR}/cmake/debian/copyright)
 if(NOT CMAKE_CROSSCOMPILING)
   add_custom_command(OUTPUT ${share}/written
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${share}
-    COMMAND hysteron manual --quiet -o ${share}
+    COMMAND sh -c "\"$<TARGET_FILE:hysteron>\" manual -o \"${share}\" > /dev/null"
     COMMAND find ${share}/man -name "*.1" -exec gzip -9n {} +
     COMMAND ${CMAKE_COMMAND} -E touch ${share}/written
     DEPENDS hysteron COMMENT "Manual pages and shell completion" VERBATIM)
   add_custom_target(manual_pages ALL DEPENDS ${share}/written)
   # Where only the program was built there are none.
   install(DIRECTORY ${share}/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program OPTIONAL PATTERN written EXCLUDE)
+  # Where Debian's zsh looks; its own folder is that of /usr/local.
+  install(FILES ${share}/zsh/site-functions/_hysteron DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions
+          COMPONENT debian OPTIONAL EXCLUDE_FROM_ALL)
   install(CODE "if(NOT EXISTS ${share}/written)
     message(STATUS \"without manual pages and completion: the target manual_pages was not built\")
   endif()" COMPONENT program)
@@ -32,7 +35,9 @@ file(COPY ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${doc})
 execute_process(COMMAND gzip -9nfk ${doc}/changelog.Debian)
 execute_process(COMMAND gzip -9nfc ${doc}/CHANGELOG.md OUTPUT_FILE ${doc}/changelog.gz)
 install(FILES ${doc}/changelog.gz ${copyright} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(FILES ${doc}/changelog.Debian.gz DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian)
+install(FILES ${doc}/changelog.Debian.gz DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian EXCLUDE_FROM_ALL)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+        RENAME hysteron COMPONENT debian EXCLUDE_FROM_ALL)
 
 # Libraries that are loaded when the first file of their format is read: the package that owns them.
 set(loaded)
