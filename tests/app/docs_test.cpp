@@ -71,12 +71,14 @@ std::string unknown_option(const std::string& text) {
     }
     return all;
   }();
-  static const std::regex call("\\bhysteron ([a-z]+)([^`\\n]*)"), option("(^|[\\s\\[])(--[a-z][a-z0-9-]*)");
+  static const std::regex call("\\bhysteron ([a-z]+)([^`\\n]*)"), option("(^|[\\s\\[])(--[a-z][a-z0-9-]*)"),
+      quoted("\"[^\"]*\"");
   for (std::sregex_iterator i(text.begin(), text.end(), call), end; i != end; ++i) {
     const auto verb = verbs.find((*i)[1].str());
     if (verb == verbs.end()) continue;
     const std::string rest = (*i)[2].str();
-    const std::string own = rest.substr(0, rest.find("hysteron "));
+    // What stands in quotes is the value of an option: --slurm-options="--time=1:00:00".
+    const std::string own = std::regex_replace(rest.substr(0, rest.find("hysteron ")), quoted, "");
     for (std::sregex_iterator j(own.begin(), own.end(), option); j != end; ++j)
       if (!verb->second.contains((*j)[2].str())) return "hysteron " + verb->first + " " + (*j)[2].str();
   }
