@@ -19,12 +19,12 @@ using test::node;
 
 /// What is said of a block on an input in this unit: what is wrong, and the cure.
 std::string said(const std::string& input_unit, const std::string& type,
-                 std::initializer_list<std::pair<const char*, Value>> parameters) {
+                 std::initializer_list<std::pair<const char*, Value>> parameters, const std::string& output = "b") {
   static const Registry all = all_blocks();
   Diagram d;
   d.inputs["u"] = {input_unit, ""};
   d.blocks["b"] = node(type, {"u"}, parameters);
-  d.outputs["y"] = "b";
+  d.outputs["y"] = output;
   try {
     compile(d, all);
   } catch (const Error& error) {
@@ -36,7 +36,7 @@ std::string said(const std::string& input_unit, const std::string& type,
 TEST(Refusal, TellsNumbersInTheUnitsInWhichTheyWereWritten) {
   EXPECT_EQ(
       said("N", "mass_with_friction",
-           {{"mass", "1 kg"}, {"damping", "1 N s/m"}, {"coulomb", "5 mN"}, {"breakaway", "2 mN"}}),
+           {{"mass", "1 kg"}, {"damping", "1 N s/m"}, {"coulomb", "5 mN"}, {"breakaway", "2 mN"}}, "b.position"),
       "mass_with_friction \"b\": breakaway, 2 mN, is below coulomb, 5 mN; give at least coulomb, or none | correct "
       "the parameter values");
   EXPECT_EQ(said("V", "saturation", {{"lower", "10 V"}, {"upper", "500 mV"}}),
