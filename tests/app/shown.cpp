@@ -85,7 +85,9 @@ std::vector<std::string> words_of(const std::string& command) {
     word.clear();
     has_word = false;
   };
-  for (const char c : command) {
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (quote == 0 && command.compare(i, 3, "   ") == 0) break;  // a remark beside the command
     if (quote != 0) {
       if (c == quote)
         quote = 0;

@@ -29,8 +29,8 @@ int do_as_shown(const std::string& page, const process::Folder& folder, const st
 /// A line that ends with a backslash goes on in the next one.
 std::vector<std::string> commands_of(const std::string& page);
 
-/// The words of such a line as a shell would make them, up to a comment, a pipe or what else ends a command; without
-/// "hysteron" itself.
+/// The words of such a line as a shell would make them, up to a comment, a pipe or what else ends a command, or three
+/// blanks; without "hysteron" itself.
 std::vector<std::string> words_of(const std::string& command);
 
 }  // namespace hysteron::shown
