@@ -21,6 +21,10 @@ std::string diagram_svg(const Diagram& diagram, const Program& program, const Re
   draw::Sheet sheet = draw::sheet_of(diagram, program, registry, options.depth);
   for (const auto& path : options.added) set_off(sheet, path);
   draw::lay_out(sheet);
+  if (!options.places.empty()) {
+    draw::move_items(sheet, options.places);
+    draw::shift_to_corner(sheet);
+  }
   return draw::svg_text(sheet, diagram.title);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/moved.h"
 #include "engine/block/kernel.h"
 #include "engine/program/program.h"
 
@@ -14,6 +15,7 @@ struct DrawOptions {
   int depth = 0;  ///< how many levels of nested diagrams are opened; 0 = each is one box
   /// Paths of blocks that are new: set off in colour, with the word above them. One inside a closed box marks the box.
   std::vector<std::string> added{};
+  draw::Places places{};  ///< where the user put blocks of the diagram itself
 };
 
 /// The picture as an SVG document that needs no other file. The same diagram gives the same text.

@@ -380,19 +380,6 @@ class Router {
     wire.path = simplified(path);
   }
 
-  static std::vector<Point> simplified(const std::vector<Point>& path) {
-    std::vector<Point> result;
-    for (const Point& p : path) {
-      if (!result.empty() && result.back() == p) continue;
-      if (result.size() >= 2) {
-        const Point &a = result[result.size() - 2], &b = result.back();
-        if ((a.x == b.x && b.x == p.x) || (a.y == b.y && b.y == p.y)) result.pop_back();
-      }
-      result.push_back(p);
-    }
-    return result;
-  }
-
   /// Moves everything to the upper left corner of the sheet.
   void fit() {
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
@@ -420,6 +407,19 @@ class Router {
 };
 
 }  // namespace
+
+std::vector<Point> simplified(const std::vector<Point>& path) {
+  std::vector<Point> result;
+  for (const Point& p : path) {
+    if (!result.empty() && result.back() == p) continue;
+    if (result.size() >= 2) {
+      const Point &a = result[result.size() - 2], &b = result.back();
+      if ((a.x == b.x && b.x == p.x) || (a.y == b.y && b.y == p.y)) result.pop_back();
+    }
+    result.push_back(p);
+  }
+  return result;
+}
 
 void route(Sheet& sheet, const std::vector<Net>& nets, const std::vector<std::vector<Cell>>& columns) {
   Router(sheet, nets, columns).run();

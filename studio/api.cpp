@@ -1,11 +1,13 @@
 #include "studio/api.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "engine/diagram/error.h"
+#include "io/diagram/layout_file.h"
 #include "io/files/atomic_file.h"
 #include "io/json/json_edit.h"
 #include "io/json/problems_json.h"
@@ -20,14 +22,18 @@ namespace {
 using nlohmann::json;
 using Json = nlohmann::ordered_json;
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int conflict = 409, not_found = 404, bad_request = 400;
+constexpr auto look_every = std::chrono::milliseconds(60);  // for what is told as an event
+constexpr auto heartbeat = std::chrono::seconds(10);
 
 HttpReply reply_of(const Json& body, int status = 200) {
-  return {status, "application/json", body.dump(-1, ' ', false, Json::error_handler_t::replace), {}};
+  return {status, "application/json", body.dump(-1, ' ', false, Json::error_handler_t::replace), {}, {}};
 }
 
 HttpReply failed(const std::vector<Problem>& problems, int status = bad_request) {
-  return {status, "application/json", problems_json(problems, 2), {}};
+  return {status, "application/json", problems_json(problems, 2), {}, {}};
 }
 
 json asked_of(const HttpRequest& request) {
@@ -54,6 +60,28 @@ JsonEdit edit_of(const json& asked) {
           asked.value("after", "")};
 }
 
+void write_places(const std::string& diagram_file, const BlockPlaces& places) {
+  std::error_code error;
+  if (places.empty())
+    std::filesystem::remove(layout_file_of(diagram_file), error);
+  else
+    write_file(layout_file_of(diagram_file), layout_text(places));
+}
+
+/// A block that gets another name stays where it was put; the old place stays as well, for an undo.
+void follow_names(const std::string& diagram_file, const std::vector<JsonEdit>& edits) {
+  const std::string blocks = "/blocks/";
+  BlockPlaces places;
+  for (const auto& edit : edits) {
+    if (edit.kind != JsonEdit::Kind::rename || !edit.pointer.starts_with(blocks)) continue;
+    if (places.empty()) places = read_layout(diagram_file);
+    const auto before = places.find(edit.pointer.substr(blocks.size()));
+    if (before == places.end()) continue;
+    places[edit.key] = before->second;
+    write_places(diagram_file, places);
+  }
+}
+
 double number_of(const HttpRequest& request, const char* name) {
   return std::strtod(request.asked(name).c_str(), nullptr);
 }
@@ -61,7 +89,11 @@ double number_of(const HttpRequest& request, const char* name) {
 }  // namespace
 
 Api::Api(const OpenFolder& folder, ApiSettings settings)
-    : folder_(folder), settings_(std::move(settings)), jobs_(folder, settings_.jobs) {
+    : folder_(folder),
+      settings_(std::move(settings)),
+      jobs_(folder, settings_.jobs),
+      import_(folder, settings_.verb_new, settings_.own),
+      live_(folder, settings_.jobs.verbs, settings_.jobs.allowed, settings_.own) {
   const auto add = [this](const char* what, HttpReply (Api::*member)(const HttpRequest&)) {
     handlers_[what] = [this, member](const HttpRequest& request) { return (this->*member)(request); };
   };
@@ -80,6 +112,13 @@ Api::Api(const OpenFolder& folder, ApiSettings settings)
   add("GET /api/head", &Api::head);
   add("GET /api/trace", &Api::trace);
   add("POST /api/ticket", &Api::ticket);
+  add("POST /api/layout", &Api::layout);
+  add("GET /api/events", &Api::events);
+  add("POST /api/upload", &Api::upload);
+  add("POST /api/import/preview", &Api::import_preview);
+  add("POST /api/import", &Api::import_start);
+  add("POST /api/import/join", &Api::import_join);
+  add("POST /api/live", &Api::live);
   handlers_["GET /api/units"] = [](const HttpRequest& request) {
     return reply_of(same_in_other_units(request.asked("of")));
   };
@@ -128,6 +167,44 @@ HttpReply Api::state(const HttpRequest& request) {
   return reply_of({{"files", files}, {"jobs", jobs_.list()}});
 }
 
+HttpReply Api::events(const HttpRequest& request) {
+  HttpReply reply{200, "application/x-ndjson", "", {}, {}};
+  state(request);  // what is wrong with the request is told at once
+  reply.stream = [this, request](const HttpSend& send) {
+    std::string told;
+    for (auto last = Clock::now(); send("");) {
+      std::string now = answer({"GET", "/api/state", request.query}).body;
+      const bool is_new = now != told, is_quiet = Clock::now() - last > heartbeat;
+      if (is_new) told = std::move(now);
+      if (is_new || is_quiet) last = Clock::now();
+      if (is_new && !send(told + "\n")) return;
+      if (!is_new && is_quiet && !send("\n")) return;
+      std::this_thread::sleep_for(look_every);
+    }
+  };
+  return reply;
+}
+
+HttpReply Api::upload(const HttpRequest& request) {
+  return reply_of({{"file", import_.keep(request.asked("name"), request.body)}});
+}
+
+HttpReply Api::import_preview(const HttpRequest& request) { return reply_of(import_.preview(asked_of(request))); }
+
+HttpReply Api::import_start(const HttpRequest& request) {
+  const std::lock_guard lock(writing_);
+  return reply_of(import_.start(asked_of(request)));
+}
+
+HttpReply Api::import_join(const HttpRequest& request) {
+  const std::lock_guard lock(writing_);
+  return reply_of(import_.join(asked_of(request)));
+}
+
+HttpReply Api::live(const HttpRequest& request) {
+  return {200, "application/octet-stream", live_.answer(asked_of(request)), {}, {}};
+}
+
 HttpReply Api::viewed(const std::string& name, int depth) {
   return reply_of(view_of(folder_.file(name), *settings_.registry, {settings_.jobs.allowed, depth}));
 }
@@ -145,7 +222,7 @@ HttpReply Api::fits(const HttpRequest& request) {
 
 HttpReply Api::read(const HttpRequest& request) {
   const std::string file = folder_.file(request.asked("path"));
-  return {200, file.ends_with(".json") ? "application/json" : "text/plain; charset=utf-8", read_file(file), {}};
+  return {200, file.ends_with(".json") ? "application/json" : "text/plain; charset=utf-8", read_file(file), {}, {}};
 }
 
 HttpReply Api::write(const HttpRequest& request) {
@@ -168,6 +245,22 @@ HttpReply Api::edit(const HttpRequest& request) {
   std::vector<JsonEdit> edits;
   for (const auto& one : asked.at("edits")) edits.push_back(edit_of(one));
   write_file(file, edited_json(text, edits));
+  follow_names(file, edits);
+  return viewed(name, asked.value("depth", 0));
+}
+
+HttpReply Api::layout(const HttpRequest& request) {
+  const json asked = asked_of(request);
+  const std::string name = asked.value("path", ""), file = folder_.file(name);
+  const std::lock_guard lock(writing_);
+  BlockPlaces places = read_layout(file);
+  for (const auto& [block, place] : asked.at("moves").items()) {
+    if (place.is_null())
+      places.erase(block);
+    else
+      places[block] = place.get<std::array<int, 2>>();
+  }
+  write_places(file, places);
   return viewed(name, asked.value("depth", 0));
 }
 
@@ -191,7 +284,8 @@ HttpReply Api::trace(const HttpRequest& request) {
   for (auto i = first; i != last; ++i) columns.push_back(i->second);
   const TraceStretch wanted{number_of(request, "from"), number_of(request, "to"),
                             static_cast<std::size_t>(std::max(1.0, number_of(request, "pixels")))};
-  return {200, "application/octet-stream", traces_.stretch(folder_.file(request.asked("path")), columns, wanted), {}};
+  return {
+      200, "application/octet-stream", traces_.stretch(folder_.file(request.asked("path")), columns, wanted), {}, {}};
 }
 
 HttpReply Api::ticket(const HttpRequest& request) {
@@ -218,8 +312,11 @@ HttpReply Api::opened(const HttpRequest& request) {
   }
   try {
     // What a file of the user's says must not act in the name of the studio.
-    return {
-        200, type_of(file), read_file(file), {{"Content-Security-Policy", "sandbox allow-scripts allow-downloads"}}};
+    return {200,
+            type_of(file),
+            read_file(file),
+            {{"Content-Security-Policy", "sandbox allow-scripts allow-downloads"}},
+            {}};
   } catch (const Error& error) {
     return failed(error.problems, not_found);
   }

@@ -11,7 +11,9 @@
 #include "engine/block/kernel.h"
 #include "studio/folder.h"
 #include "studio/http_message.h"
+#include "studio/import.h"
 #include "studio/jobs.h"
+#include "studio/live.h"
 #include "studio/trace_file.h"
 
 namespace hysteron::studio {
@@ -21,6 +23,8 @@ struct ApiSettings {
   std::string blocks;  ///< {"blocks": [...]} of the verb blocks
   std::string version;
   JobSettings jobs;
+  JobVerb verb_new{};  ///< how recordings are read
+  OwnVerbs own{};
 };
 
 class Api {
@@ -49,12 +53,21 @@ class Api {
   HttpReply head(const HttpRequest& request);
   HttpReply trace(const HttpRequest& request);
   HttpReply ticket(const HttpRequest& request);
+  HttpReply layout(const HttpRequest& request);
+  HttpReply events(const HttpRequest& request);
+  HttpReply upload(const HttpRequest& request);
+  HttpReply import_preview(const HttpRequest& request);
+  HttpReply import_start(const HttpRequest& request);
+  HttpReply import_join(const HttpRequest& request);
+  HttpReply live(const HttpRequest& request);
   HttpReply viewed(const std::string& name, int depth);
 
   const OpenFolder& folder_;
   ApiSettings settings_;
   Jobs jobs_;
   TraceFiles traces_;
+  Import import_;
+  Live live_;
   std::map<std::string, Handler> handlers_;  ///< "GET /api/hello"
   std::mutex writing_;
   std::mutex tickets_mutex_;

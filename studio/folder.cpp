@@ -1,7 +1,10 @@
 #include "studio/folder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <map>
+#include <mutex>
 
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
@@ -86,10 +89,42 @@ std::vector<ListedFile> OpenFolder::list() const {
   return files;
 }
 
+namespace {
+
+/// What tells that a file is still the one that was read.
+struct Seen {
+  fs::file_time_type changed{};
+  std::uintmax_t size = 0;
+  std::string digest{};
+};
+
+/// Files that nobody has touched for so long are not read again: within it, two changes may bear one time.
+constexpr auto settled = std::chrono::seconds(2);
+constexpr std::size_t most_seen = 4096;
+
+}  // namespace
+
 std::string digest_of(const std::string& file) {
+  static std::mutex mutex;
+  static std::map<std::string, Seen> seen;
+  std::error_code error;
+  const auto changed = fs::last_write_time(file, error);
+  const std::uintmax_t size = error ? 0 : fs::file_size(file, error);
+  if (error) return "";
+  {
+    const std::lock_guard lock(mutex);
+    const auto known = seen.find(file);
+    if (known != seen.end() && known->second.changed == changed && known->second.size == size)
+      return known->second.digest;
+  }
   try {
     Digest digest;
     digest.add(read_file(file));
+    if (fs::file_time_type::clock::now() - changed > settled) {
+      const std::lock_guard lock(mutex);
+      if (seen.size() >= most_seen) seen.clear();
+      seen[file] = {changed, size, digest.text()};
+    }
     return digest.text();
   } catch (const Error&) {
     return "";

@@ -2,8 +2,10 @@
 // source (http_server.cpp).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,11 +25,16 @@ struct HttpRequest {
   }
 };
 
+/// Sends one more piece of an answer that goes on; with "" only looks. False: nobody reads any more, or the server
+/// ends.
+using HttpSend = std::function<bool(std::string_view piece)>;
+
 struct HttpReply {
   int status = 200;
   std::string type = "application/json";
   std::string body{};
   std::vector<std::pair<std::string, std::string>> headers{};
+  std::function<void(const HttpSend&)> stream{};  ///< in place of `body`, where there is one; returns when it is over
 };
 
 }  // namespace hysteron::studio

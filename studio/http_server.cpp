@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <chrono>
@@ -97,6 +98,10 @@ struct HttpServer::Parts {
       http::response<http::string_body> response{static_cast<http::status>(reply.status), parser.get().version()};
       for (const auto& [name, value] : reply.headers) response.set(name, value);
       response.set(http::field::content_type, reply.type);
+      if (reply.stream) {
+        stream(connection, response.base(), reply.stream);
+        break;
+      }
       response.keep_alive(parser.get().keep_alive());
       response.body() = std::move(reply.body);
       response.prepare_payload();
@@ -105,6 +110,24 @@ struct HttpServer::Parts {
     }
     connection.socket.shutdown(Tcp::socket::shutdown_both, error);
     connection.has_ended = true;
+  }
+
+  /// An answer that goes on: in pieces, until it is over, or nobody reads it any more.
+  void stream(Connection& connection, const http::response_header<>& header,
+              const std::function<void(const HttpSend&)>& pieces) {
+    boost::system::error_code error;
+    http::response<http::empty_body> response{header};
+    response.keep_alive(false);
+    response.chunked(true);
+    http::response_serializer<http::empty_body> serializer{response};
+    http::write_header(connection.socket, serializer, error);
+    pieces([&](std::string_view piece) {
+      if (!error && !piece.empty())
+        asio::write(connection.socket, http::make_chunk(asio::buffer(piece.data(), piece.size())), error);
+      pollfd there{connection.socket.native_handle(), POLLRDHUP, 0};
+      return !error && !ends && poll(&there, 1, 0) == 0;
+    });
+    if (!error) asio::write(connection.socket, http::make_chunk_last(), error);
   }
 
   /// Those that have ended go; those that wait too long, or all, are cut.

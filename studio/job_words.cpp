@@ -12,7 +12,7 @@ using nlohmann::json;
 
 /// Those that say where results go and in which form: the studio gives them. All others are the user's.
 const std::vector<std::string> own_options{"-o",      "--json",  "--errors", "--progress", "--quiet",
-                                           "--allow", "--write", "--slurm",  "--effects"};
+                                           "--allow", "--write", "--slurm",  "--effects",  "--from"};
 
 const JobVerb& verb_of(const std::string& name, const std::vector<JobVerb>& verbs) {
   std::vector<std::string> names;
@@ -30,12 +30,13 @@ std::string text_of(const json& value, const std::string& option) {
 }
 
 /// A name of a file that no option could be taken for.
-std::string file_word(const std::string& name, const OpenFolder& folder) {
-  return "./" + folder.name_of(folder.file(name));
+std::string file_word(const std::string& name, const OpenFolder& folder, WordPaths paths) {
+  const std::string file = folder.file(name);
+  return paths == WordPaths::absolute ? file : "./" + folder.name_of(file);
 }
 
 void add_option(std::vector<std::string>& words, const JobVerb::Option& option, const json& value,
-                const OpenFolder& folder) {
+                const OpenFolder& folder, WordPaths paths) {
   if (option.is_flag) {
     if (value.is_boolean() && value.get<bool>()) words.push_back(option.name);
     return;
@@ -45,17 +46,15 @@ void add_option(std::vector<std::string>& words, const JobVerb::Option& option, 
     fail("bad_command_line", option.name, "it is given several times", "give it once");
   for (const auto& one : values) {
     const std::string text = text_of(one, option.name);
-    words.push_back(option.name + "=" + (option.name == "--data" ? file_word(text, folder) : text));
+    words.push_back(option.name + "=" + (option.name == "--data" ? file_word(text, folder, paths) : text));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> job_words(const json& asked, const std::vector<JobVerb>& verbs, const OpenFolder& folder) {
-  const JobVerb& verb = verb_of(asked.value("verb", ""), verbs);
-  std::vector<std::string> words{verb.name, file_word(asked.value("diagram", ""), folder)};
-  const json options = asked.value("options", json::object());
-  std::vector<std::string> known;
+std::vector<std::string> option_words(const json& options, const JobVerb& verb, const OpenFolder& folder,
+                                      WordPaths paths) {
+  std::vector<std::string> words, known;
   for (const auto& option : verb.options)
     if (std::find(own_options.begin(), own_options.end(), option.name) == own_options.end())
       known.push_back(option.name);
@@ -63,8 +62,18 @@ std::vector<std::string> job_words(const json& asked, const std::vector<JobVerb>
     if (std::find(known.begin(), known.end(), name) == known.end())
       fail("bad_command_line", name, "hysteron " + verb.name + " has no such option here", did_you_mean(name, known));
     for (const auto& option : verb.options)
-      if (option.name == name) add_option(words, option, value, folder);
+      if (option.name == name) add_option(words, option, value, folder, paths);
   }
+  return words;
+}
+
+std::vector<std::string> job_words(const json& asked, const std::vector<JobVerb>& verbs, const OpenFolder& folder,
+                                   WordPaths paths) {
+  const JobVerb& verb = verb_of(asked.value("verb", ""), verbs);
+  std::vector<std::string> words{verb.name, file_word(asked.value("diagram", ""), folder, paths)};
+  if (asked.contains("other")) words.push_back(file_word(asked.value("other", ""), folder, paths));
+  const auto others = option_words(asked.value("options", json::object()), verb, folder, paths);
+  words.insert(words.end(), others.begin(), others.end());
   return words;
 }
 

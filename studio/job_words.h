@@ -19,10 +19,18 @@ struct JobVerb {
   std::vector<Option> options;  ///< with their dashes
 };
 
+/// How the words name files of the folder: for a process that works in it, or for this one.
+enum class WordPaths { from_folder, absolute };
+
 /// The words behind the program's name for {"verb", "diagram", "options": {"--data": "lab.csv", "--set": ["a=1"],
-/// "--flag": true}}; files are names in the folder. Throws Error "unknown_verb", "bad_command_line" for options that
-/// the verb does not have or that the studio gives itself, "outside_folder".
+/// "--flag": true}}; files are names in the folder, "other" a second one where the verb takes two. Throws Error
+/// "unknown_verb", "bad_command_line" for options that the verb does not have or that the studio gives itself,
+/// "outside_folder".
 std::vector<std::string> job_words(const nlohmann::json& asked, const std::vector<JobVerb>& verbs,
-                                   const OpenFolder& folder);
+                                   const OpenFolder& folder, WordPaths paths = WordPaths::from_folder);
+
+/// Those for {"--data": "lab.csv", ...} alone, of a verb. Throws as job_words().
+std::vector<std::string> option_words(const nlohmann::json& options, const JobVerb& verb, const OpenFolder& folder,
+                                      WordPaths paths);
 
 }  // namespace hysteron::studio

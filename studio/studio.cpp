@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 HttpReply page_reply(const std::string& path) {
   const std::string wanted = path == "/" ? "/index.html" : path;
   for (const auto& file : page_files())
-    if (file.path == wanted) return {200, std::string(file.type), std::string(file.content), {}};
-  return {404, "text/plain; charset=utf-8", "no such page\n", {}};
+    if (file.path == wanted) return {200, std::string(file.type), std::string(file.content), {}, {}};
+  return {404, "text/plain; charset=utf-8", "no such page\n", {}, {}};
 }
 
 HttpReply answered(const HttpRequest& request, Api& api, const Guard& guard) {

@@ -30,10 +30,15 @@ struct TraceFiles::Table {
       for (const auto& c : binary->columns()) names.push_back(c.name), units.push_back(c.unit.text);
       rows = binary->rows();
     } else {
-      text = read_table(file);
-      for (const auto& c : text.columns) names.push_back(c.name), units.push_back(c.unit.text);
-      rows = text.rows();
+      take(read_table(file));
     }
+  }
+  explicit Table(CsvTable table) { take(std::move(table)); }
+
+  void take(CsvTable table) {
+    text = std::move(table);
+    for (const auto& c : text.columns) names.push_back(c.name), units.push_back(c.unit.text);
+    rows = text.rows();
   }
 
   double at(std::size_t column, std::uint64_t row) {
@@ -66,8 +71,10 @@ struct TraceFiles::Table {
     return envelope;
   }
 
+  std::string stretch(const std::vector<std::string>& columns, const TraceStretch& wanted);
+
   std::mutex mutex;
-  std::filesystem::file_time_type changed;
+  std::filesystem::file_time_type changed{};
   std::optional<BinaryTable> binary{};
   CsvTable text{};
   std::vector<std::string> names{}, units{};
@@ -108,16 +115,13 @@ nlohmann::ordered_json TraceFiles::head(const std::string& file) {
   return head;
 }
 
-std::string TraceFiles::stretch(const std::string& file, const std::vector<std::string>& columns,
-                                const TraceStretch& wanted) {
-  const auto table = this->table(file);
-  const std::lock_guard lock(table->mutex);
-  std::uint64_t first = 0, last = table->rows;
+std::string TraceFiles::Table::stretch(const std::vector<std::string>& columns, const TraceStretch& wanted) {
+  std::uint64_t first = 0, last = rows;
   if (wanted.from < wanted.to) {  // and a row beyond either end, so that the line goes on to the border
-    first = table->row_of(wanted.from, false);
-    last = table->row_of(wanted.to, true);
+    first = row_of(wanted.from, false);
+    last = row_of(wanted.to, true);
     if (first > 0) --first;
-    if (last < table->rows) ++last;
+    if (last < rows) ++last;
   }
   const std::size_t most = std::clamp<std::size_t>(wanted.pixels, 1, most_pixels);
   std::string bytes;
@@ -125,18 +129,30 @@ std::string TraceFiles::stretch(const std::string& file, const std::vector<std::
     append(bytes, {0.0});
     return bytes;
   }
-  const Envelope times = table->envelope(0, first, last, most);
+  const Envelope times = envelope(0, first, last, most);
   append(bytes, {static_cast<double>(times.low.size())});
   append(bytes, times.low);
   for (const auto& name : columns) {
-    const auto found = std::find(table->names.begin(), table->names.end(), name);
-    if (found == table->names.end())
-      fail("unknown_column", name, "there is no column \"" + name + "\"", did_you_mean(name, table->names));
-    const Envelope values = table->envelope(static_cast<std::size_t>(found - table->names.begin()), first, last, most);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      fail("unknown_column", name, "there is no column \"" + name + "\"", did_you_mean(name, names));
+    const Envelope values = envelope(static_cast<std::size_t>(found - names.begin()), first, last, most);
     append(bytes, values.low);
     append(bytes, values.high);
   }
   return bytes;
+}
+
+std::string TraceFiles::stretch(const std::string& file, const std::vector<std::string>& columns,
+                                const TraceStretch& wanted) {
+  const auto table = this->table(file);
+  const std::lock_guard lock(table->mutex);
+  return table->stretch(columns, wanted);
+}
+
+std::string TraceFiles::stretch_of(const CsvTable& table, const std::vector<std::string>& columns,
+                                   const TraceStretch& wanted) {
+  return Table(table).stretch(columns, wanted);
 }
 
 }  // namespace hysteron::studio

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "io/data/csv.h"
+
 namespace hysteron::studio {
 
 struct TraceStretch {
@@ -28,6 +30,10 @@ class TraceFiles {
   /// float64, little-endian: n; n values of the first column; then for each of `columns` n smallest and n largest
   /// values. Throws Error "unknown_column".
   std::string stretch(const std::string& file, const std::vector<std::string>& columns, const TraceStretch& wanted);
+
+  /// The same of a table in memory.
+  static std::string stretch_of(const CsvTable& table, const std::vector<std::string>& columns,
+                                const TraceStretch& wanted);
 
  private:
   struct Table;

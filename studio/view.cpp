@@ -5,9 +5,11 @@
 #include <set>
 
 #include "draw/layout.h"
+#include "draw/moved.h"
 #include "draw/pictogram.h"
 #include "engine/compile/draft.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/layout_file.h"
 #include "io/files/atomic_file.h"
 #include "io/files/digest.h"
 #include "io/json/problems_json.h"
@@ -69,6 +71,17 @@ std::string first_new(const DraftProgram& draft, const Told& before) {
   return "";
 }
 
+/// Blocks that were moved by hand. A layout file that is wrong moves none, and is told.
+void place(draw::Sheet& sheet, const std::string& file, Json& view) {
+  try {
+    const BlockPlaces places = read_layout(file);
+    draw::move_items(sheet, places);
+    for (const auto& [name, at] : places) view["places"][name] = at;
+  } catch (const Error& error) {
+    for (const auto& p : problem_list(error.problems)) view["problems"].push_back(p);
+  }
+}
+
 }  // namespace
 
 Json view_of(const std::string& file, const Registry& registry, const ViewOptions& options) {
@@ -79,6 +92,7 @@ Json view_of(const std::string& file, const Registry& registry, const ViewOption
   view["text"] = text;
   view["hash"] = digest.text();
   view["sheet"] = nullptr;
+  view["places"] = Json::object();
   try {
     const Diagram diagram = read_diagram(file, options.allowed);
     const DraftProgram draft = compile_draft(diagram, registry);
@@ -86,6 +100,7 @@ Json view_of(const std::string& file, const Registry& registry, const ViewOption
     view["warnings"] = problem_list(located(draft.warnings, file));
     draw::Sheet sheet = draw::draft_sheet(diagram, draft.program.get(), registry, options.depth);
     draw::lay_out(sheet);
+    place(sheet, file, view);
     view["sheet"] = sheet_json(sheet);
   } catch (const Error& error) {
     auto problems = view.contains("problems") ? view["problems"] : Json::array();

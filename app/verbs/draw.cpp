@@ -8,13 +8,15 @@
 #include "app/cli/target.h"
 #include "draw/drawing.h"
 #include "engine/diagram/error.h"
+#include "io/diagram/layout_file.h"
 
 namespace hysteron {
 namespace {
 
 constexpr char draw_help[] =
     "Answers: what does this diagram look like. Signals flow from left to right, feedback returns below;\n"
-    "values stand below the blocks, units at the wires. A choice shows its candidate in use.\n\n"
+    "values stand below the blocks, units at the wires. A choice shows its candidate in use. Blocks that were moved by\n"
+    "hand (hysteron studio) stand where they were put, as stage.layout.json beside stage.json says.\n\n"
     "Examples:\n"
     "  hysteron draw stage.json\n"
     "  hysteron draw loop.json -o figures/loop.svg --depth 1\n"
@@ -23,7 +25,7 @@ constexpr char draw_help[] =
     "dot of Graphviz.\n"
     "Exit codes: 0 done, 2 the diagram is wrong or Graphviz is missing.";
 
-Answer draw(const Arguments& arguments, const Watch& watch) {
+Answer draw_diagram(const Arguments& arguments, const Watch& watch) {
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const double depth = arguments.number("--depth", 0);
@@ -33,7 +35,8 @@ Answer draw(const Arguments& arguments, const Watch& watch) {
   const std::string file = arguments.text("-o", stem_of(arguments.text("diagram")) + ".svg");
   need_ending("-o", file, {".svg"}, "an SVG file, e.g. -o stage.svg");
   Answer answer;
-  answer.files.push_back({file, diagram_svg(diagram, *program, registry(), {static_cast<int>(depth)})});
+  answer.files.push_back({file, diagram_svg(diagram, *program, registry(),
+                                            {static_cast<int>(depth), {}, read_layout(arguments.text("diagram"))})});
   answer.closing = "wrote " + file + "\n";
   answer.facts = Facts::object({{"picture", file}});
   return answer;
@@ -53,7 +56,7 @@ Verb draw_verb() {
            options::set(),
            options::choose(),
            options::allow()},
-          draw,
+          draw_diagram,
           draw_shape};
 }
 

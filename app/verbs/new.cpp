@@ -13,6 +13,7 @@
 #include "app/cli/shell_word.h"
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
+#include "app/verbs/recording_preview.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
 #include "io/data/measured_file.h"
@@ -50,41 +51,6 @@ void refuse_overwriting(const fs::path& folder, const std::vector<std::string>& 
            "name another place with -o FOLDER");
 }
 
-std::pair<std::string, std::string> unit_choice(const std::string& written) {
-  const auto sign = written.rfind('=');
-  if (sign == std::string::npos || sign == 0)
-    fail("bad_command_line", "--unit", fmt::format("\"{}\" does not say which column has which unit", written),
-         "write --unit force=N");
-  return {written.substr(0, sign), written.substr(sign + 1)};
-}
-
-/// "t [s],u [V]" as a list.
-std::vector<std::string> heading_list(const std::string& written) {
-  std::vector<std::string> list;
-  for (std::size_t begin = 0; begin < written.size();) {
-    const auto end = std::min(written.find(',', begin), written.size());
-    list.push_back(written.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return list;
-}
-
-ReadingChoices choices_of(const Arguments& arguments) {
-  ReadingChoices choices;
-  choices.time = arguments.text("--time");
-  if (arguments.has("--interval")) choices.interval = arguments.seconds("--interval", 0);
-  for (const auto& written : arguments.list("--unit")) choices.units.insert(unit_choice(written));
-  choices.without = arguments.list("--without");
-  choices.names = heading_list(arguments.text("--names"));
-  choices.sheet = arguments.text("--sheet");
-  choices.group = arguments.text("--group");
-  choices.decimal = arguments.text("--decimal");
-  if (!choices.decimal.empty() && choices.decimal != "point" && choices.decimal != "comma")
-    fail("bad_command_line", "--decimal", fmt::format("\"{}\" is no decimal sign", choices.decimal),
-         "write --decimal point or --decimal comma");
-  return choices;
-}
-
 /// One of the files that the user named, and the file that stands for it in the project.
 struct NamedRecording {
   fs::path from;
@@ -94,7 +60,7 @@ struct NamedRecording {
 };
 
 std::vector<NamedRecording> read_all(const Arguments& arguments, const fs::path& folder) {
-  const ReadingChoices choices = choices_of(arguments);
+  const ReadingChoices choices = reading_choices(arguments);
   std::vector<NamedRecording> all;
   for (const auto& name : arguments.list("--from")) {
     NamedRecording recording{name, read_measured_file(name, choices), "", false};
@@ -159,10 +125,7 @@ std::vector<WrittenFile> files_of(const fs::path& folder, const Starter& starter
 
 /// An error in choosing columns says how the file was read so far.
 Starter starter_of(const std::vector<NamedRecording>& recordings, const Arguments& arguments) {
-  StarterRoles given;
-  const CsvTable& table = recordings.front().read.table;
-  for (const auto& written : arguments.list("--input")) given.add(given.inputs, "--input", written, table);
-  for (const auto& written : arguments.list("--output")) given.add(given.outputs, "--output", written, table);
+  const StarterRoles given = given_roles(arguments, recordings.front().read.table);
   StarterRecordings list;
   for (const auto& recording : recordings) list.push_back({&recording.read.table, recording.file});
   return make_starter(list, given);

@@ -8,9 +8,15 @@
 
 #include "app/cli/answer.h"
 #include "app/cli/answer_json.h"
+#include "app/cli/interrupt.h"
 #include "app/cli/load.h"
+#include "app/cli/perform.h"
 #include "app/cli/shape.h"
 #include "app/cli/watch.h"
+#include "app/cli/words.h"
+#include "app/verbs/recording_preview.h"
+#include "engine/diagram/error.h"
+#include "engine/diagram/stop.h"
 
 #ifndef HYSTERON_VERSION
 #define HYSTERON_VERSION "unknown"
@@ -34,25 +40,63 @@ constexpr char studio_help[] =
 /// What the page may start.
 const std::vector<std::string> job_verbs{"run", "compare", "diagnose", "discover", "fit", "linearize", "inspect"};
 
+studio::JobVerb job_verb(const Verb& verb) {
+  studio::JobVerb job{verb.name, {}};
+  for (const auto& option : verb.options)
+    if (option.name.starts_with("-")) job.options.push_back({option.name, option.placeholder.empty(), option.repeated});
+  return job;
+}
+
 std::vector<studio::JobVerb> verbs_for_jobs() {
   std::vector<studio::JobVerb> verbs;
-  for (const auto make : verb_functions()) {
-    const Verb verb = make();
-    if (std::find(job_verbs.begin(), job_verbs.end(), verb.name) == job_verbs.end()) continue;
-    studio::JobVerb job{verb.name, {}};
-    for (const auto& option : verb.options)
-      if (option.name.starts_with("-"))
-        job.options.push_back({option.name, option.placeholder.empty(), option.repeated});
-    verbs.push_back(std::move(job));
-  }
+  for (const auto make : verb_functions())
+    if (const Verb verb = make(); std::find(job_verbs.begin(), job_verbs.end(), verb.name) != job_verbs.end())
+      verbs.push_back(job_verb(verb));
   return verbs;
+}
+
+AskedVerb read_own_words(const std::vector<std::string>& words) {
+  AskedVerb asked = read_words(words);
+  if (!asked.verb) fail("bad_command_line", words.front(), "these words ask for help", "reload the page");
+  return asked;
+}
+
+/// A verb in this process: what is handed to the studio for answers that are wanted at once.
+studio::VerbAnswer carry_out(const std::vector<std::string>& words, const std::function<bool()>& stop) {
+  const AskedVerb asked = read_own_words(words);
+  Watch watch;
+  watch.stop = stop;
+  const auto too_long = [&words] {
+    fail("took_too_long", words.front(), "this takes longer than a number is dragged",
+         "let the number go: then it runs as a job");
+  };
+  try {
+    Performed performed = perform_silently(*asked.verb, asked.arguments, watch);
+    Answer& answer = performed.answer;
+    return {answer_json(*asked.verb, answer, performed.notes), answer.document.headline,
+            std::move(answer.document.traces)};
+  } catch (const Interrupted&) {
+    too_long();
+  } catch (const Stopped&) {
+    too_long();
+  }
+  return {};
+}
+
+studio::RecordingPreview preview(const std::vector<std::string>& words) {
+  return preview_recording(read_own_words(words).arguments);
+}
+
+Verb verb_named(const std::string& name) {
+  for (const auto make : verb_functions())
+    if (Verb verb = make(); verb.name == name) return verb;
+  return {};
 }
 
 /// What "hysteron blocks --json" says.
 std::string all_blocks_json() {
-  for (const auto make : verb_functions())
-    if (const Verb verb = make(); verb.name == "blocks") return answer_json(verb, verb.act(Arguments(), Watch()), {});
-  return "{}";
+  const Verb verb = verb_named("blocks");
+  return answer_json(verb, verb.act(Arguments(), Watch()), {});
 }
 
 Answer serve_studio(const Arguments& arguments, const Watch& watch) {
@@ -61,7 +105,8 @@ Answer serve_studio(const Arguments& arguments, const Watch& watch) {
   constexpr int largest_port = 65535;
   settings.port = arguments.has("--port") ? arguments.whole_number("--port", 0, largest_port) : 0;
   settings.opens_browser = !arguments.has("--no-browser");
-  settings.api = {&registry(), all_blocks_json(), HYSTERON_VERSION, {}};
+  settings.api = {&registry(), all_blocks_json(),           HYSTERON_VERSION,
+                  {},          job_verb(verb_named("new")), {carry_out, preview}};
   settings.api.jobs = {std::filesystem::read_symlink("/proc/self/exe").string(), verbs_for_jobs(),
                        arguments.list("--allow"), arguments.threads()};
   watch.keep();  // Ctrl-C is how it ends

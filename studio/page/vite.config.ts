@@ -1,6 +1,8 @@
 import {defineConfig} from 'vite';
 
-// One script, one style: they are put into the program (../build_page.cmake), and no request leaves the machine.
+// Two scripts and one style: they are put into the program (../build_page.cmake), and no request leaves the machine. The
+// second script is the editor of texts, which is loaded when a text is opened.
+const ofEditor = /node_modules\/(@codemirror|@lezer|@marijn|codemirror|style-mod|w3c-keyname|crelt)\/|CodeEditor/;
 export default defineConfig({
   esbuild: {jsx: 'automatic', legalComments: 'none'},
   build: {
@@ -13,8 +15,8 @@ export default defineConfig({
       output: {
         entryFileNames: 'studio.js',
         assetFileNames: 'studio[extname]',
-        manualChunks: () => 'studio',
-        chunkFileNames: 'studio.js',
+        manualChunks: (id) => (ofEditor.test(id) ? 'editor' : 'studio'),
+        chunkFileNames: '[name].js',
       },
     },
   },

@@ -2,8 +2,10 @@
 
 import {useEffect, useState} from 'react';
 import {Canvas} from './canvas/Canvas';
-import {currentPath, keepLooking, useStudio, type BottomTab} from './data/store';
+import {currentPath, keepListening, useStudio, type BottomTab} from './data/store';
 import * as actions from './edit/actions';
+import {Data, takeIn} from './panels/Data';
+import {Diff} from './panels/Diff';
 import {Effects} from './panels/Effects';
 import {Fails} from './panels/Fails';
 import {Files} from './panels/Files';
@@ -26,7 +28,7 @@ const verbs: {verb: string; label: string; tip: string; data: boolean}[] = [
 
 const tabs: {tab: BottomTab; label: string}[] = [
   {tab: 'scopes', label: 'Scopes'}, {tab: 'fails', label: 'Where it fails'}, {tab: 'effects', label: 'Effects'},
-  {tab: 'waterfall', label: 'Waterfall'}, {tab: 'text', label: 'Text'}, {tab: 'problems', label: 'Problems'},
+  {tab: 'waterfall', label: 'Waterfall'}, {tab: 'diff', label: 'Diff'}, {tab: 'text', label: 'Text'}, {tab: 'data', label: 'Data'}, {tab: 'problems', label: 'Problems'},
 ];
 
 function useTheme(): [string, () => void] {
@@ -99,6 +101,7 @@ function Bottom() {
   const tab = useStudio((s) => s.tab);
   const set = useStudio((s) => s.set);
   const view = useStudio((s) => s.view);
+  const waiting = useStudio((s) => s.dropped.length);
   const failed = useStudio((s) => s.jobs.find((j) => j.id === s.shownJob)?.state === 'failed');
   const count = (view?.problems.length ?? 0) + (failed ? 1 : 0);
   const [height, setHeight] = useState(() => Number(localStorage.getItem('hysteron.bottom')) || Math.max(300, Math.round(0.4 * window.innerHeight)));
@@ -123,6 +126,7 @@ function Bottom() {
         {tabs.map((t) => (
           <button key={t.tab} className={tab === t.tab ? 'on' : ''} onClick={() => set({tab: t.tab})}>
             {t.label}{t.tab === 'problems' && count > 0 && <span className="count">{count}</span>}
+            {t.tab === 'data' && waiting > 0 && <span className="count waiting">{waiting}</span>}
           </button>
         ))}
       </div>
@@ -131,7 +135,9 @@ function Bottom() {
         {tab === 'fails' && <Fails />}
         {tab === 'effects' && <Effects />}
         {tab === 'waterfall' && <Waterfall />}
+        {tab === 'diff' && <Diff />}
         {tab === 'text' && <TextView />}
+        {tab === 'data' && <Data />}
         {tab === 'problems' && <Problems />}
       </div>
     </section>
@@ -205,15 +211,45 @@ function useKeys(add: () => void) {
   }, [add]);
 }
 
+/// Recordings that are dragged over the page: dropped anywhere, they are looked at.
+function useDrops(): boolean {
+  const [over, setOver] = useState(false);
+  useEffect(() => {
+    const holdsFiles = (e: DragEvent) => [...(e.dataTransfer?.types ?? [])].includes('Files');
+    const move = (e: DragEvent) => {
+      if (!holdsFiles(e)) return;
+      e.preventDefault();
+      setOver(true);
+    };
+    const leave = (e: DragEvent) => e.relatedTarget === null && setOver(false);
+    const drop = (e: DragEvent) => {
+      if (!holdsFiles(e)) return;
+      e.preventDefault();
+      setOver(false);
+      void takeIn([...(e.dataTransfer?.files ?? [])]);
+    };
+    window.addEventListener('dragover', move);
+    window.addEventListener('dragleave', leave);
+    window.addEventListener('drop', drop);
+    return () => {
+      window.removeEventListener('dragover', move);
+      window.removeEventListener('dragleave', leave);
+      window.removeEventListener('drop', drop);
+    };
+  }, []);
+  return over;
+}
+
 export function App() {
   const ready = useStudio((s) => s.ready);
   const lost = useStudio((s) => s.lost);
   const view = useStudio((s) => s.view);
   const [adding, setAdding] = useState(false);
+  const over = useDrops();
   useKeys(() => setAdding(true));
   useEffect(() => {
     void useStudio.getState().start();
-    return keepLooking();
+    return keepListening();
   }, []);
   if (!ready) return <main className="cover">{lost && <><p>{lost}.</p><p className="muted">Open the address that hysteron studio printed: it holds the token.</p></>}</main>;
   return (
@@ -223,13 +259,14 @@ export function App() {
       <main className="middle">
         <div className="canvas" aria-label="diagram">
           <Canvas />
-          {!view && <div className="cover"><p>No diagram lies in this folder.</p><p className="muted">hysteron new --from lab.csv -o . makes one from a recording.</p></div>}
+          {!view && <div className="cover"><p>No diagram lies in this folder.</p><p className="muted">Drop a recording here: it is looked at, and makes one.</p></div>}
           {adding && <QuickAdd onClose={() => setAdding(false)} />}
           <Banners />
         </div>
         <Bottom />
       </main>
       <Inspector />
+      {over && <div className="drop-here"><p>Drop recordings to look at them</p></div>}
     </div>
   );
 }

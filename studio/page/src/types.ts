@@ -79,7 +79,11 @@ export interface View {
   problems: Problem[];
   warnings: Problem[];
   sheet: Sheet | null;
+  places: Record<string, Point>;  // of blocks that were moved by hand, in steps of the grid
 }
+
+/// Where blocks go; null: back to where the layout puts them.
+export type Moves = Record<string, Point | null>;
 
 export interface ListedFile {
   path: string;
@@ -138,7 +142,7 @@ export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'cancelled' |
 export interface JobOrder {
   verb: string;
   diagram: string;
-  options?: Record<string, string | string[] | boolean>;
+  options?: Options;
 }
 
 export interface Job {
@@ -273,3 +277,23 @@ export type Edit =
   | {kind: 'insert'; pointer: string; key?: string; value: string; after?: string}
   | {kind: 'remove'; pointer: string}
   | {kind: 'rename'; pointer: string; key: string};
+
+/// A recording that was dropped on the page, as far as it can be read (studio/import.h).
+export interface RecordingPreview {
+  file: string;
+  raw: {name: string; unit: string; values: (number | null)[]}[];
+  raw_rows: number;
+  columns: {name: string; unit: string; smallest: number; largest: number; low: (number | null)[]; high: (number | null)[]}[];
+  rows?: number;
+  from?: number;
+  to?: number;
+  time_unit?: string;
+  as_it_stands: boolean;
+  assumed: string[];
+  inputs: string[];
+  outputs: string[];
+  questions: Problem[];
+}
+
+/// Options of a verb as the page asks for them: {"--data": "lab.csv", "--set": ["a=1"]}
+export type Options = Record<string, string | string[] | boolean>;

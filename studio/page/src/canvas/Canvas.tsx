@@ -1,13 +1,14 @@
 // Decides what the canvas shows: the sheet as the server laid it out, what is selected, highlighted and wrong on it.
 
 import {
-  Background, BackgroundVariant, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
+  Background, BackgroundVariant, ControlButton, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
   ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
 } from '@xyflow/react';
 import {memo, useCallback, useEffect, useMemo, useRef, useState} from 'react';
 import {api} from '../data/api';
 import {currentPath, useStudio} from '../data/store';
 import type {Item, Point, Problem, Sheet} from '../types';
+import {grid, looseWire, movesOf} from './moving';
 import {arrowHead, roundedPath} from './paths';
 import {SymbolView} from './SymbolView';
 import * as actions from '../edit/actions';
@@ -116,6 +117,18 @@ function edgesOf(sheet: Sheet, last: Map<string, string>): WireEdge[] {
   });
 }
 
+/// Wires of blocks that are being carried, simply drawn.
+function withLooseWires(edges: WireEdge[], sheet: Sheet, carried: Record<string, {x: number; y: number}>): WireEdge[] {
+  return edges.map((edge, i) => {
+    const wire = sheet.wires[i];
+    const [from, to] = [sheet.items[wire.from], sheet.items[wire.to]];
+    if (!carried[from.path] && !carried[to.path]) return edge;
+    const [a, b] = [carried[from.path] ?? from, carried[to.path] ?? to];
+    const [out, into] = [from.out[wire.out], to.in[wire.in]];
+    return {...edge, data: {...edge.data!, path: looseWire([a.x + out.x, a.y + out.y], [b.x + into.x, b.y + into.y])}};
+  });
+}
+
 function Flow() {
   const view = useStudio((s) => s.trial?.view ?? s.view);
   const trial = useStudio((s) => s.trial);
@@ -127,7 +140,12 @@ function Flow() {
   const [nodes, setNodes] = useState<BlockNode[]>([]);
   const [wanting, setWanting] = useState<Wanting | null>(null);
   const fitted = useRef('');
+  const [carried, setCarried] = useState<Record<string, {x: number; y: number}>>({});
+  const dragging = useRef(false);
+  const byKeys = useRef<{places: Record<string, {x: number; y: number}>; timer: number}>({places: {}, timer: 0});
   const sheet = view?.sheet ?? null;
+  const depth = useStudio((s) => s.depth);
+  const moved = useMemo(() => Object.keys(view?.places ?? {}), [view]);
 
   const problems = useMemo(() => problemsByBlock(view?.problems ?? []), [view]);
   const fresh = useMemo(() => (trial ? trial.fresh : []), [trial]);
@@ -151,9 +169,10 @@ function Flow() {
   }, [sheet, path, trial, flow]);
 
   const edges = useMemo(() => (sheet ? edgesOf(sheet, last) : []), [sheet, last]);
+  const looseEdges = useMemo(() => (sheet && Object.keys(carried).length ? withLooseWires(edges, sheet, carried) : edges), [edges, sheet, carried]);
   const selectedWire = useStudio((s) => s.selectedWire);
   const shownNodes = useMemo(() => nodes.map((n) => (selected.includes(n.id) ? {...n, selected: true} : n)), [nodes, selected]);
-  const shownEdges = useMemo(() => edges.map((e) => (e.id === selectedWire ? {...e, selected: true} : e)), [edges, selectedWire]);
+  const shownEdges = useMemo(() => looseEdges.map((e) => (e.id === selectedWire ? {...e, selected: true} : e)), [looseEdges, selectedWire]);
 
   // What is selected stands in the store; nodes and edges are drawn from there, so that nothing is told in circles.
   const onNodesChange = useCallback((changes: NodeChange<BlockNode>[]) => {
@@ -162,7 +181,40 @@ function Flow() {
     for (const c of changes) if (c.type === 'select') c.selected ? after.add(c.id) : after.delete(c.id);
     if (after.size !== before.length || before.some((id) => !after.has(id))) set({selected: [...after]});
     setNodes((now) => applyNodeChanges(changes.filter((c) => c.type !== 'select'), now));
+    // Arrow keys move what is selected: one gesture until they rest.
+    const keyed = byKeys.current;
+    for (const c of changes) if (c.type === 'position' && c.position && !dragging.current) keyed.places[c.id] = c.position;
+    if (!Object.keys(keyed.places).length || dragging.current) return;
+    setCarried({...keyed.places});
+    clearTimeout(keyed.timer);
+    keyed.timer = window.setTimeout(() => {
+      const {places} = keyed;
+      keyed.places = {};
+      void put(places);
+    }, 400);
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [sheet]);
+
+  /// Blocks are put where they were carried: beside the file, and wires find their ways.
+  const put = useCallback(async (places: Record<string, {x: number; y: number}>) => {
+    const named = Object.fromEntries(Object.entries(places).flatMap(([id, p]) => {
+      const item = sheet?.items.find((i) => i.path === id);
+      return item && (Math.abs(item.x - p.x) >= 1 || Math.abs(item.y - p.y) >= 1) ? [[item.name, p]] : [];
+    }));
+    if (Object.keys(named).length === 0 || !(await useStudio.getState().move(movesOf(named)))) {
+      if (sheet) setNodes(nodesOf(sheet, problems, [], fresh, null));
+    }
+    setCarried({});
+  }, [sheet, problems, fresh]);
+
+  const onDrag = useCallback((_: unknown, __: unknown, all: BlockNode[]) => {
+    dragging.current = true;
+    setCarried(Object.fromEntries(all.map((n) => [n.id, n.position])));
   }, []);
+  const onDragStop = useCallback((_: unknown, __: unknown, all: BlockNode[]) => {
+    dragging.current = false;
+    void put(Object.fromEntries(all.map((n) => [n.id, n.position])));
+  }, [put]);
 
   const onEdgesChange = useCallback((changes: EdgeChange<WireEdge>[]) => {
     for (const c of changes) {
@@ -212,14 +264,16 @@ function Flow() {
       onEdgesChange={onEdgesChange}
       onNodeDoubleClick={open}
       onConnectStart={onConnectStart} onConnect={onConnect} onConnectEnd={() => setWanting(null)}
-      nodesDraggable={false} nodesConnectable={!trial} elementsSelectable
+      onNodeDrag={onDrag} onNodeDragStop={onDragStop}
+      onSelectionDrag={(e, all) => onDrag(e, null, all)} onSelectionDragStop={(e, all) => onDragStop(e, null, all)}
+      nodesDraggable={!trial && depth === 0} snapToGrid snapGrid={[grid, grid]} nodeDragThreshold={3} nodesConnectable={!trial} elementsSelectable
       onlyRenderVisibleElements minZoom={0.05} maxZoom={4}
       selectionOnDrag panOnDrag={[1, 2]} panOnScroll zoomOnDoubleClick={false}
       deleteKeyCode={null} proOptions={{hideAttribution: true}} connectionRadius={24}
       onDragOver={(e) => e.preventDefault()}
       onDrop={(e) => {
         const type = e.dataTransfer.getData('application/hysteron-block');
-        if (type) void actions.place(type, false);
+        if (type) void actions.place(type, false, flow.screenToFlowPosition({x: e.clientX, y: e.clientY}));
       }}
     >
       <Background variant={BackgroundVariant.Dots} gap={16} size={1} className="grid" />
@@ -228,7 +282,13 @@ function Flow() {
           {sheet?.dots.map(([x, y], i) => <circle key={i} className="branch" cx={x} cy={y} r={2.6} />)}
         </svg>
       </ViewportPortal>
-      <Controls showInteractive={false} position="bottom-left" />
+      <Controls showInteractive={false} position="bottom-left">
+        {moved.length > 0 && !trial && (
+          <ControlButton title="lay everything out anew: blocks that were moved by hand go back" aria-label="lay out anew" onClick={() => void useStudio.getState().move(Object.fromEntries(moved.map((name) => [name, null])))}>
+            <svg viewBox="0 0 16 16" aria-hidden><path d="M1 3h5v4H1zM10 1h5v4h-5zM10 11h5v4h-5zM6 5h2M8 3v10M8 3h2M8 13h2" fill="none" stroke="currentColor" /></svg>
+          </ControlButton>
+        )}
+      </Controls>
       {(sheet?.items.length ?? 0) > 30 && <MiniMap pannable zoomable position="bottom-right" nodeStrokeWidth={2} />}
     </ReactFlow>
   );

@@ -1,7 +1,7 @@
 // Decides how the page speaks with its server. The token comes in the fragment of the address, which browsers send to
 // nobody; it is taken out of the address bar and kept for reloads of this tab.
 
-import type {Edit, Job, JobOrder, Library, ListedFile, Problem, TraceHead, View} from '../types';
+import type {Edit, Job, JobOrder, Library, ListedFile, Moves, Options, Problem, RecordingPreview, TraceHead, View} from '../types';
 
 const tokenKey = 'hysteron.token';
 
@@ -30,11 +30,13 @@ export class Conflict extends Error {
   }
 }
 
-async function ask(method: string, path: string, body?: unknown): Promise<Response> {
+async function ask(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<Response> {
+  const raw = body instanceof Blob;
   const reply = await fetch(path, {
     method,
-    headers: {Authorization: `Bearer ${token}`, ...(body === undefined ? {} : {'Content-Type': 'application/json'})},
-    body: body === undefined ? undefined : JSON.stringify(body),
+    headers: {Authorization: `Bearer ${token}`, ...(body === undefined || raw ? {} : {'Content-Type': 'application/json'})},
+    body: body === undefined ? undefined : raw ? body : JSON.stringify(body),
+    signal,
   });
   if (reply.ok) return reply;
   const told = await reply.json().catch(() => ({}));
@@ -56,12 +58,70 @@ export interface Stretch {
   columns: {name: string; low: Float64Array; high: Float64Array}[];
 }
 
+/// n, then n times, then for each column n smallest and n largest values.
+function stretchOf(numbers: Float64Array, columns: string[]): Stretch {
+  const n = numbers[0];
+  const part = (k: number) => numbers.subarray(1 + k * n, 1 + (k + 1) * n);
+  return {x: part(0), columns: columns.map((name, i) => ({name, low: part(1 + 2 * i), high: part(2 + 2 * i)}))};
+}
+
+/// What a diagram would do with other numbers.
+export interface LiveAnswer {
+  headline: string;
+  facts: any;
+  trace: string;
+  traces: string[];
+  rows: number;
+  stretch: Stretch;
+}
+
+export interface LiveOrder extends JobOrder {
+  other?: string;     // a second file of traces
+  patience?: number;  // [ms]
+  trace: string;
+  columns: string[];
+  from: number;
+  to: number;
+  pixels: number;
+}
+
+export interface State {
+  files: Record<string, string>;
+  jobs: Job[];
+}
+
 export const api = {
   hello: () => json<{version: string; folder: string; name: string; threads: number}>('GET', '/api/hello'),
   files: async () => (await json<{files: ListedFile[]}>('GET', '/api/files')).files,
   catalogue: () => json<Library>('GET', '/api/blocks'),
   state: (paths: string[]) =>
-    json<{files: Record<string, string>; jobs: Job[]}>('GET', `/api/state?${query({path: paths})}`),
+    json<State>('GET', `/api/state?${query({path: paths})}`),
+  /// Tells of each change of these files and of the jobs, until it is ended.
+  async events(paths: string[], told: (state: State) => void, ended: AbortSignal): Promise<void> {
+    const reply = await ask('GET', `/api/events?${query({path: paths})}`, undefined, ended);
+    const reader = reply.body!.pipeThrough(new TextDecoderStream()).getReader();
+    for (let rest = '';;) {
+      const {done, value} = await reader.read();
+      if (done) return;
+      const lines = (rest + value).split('\n');
+      rest = lines.pop()!;
+      for (const line of lines) if (line) told(JSON.parse(line));
+    }
+  },
+  layout: (path: string, moves: Moves, depth: number) => json<View>('POST', '/api/layout', {path, moves, depth}),
+  upload: async (file: File) => (await json<{file: string}>('POST', `/api/upload?${query({name: file.name})}`, file)).file,
+  preview: (file: string, options: Options) => json<RecordingPreview>('POST', '/api/import/preview', {file, options}),
+  startFrom: (files: string[], options: Options, folder: string) =>
+    json<{diagram: string; dataset: string; assumed: string[]; words: string[]}>('POST', '/api/import', {files, options, folder}),
+  join: (file: string, options: Options, dataset: string, role: string) =>
+    json<{recording: string}>('POST', '/api/import/join', {file, options, dataset, role}),
+  async live(order: LiveOrder): Promise<LiveAnswer> {
+    const bytes = await (await ask('POST', '/api/live', order)).arrayBuffer();
+    const length = new Float64Array(bytes, 0, 1)[0];
+    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 8, length)));
+    const columns = head.columns.map((c: {name: string}) => c.name);
+    return {headline: head.headline, facts: head.facts, trace: head.trace, traces: head.traces, rows: head.rows, stretch: stretchOf(new Float64Array(bytes, 8 + length), columns)};
+  },
   view: (path: string, depth: number) => json<View>('POST', '/api/view', {path, depth}),
   fits: (path: string, signal: string) =>
     json<{item: number; in: number; why: string}[]>('POST', '/api/fits', {path, signal}),
@@ -78,9 +138,6 @@ export const api = {
   ticket: async (path: string) => (await json<{url: string}>('POST', '/api/ticket', {path})).url,
   async trace(path: string, columns: string[], from: number, to: number, pixels: number): Promise<Stretch> {
     const reply = await ask('GET', `/api/trace?${query({path, column: columns, from, to, pixels})}`);
-    const numbers = new Float64Array(await reply.arrayBuffer());
-    const n = numbers[0];
-    const part = (k: number) => numbers.subarray(1 + k * n, 1 + (k + 1) * n);
-    return {x: part(0), columns: columns.map((name, i) => ({name, low: part(1 + 2 * i), high: part(2 + 2 * i)}))};
+    return stretchOf(new Float64Array(await reply.arrayBuffer()), columns);
   },
 };

@@ -2,11 +2,11 @@
 // the server's files are the truth, and are looked at again and again.
 
 import {create} from 'zustand';
-import {api, Conflict, Refused} from './api';
-import {emptyHistory, History, loadHistory, push, redoSplice, saveHistory, undoSplice, applySplice} from '../edit/history';
-import type {Edit, Job, JobOrder, Library, ListedFile, Problem, Result, Span, View} from '../types';
+import {api, Conflict, Refused, type LiveAnswer, type State} from './api';
+import {applySplice, emptyHistory, History, isMove, loadHistory, push, pushStep, redoStep, saveHistory, undoStep} from '../edit/history';
+import type {Edit, Job, JobOrder, Library, ListedFile, Moves, Problem, Result, Span, View} from '../types';
 
-export type BottomTab = 'scopes' | 'fails' | 'effects' | 'waterfall' | 'text' | 'problems';
+export type BottomTab = 'scopes' | 'fails' | 'effects' | 'waterfall' | 'diff' | 'text' | 'data' | 'problems';
 
 export interface Trail {
   path: string;
@@ -38,6 +38,10 @@ interface Studio {
   trial: {job: string; file: string; view: View; title: string; fresh: string[]; edits: Edit[]} | null;
   notice: {text: string; kind: 'note' | 'error'} | null;
   conflict: {text: string; hash: string; mine: string} | null;
+  live: (LiveAnswer & {label: string; milliseconds: number}) | null;  // while a number is dragged
+  dropped: string[];    // recordings that wait in the tab Data, by their names in the folder
+  other: string;        // the diagram with which the open one is compared
+  line: number;         // of the text, to be shown; 0: none
 
   start(): Promise<void>;
   open(path: string, keepTrail?: boolean, label?: string): Promise<void>;
@@ -46,6 +50,9 @@ interface Studio {
   reload(): Promise<void>;
   edit(edits: Edit[]): Promise<boolean>;
   write(text: string): Promise<boolean>;
+  move(moves: Moves): Promise<boolean>;
+  refresh(): Promise<void>;
+  heard(state: State): Promise<void>;
   undo(): Promise<void>;
   redo(): Promise<void>;
   begin(order: JobOrder): Promise<void>;
@@ -77,6 +84,11 @@ export function nearestData(path: string, files: ListedFile[]): string {
 export const currentPath = (s: {trail: Trail[]}) => (s.trail.length ? s.trail[s.trail.length - 1].path : '');
 
 export const useStudio = create<Studio>()((set, get) => {
+  const remember = (history: History) => {
+    set({history});
+    saveHistory(currentPath(get()), history, get().view?.text ?? '');
+  };
+
   /// A view that the server gave: drawn where it can be; else what was drawn before stays, with the problems.
   const take = (view: View) => {
     const before = get().view;
@@ -88,12 +100,8 @@ export const useStudio = create<Studio>()((set, get) => {
 
   const changed = (view: View, record: boolean) => {
     const before = get().view;
-    if (record && before && before.text !== view.text) {
-      const history = push(get().history, before.text, view.text);
-      set({history});
-      saveHistory(currentPath(get()), history, view.text);
-    }
     take(view);
+    if (record && before && before.text !== view.text) remember(push(get().history, before.text, view.text));
   };
 
   // One after the other: whoever is quicker than the server does not overtake himself.
@@ -122,18 +130,20 @@ export const useStudio = create<Studio>()((set, get) => {
   const step = (back: boolean) => inTurn(async () => {
     const {history, view, depth} = get();
     if (!view) return;
-    const found = back ? undoSplice(history) : redoSplice(history);
+    const found = back ? undoStep(history) : redoStep(history);
     if (!found) return;
-    const text = applySplice(view.text, found.splice);
+    const {step} = found;
+    if (isMove(step)) {
+      if (await guarded(() => api.layout(currentPath(get()), step.after, depth), false, '')) remember(found.history);
+      return;
+    }
+    const text = applySplice(view.text, step);
     if (text === null) {
       set({history: emptyHistory()});
       get().say('the file was changed elsewhere: what was to be undone is not there any more', 'error');
       return;
     }
-    if (await guarded(() => api.write(currentPath(get()), text, view.hash, depth), false, text)) {
-      set({history: found.history});
-      saveHistory(currentPath(get()), found.history, text);
-    }
+    if (await guarded(() => api.write(currentPath(get()), text, view.hash, depth), false, text)) remember(found.history);
   });
 
   return {
@@ -161,6 +171,10 @@ export const useStudio = create<Studio>()((set, get) => {
     trial: null,
     notice: null,
     conflict: null,
+    live: null,
+    dropped: [],
+    other: '',
+    line: 0,
 
     async start() {
       try {
@@ -188,6 +202,7 @@ export const useStudio = create<Studio>()((set, get) => {
           selectedWire: '',
           highlighted: [],
           trial: null,
+          live: null,
           spans: null,
           history: loadHistory(path, view.text),
           data: localStorage.getItem(dataKey(path)) ?? nearestData(path, get().files),
@@ -224,6 +239,23 @@ export const useStudio = create<Studio>()((set, get) => {
       edits.length === 0 ? Promise.resolve(false) : inTurn(() => guarded((now) => api.edit(currentPath(get()), edits, now.hash, get().depth), true, '')),
 
     write: (text) => inTurn(() => guarded((now) => api.write(currentPath(get()), text, now.hash, get().depth), true, text)),
+
+    move: (moves) =>
+      inTurn(async () => {
+        const places = get().view?.places ?? {};
+        const before = Object.fromEntries(Object.keys(moves).map((name) => [name, places[name] ?? null]));
+        if (!(await guarded(() => api.layout(currentPath(get()), moves, get().depth), false, ''))) return false;
+        remember(pushStep(get().history, {before, after: moves}));
+        return true;
+      }),
+
+    async refresh() {
+      try {
+        set({files: await api.files()});
+      } catch (error) {
+        get().tell(error);
+      }
+    },
 
     undo: () => step(true),
     redo: () => step(false),
@@ -264,17 +296,22 @@ export const useStudio = create<Studio>()((set, get) => {
       await get().poll();
     },
 
+    async heard(state) {
+      const path = currentPath(get());
+      const before = get().jobs;
+      set({jobs: state.jobs, lost: ''});
+      await inTurn(async () => undefined);  // an edit of ours that is on its way is no edit of others
+      if (path && state.files[path] && get().view && state.files[path] !== get().view!.hash && !get().conflict) await get().reload();
+      const shown = state.jobs.find((j) => j.id === get().shownJob);
+      const was = before.find((j) => j.id === get().shownJob);
+      if (shown && shown.state === 'done' && was?.state !== 'done') await get().show(shown.id);
+      if (shown && shown.state === 'failed' && was && was.state !== 'failed') set({tab: 'problems'});
+    },
+
     async poll() {
       const path = currentPath(get());
       try {
-        const state = await api.state(path ? [path] : []);
-        const before = get().jobs;
-        set({jobs: state.jobs, lost: ''});
-        if (path && state.files[path] && get().view && state.files[path] !== get().view!.hash && !get().conflict) await get().reload();
-        const shown = state.jobs.find((j) => j.id === get().shownJob);
-        const was = before.find((j) => j.id === get().shownJob);
-        if (shown && shown.state === 'done' && was?.state !== 'done') await get().show(shown.id);
-        if (shown && shown.state === 'failed' && was && was.state !== 'failed') set({tab: 'problems'});
+        await get().heard(await api.state(path ? [path] : []));
       } catch (error) {
         set({lost: error instanceof Refused ? error.message : 'the studio does not answer: it was ended, or is being started anew'});
       }
@@ -292,19 +329,36 @@ export const useStudio = create<Studio>()((set, get) => {
   };
 });
 
-/// Looks at files and jobs: often while something runs, seldom while nobody sees the page.
-export function keepLooking(): () => void {
-  let timer = 0;
+const patience = 800;  // [ms] before a server that has gone is asked again
+
+/// Hears of changed files and jobs as long as somebody sees the page: one stream, begun anew for another diagram. A page
+/// in the background lets go of it, since a browser holds six connections for all of its pages.
+export function keepListening(): () => void {
   let ended = false;
-  const look = async () => {
-    await useStudio.getState().poll();
-    if (ended) return;
-    const busy = useStudio.getState().jobs.some((j) => j.state === 'running' || j.state === 'waiting');
-    timer = window.setTimeout(look, document.hidden ? 4000 : busy ? 150 : 800);
+  let stream = new AbortController();
+  const listen = async () => {
+    while (!ended) {
+      stream = new AbortController();
+      const path = currentPath(useStudio.getState());
+      try {
+        if (document.hidden) await new Promise((seen) => document.addEventListener('visibilitychange', seen, {once: true}));
+        else await api.events(path ? [path] : [], (state) => void useStudio.getState().heard(state), stream.signal);
+      } catch {
+        if (!ended && !stream.signal.aborted) await useStudio.getState().poll();  // which tells where the server has gone
+      }
+      if (!ended && !stream.signal.aborted) await new Promise((r) => setTimeout(r, patience));
+    }
   };
-  timer = window.setTimeout(look, 300);
+  const leave = () => document.hidden && stream.abort();
+  const unsubscribe = useStudio.subscribe((now, before) => {
+    if (currentPath(now) !== currentPath(before)) stream.abort();
+  });
+  document.addEventListener('visibilitychange', leave);
+  void listen();
   return () => {
     ended = true;
-    clearTimeout(timer);
+    unsubscribe();
+    document.removeEventListener('visibilitychange', leave);
+    stream.abort();
   };
 }

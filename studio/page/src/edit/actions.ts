@@ -1,9 +1,11 @@
 // Decides what the gestures of canvas and panels do: they become edits (document.ts) of the open file.
 
+import {movesOf} from '../canvas/moving';
 import {api} from '../data/api';
 import {currentPath, useStudio} from '../data/store';
-import type {Edit, Item} from '../types';
+import type {Edit, Item, JobOrder} from '../types';
 import * as doc from './document';
+import {runOrder} from './orders';
 
 const now = () => useStudio.getState();
 
@@ -49,9 +51,9 @@ export async function disconnect(to: Item, port: number): Promise<void> {
   }
 }
 
-/// A new block; wired to the selected one, where that is wanted and the type has an input. It stands where the layout
-/// puts it.
-export async function place(type: string, wired = true): Promise<void> {
+/// A new block; wired to the selected one, where that is wanted and the type has an input. It stands where it was dropped
+/// (with its middle there), else where the layout puts it.
+export async function place(type: string, wired = true, at?: {x: number; y: number}): Promise<void> {
   const {document, edit, selected, view} = now();
   const declaration = declarationOf(type);
   if (!document || !declaration) return;
@@ -59,7 +61,10 @@ export async function place(type: string, wired = true): Promise<void> {
   const block = doc.newBlock(declaration);
   const from = view?.sheet?.items.find((i) => i.path === selected[0] && i.out.length > 0);
   if (from && wired && declaration.inputs.length) block.in = doc.signalName(from, 0);
-  if (await edit([doc.putInto(document, 'blocks', name, block)])) now().set({selected: [name], selectedWire: ''});
+  if (!(await edit([doc.putInto(document, 'blocks', name, block)]))) return;
+  now().set({selected: [name], selectedWire: ''});
+  const item = now().view?.sheet?.items.find((i) => i.path === name);
+  if (at && item) await now().move(movesOf({[name]: {x: at.x - item.width / 2, y: at.y - item.height / 2}}));
 }
 
 export async function removeSelected(): Promise<void> {
@@ -199,4 +204,27 @@ export async function setTitle(text: string): Promise<void> {
 export async function setInput(name: string, unit: string): Promise<void> {
   const {document, edit} = now();
   await edit([{kind: 'replace', pointer: doc.pointer('inputs', name), value: doc.jsonText({...document.inputs[name], unit})}]);
+}
+
+/// Runs, of which the last is looked at and the others lie behind it.
+export async function compareRuns(orders: JobOrder[]): Promise<void> {
+  const {tell, poll, set} = now();
+  try {
+    const ids: string[] = [];
+    for (const order of orders) ids.push(await api.begin(order));
+    set({shownJob: ids[ids.length - 1], pinnedJobs: ids.slice(0, -1), tab: 'scopes'});
+    await poll();
+  } catch (error) {
+    tell(error);
+  }
+}
+
+/// Each candidate of a choice, run and laid over the others; the one in use is the one that is looked at.
+export async function compareCandidates(block: string): Promise<void> {
+  const {document, data} = now();
+  const node = document?.blocks?.[block];
+  if (!node?.from) return;
+  const order = runOrder(currentPath(now()), data, document);
+  const others = Object.keys(node.from).filter((name) => name !== node.choose);
+  await compareRuns([...others, node.choose].map((name) => ({...order, options: {...order.options, '--choose': [`${block}=${name}`]}})));
 }

@@ -1,5 +1,5 @@
 import {describe, expect, it} from 'vitest';
-import {applySplice, emptyHistory, inverse, push, redoSplice, resumed, spliceBetween, undoSplice} from './history';
+import {applySplice, emptyHistory, inverse, push, pushStep, redoStep, resumed, spliceBetween, undoStep, type Splice} from './history';
 
 /// A small generator of numbers that are the same in every run.
 function numbers(seed: number) {
@@ -33,32 +33,41 @@ describe('history', () => {
     }
     let text = texts[50];
     for (let i = 49; i >= 0; --i) {
-      const step = undoSplice(history)!;
-      text = applySplice(text, step.splice)!;
+      const step = undoStep(history)!;
+      text = applySplice(text, step.step as Splice)!;
       history = step.history;
       expect(text).toBe(texts[i]);
     }
-    expect(undoSplice(history)).toBeNull();
+    expect(undoStep(history)).toBeNull();
     for (let i = 1; i <= 50; ++i) {
-      const step = redoSplice(history)!;
-      text = applySplice(text, step.splice)!;
+      const step = redoStep(history)!;
+      text = applySplice(text, step.step as Splice)!;
       history = step.history;
       expect(text).toBe(texts[i]);
     }
-    expect(applySplice(text, inverse(spliceBetween(first, text)))).toBe(first);
+    expect(applySplice(text, inverse(spliceBetween(first, text)) as Splice)).toBe(first);
   });
   it('goes on after a reload, through what was changed in between', () => {
     const kept = {history: push(emptyHistory(), 'a', 'ab'), text: 'ab'};
     expect(resumed(kept, 'ab')).toBe(kept.history);
     const later = resumed(kept, 'xab');
-    const first = undoSplice(later)!;
-    expect(applySplice('xab', first.splice)).toBe('ab');
-    expect(applySplice('ab', undoSplice(first.history)!.splice)).toBe('a');
+    const first = undoStep(later)!;
+    expect(applySplice('xab', first.step as Splice)).toBe('ab');
+    expect(applySplice('ab', undoStep(first.history)!.step as Splice)).toBe('a');
     expect(resumed(null, 'a')).toEqual(emptyHistory());
   });
   it('forgets what was undone once something else is done', () => {
     let history = push(push(emptyHistory(), 'a', 'ab'), 'ab', 'abc');
-    history = undoSplice(history)!.history;
-    expect(redoSplice(push(history, 'ab', 'abd'))).toBeNull();
+    history = undoStep(history)!.history;
+    expect(redoStep(push(history, 'ab', 'abd'))).toBeNull();
+  });
+  it('takes back where blocks were moved to, between edits of the text', () => {
+    const moved = {before: {motor: null}, after: {motor: [4, 2] as [number, number]}};
+    const history = push(pushStep(push(emptyHistory(), 'a', 'ab'), moved), 'ab', 'abc');
+    const edit = undoStep(history)!;
+    const move = undoStep(edit.history)!;
+    expect(move.step).toEqual({before: {motor: [4, 2]}, after: {motor: null}});
+    expect(redoStep(move.history)!.step).toEqual(moved);
+    expect(applySplice('ab', undoStep(move.history)!.step as Splice)).toBe('a');
   });
 });

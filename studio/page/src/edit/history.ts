@@ -1,4 +1,7 @@
-// Decides what undo and redo are: texts spliced at one place, and their inverses, one entry per gesture.
+// Decides what undo and redo are: texts spliced at one place, blocks moved to another, and their inverses, one entry per
+// gesture.
+
+import type {Moves} from '../types';
 
 /// At `at`, `removed` became `inserted`.
 export interface Splice {
@@ -7,10 +10,20 @@ export interface Splice {
   inserted: string;
 }
 
-export interface History {
-  done: Splice[];
-  undone: Splice[];
+/// Blocks that were moved by hand, or (null) given back to the layout.
+export interface Move {
+  before: Moves;
+  after: Moves;
 }
+
+export type Step = Splice | Move;
+
+export interface History {
+  done: Step[];
+  undone: Step[];
+}
+
+export const isMove = (step: Step): step is Move => 'after' in step;
 
 const most = 200;
 
@@ -26,7 +39,7 @@ export function spliceBetween(before: string, after: string): Splice {
   return {at: head, removed: before.slice(head, before.length - tail), inserted: after.slice(head, after.length - tail)};
 }
 
-export const inverse = (s: Splice): Splice => ({at: s.at, removed: s.inserted, inserted: s.removed});
+export const inverse = (s: Step): Step => (isMove(s) ? {before: s.after, after: s.before} : {at: s.at, removed: s.inserted, inserted: s.removed});
 
 /// Null where the text is not the one that the splice was made for.
 export function applySplice(text: string, s: Splice): string | null {
@@ -34,20 +47,22 @@ export function applySplice(text: string, s: Splice): string | null {
   return text.slice(0, s.at) + s.inserted + text.slice(s.at + s.removed.length);
 }
 
-export function push(history: History, before: string, after: string): History {
-  return {done: [...history.done, spliceBetween(before, after)].slice(-most), undone: []};
+export const push = (history: History, before: string, after: string): History => pushStep(history, spliceBetween(before, after));
+
+export function pushStep(history: History, step: Step): History {
+  return {done: [...history.done, step].slice(-most), undone: []};
 }
 
-export function undoSplice(history: History): {splice: Splice; history: History} | null {
+export function undoStep(history: History): {step: Step; history: History} | null {
   const last = history.done[history.done.length - 1];
   if (!last) return null;
-  return {splice: inverse(last), history: {done: history.done.slice(0, -1), undone: [...history.undone, last]}};
+  return {step: inverse(last), history: {done: history.done.slice(0, -1), undone: [...history.undone, last]}};
 }
 
-export function redoSplice(history: History): {splice: Splice; history: History} | null {
+export function redoStep(history: History): {step: Step; history: History} | null {
   const last = history.undone[history.undone.length - 1];
   if (!last) return null;
-  return {splice: last, history: {done: [...history.done, last], undone: history.undone.slice(0, -1)}};
+  return {step: last, history: {done: [...history.done, last], undone: history.undone.slice(0, -1)}};
 }
 
 const key = (path: string) => `hysteron.history.${path}`;

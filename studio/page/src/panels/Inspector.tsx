@@ -1,29 +1,84 @@
 // Decides what is told of what is selected: values with units and bounds, ports, the law and its source; and of the
 // diagram where nothing is.
 
-import {useEffect, useState} from 'react';
+import {useEffect, useRef, useState} from 'react';
 import {api} from '../data/api';
+import {follow, giveUp, letGo} from '../data/live';
 import {useStudio} from '../data/store';
 import * as actions from '../edit/actions';
 import {shownValue, signalName} from '../edit/document';
+import {dragged, numberParts} from '../edit/drag';
 import {withUnit} from '../numbers';
 import type {BlockDeclaration, Item, ParameterDeclaration} from '../types';
 
-/// A text that is written when it is left or Enter is pressed, and stays as it was on Escape.
-export function Field({value, placeholder, label, onCommit, wrong}: {value: string; placeholder?: string; label: string; wrong?: boolean; onCommit: (text: string) => void}) {
+/// A text that is written when it is left or Enter is pressed, and stays as it was on Escape. The arrows up and down
+/// move a number, and the curves follow where `live` says which number of the diagram it is.
+export function Field({value, placeholder, label, onCommit, wrong, live}: {value: string; placeholder?: string; label: string; wrong?: boolean; live?: string; onCommit: (text: string) => unknown}) {
   const [text, setText] = useState(value);
+  const moved = useRef(false);
   useEffect(() => setText(value), [value]);
   const commit = () => {
-    if (text !== value) onCommit(text);
+    if (moved.current) {
+      moved.current = false;
+      return void letGo(async () => text !== value && (await onCommit(text)));
+    }
+    if (text !== value) void onCommit(text);
+  };
+  const forget = () => {
+    setText(value);
+    if (moved.current) giveUp();
+    moved.current = false;
   };
   return (
     <input className={wrong ? 'field wrong' : 'field'} value={text} placeholder={placeholder} aria-label={label} spellCheck={false}
            onChange={(e) => setText(e.target.value)} onBlur={commit}
            onKeyDown={(e) => {
+             const way = e.key === 'ArrowUp' ? 1 : e.key === 'ArrowDown' ? -1 : 0;
              if (e.key === 'Enter') e.currentTarget.blur();  // which commits; the keys are the canvas's again
-             if (e.key === 'Escape') setText(value);
+             if (e.key === 'Escape') forget();
+             if (live && way && numberParts(text)) {
+               e.preventDefault();
+               moved.current = true;
+               const next = dragged(text, way, e.shiftKey, true);
+               setText(next);
+               void follow(`${live}=${next}`, `${live} = ${next}`);
+             }
              if (!(e.ctrlKey && e.key === 'Enter')) e.stopPropagation();
            }} />
+  );
+}
+
+/// The name of a number, by which it is dragged: the curves follow, and it is written when it is let go.
+export function Handle({name, meaning, value, live, onMove, onCommit}: {name: string; meaning?: string; value: string; live: string; onMove: (text: string) => void; onCommit: (text: string) => unknown}) {
+  if (!numberParts(value)) return <label title={meaning}>{name}</label>;
+  const down = (e: React.PointerEvent<HTMLLabelElement>) => {
+    if (e.button !== 0) return;
+    e.preventDefault();
+    const target = e.currentTarget;
+    const start = e.clientX;
+    let text = value;
+    target.setPointerCapture(e.pointerId);
+    const move = (m: PointerEvent) => {
+      const next = dragged(value, Math.round(m.clientX - start), m.shiftKey, true);
+      if (next === text) return;
+      text = next;
+      onMove(text);
+      void follow(`${live}=${text}`, `${live} = ${text}`);
+    };
+    const stop = (ended: Event) => {
+      target.removeEventListener('pointermove', move);
+      for (const kind of ['pointerup', 'pointercancel']) target.removeEventListener(kind, stop);
+      onMove('');
+      if (text === value || ended.type === 'pointercancel') return giveUp();
+      void letGo(async () => onCommit(text));
+    };
+    target.addEventListener('pointermove', move);
+    for (const kind of ['pointerup', 'pointercancel']) target.addEventListener(kind, stop);
+  };
+  return (
+    <label className="handle" title={`${meaning ? `${meaning}\n` : ''}drag to the left and right: the curves follow (Shift: finer)`} onPointerDown={down}>
+      {name}
+    </label>
   );
 }
 
@@ -50,16 +105,18 @@ function OtherUnits({value, onPick}: {value: string; onPick: (text: string) => v
 function Parameter({block, p, value, problem}: {block: string; p: ParameterDeclaration; value: unknown; problem: string}) {
   const shown = shownValue(value);
   const unit = p.unit && !p.unit.includes('$') ? p.unit : '';
-  const commit = (text: string) => void actions.setValue(block, p.name, text);
+  const commit = (text: string) => actions.setValue(block, p.name, text);
+  const live = `${block}.${p.name}`;
+  const [now, setNow] = useState('');
   return (
     <div className="row">
-      <label title={p.meaning}>{p.name}</label>
+      <Handle name={p.name} meaning={p.meaning} value={p.kind === 'number' ? shown : ''} live={live} onMove={setNow} onCommit={commit} />
       {p.kind === 'text' && p.choices.length > 0 ? (
-        <select className="field" aria-label={p.name} value={shown || p.default || p.choices[0]} onChange={(e) => commit(e.target.value)}>
+        <select className="field" aria-label={p.name} value={shown || p.default || p.choices[0]} onChange={(e) => void commit(e.target.value)}>
           {p.choices.map((c) => <option key={c}>{c}</option>)}
         </select>
       ) : (
-        <Field label={p.name} value={shown} wrong={problem !== ''}
+        <Field label={p.name} value={now || shown} wrong={problem !== ''} live={p.kind === 'number' ? live : undefined}
                placeholder={p.default !== null ? `${p.default || 'none'} (default)` : unit ? `in ${unit}` : ''} onCommit={commit} />
       )}
       <div className="about">
@@ -133,6 +190,7 @@ function BlockPanel({item}: {item: Item}) {
               <button key={name} role="radio" aria-checked={name === block.choose} className={name === block.choose ? 'on' : ''} onClick={() => void actions.choose(item.name, name)}>{name}</button>
             ))}
           </div>
+          {Object.keys(block.from).length > 1 && <button className="compare-all" title="run the diagram with each of them, and lay the curves over each other" onClick={() => void actions.compareCandidates(item.name)}>Compare all {Object.keys(block.from).length}</button>}
         </section>
       )}
       {(declared.length > 0 || others.length > 0) && (
@@ -160,6 +218,20 @@ function BlockPanel({item}: {item: Item}) {
   );
 }
 
+/// A parameter of the diagram: a number that is dragged, its bounds below it.
+function DiagramParameter({name, value}: {name: string; value: any}) {
+  const [now, setNow] = useState('');
+  const shown = shownValue(value);
+  const commit = (text: string) => actions.setIn('parameters', name, text);
+  return (
+    <div className="row">
+      <Handle name={name} meaning={value?.remark} value={shown} live={name} onMove={setNow} onCommit={commit} />
+      <Field label={name} value={now || shown} live={name} onCommit={commit} />
+      {value?.bounds && <div className="about">{value.free ? 'free, ' : ''}between {value.bounds.map(shownValue).join(' and ')}</div>}
+    </div>
+  );
+}
+
 function Section({title, section, hint}: {title: string; section: string; hint: string}) {
   const document = useStudio((s) => s.document);
   const members = Object.entries<any>(document?.[section] ?? {});
@@ -167,11 +239,11 @@ function Section({title, section, hint}: {title: string; section: string; hint: 
     <section>
       <h3>{title}</h3>
       {members.length === 0 && <p className="empty">{hint}</p>}
-      {members.map(([key, value]) => (
+      {members.map(([key, value]) => section === 'parameters' ? <DiagramParameter key={key} name={key} value={value} /> : (
         <div className="row" key={key}>
           <label title={value?.remark}>{key}</label>
-          <Field label={key} value={section === 'inputs' ? value?.unit ?? '' : shownValue(value)} onCommit={(text) => void (section === 'inputs' ? actions.setInput(key, text) : actions.setIn(section, key, text))} />
-          {value?.bounds && <div className="about">{value.free ? 'free, ' : ''}between {value.bounds.map(shownValue).join(' and ')}</div>}
+          <Field label={key} value={section === 'inputs' ? value?.unit ?? '' : shownValue(value)}
+                 onCommit={(text) => (section === 'inputs' ? actions.setInput(key, text) : actions.setIn(section, key, text))} />
         </div>
       ))}
     </section>

@@ -19,6 +19,7 @@ interface Props {
   curves: Curve[];
   unit: string;
   spans?: Point[];
+  bands?: {x: Float64Array; low: Float64Array; high: Float64Array}[];  // what a tolerance allows
   range: Point | null;          // what is shown; null: all of it
   onZoom: (range: Point | null) => void;
   onPixels?: (pixels: number) => void;
@@ -45,11 +46,28 @@ function dataOf(curves: Curve[]): uPlot.AlignedData {
 
 const colour = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-export function Plot({curves, unit, spans, range, onZoom, onPixels, onCursor, sync, height, hasTimes}: Props) {
+/// The area between low and high.
+function fillBand(u: uPlot, band: {x: Float64Array; low: Float64Array; high: Float64Array}, fill: string): void {
+  const {left, top, width, height} = u.bbox;
+  u.ctx.save();
+  u.ctx.beginPath();
+  u.ctx.rect(left, top, width, height);
+  u.ctx.clip();
+  u.ctx.beginPath();
+  const corner = (i: number, y: number) => u.ctx.lineTo(u.valToPos(band.x[i], 'x', true), u.valToPos(y, 'y', true));
+  for (let i = 0; i < band.x.length; ++i) corner(i, band.high[i]);
+  for (let i = band.x.length; i-- > 0;) corner(i, band.low[i]);
+  u.ctx.closePath();
+  u.ctx.fillStyle = fill;
+  u.ctx.fill();
+  u.ctx.restore();
+}
+
+export function Plot({curves, unit, spans, bands, range, onZoom, onPixels, onCursor, sync, height, hasTimes}: Props) {
   const holder = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  const latest = useRef({spans, range, onZoom, onPixels, onCursor, curves});
-  latest.current = {spans, range, onZoom, onPixels, onCursor, curves};
+  const latest = useRef({spans, bands, range, onZoom, onPixels, onCursor, curves});
+  latest.current = {spans, bands, range, onZoom, onPixels, onCursor, curves};
   const shape = curves.map((c) => `${c.label}|${c.color}|${c.dash ?? ''}`).join();
 
   useEffect(() => {
@@ -65,7 +83,8 @@ export function Plot({curves, unit, spans, range, onZoom, onPixels, onCursor, sy
       series: [{}, ...curves.map((c) => ({label: c.label, stroke: colour(c.color) || c.color, width: 1.5, dash: c.dash, spanGaps: true, points: {show: false}}))],
       hooks: {
         drawClear: [(u) => {
-          const {spans: shaded} = latest.current;
+          const {spans: shaded, bands: allowed} = latest.current;
+          for (const band of allowed ?? []) fillBand(u, band, colour('--tube'));
           if (!shaded) return;
           u.ctx.save();
           u.ctx.fillStyle = colour('--span');
@@ -118,7 +137,7 @@ export function Plot({curves, unit, spans, range, onZoom, onPixels, onCursor, sy
   }, [shape, unit, sync, height, hasTimes]);
 
   useEffect(() => plot.current?.setData(dataOf(curves)), [curves, range]);
-  useEffect(() => plot.current?.redraw(false), [spans]);
+  useEffect(() => plot.current?.redraw(false), [spans, bands]);
 
   return <div className="plot" ref={holder} />;
 }

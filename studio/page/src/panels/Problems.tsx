@@ -13,7 +13,8 @@ function List({problems, kind}: {problems: Problem[]; kind: 'problem' | 'warning
         const there = view?.sheet?.items.some((item) => item.path === name);
         return (
           <li key={i}>
-            <button className="entry" disabled={!there} title={there ? 'show it on the canvas' : undefined} onClick={() => set({selected: [name], selectedWire: ''})}>
+            <button className="entry" disabled={!there && !p.line} title={there ? 'show it on the canvas; twice: in the text' : p.line ? 'show it in the text' : undefined}
+                    onClick={() => set(there ? {selected: [name], selectedWire: ''} : {tab: 'text', line: p.line ?? 0})} onDoubleClick={() => p.line && set({tab: 'text', line: p.line})}>
               <span className={`mark ${kind}`} />
               <span><b>{p.line ? `line ${p.line}, ` : ''}{p.path}</b> {p.what}<br /><span className="muted">{p.cure}</span></span>
             </button>

@@ -3,14 +3,18 @@
 import {useEffect, useMemo, useState} from 'react';
 import {useStudio} from '../data/store';
 import type {Stretch} from '../data/api';
-import {short} from '../numbers';
-import type {Point} from '../types';
+import {looking} from '../data/live';
+import {clock, short} from '../numbers';
+import type {Job, Point} from '../types';
 import {Plot, type Curve} from './Plot';
-import {useHead, useStretch} from './traces';
+import {useHead, useStretch, useStretches} from './traces';
+import type {Tube} from './tolerance';
+import {useTubes} from './tube';
 import {StartHint} from './StartHint';
 
 export const colours = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
 const shownAtFirst = 6;
+const dashes = [[5, 4], [2, 3], [9, 4], [9, 3, 2, 3]];  // of runs that lie behind the one that is looked at
 
 /// Of compare: what is measured, simulated and left over has the same colour everywhere.
 export function colourOf(name: string, index: number): string {
@@ -46,7 +50,12 @@ const isAside = (name: string) => name.endsWith('_rate');
 /// What is left over is small: it has a scale of its own.
 const isResidual = (name: string) => name.endsWith('_residual');
 
-export function TraceView({path, spans, pinned = []}: {path: string; spans?: Point[]; pinned?: {path: string; label: string}[]}) {
+export interface Pinned {
+  path: string;
+  label: string;
+}
+
+export function TraceView({path, spans, pinned = [], tubes}: {path: string; spans?: Point[]; pinned?: Pinned[]; tubes?: Record<string, Tube>}) {
   const head = useHead(path);
   const [hidden, setHidden] = useState<Set<string> | null>(null);
   const [range, setRange] = useState<Point | null>(null);
@@ -61,7 +70,12 @@ export function TraceView({path, spans, pinned = []}: {path: string; spans?: Poi
   const [cursor, setCursor] = useState<{at: number | null; values: Record<string, number>}>({at: null, values: {}});
   const shown = names.filter((n) => !off.has(n));
   const stretch = useStretch(path, shown, range, pixels);
-  const other = useStretch(pinned[0]?.path ?? '', pinned.length ? shown : [], range, pixels);
+  const others = useStretches(pinned, shown, range, pixels);
+  const answer = useStudio((s) => s.live);
+  const live = answer && path.endsWith(`/${answer.trace}`) ? answer : null;
+  useEffect(() => {
+    Object.assign(looking, {trace: path.slice(path.lastIndexOf('/') + 1), columns: shown, range, pixels});
+  });
   if (!head) return <div className="panel-body" ref={holder} />;
   const groupOf = (c: {name: string; unit: string}) => (isResidual(c.name) ? `residual ${c.unit}` : c.unit);
   const groups = [...new Set(head.columns.slice(1).filter((c) => shown.includes(c.name)).map(groupOf))];
@@ -85,6 +99,8 @@ export function TraceView({path, spans, pinned = []}: {path: string; spans?: Poi
         ))}
         <li className="time"><span className="label">{time.name}</span><span className="now">{cursor.at !== null && short(cursor.at, 6)} <span className="muted">{time.unit}</span></span></li>
         {range && <li><button className="quiet small" onClick={() => setRange(null)}>show all</button></li>}
+        {live && <li className="following" aria-live="off">{live.label}<br /><span className="muted">dashed: before</span></li>}
+        {pinned.map((p, i) => <li key={p.path} className="pinned"><svg width={22} height={8} aria-hidden><line x1={0} x2={22} y1={4} y2={4} strokeDasharray={dashes[i % dashes.length].join(' ')} /></svg> {p.label}</li>)}
       </ul>
       <div className="plots" ref={holder}>
         {shown.length === 0 && <p className="empty">Tick a signal to see it.</p>}
@@ -93,7 +109,10 @@ export function TraceView({path, spans, pinned = []}: {path: string; spans?: Poi
           const order = here.map((c) => c.name);
           return (
             <Plot key={group} unit={here[0].unit} height={k === groups.length - 1 ? each + 22 : each} hasTimes={k === groups.length - 1} sync={path} range={range} spans={spans} onZoom={setRange} onPixels={setPixels} onCursor={onCursor}
-                  curves={[...curvesOf(stretch, order, names), ...(pinned.length ? curvesOf(other, order, names, ` (${pinned[0].label})`, [5, 4]) : [])]} />
+                  bands={order.flatMap((name) => (tubes?.[name] ? [tubes[name]] : []))}
+                  curves={[...curvesOf(live?.stretch ?? stretch, order, names),
+                           ...(live ? curvesOf(stretch, order, names, ' (before)', dashes[0]) : []),
+                           ...pinned.flatMap((p, i) => curvesOf(others[i] ?? null, order, names, ` (${p.label})`, dashes[i % dashes.length]))]} />
           );
         })}
       </div>
@@ -101,23 +120,46 @@ export function TraceView({path, spans, pinned = []}: {path: string; spans?: Poi
   );
 }
 
+/// What a pinned run was: what its command line has that the one that is looked at has not, else when it began.
+export function runLabel(job: Job, shown: Job): string {
+  const values = (j: Job, name: string) => [j.asked.options?.[name] ?? []].flat().map(String);
+  const own = ['--choose', '--set'].flatMap((name) => values(job, name).filter((v) => !values(shown, name).includes(v)));
+  return own.join(', ') || clock(job.began);
+}
+
+const rememberedTolerance = 'hysteron.tolerance';
+
 export function Scopes() {
   const job = useStudio((s) => s.jobs.find((j) => j.id === s.shownJob));
   const jobs = useStudio((s) => s.jobs);
   const result = useStudio((s) => s.results[s.shownJob]);
   const recording = useStudio((s) => s.recording);
   const pinnedIds = useStudio((s) => s.pinnedJobs);
+  const headline = useStudio((s) => s.live?.headline);
   const set = useStudio((s) => s.set);
-  if (!job || job.state !== 'done' || !result) return <StartHint verb="run" what="curves of the signals that the diagram records" />;
-  const file = result.traces.includes(recording) ? recording : result.traces[0];
-  const pinned = pinnedIds.filter((id) => id !== job.id).flatMap((id) => {
+  const [tolerance, setTolerance] = useState(() => localStorage.getItem(rememberedTolerance) ?? '');
+  const [text, setText] = useState(tolerance);
+  const file = result?.traces.includes(recording) ? recording : result?.traces[0] ?? '';
+  const pinned = job ? pinnedIds.filter((id) => id !== job.id).flatMap((id) => {
     const other = jobs.find((j) => j.id === id);
-    return other && other.state === 'done' ? [{path: `${other.folder}/traces/${file}`, label: 'before'}] : [];
-  });
+    return other && other.state === 'done' ? [{path: `${other.folder}/traces/${file}`, label: runLabel(other, job)}] : [];
+  }) : [];
+  const path = job ? `${job.folder}/traces/${file}` : '';
+  const {tubes, verdict, wrong} = useTubes(pinned[0]?.path ?? '', path, pinned.length ? tolerance : '');
+  if (!job || job.state !== 'done' || !result) return <StartHint verb="run" what="curves of the signals that the diagram records" />;
+  const commit = () => {
+    localStorage.setItem(rememberedTolerance, text.trim());
+    setTolerance(text.trim());
+  };
   return (
     <>
       <div className="panel-head">
-        <span className="headline" title={job.headline}>{job.headline}</span>
+        <span className="headline" title={headline || job.headline}>{verdict || headline || job.headline}</span>
+        {pinned.length > 0 && (
+          <label className={wrong ? 'muted tolerance wrong' : 'muted tolerance'} title={wrong || 'how far the curves may be from the pinned ones: value, share, time beside it'}>within{' '}
+            <input className="field" aria-label="tolerance" value={text} placeholder="2 nm + 0.1 %, 0.1 ms" spellCheck={false}
+                   onChange={(e) => setText(e.target.value)} onBlur={commit} onKeyDown={(e) => e.key === 'Enter' && e.currentTarget.blur()} /></label>
+        )}
         {result.traces.length > 1 && (
           <select aria-label="recording" value={file} onChange={(e) => set({recording: e.target.value})}>
             {result.traces.map((t) => <option key={t}>{t}</option>)}
@@ -128,7 +170,8 @@ export function Scopes() {
                   onClick={() => set({pinnedJobs: pinnedIds.includes(job.id) ? [] : [job.id]})}>{pinnedIds.includes(job.id) ? 'Pinned' : 'Pin'}</button>
         )}
       </div>
-      <TraceView path={`${job.folder}/traces/${file}`} pinned={pinned} />
+      {wrong && <p className="problem tolerance-problem">{wrong}</p>}
+      <TraceView path={path} pinned={pinned} tubes={tubes} />
     </>
   );
 }

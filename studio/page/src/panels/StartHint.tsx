@@ -1,18 +1,17 @@
 // Decides what an empty panel says: what would fill it, and the one action that does.
 
 import {currentPath, useStudio} from '../data/store';
+import {runOrder} from '../edit/orders';
 import {duration, percent} from '../numbers';
+import type {JobOrder} from '../types';
 
 const needsData = ['compare', 'diagnose', 'discover'];
 const name = (verb: string) => verb[0].toUpperCase() + verb.slice(1);
 
 /// Of a diagram with inputs a run reads them from the data that were chosen.
-export function orderOf(verb: string, diagram: string, data: string, document: any) {
-  const options: Record<string, string> = {};
-  const hasInputs = Object.keys(document?.inputs ?? {}).length > 0;
-  if (verb === 'run') options['--traces'] = 'f64';
-  if (data && (needsData.includes(verb) || (verb === 'run' && hasInputs))) options['--data'] = data;
-  return {verb, diagram, options};
+export function orderOf(verb: string, diagram: string, data: string, document: any): JobOrder {
+  if (verb === 'run') return runOrder(diagram, data, document);
+  return {verb, diagram, options: data && needsData.includes(verb) ? {'--data': data} : {}};
 }
 
 export function StartHint({verb, what}: {verb: string; what: string}) {

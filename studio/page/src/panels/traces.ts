@@ -33,3 +33,20 @@ export function useStretch(path: string, columns: string[], range: Point | null,
   }, [path, key, range, pixels]);
   return stretch?.path === path ? stretch.stretch : null;
 }
+
+/// The same columns of several files, as they come in.
+export function useStretches(files: {path: string}[], columns: string[], range: Point | null, pixels: number): (Stretch | undefined)[] {
+  const [found, setFound] = useState<{key: string; stretches: Stretch[]}>({key: '', stretches: []});
+  const paths = files.map((f) => f.path).join('\n');
+  const key = columns.join('\n');
+  useEffect(() => {
+    if (!paths || !key) return;
+    let wanted = true;
+    Promise.all(paths.split('\n').map((path) => api.trace(path, key.split('\n'), range?.[0] ?? 0, range?.[1] ?? 0, pixels)))
+      .then((stretches) => wanted && setFound({key: paths, stretches}), () => wanted && setFound({key: '', stretches: []}));
+    return () => {
+      wanted = false;
+    };
+  }, [paths, key, range, pixels]);
+  return found.key === paths ? found.stretches : [];
+}
