@@ -157,6 +157,7 @@ HttpReply Api::files(const HttpRequest&) {
 HttpReply Api::blocks(const HttpRequest&) {
   return reply_of({{"blocks", Json::parse(settings_.blocks)["blocks"]},
                    {"symbols", palette_symbols(*settings_.registry)},
+                   {"laws", palette_laws(*settings_.registry)},
                    {"pictures", pictograms()}});
 }
 

@@ -10,4 +10,7 @@ namespace hysteron::studio {
 /// The symbol of each type as item_json(), without a value of its own.
 nlohmann::ordered_json palette_symbols(const Registry& registry);
 
+/// The law of each type as MathML (mathml.h).
+nlohmann::ordered_json palette_laws(const Registry& registry);
+
 }  // namespace hysteron::studio

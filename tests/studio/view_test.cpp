@@ -63,6 +63,23 @@ TEST_F(StudioView, AnUnfinishedDiagramIsDrawnWithOpenPorts) {
   EXPECT_FALSE(v["warnings"].empty()) << "a reads nothing yet";
 }
 
+TEST_F(StudioView, BlocksStandWhereTheyWereMovedTo) {
+  (void)folder_.write("d.layout.json", R"({"format": 1, "blocks": {"stage": [100, 50]}})");
+  const Json v = view(good);
+  EXPECT_EQ(item(v, "stage")["x"], 400);
+  EXPECT_NEAR(item(v, "stage")["y"].get<double>(), 200, 2);  // half a step of the grid, to be level with its wire
+  EXPECT_EQ(v["places"]["stage"], Json::array({100, 50}));
+  EXPECT_EQ(v["text"], good);
+}
+
+TEST_F(StudioView, AWrongLayoutFileMovesNothingAndIsTold) {
+  (void)folder_.write("d.layout.json", R"({"format": 1, "blocks": {"stage": ["left", 50]}})");
+  const Json v = view(good);
+  EXPECT_TRUE(v["sheet"].is_object());
+  ASSERT_EQ(v["problems"].size(), 1U);
+  EXPECT_EQ(v["problems"][0]["path"], "/blocks/stage");
+}
+
 TEST_F(StudioView, WhatIsNoDiagramIsToldInItsLine) {
   const Json v = view("{\"format\": 1,\n \"blocks\": {\"a\": }}");
   EXPECT_TRUE(v["sheet"].is_null());

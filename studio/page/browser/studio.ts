@@ -20,6 +20,7 @@ export class Studio {
     mkdirSync(dirname(join(this.folder, name)), {recursive: true});
     writeFileSync(join(this.folder, name), text);
   }
+  has = (name: string) => existsSync(join(this.folder, name));
   read = (name: string) => readFileSync(join(this.folder, name), 'utf8');
   copy = (from: string, to: string) => cpSync(join(source, from), join(this.folder, to), {recursive: true});
   get address(): string {

@@ -134,6 +134,7 @@ export interface Pictogram {
 export interface Library {
   blocks: BlockDeclaration[];
   symbols: Record<string, Item>;
+  laws: Record<string, string>;  // as MathML
   pictures: Record<string, Pictogram>;
 }
 

@@ -208,7 +208,7 @@ function BlockPanel({item}: {item: Item}) {
       {declaration && (
         <section className="law">
           <h3>law</h3>
-          {declaration.law && <p className="formula">{declaration.law}</p>}
+          {declaration.law && <p className="formula" title={declaration.law} dangerouslySetInnerHTML={{__html: catalogue?.laws[declaration.type] ?? ''}} />}
           {declaration.remarks.map((r, i) => <p key={i}>{r}</p>)}
           {declaration.source && <p className="muted">{declaration.source}</p>}
         </section>
