@@ -20,7 +20,7 @@ constexpr double crossing = 30;  // of another wire
 constexpr double along = 40;     // per pixel would be more than any way: per piece that lies on another wire, and
 constexpr double along_px = 3;   // ... per pixel of it
 constexpr double around = 240;   // blocks so far from the ends are looked at first
-constexpr double same = 4;       // wires nearer than this would look like one
+constexpr double too_near = 4;   // wires nearer than this would look like one
 
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
@@ -137,7 +137,7 @@ class Search {
       const double line = other_level ? piece.a.y : piece.a.x, here = is_level ? a.y : a.x;
       if (other_level == is_level) {
         const double shared = std::min(high, to) - std::max(low, from);
-        if (shared > 0 && std::abs(line - here) < same) sum += along + along_px * shared;
+        if (shared > 0 && std::abs(line - here) < too_near) sum += along + along_px * shared;
       } else if (here > from && here < to && line > low && line <= high) {
         sum += crossing;
       }
@@ -249,11 +249,11 @@ class Detours {
     for (int i = 0; i < static_cast<int>(sheet_.items.size()); ++i) {
       const Item& other = item(i);
       if (i == wire.from || i == wire.to || b.x <= other.x || a.x >= other.x + other.width()) continue;
-      if (a.y > other.y - same && a.y < other.y + other.height() + room_of(other).below) return false;
+      if (a.y > other.y - too_near && a.y < other.y + other.height() + room_of(other).below) return false;
     }
     return std::none_of(pieces_.begin(), pieces_.end(), [&](const Piece& p) {
-      return p.net != net_of(wire) && p.a.y == p.b.y && std::abs(p.a.y - a.y) < same && std::max(p.a.x, p.b.x) > a.x &&
-             std::min(p.a.x, p.b.x) < b.x;
+      return p.net != net_of(wire) && p.a.y == p.b.y && std::abs(p.a.y - a.y) < too_near &&
+             std::max(p.a.x, p.b.x) > a.x && std::min(p.a.x, p.b.x) < b.x;
     });
   }
 

@@ -10,7 +10,7 @@
 namespace hysteron::draw {
 namespace {
 
-constexpr double margin = 12;  // around the sheet
+constexpr double sheet_margin = 12;  // around the sheet
 
 Point end_of(const Sheet& sheet, const Wire& wire, bool at_source) {
   const Item& item = sheet.items[static_cast<std::size_t>(at_source ? wire.from : wire.to)];
@@ -84,12 +84,12 @@ void shift_to_corner(Sheet& sheet) {
   for (const auto& wire : sheet.wires)
     for (const auto& p : wire.path) see(p.x, p.y);
   if (!(left < right)) return;
-  const double dx = std::round(margin - left), dy = std::round(margin - top);
+  const double dx = std::round(sheet_margin - left), dy = std::round(sheet_margin - top);
   for (auto& item : sheet.items) item.x += dx, item.y += dy;
   for (auto& wire : sheet.wires)
     for (auto& p : wire.path) p.x += dx, p.y += dy;
-  sheet.width = right + dx + margin;
-  sheet.height = bottom + dy + margin;
+  sheet.width = right + dx + sheet_margin;
+  sheet.height = bottom + dy + sheet_margin;
 }
 
 }  // namespace hysteron::draw

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr int conflict = 409, not_found = 404, bad_request = 400;
-constexpr auto look_every = std::chrono::milliseconds(60);  // for what is told as an event
+constexpr auto events_every = std::chrono::milliseconds(60);  // for what is told as an event
 constexpr auto heartbeat = std::chrono::seconds(10);
 
 HttpReply reply_of(const Json& body, int status = 200) {
@@ -180,7 +180,7 @@ HttpReply Api::events(const HttpRequest& request) {
       if (is_new || is_quiet) last = Clock::now();
       if (is_new && !send(told + "\n")) return;
       if (!is_new && is_quiet && !send("\n")) return;
-      std::this_thread::sleep_for(look_every);
+      std::this_thread::sleep_for(events_every);
     }
   };
   return reply;

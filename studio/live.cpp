@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr int patience = 1500, most_patience = 30000;  // [ms]
+constexpr int usual_patience = 1500, most_patience = 30000;  // [ms]
 
 /// The trace that is looked at, else the first.
 const CsvTable& shown_of(const VerbAnswer& answer, const std::string& wanted) {
@@ -49,7 +49,7 @@ std::string Live::answer(const json& asked) {
   for (const auto& folder : allowed_) words.push_back("--allow=" + folder);
   const std::lock_guard lock(one_);
   const auto until =
-      Clock::now() + std::chrono::milliseconds(std::clamp(asked.value("patience", patience), 1, most_patience));
+      Clock::now() + std::chrono::milliseconds(std::clamp(asked.value("patience", usual_patience), 1, most_patience));
   const VerbAnswer answer = own_.carry_out(words, [&] { return mine != newest_ || Clock::now() > until; });
   const CsvTable& table = shown_of(answer, asked.value("trace", ""));
   const auto columns = columns_of(table, asked);
