@@ -81,7 +81,7 @@ std::string Import::keep(const std::string& name, const std::string& bytes) cons
 
 Json Import::preview(const json& asked) const {
   const std::string name = asked.value("file", "");
-  std::vector<std::string> words{new_.name, "--from=" + folder_.file(name), "-o=" + folder_.path()};
+  std::vector<std::string> words{new_.name, "--from=" + folder_.file(name), "-o", folder_.path()};
   const auto options = option_words(asked.value("options", json::object()), new_, folder_, WordPaths::absolute);
   words.insert(words.end(), options.begin(), options.end());
   const RecordingPreview found = own_.preview(words);
@@ -104,7 +104,7 @@ Json Import::preview(const json& asked) const {
 Json Import::carried_out(const std::vector<std::string>& files, const json& options, const std::string& target) const {
   std::vector<std::string> words{new_.name};
   for (const auto& file : files) words.push_back("--from=" + folder_.file(file));
-  words.push_back("-o=" + target);
+  words.insert(words.end(), {"-o", target});
   const auto others = option_words(options, new_, folder_, WordPaths::absolute);
   words.insert(words.end(), others.begin(), others.end());
   Json answer = Json::parse(own_.carry_out(words, [] { return false; }).json);

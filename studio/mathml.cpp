@@ -159,7 +159,7 @@ class Setter {
         part.whole = "<msub><mrow>" + part.whole + "</mrow><mrow>" + until("]") + "</mrow></msub>";
       } else if (is("(") && !now().is_apart && is_callable_) {
         ++at_;
-        part.whole += op("(") + until(")") + op(")");
+        part.whole += "<mo stretchy=\"false\">(</mo>" + until(")") + "<mo stretchy=\"false\">)</mo>";
       } else {
         break;
       }

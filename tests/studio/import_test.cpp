@@ -41,9 +41,8 @@ class StudioImport : public testing::Test {
             }};
   }
   std::string target() const {
-    for (const auto& word : words_)
-      if (word.starts_with("-o=")) return word.substr(3);
-    return "";
+    const auto option = std::find(words_.begin(), words_.end(), "-o");
+    return option == words_.end() ? "" : *(option + 1);
   }
   bool has_word(const std::string& word) const { return std::find(words_.begin(), words_.end(), word) != words_.end(); }
   static std::string code_of(const std::function<void()>& action) {

@@ -23,7 +23,7 @@ export async function takeIn(files: File[]): Promise<void> {
       tell(error);
     }
   }
-  if (kept.length) set({dropped: [...new Set([...useStudio.getState().dropped, ...kept])], tab: 'data'});
+  if (kept.length) set({dropped: [...new Set([...kept, ...useStudio.getState().dropped])], tab: 'data'});
 }
 
 const labelOf = (file: string) => file.split('/').pop() ?? file;
@@ -40,7 +40,7 @@ function Sparkline({low, high}: {low: (number | null)[]; high: (number | null)[]
 function Columns({preview, choices, onChoices}: {preview: RecordingPreview; choices: Choices; onChoices: (c: Choices) => void}) {
   const setRole = (name: string, role: Role) => onChoices({...choices, roles: {...choices.roles, [name]: role}});
   const setUnit = (name: string, unit: string) => onChoices({...choices, units: {...choices.units, [name]: unit}});
-  const left = Object.entries(choices.roles).filter(([, role]) => role === 'without').map(([name]) => name);
+  const left = Object.entries(choices.roles).filter(([name, role]) => role === 'without' && !preview.columns.some((c) => c.name === name)).map(([name]) => name);
   if (preview.columns.length === 0) {
     return (
       <table className="columns raw">
@@ -249,7 +249,7 @@ export function Data() {
   const data = useStudio((s) => s.data);
   const kind = useStudio((s) => s.files.find((f) => f.path === s.data)?.kind);
   const chooser = useRef<HTMLInputElement>(null);
-  if (dropped.length) return <Preview files={dropped} />;
+  if (dropped.length) return <Preview key={dropped.join('\n')} files={dropped} />;
   return (
     <>
       <div className="panel-head">
