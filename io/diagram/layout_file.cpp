@@ -36,8 +36,9 @@ BlockPlaces read_layout(const std::string& diagram_file) {
     if (blocks && blocks->expect_object(R"({"motor": [12, 4]})"))
       for (const auto& [name, place] : blocks->members()) {
         const auto steps = place.is_array() ? place.elements() : std::vector<JsonPlace>{};
-        const auto x = steps.size() == 2 ? steps[0].number() : std::nullopt;
-        const auto y = steps.size() == 2 ? steps[1].number() : std::nullopt;
+        const bool are_numbers = steps.size() == 2 && steps[0].is_number() && steps[1].is_number();
+        const auto x = are_numbers ? steps[0].number() : std::nullopt;
+        const auto y = are_numbers ? steps[1].number() : std::nullopt;
         if (x && y && is_step(*x) && is_step(*y))
           places[name] = {static_cast<int>(*x), static_cast<int>(*y)};
         else

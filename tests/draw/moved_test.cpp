@@ -112,11 +112,16 @@ TEST_F(MovedBlocks, WiresGoAroundEverythingWhereverBlocksStand) {
 TEST_F(MovedBlocks, ABlockOnAWireSendsItAround) {
   Sheet after = sheet();
   const Item &controller = item(after, "controller"), &drive = item(after, "drive");
-  // Onto the middle of the wire between them.
-  const double x = (controller.x + controller.width() + drive.x) / 2 - item(after, "reference").width() / 2;
+  // Onto the middle of the wire between them, which is made long enough for it.
+  constexpr int further = 60;
+  const double x =
+      (controller.x + controller.width() + drive.x + grid * further) / 2 - item(after, "reference").width() / 2;
   const double y = controller.y + controller.height() / 2 - item(after, "reference").height() / 2;
+  const int to = static_cast<int>(drive.x / grid) + further, line = static_cast<int>(drive.y / grid);
   move_items(after, {{"reference", {static_cast<int>(x / grid), static_cast<int>(y / grid)}},
-                     {"drive", {static_cast<int>(drive.x / grid) + 60, static_cast<int>(drive.y / grid)}}});
+                     {"drive", {to, line}},
+                     {"plant", {to + further, line}},
+                     {"y", {to + 2 * further, line}}});
   const Item& in_the_way = item(after, "reference");
   for (const auto& wire : after.wires)
     if (wire.signal == "controller")

@@ -78,7 +78,7 @@ describe('live', () => {
     // |2 - 4| um |sin| > 1 um where |sin| > 1/2: two thirds of the time.
     const told = (await (await page.waitForSelector('.headline:has-text("lie outside")')).textContent())!;
     expect(Number(/^(\d+) of 1001/.exec(told)![1])).toBeCloseTo(1001 * 2 / 3, -1);
-    await page.fill('[aria-label="tolerance"]', '1 furlong');
+    await page.fill('[aria-label="tolerance"]', '1 blub');
     await page.press('[aria-label="tolerance"]', 'Enter');
     await page.waitForSelector('.tolerance-problem');
     await page.fill('[aria-label="tolerance"]', '');
