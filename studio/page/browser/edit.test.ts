@@ -164,18 +164,6 @@ describe('editing', () => {
     await back();
   });
 
-  it('offers what may stand where one types', async () => {
-    const {page} = studio;
-    await shown();
-    await page.locator(`${textField} .cm-line`).nth(4).click();  // drive
-    await page.keyboard.press('Home');
-    for (let i = 0; i < 14; ++i) await page.keyboard.press('ArrowRight');
-    await page.keyboard.type('"ph');
-    await page.locator('.cm-completionLabel:text-is("phase")').waitFor();
-    await page.click('.panel-head button:text-is("Revert")');
-    await shown();
-  });
-
   it('keeps what was typed and not saved while another tab is looked at', async () => {
     const {page} = studio;
     const mine = small.replace('"Small"', '"Draft"');
@@ -185,56 +173,6 @@ describe('editing', () => {
     await studio.until(async () => (await typed()) === mine);
     await page.click('.panel-head button:text-is("Revert")');
     expect(text()).toBe(small);
-  });
-
-  it('moves a block by hand: its place stands beside the file, wires go along, and it comes back', async () => {
-    const {page} = studio;
-    const layout = 'small.layout.json';
-    await studio.wire('drive', 'limit');
-    await studio.until(() => text() !== small);
-    const wired = text();
-    await page.waitForSelector('.react-flow__edge');
-    const before = (await studio.block('limit').boundingBox())!;
-    await page.mouse.move(before.x + before.width / 2, before.y + 10);
-    await page.mouse.down();
-    await page.mouse.move(before.x + before.width / 2 + 60, before.y + 70, {steps: 5});
-    await page.mouse.move(before.x + before.width / 2 + 80, before.y + 90, {steps: 5});
-    await page.mouse.up();
-    await studio.until(() => studio.has(layout));
-    expect(text()).toBe(wired);
-    const places = JSON.parse(studio.read(layout));
-    expect(Object.keys(places.blocks)).toEqual(['limit']);
-    await studio.until(async () => Math.abs((await studio.block('limit').boundingBox())!.y - before.y - 80) < 8);
-    // The program draws it there, too, and the wire ends at the block.
-    expect(studio.hysteron('draw', 'small.json', '-o', 'small.svg').code).toBe(0);
-    const node = await page.evaluate(async ([token]) => (await (await fetch('/api/view', {method: 'POST', headers: {Authorization: `Bearer ${token}`}, body: '{"path": "small.json"}'})).json()), [studio.token]);
-    const limit = node.sheet.items.find((i: {name: string}) => i.name === 'limit');
-    expect(Math.abs(limit.x / 4 - places.blocks.limit[0])).toBe(0);
-    const path = node.sheet.wires[0].path;
-    expect(path[path.length - 1]).toEqual([limit.x + limit.in[0].x, limit.y + limit.in[0].y]);
-    await page.locator('.canvas').press('Control+z');
-    await studio.until(() => !studio.has(layout));
-    await page.locator('.canvas').press('Control+y');
-    await studio.until(() => studio.has(layout));
-    await page.click('[aria-label="lay out anew"]');
-    await studio.until(() => !studio.has(layout));
-    await back();
-  });
-
-  it('puts a block where it is dropped', async () => {
-    const {page} = studio;
-    const canvas = (await page.locator('.react-flow__pane').boundingBox())!;
-    const at = {x: canvas.x + 0.75 * canvas.width, y: canvas.y + 0.3 * canvas.height};
-    await page.click('.sidebar button:text-is("Blocks")');
-    await page.fill('[aria-label="Search blocks"]', 'gain');
-    await page.locator('.palette .entry:has-text("gain")').first().dragTo(page.locator('.react-flow__pane'), {targetPosition: {x: at.x - canvas.x, y: at.y - canvas.y}});
-    await studio.until(() => studio.has('small.layout.json'));
-    await studio.until(async () => {
-      const box = await studio.block('gain').boundingBox();
-      return box !== null && Math.abs(box.x + box.width / 2 - at.x) < 6 && Math.abs(box.y + box.height / 2 - at.y) < 6;
-    });
-    await page.fill('[aria-label="Search blocks"]', '');
-    await back();
   });
 
   it('leaves no complaint', () => expect(studio.complaints).toEqual([]));
