@@ -7,6 +7,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
+#include "app/verbs/check_fmu.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -19,6 +20,8 @@ constexpr char check_help[] =
     "  hysteron check stage.json\n"
     "  hysteron check stage.json --data lab.csv\n"
     "  hysteron check stage.json --choose compensator=none\n\n"
+    "Of an FMU (stage.fmu) the archive and the model description are looked through; with --allow stage.fmu,\n"
+    "which says that you trust it, it is loaded, too, and taken through its initialization and some steps.\n\n"
     "Prints one line with counts if all is well, else every problem: file, line, place, what is wrong and\n"
     "the cure. Where names or units are wrong, the rest is looked at without these blocks.\n"
     "Exit codes: 0 the file is right, 2 it is not.";
@@ -34,6 +37,7 @@ Facts diagram_facts(const Program& program, long free) {
 }
 
 Answer check(const Arguments& arguments, const Watch& watch) {
+  if (arguments.text("diagram").ends_with(".fmu")) return check_fmu(arguments);
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_telling_all(diagram);
   const auto free =
@@ -71,7 +75,7 @@ std::vector<shape::Member> check_shape() {
                                                                      {"blocks_with_memory", shape::whole("how many")}});
   const Facts data = shape::object("what stands in the recordings", {{"recordings", shape::whole("how many")},
                                                                      {"rows", shape::whole("judged, of all")}});
-  return {{"diagram", diagram}, {"data", data, shape::sometimes}};
+  return {{"diagram", diagram, shape::sometimes}, {"data", data, shape::sometimes}, fmu_shape()};
 }
 
 }  // namespace

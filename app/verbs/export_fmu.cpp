@@ -56,6 +56,13 @@ std::string runtime_file() {
        "build it (cmake --build build --target hysteron_fmu) or install the program whole");
 }
 
+void need_own_laws(const Program& program) {
+  for (const auto& block : program.blocks)
+    if (block.kernel->declaration.type == "fmu")
+      fail("not_exportable", block.path, "an FMU is a program of somebody else, and is not packed into another one",
+           "export the diagram without it, and couple both where they are used");
+}
+
 int version_of(const Arguments& arguments) {
   const std::string wish = arguments.text("--fmi", "2");
   if (wish == "2" || wish == "3") return wish[0] - '0';
@@ -68,6 +75,7 @@ Answer act(const Arguments& arguments, const Watch& watch) {
   need_ending("-o", file, {".fmu"}, "an FMU, e.g. -o stage.fmu");
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
+  need_own_laws(*program);
   with_lines_of(diagram, [&] { SteppedSimulation begins(program, simulate_options(*program)); });
   const std::string packed = exported_program(diagram, all_blocks);
   FmiDescription description = exported_description(*program, version, c_name(stem_of(file)), packed_token(packed));

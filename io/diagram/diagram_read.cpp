@@ -14,6 +14,7 @@
 #include "io/diagram/parameter_table.h"
 #include "io/diagram/place_kinds.h"
 #include "io/files/project_path.h"
+#include "io/fmi/imported_fmu.h"
 #include "io/json/json_reader.h"
 #include "io/json/value_text.h"
 
@@ -169,6 +170,7 @@ class DiagramReader {
     for (const auto& [key, member] : place.members())
       if (is_block || (key != "effect" && key != "upon")) node_member(node, key, member);
     if (node.type == "recorded") load_samples(place, node);
+    if (node.type == "fmu") load_fmu(place, node);
     return node;
   }
 
@@ -176,7 +178,7 @@ class DiagramReader {
     if (key == "type" || key == "in") return;
     if (key == "parameters") return parameter_set(node, member);
     if ((key == "file" || key == "enable" || key == "trigger") && node.type == "diagram") return;
-    if (node.type == "recorded" && (key == "file" || key == "column")) {
+    if ((node.type == "recorded" && (key == "file" || key == "column")) || (node.type == "fmu" && key == "file")) {
       // Names of files and columns are text, also where they look like a number ("5 Hz").
       Value value;
       value.content = member.text().value_or("");
@@ -370,6 +372,22 @@ class DiagramReader {
       unit.content = recording.units.at(values->first).text;  // text, also where it looks like a number ("1/s")
       unit.origin = origin(*column);
       node.parameters["unit"] = std::move(unit);
+    });
+  }
+
+  /// Another simulator's unit: what it takes and gives is read here, and becomes a parameter of the block.
+  void load_fmu(const JsonPlace& place, Node& node) {
+    const auto file = place.need("file", "write \"file\": \"drive.fmu\"");
+    if (const auto given = place.find("interface"))
+      given->add("unknown_key", "interface cannot stand in a diagram file", "it is made from the file; take it out");
+    if (!file || !file->is_text()) return;
+    const auto path = file_to_open(*file, *file->text());
+    if (!path) return;
+    with_file(*file, [&] {
+      Value interface;
+      interface.content = foreign_interface_text(imported_fmu(*path, *file->text(), paths_.trusts(*path)));
+      interface.origin = origin(*file);
+      node.parameters["interface"] = std::move(interface);
     });
   }
 

@@ -182,6 +182,7 @@ class DiagramWriter {
       // Samples and their unit stand in the CSV that "file" and "column" name.
       if (node.type == "recorded" && (key == "samples" || key == "unit") && node.parameters.find("file") != nullptr)
         continue;
+      if (node.type == "fmu" && key == "interface" && node.parameters.find("file") != nullptr) continue;
       m.emplace_back(key, value_text(value));
     }
     if (with_inputs && !node.in.empty()) m.emplace_back("in", wires(name, node.in));
@@ -263,7 +264,7 @@ class DiagramWriter {
 void move_paths(Node& node, const std::string& from, const std::string& to) {
   node.file = moved_path(node.file, from, to);
   node.parameter_file = moved_path(node.parameter_file, from, to);
-  if (node.type == "recorded")
+  if (node.type == "recorded" || node.type == "fmu")
     if (Value* file = node.parameters.find("file"))
       if (auto* text = std::get_if<std::string>(&file->content)) *text = moved_path(*text, from, to);
   for (auto& [name, candidate] : node.from) move_paths(candidate, from, to);

@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/unit_table.h"
+#include "engine/program/program.h"
 #include "io/files/digest.h"
+#include "io/fmi/fmi_variables.h"
 
 namespace hysteron {
 namespace {
@@ -239,6 +242,16 @@ PackedDiagram unpacked_diagram(std::string_view text) {
   } catch (const std::exception& e) {  // of the JSON library, or out_of_range
     fail("damaged_file", "program.json", std::string("this is no packed diagram: ") + e.what(), "export it again");
   }
+}
+
+std::string exported_program(const Diagram& diagram, Registry (*blocks)()) {
+  PackedDiagram packed{diagram, {}};
+  const UnitLog log;
+  const Registry all = blocks();
+  const ProgramPointer program = compile(unpacked_diagram(packed_diagram(packed)).diagram, all);
+  fmi_variables(*program);
+  packed.units = log.units();
+  return packed_diagram(packed);
 }
 
 std::string packed_token(std::string_view text) {

@@ -40,7 +40,9 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 ProjectPaths::ProjectPaths(const std::string& file, const std::vector<std::string>& allowed) {
   folders_.push_back(project_of(real_path(file).parent_path()).string());
   for (const auto& folder : allowed) {
-    if (!fs::is_directory(folder))
+    const bool is_file = fs::is_regular_file(folder);
+    if (is_file) trusted_.push_back(real_path(folder).string());
+    if (!is_file && !fs::is_directory(folder))
       fail("bad_command_line", "--allow", fmt::format("there is no folder \"{}\"", folder),
            "name a folder that exists");
     folders_.push_back(real_path(folder).string());
@@ -54,6 +56,10 @@ std::optional<std::string> ProjectPaths::resolve(const std::string& from_file, c
   for (const auto& folder : folders_)
     if (is_inside(real, folder)) return real == real_path(path) ? path.string() : real.string();
   return {};
+}
+
+bool ProjectPaths::trusts(const std::string& path) const {
+  return std::find(trusted_.begin(), trusted_.end(), real_path(path).string()) != trusted_.end();
 }
 
 std::string moved_path(const std::string& target, const std::string& from_file, const std::string& to_file) {

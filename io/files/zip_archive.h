@@ -32,14 +32,14 @@ class ZipArchive {
   std::vector<std::string> names() const;  ///< of all parts, folders among them ("resources/")
   /// Throws Error "damaged_file" where it is not there, too large or damaged.
   std::string part(const std::string& name) const;
+  /// Throws what unpack() would throw because of names and sizes.
+  void check_names() const;
   /// Writes all parts below a folder that is there. Throws Error "damaged_file" and writes nothing where a name leads
   /// out of it, is there twice, is a link, or all of them are too large.
   void unpack(const std::string& folder) const;
   [[noreturn]] void damaged(const std::string& why) const;
 
  private:
-  void check_names() const;
-
   std::string file_;
   Kind kind_;
   zip* zip_ = nullptr;

@@ -6,11 +6,9 @@
 #include <set>
 
 #include "engine/diagram/index.h"
-#include "engine/diagram/unit_table.h"
 #include "engine/program/feedthrough.h"
 #include "engine/program/nominal.h"
 #include "engine/simulate/simulate.h"
-#include "io/diagram/packed_diagram.h"
 #include "io/fmi/fmi_variables.h"
 
 namespace hysteron {
@@ -160,16 +158,6 @@ FmiDescription exported_description(const Program& program, int version, const s
   if (options.every > 0) d.step = options.every;
   Exported(program).fill(d);
   return d;
-}
-
-std::string exported_program(const Diagram& diagram, Registry (*blocks)()) {
-  PackedDiagram packed{diagram, {}};
-  const UnitLog log;
-  const Registry all = blocks();
-  const ProgramPointer program = compile(unpacked_diagram(packed_diagram(packed)).diagram, all);
-  fmi_variables(*program);
-  packed.units = log.units();
-  return packed_diagram(packed);
 }
 
 std::string c_name(const std::string& text) {

@@ -13,10 +13,6 @@ namespace hysteron {
 FmiDescription exported_description(const Program& program, int version, const std::string& identifier,
                                     const std::string& token);
 
-/// The diagram with all that it needs on a machine that has nothing of it (packed_diagram.h). `blocks` makes the
-/// registry: what it reads of units is packed, too.
-std::string exported_program(const Diagram& diagram, Registry (*blocks)());
-
 /// A name of C that is like `text`: "stage_2" of "stage-2", "m_2" of "2".
 std::string c_name(const std::string& text);
 

@@ -44,7 +44,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
     {"blocks",
      {"sources", "math", "logic", "vectors", "linear", "continuous", "hysteresis", "compensators", "mechanics",
       "electrical", "sampled", "temperature", "disturbances", "measurement", "fmi", ""}},
-    {"io", {"files", "json", "formats", "data", "diagram", "fmi", "jobs", "results"}},
+    {"io", {"files", "json", "formats", "data", "fmi", "diagram", "jobs", "results"}},
     {"fit", {"numerics", "signals", "model", "estimate", "inspect", "compare", "study", "thesis"}},
     {"discover",
      {"wiring", "hypotheses", "effects", "placement", "demonstration", "experiment", "models", "structure", "search",

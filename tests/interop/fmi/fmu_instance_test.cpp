@@ -198,6 +198,27 @@ TEST(Fmu, VersionThreeSaysTheSame) {
   EXPECT_EQ(fmu.description.find("u")->causality, "input");
 }
 
+TEST(Fmu, CheckLooksThroughItAndRunsItWhereItIsTrusted) {
+  const Exported fmu(driven);
+  const auto check = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"check", "exported.fmu"};
+    words.insert(words.end(), more.begin(), more.end());
+    return process::hysteron(fmu.folder.path(), words);
+  };
+  EXPECT_EQ(check({}).out,
+            "exported.fmu: ok: FMI 2.0, co-simulation, 1 input, 1 output, 2 parameters\n"
+            "  it was not run; if you trust it: --allow exported.fmu\n");
+  EXPECT_NE(check({"--allow", "exported.fmu"}).out.find("ok: 10 steps, a reset and the same steps again"),
+            std::string::npos);
+  std::string text = fmu.text;
+  text.replace(text.find("<Unknown index=\"3\""), 18, "<Unknown index=\"2\"");
+  fmu.folder.write("exported.fmu", zipped({{"modelDescription.xml", text}}));
+  const auto wrong = check({});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("lists 1 as an output, which is none"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("there is no binary in it"), std::string::npos) << wrong.err;
+}
+
 TEST(Fmu, ItStandsOnTheLibraryOfCAlone) {
   const auto needs = process::shell(".", "objdump -p " HYSTERON_FMU
                                          " | grep NEEDED | grep -v -e 'libc[.]so' -e "

@@ -1,0 +1,179 @@
+// FMUs as blocks: every diagram of the project, exported and imported, goes where it goes by itself; inputs, parameters
+// and units; copies of a run; what is not trusted, damaged or of another kind is refused.
+#include "io/fmi/imported_fmu.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "blocks/register_all.h"
+#include "engine/diagram/error.h"
+#include "engine/simulate/simulate.h"
+#include "io/diagram/diagram_file.h"
+#include "io/diagram/packed_diagram.h"
+#include "io/files/zip_archive.h"
+#include "io/fmi/exported_description.h"
+#include "tests/io/temporary_folder.h"
+
+namespace hysteron {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Registry& known_blocks() {
+  static const Registry all = all_blocks();
+  return all;
+}
+
+std::string fmu_of(const Diagram& diagram, int version) {
+  const auto program = compile(diagram, known_blocks());
+  const std::string packed = exported_program(diagram, all_blocks);
+  const auto description = exported_description(*program, version, "exported", packed_token(packed));
+  return zipped({{"modelDescription.xml", fmi_description_text(description)},
+                 {"resources/program.json", packed},
+                 {fmi_binary_name(description), TemporaryFolder::read(HYSTERON_FMU)}});
+}
+
+/// A diagram that is one block, which is the other diagram.
+Diagram around(const Diagram& diagram, const Program& program, int version, double period,
+               const TemporaryFolder& place) {
+  const std::string packed = exported_program(diagram, all_blocks);
+  const auto description = exported_description(program, version, "exported", packed_token(packed));
+  place.write("resources/program.json", packed);
+  ForeignInterface interface = interface_of(description, "exported.fmu");
+  interface.binary = HYSTERON_FMU;
+  interface.resources = place.path("resources");
+  Diagram host;
+  Node& node = host.blocks["x"];
+  node.type = "fmu";
+  node.parameters["interface"].content = foreign_interface_text(interface);
+  node.parameters["period"] = Value(Number{period, "s"});
+  for (const auto& v : interface.outputs) host.record.push_back("x." + v.port);
+  return host;
+}
+
+void compare(const std::string& file) {
+  constexpr int rows = 42;
+  const Diagram diagram = read_diagram(file);
+  const auto program = compile(diagram, known_blocks());
+  SimulateOptions options = simulate_options(*program);
+  if (!program->input_names.empty() || options.every <= 0) return;
+  options.until = options.begin + rows * options.every;
+  options.signals = program->output_signals.empty() ? program->record_signals : program->output_signals;
+  const Traces run = simulate(*program, start(*program), options);
+  const TemporaryFolder place;
+  const auto host = compile(around(diagram, *program, 2, options.every, place), known_blocks());
+  SimulateOptions of_host = options;
+  of_host.signals = host->record_signals;
+  of_host.method = Method::automatic;
+  const Traces imported = simulate(*host, start(*host), of_host);
+  ASSERT_EQ(imported.values.size(), run.values.size());
+  std::map<std::string, double> size;
+  const auto unit = [&](std::size_t s) {
+    return program->signals[static_cast<std::size_t>(options.signals[s])].unit.text;
+  };
+  for (std::size_t s = 0; s < run.values.size(); ++s)
+    for (const double v : run.values[s]) size[unit(s)] = std::max(size[unit(s)], std::abs(v));
+  // Each is held to 1e-6 of what signals usually are, and some are rounding beside others of their unit.
+  for (std::size_t s = 0; s < run.values.size(); ++s)
+    for (std::size_t k = 0; k < run.t.size(); ++k)
+      ASSERT_NEAR(imported.values[s][k], run.values[s][k], 1e-4 * size[unit(s)])
+          << host->record_signals[s] << " row " << k;
+}
+
+TEST(ImportedFmu, EveryDiagramOfTheProjectComesBackAsABlock) {
+  int seen = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(HYSTERON_SOURCE_DIR "/diagrams")) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".json") || !is_diagram_file(file)) continue;
+    SCOPED_TRACE(file);
+    compare(file);
+    ++seen;
+  }
+  EXPECT_GT(seen, 50);
+}
+
+class ImportedFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("lag.fmu", fmu_of(read_diagram(HYSTERON_SOURCE_DIR "/tests/interop/driven.json"), 3));
+  }
+  std::string host(const std::string& more = "") const {
+    return folder_.write("host.json", R"({"format": 1, "title": "host", "simulate": {"until": "20 ms", "every": "1 ms"},
+      "blocks": {"drive": {"type": "constant", "value": "2 V"},
+                 "x": {"type": "fmu", "file": "lag.fmu", "period": "1 ms")" +
+                                          more + R"(, "in": {"u": "drive"}}}, "record": ["x"]})");
+  }
+  double last(const std::string& file) const {
+    const auto program = compile(read_diagram(file, {folder_.path("lag.fmu")}), known_blocks());
+    return simulate(*program, start(*program), simulate_options(*program)).values[0].back();
+  }
+  std::string refused(const std::string& file, const std::vector<std::string>& allowed = {}) const {
+    try {
+      const auto program = compile(read_diagram(file, allowed), known_blocks());
+      simulate(*program, start(*program), simulate_options(*program));
+    } catch (const Error& e) {
+      return to_text(e.problems);
+    }
+    return "";
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(ImportedFile, TakesInputsAndParametersInTheirUnits) {
+  // 20 ms of a lag of 20 ms, whose gain is 1 um/V; the FMU holds 1e-9, and begins anew at no step.
+  EXPECT_NEAR(last(host()), 2e-6 * (1 - std::exp(-1.0)), 2e-12);
+  EXPECT_NEAR(last(host(R"(, "gain_gain": "3 nm/V")")), 6e-9 * (1 - std::exp(-1.0)), 6e-15);
+}
+
+TEST_F(ImportedFile, NativeCodeRunsOnlyWhereItIsTrusted) {
+  const std::string file = host();
+  EXPECT_NO_THROW(compile(read_diagram(file), known_blocks()));  // it can be read and drawn
+  EXPECT_NE(refused(file).find("native code of somebody else"), std::string::npos) << refused(file);
+  EXPECT_NE(refused(file).find("--allow lag.fmu"), std::string::npos);
+  EXPECT_NE(refused(file, {folder_.path()}).find("native code"), std::string::npos) << "a folder is no trust";
+  EXPECT_EQ(refused(file, {folder_.path("lag.fmu")}), "");
+}
+
+TEST_F(ImportedFile, ACopyOfARunGoesOnByItself) {
+  const auto program = compile(read_diagram(host(), {folder_.path("lag.fmu")}), known_blocks());
+  SimulateOptions half = simulate_options(*program);
+  half.method = Method::runge_kutta;
+  half.until = 0.0105;
+  const Traces first = simulate(*program, start(*program), half);
+  ASSERT_TRUE(first.end);
+  SimulateOptions rest = half;
+  rest.begin = half.until;
+  rest.until = 0.02;
+  const auto once = simulate(*program, *first.end, rest).values[0],
+             again = simulate(*program, *first.end, rest).values[0];
+  EXPECT_EQ(once, again);
+  EXPECT_NEAR(once.back(), 2e-6 * (1 - std::exp(-0.95)), 2e-12);  // the last row is at 19.5 ms: 19 steps
+}
+
+TEST_F(ImportedFile, WhatIsWrongIsToldAtItsPlace) {
+  EXPECT_NE(refused(host(R"(, "gain_gian": 3)")).find("gain_gain"), std::string::npos) << "the nearest name";
+  EXPECT_NE(refused(host(R"(, "interface": "x")")).find("made from the file"), std::string::npos);
+  folder_.write("lag.fmu", "no archive");
+  EXPECT_NE(refused(host()).find("this FMU cannot be read"), std::string::npos);
+  folder_.write("lag.fmu", zipped({{"modelDescription.xml",
+                                    R"(<fmiModelDescription fmiVersion="2.0" modelName="m" guid="g"><ModelVariables>
+    <ScalarVariable name="a" valueReference="1"><Real/></ScalarVariable></ModelVariables></fmiModelDescription>)"}}));
+  EXPECT_NE(refused(host()).find("offers no co-simulation"), std::string::npos);
+}
+
+TEST_F(ImportedFile, TheDiagramIsWrittenAsItWas) {
+  const std::string text = diagram_text(read_diagram(host()));
+  EXPECT_NE(text.find("\"file\": \"lag.fmu\""), std::string::npos) << text;
+  EXPECT_EQ(text.find("interface"), std::string::npos);
+  const std::string moved = diagram_text(moved_diagram(read_diagram(host()), folder_.path("sub/next.json")));
+  EXPECT_NE(moved.find("\"file\": \"../lag.fmu\""), std::string::npos) << moved;
+}
+
+}  // namespace
+}  // namespace hysteron
