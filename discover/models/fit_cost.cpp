@@ -28,7 +28,7 @@ void thin_scans(std::vector<FreeParameter>& free, double most) {
 constexpr double cost_of_a_point = 6;
 
 /// How many of the free parameters are found by linear least squares.
-double linear_ones(const Contender& c, const std::vector<FreeParameter>& free) {
+double linear_ones(const CandidateModel& c, const std::vector<FreeParameter>& free) {
   std::vector<int> parameters;
   for (const auto& f : free) parameters.push_back(f.parameter);
   const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
@@ -62,7 +62,7 @@ double steps_from(DataModel& model, const std::vector<double>& noise, const Tria
   return most == 1 && !model.integrates() ? 0 : steps;  // linear and static: nothing is slow
 }
 
-void spend_less(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
+void spend_less(const CandidateModel& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
   options.max_iterations = 5;
   options.refine = 1;
   if (steps <= 0) return;
@@ -72,7 +72,7 @@ void spend_less(const Contender& c, double steps, std::vector<FreeParameter>& fr
   options.max_iterations = static_cast<int>(std::clamp(simulations / 2 / (1 + linear + searched), 2.0, 5.0));
 }
 
-void keep_within_time(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
+void keep_within_time(const CandidateModel& c, double steps, std::vector<FreeParameter>& free, FitOptions& options) {
   if (steps <= 0) return;
   const double linear = linear_ones(c, free), searched = static_cast<double>(free.size()) - linear;
   const double half = fit_steps / steps / 2;

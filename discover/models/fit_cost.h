@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "discover/models/contender.h"
+#include "discover/models/candidate_model.h"
 
 namespace hysteron {
 
@@ -21,8 +21,8 @@ double work_of_a_step(const Program& program);
 double steps_from(DataModel& model, const std::vector<double>& noise, const Trial& fixed,
                   const std::vector<FreeParameter>& free);
 /// Screening costs little however slow the model is: fewer places to begin, fewer steps from there.
-void spend_less(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
+void spend_less(const CandidateModel& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
 /// A full fit of a slow model begins in fewer places and takes fewer steps from there.
-void keep_within_time(const Contender& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
+void keep_within_time(const CandidateModel& c, double steps, std::vector<FreeParameter>& free, FitOptions& options);
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@ namespace hysteron {
 namespace {
 
 /// Outputs that the effect standing as `name` moves: those behind any of its blocks and of the constants found anew.
-std::vector<int> outputs_of(const Program& program, const Standing& s) {
+std::vector<int> outputs_of(const Program& program, const PlacedEffect& s) {
   std::vector<bool> moved(program.output_signals.size(), false);
   const auto add = [&](int block) {
     for (const int o : outputs_behind(program, block)) moved[static_cast<std::size_t>(o)] = true;
@@ -65,12 +65,12 @@ bool moves_an_output(const Program& program, int parameter) {
   return !outputs_behind(program, program.parameters[static_cast<std::size_t>(parameter)].block).empty();
 }
 
-std::vector<Part> parts_of(const Contender& c, const std::vector<std::string>& free_paths) {
+std::vector<Part> parts_of(const CandidateModel& c, const std::vector<std::string>& free_paths) {
   const Program& program = *c.program;
   const int n = static_cast<int>(program.output_signals.size());
   Together together(program.output_signals.size());
   std::vector<std::vector<int>> moved;
-  for (const auto& s : c.standing) together.join(moved.emplace_back(outputs_of(program, s)));
+  for (const auto& s : c.placed) together.join(moved.emplace_back(outputs_of(program, s)));
   for (const auto& f : free_parameters(program, free_paths))
     together.join(outputs_behind(program, program.parameters[static_cast<std::size_t>(f.parameter)].block));
   std::vector<Part> parts;

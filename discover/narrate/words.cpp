@@ -172,7 +172,7 @@ std::string test_sentence(const ModelError& e) {
                      sizes.empty() ? "" : " (" + sizes + " rms)");
 }
 
-std::vector<FoundParameter> found_parameters(const Contender& c, const Excitation& at) {
+std::vector<FoundParameter> found_parameters(const CandidateModel& c, const Excitation& at) {
   std::vector<FoundParameter> list;
   for (const auto& e : c.fit.estimates) list.push_back({e, "", ""});
   for (const auto& p : parameters_of(c))
@@ -184,9 +184,9 @@ std::vector<FoundParameter> found_parameters(const Contender& c, const Excitatio
   return list;
 }
 
-std::string summary_of(const Contender& c, std::size_t standing, const Excitation& at) {
-  const Effect* effect = c.standing[standing].effect;
-  const Law& law = c.standing[standing].law;
+std::string summary_of(const CandidateModel& c, std::size_t standing, const Excitation& at) {
+  const Effect* effect = c.placed[standing].effect;
+  const Law& law = c.placed[standing].law;
   if (!effect->summary) return "";
   const auto values = values_of(c, standing);
   // A number that begins where the user has it comes last, and is the user's own where the diagram leaves it free.
@@ -220,17 +220,17 @@ Candidate candidate_of(const TriedEffect& t, int step) {
   c.fall_train = t.fall_train;
   c.fall_validate = t.fall_validate;
   c.share_removed = t.share;
-  c.failed = !t.contender.ok;
+  c.failed = !t.candidate.ok;
   for (const auto& p : t.effect->parameters)
     if (!p.range.empty()) c.plausible += fmt::format("{}{}: {}", c.plausible.empty() ? "" : "; ", p.name, p.range);
   c.reason = t.reason;
-  c.model_runs = t.contender.runs;
-  if (t.contender.ok) {
-    c.parameters = t.contender.parameters;
-    c.error = t.contender.error_of;
-    c.score = t.contender.score();
-    c.found = found_parameters(t.contender, t.excitation);
-    c.summary = summary_of(t.contender, t.contender.standing.size() - 1, t.excitation);
+  c.model_runs = t.candidate.runs;
+  if (t.candidate.ok) {
+    c.parameters = t.candidate.parameters;
+    c.error = t.candidate.error_of;
+    c.score = t.candidate.score();
+    c.found = found_parameters(t.candidate, t.excitation);
+    c.summary = summary_of(t.candidate, t.candidate.placed.size() - 1, t.excitation);
   }
   c.laws_tried = t.laws_tried.empty() ? std::vector{the_only_law(c, t.fall_by_recording)} : t.laws_tried;
   return c;

@@ -33,26 +33,26 @@ std::optional<TriedEffect> with_one_more(SearchState& state, const std::string& 
 bool needs_both(SearchState& state, const TriedEffect& first, const TriedEffect& second,
                 const std::vector<TriedEffect>& alone) {
   const auto other = std::find_if(alone.begin(), alone.end(), [&](const TriedEffect& t) {
-    return t.effect == second.effect && t.place.where() == second.place.where() && t.contender.ok;
+    return t.effect == second.effect && t.place.where() == second.place.where() && t.candidate.ok;
   });
   if (other == alone.end()) return false;
-  Contender without = other->contender;
+  CandidateModel without = other->candidate;
   without.error_of = state.evidence->error(without.prediction);
   TriedEffect t = first;
-  t.contender = second.contender;
-  t.contender.error_of = state.evidence->error(t.contender.prediction);
+  t.candidate = second.candidate;
+  t.candidate.error_of = state.evidence->error(t.candidate.prediction);
   judge(*state.evidence, t, without, left_by_laws_of(state, without));
   return t.admitted;
 }
 
 /// Two effects in the place of one explain most of what that one leaves: its law need not be more than nearly right.
-bool is_worth_two(const Contender& pair, const Contender& stands) {
-  return pair.standing.size() <= stands.standing.size() ||
+bool is_worth_two(const CandidateModel& pair, const CandidateModel& stands) {
+  return pair.placed.size() <= stands.placed.size() ||
          pair.error_of.excess_validate() < 0.5 * stands.error_of.excess_validate();
 }
 
 /// On top of a patch nobody else was: the pair is told only if nothing but noise is left.
-bool leaves_only_noise(const SearchState& state, const Contender& c) {
+bool leaves_only_noise(const SearchState& state, const CandidateModel& c) {
   return state.evidence->over_usual_floor(c.prediction).all <= rules::floor_gate;
 }
 
@@ -61,9 +61,9 @@ bool leaves_only_noise(const SearchState& state, const Contender& c) {
 bool another_beginning(SearchState& state, const std::vector<TriedEffect>& first) {
   if (state.stopped() || state.options.max_steps < 2) return false;
   if (state.evidence->over_usual_floor(state.current.prediction).all <= rules::floor_gate) return false;
-  const Contender stands = state.current;
+  const CandidateModel stands = state.current;
   const std::string begun = state.d.steps.empty() ? "" : state.d.steps.front().winner.effect;
-  std::optional<Contender> best;
+  std::optional<CandidateModel> best;
   int tried = 0;
   for (const std::size_t i : ranking(first)) {
     if (tried == most_beginnings || state.stopped()) break;
@@ -71,11 +71,11 @@ bool another_beginning(SearchState& state, const std::vector<TriedEffect>& first
     if (!(begun.empty() ? t.patch : t.admitted) || t.effect->id == begun) continue;
     ++tried;
     state.progress("beginning with " + t.effect->id, 0.9);
-    state.current = t.contender;
+    state.current = t.candidate;
     state.settle(state.current);
     const auto pair = with_one_more(state, begun);
     if (!pair || (begun.empty() && !needs_both(state, t, *pair, first))) continue;
-    if (!best || pair->contender.error_of.rms_validate < best->error_of.rms_validate) best = pair->contender;
+    if (!best || pair->candidate.error_of.rms_validate < best->error_of.rms_validate) best = pair->candidate;
   }
   state.current = stands;
   if (!best) return false;
@@ -95,7 +95,7 @@ bool no_patch_of_anything(SearchState& state, const std::vector<TriedEffect>& fi
   const auto order = ranking(first);
   const auto patch = std::find_if(order.begin(), order.end(), [&](std::size_t i) { return first[i].patch; });
   if (patch == order.end() || leaves_something_unexplained(state)) return false;
-  if (!tell_again(state, first[*patch].contender)) return false;
+  if (!tell_again(state, first[*patch].candidate)) return false;
   reconsider(state, 0.95, Came::at_once);
   return true;
 }
@@ -103,8 +103,8 @@ bool no_patch_of_anything(SearchState& state, const std::vector<TriedEffect>& fi
 bool two_more(SearchState& state, const std::vector<TriedEffect>& last) {
   if (state.stopped() || found_effects(state) + 2 > state.options.max_steps) return false;
   if (leaves_only_noise(state, state.current)) return false;
-  const Contender stands = state.current;
-  std::optional<Contender> best;
+  const CandidateModel stands = state.current;
+  std::optional<CandidateModel> best;
   int tried = 0;
   for (const std::size_t i : ranking(last)) {
     if (tried == patches || state.stopped()) break;
@@ -112,13 +112,13 @@ bool two_more(SearchState& state, const std::vector<TriedEffect>& last) {
     if (!t.patch) continue;
     ++tried;
     state.progress("two at once: " + t.effect->id, 0.9);
-    state.current = refit(state.shop, t.contender, Effort::full);
+    state.current = refit(state.context, t.candidate, Effort::full);
     if (!state.current.ok) continue;
     state.settle(state.current);
     const auto pair = with_one_more(state, "");  // the same, in another block, too
     state.settle(state.current);
-    if (!pair || !leaves_only_noise(state, pair->contender) || !needs_both(state, t, *pair, last)) continue;
-    if (!best || pair->contender.score() < best->score()) best = pair->contender;
+    if (!pair || !leaves_only_noise(state, pair->candidate) || !needs_both(state, t, *pair, last)) continue;
+    if (!best || pair->candidate.score() < best->score()) best = pair->candidate;
   }
   state.current = stands;
   state.settle(state.current);

@@ -18,8 +18,8 @@ bool on_one_output(const TriedEffect& a, const TriedEffect& b) {
 
 /// Every kind of recording speaks for it, if only a little, and it is plausible.
 bool agrees(const TriedEffect& t) {
-  return t.contender.ok && t.fall_train > 0 && t.fall_validate > 0 &&
-         why_implausible(*t.effect, t.laws[t.law], t.contender, t.excitation).empty();
+  return t.candidate.ok && t.fall_train > 0 && t.fall_validate > 0 &&
+         why_implausible(*t.effect, t.laws[t.law], t.candidate, t.excitation).empty();
 }
 
 /// The best candidates of the effect that begins with `i` of this order, one for each output.
@@ -40,9 +40,9 @@ bool could_suffice(const SearchState& state, const std::vector<const TriedEffect
   double score = 0, fall = 0, beginnings = 1;
   int numbers = 0;
   for (const TriedEffect* m : members) {
-    score += state.current.score() - m->contender.score();
+    score += state.current.score() - m->candidate.score();
     fall += m->fall_train + m->fall_validate;
-    numbers += m->contender.parameters - state.current.parameters;
+    numbers += m->candidate.parameters - state.current.parameters;
     beginnings *= beginnings_of(m->laws[m->law]);
   }
   return members.size() > 1 && (score > 0 || fall > rules::by_chance(numbers, beginnings));
@@ -51,23 +51,23 @@ bool could_suffice(const SearchState& state, const std::vector<const TriedEffect
 /// The members in one model, and how they came into it.
 struct Together {
   std::vector<const TriedEffect*> members;
-  std::vector<Contender> so_far;  ///< with each member and those before it
-  TriedEffect all;                ///< the last one's candidate, with the others before it
+  std::vector<CandidateModel> so_far;  ///< with each member and those before it
+  TriedEffect all;                     ///< the last one's candidate, with the others before it
 };
 
-Together fitted_together(const SearchState& state, const Workshop& shop,
+Together fitted_together(const SearchState& state, const FitContext& context,
                          const std::vector<const TriedEffect*>& members) {
-  Together set{members, {members.front()->contender}, *members.back()};
+  Together set{members, {members.front()->candidate}, *members.back()};
   for (std::size_t k = 1; k < members.size() && set.so_far.back().ok; ++k) {
     const TriedEffect& m = *members[k];
     state.progress(fmt::format("{} on {} outputs at once", m.effect->id, k + 1), 0.9);
     set.so_far.push_back(
-        with_effect(shop, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.excitation, Effort::full));
+        with_effect(context, set.so_far.back(), *m.effect, m.laws[m.law], m.place, m.excitation, Effort::full));
     const auto& before = members[k - 1]->outputs;
     set.all.outputs.insert(set.all.outputs.end(), before.begin(), before.end());
   }
   set.all.laws_tried.clear();  // they competed where the last one stood alone
-  set.all.contender = set.so_far.back();
+  set.all.candidate = set.so_far.back();
   return set;
 }
 
@@ -82,8 +82,8 @@ std::vector<Together> sets_of(const SearchState& state, const std::vector<TriedE
     if (auto members = of_one_effect(first, order, i); could_suffice(state, members)) worth.push_back(members);
   }
   std::vector<Together> sets(worth.size());
-  state.side_by_side(worth.size(), [&](std::size_t i, const Workshop& shop) {
-    sets[i] = fitted_together(state, shop, worth[i]);
+  state.side_by_side(worth.size(), [&](std::size_t i, const FitContext& context) {
+    sets[i] = fitted_together(state, context, worth[i]);
     return false;
   });
   return sets;
@@ -93,7 +93,7 @@ std::vector<Together> sets_of(const SearchState& state, const std::vector<TriedE
 void tell_those_before(SearchState& state, int step, const Together& set) {
   for (std::size_t k = 0; k + 1 < set.members.size(); ++k) {
     std::vector<TriedEffect> one{*set.members[k]};
-    one[0].contender = set.so_far[k];
+    one[0].candidate = set.so_far[k];
     one[0].laws_tried.clear();
     take(state, step + static_cast<int>(k), one[0], {});
     one[0].reason += "; claimed with that of the other outputs";

@@ -16,12 +16,12 @@ namespace {
 /// Of what the model leaves: who bends less than that (rms, of what the input varies) explains none of it.
 constexpr double hardly_bends = 0.02;
 
-Workshop with_input(const SearchState& state, const std::string& input, Between between) {
+FitContext with_input(const SearchState& state, const std::string& input, Between between) {
   DataSet other = *state.data;
   set_way(other, input, between);
-  Workshop shop = state.shop;
-  shop.data = std::make_shared<const DataSet>(std::move(other));
-  return shop;
+  FitContext context = state.context;
+  context.data = std::make_shared<const DataSet>(std::move(other));
+  return context;
 }
 
 /// More than a claim needs goes in recordings of both roles, and this share of what judging ones have above the noise.
@@ -39,12 +39,13 @@ ModelError beside_a_calibration(const SearchState& state, Prediction prediction)
 
 /// What was found says it all, and is nothing that half a sample looks like: then the user's model only fits better
 /// where it is wrong.
-bool is_explained_otherwise(const SearchState& state, const Contender& other_way) {
-  const auto& standing = state.current.standing;
+bool is_explained_otherwise(const SearchState& state, const CandidateModel& other_way) {
+  const auto& standing = state.current.placed;
   if (standing.empty() || other_way.error_of.over_floor() <= rules::floor_gate) return false;
   return state.current.error_of.over_floor() <= rules::floor_gate &&
-         std::none_of(standing.begin(), standing.end(),
-                      [](const Standing& s) { return s.effect->family == "lag" || s.effect->family == "dead_time"; });
+         std::none_of(standing.begin(), standing.end(), [](const PlacedEffect& s) {
+           return s.effect->family == "lag" || s.effect->family == "dead_time";
+         });
 }
 
 /// How far a cubic through the samples lies beside straight lines, rms over all recordings, over what they vary: an
@@ -97,8 +98,8 @@ void tell_other_ways(SearchState& state) {
     const Between between = given_way(*state.data, input);
     if (between == Between::smooth || state.data->notes.count(input) == 0) continue;
     const bool held = between == Between::hold;
-    const Workshop shop = with_input(state, input, held ? Between::linear : Between::hold);
-    const Contender c = base_contender(shop, state.user, Effort::full);
+    const FitContext context = with_input(state, input, held ? Between::linear : Between::hold);
+    const CandidateModel c = base_model(context, state.user, Effort::full);
     const ModelError& was = state.base.error_of;
     if (!c.ok || !explains(c.error_of, was, rules::structure_share) || is_explained_otherwise(state, c)) continue;
     state.d.warnings.push_back(fmt::format(
@@ -115,10 +116,10 @@ std::optional<SmoothInput> find_smooth_input(const SearchState& state) {
     if (state.stopped()) return {};
     if (given_way(*state.data, input) != Between::linear) continue;
     if (bend_of(*state.data, input) < hardly_bends * was.nrmse_validate) continue;
-    const Workshop shop = with_input(state, input, Between::smooth);
-    Contender present = state.current;
+    const FitContext context = with_input(state, input, Between::smooth);
+    CandidateModel present = state.current;
     present.prediction = {};  // it is of the data as they were said to be
-    const Contender c = refit(shop, present, Effort::screen);
+    const CandidateModel c = refit(context, present, Effort::screen);
     if (c.ok && explains(c.error_of, was, rules::share_of_rest) &&
         explains(beside_a_calibration(state, c.prediction), beside_a_calibration(state, state.current.prediction),
                  rules::share_of_rest))

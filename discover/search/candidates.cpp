@@ -67,14 +67,14 @@ bool in_another_block(const Effect& a, const Place& at_a, const Effect& b, const
 
 bool standing(const SearchState& state, const Effect& e) {
   if (e.side == Side::other_axis) return false;  // each axis has its own; a wire that has it is left out by places_of
-  return std::any_of(state.current.standing.begin(), state.current.standing.end(),
-                     [&](const Standing& s) { return s.effect->family == e.family; });
+  return std::any_of(state.current.placed.begin(), state.current.placed.end(),
+                     [&](const PlacedEffect& s) { return s.effect->family == e.family; });
 }
 
-bool standing_before(const SearchState& state, const Contender& model, const Effect& e, const Place& place) {
+bool standing_before(const SearchState& state, const CandidateModel& model, const Effect& e, const Place& place) {
   if (e.side == Side::other_axis) return false;
   const auto here = outputs_moved(state, model, place.moves_from());
-  return std::any_of(model.standing.begin(), model.standing.end(), [&](const Standing& s) {
+  return std::any_of(model.placed.begin(), model.placed.end(), [&](const PlacedEffect& s) {
     if (s.effect->family != e.family || in_another_block(*s.effect, s.place, e, place)) return false;
     const auto there = outputs_moved(state, model, s.place.moves_from());
     return there.empty() || here.empty() ||
@@ -83,8 +83,8 @@ bool standing_before(const SearchState& state, const Contender& model, const Eff
 }
 
 bool taken_up(const SearchState& state, const Effect& effect) {
-  return std::any_of(state.current.standing.begin(), state.current.standing.end(),
-                     [&](const Standing& s) { return look_alike(*s.effect, effect); });
+  return std::any_of(state.current.placed.begin(), state.current.placed.end(),
+                     [&](const PlacedEffect& s) { return look_alike(*s.effect, effect); });
 }
 
 TriedEffect* same_finding(std::vector<TriedEffect>& kept, const TriedEffect& t) {
@@ -102,7 +102,7 @@ namespace {
 template <class Chosen>
 Names outputs_not_moved(const SearchState& state, const Chosen& chosen) {
   Names list = state.base_model->outputs();
-  for (const auto& s : state.current.standing) {
+  for (const auto& s : state.current.placed) {
     if (!chosen(s)) continue;
     const auto by_it = outputs_moved(state, state.current, s.place.moves_from());
     if (by_it.empty()) return {};  // nobody knows which
@@ -114,16 +114,16 @@ Names outputs_not_moved(const SearchState& state, const Chosen& chosen) {
 }  // namespace
 
 std::vector<std::string> untouched_outputs(const SearchState& state) {
-  return outputs_not_moved(state, [](const Standing&) { return true; });
+  return outputs_not_moved(state, [](const PlacedEffect&) { return true; });
 }
 
 std::vector<std::string> outputs_without(const SearchState& state, const std::string& family) {
-  return outputs_not_moved(state, [&](const Standing& s) { return s.effect->family == family; });
+  return outputs_not_moved(state, [&](const PlacedEffect& s) { return s.effect->family == family; });
 }
 
 int found_effects(const SearchState& state) {
   std::set<std::string> names;
-  for (const auto& s : state.current.standing) names.insert(s.effect->id);
+  for (const auto& s : state.current.placed) names.insert(s.effect->id);
   return static_cast<int>(names.size());
 }
 
@@ -169,19 +169,20 @@ void add_to(TriedEffect& same, TriedEffect t, std::vector<TriedEffect>& kept) {
 
 }  // namespace
 
-std::vector<Excitation> circumstances_on(const SearchState& state, const Contender& model,
+std::vector<Excitation> circumstances_on(const SearchState& state, const CandidateModel& model,
                                          const std::vector<Place>& places) {
-  auto seen = circumstances_at(model.diagram, state.registry, *state.data, places, free_anyway(state.shop, model));
-  if (!model.standing.empty())
+  auto seen = circumstances_at(model.diagram, state.registry, *state.data, places, free_anyway(state.context, model));
+  if (!model.placed.empty())
     for (auto& c : seen) c.own_resonances = state.own_resonances;
   return seen;
 }
 
-std::vector<std::string> outputs_moved(const SearchState& state, const Contender& model, const std::string& written) {
+std::vector<std::string> outputs_moved(const SearchState& state, const CandidateModel& model,
+                                       const std::string& written) {
   const Program& p = *model.program;
   std::vector<std::string> list;
   if (written.find('/') == std::string::npos) {
-    const Wiring w(model.diagram, *state.shop.registry);
+    const Wiring w(model.diagram, *state.context.registry);
     if (output_of_reading(model.diagram, written) != nullptr) {
       std::copy_if(p.output_names.begin(), p.output_names.end(), std::back_inserter(list),
                    [&](const std::string& name) { return is_of_output(name, written.substr(written.find('.') + 1)); });
@@ -192,7 +193,7 @@ std::vector<std::string> outputs_moved(const SearchState& state, const Contender
                    [&](const std::string& name) { return is_of_output(name, output); });
     return list;
   }
-  const std::string wire = program_signal(model.diagram, *state.shop.registry, written);
+  const std::string wire = program_signal(model.diagram, *state.context.registry, written);
   int signal = p.find_signal(wire);
   if (signal < 0) signal = p.find_signal(wire + "[0]");
   if (signal < 0) return {};
@@ -201,7 +202,7 @@ std::vector<std::string> outputs_moved(const SearchState& state, const Contender
   return list;
 }
 
-std::vector<int> measured_moved(const SearchState& state, const Contender& model, const std::string& written) {
+std::vector<int> measured_moved(const SearchState& state, const CandidateModel& model, const std::string& written) {
   const auto moved = outputs_moved(state, model, written);
   const auto& outputs = state.base_model->outputs();
   std::vector<int> list;
@@ -246,7 +247,7 @@ std::vector<TriedEffect> list_candidates(SearchState& state, int step, const std
   return kept;
 }
 
-std::vector<Choice> choices_on(const SearchState& state, const Contender& model,
+std::vector<Choice> choices_on(const SearchState& state, const CandidateModel& model,
                                const std::function<bool(const Effect&)>& may,
                                const std::function<std::vector<Law>(const Effect&, const Excitation&)>& laws) {
   std::vector<Choice> list;
@@ -264,7 +265,7 @@ std::vector<Choice> choices_on(const SearchState& state, const Contender& model,
   return list;
 }
 
-double blur(const Contender& c) {
+double blur(const CandidateModel& c) {
   const double n = c.error_of.n();
   return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));
 }
@@ -275,14 +276,14 @@ void join_twins(std::vector<TriedEffect>& tried) {
     TriedEffect& first = tried[static_cast<std::size_t>(tried[i].twin)];
     TriedEffect& second = tried[i];
     std::erase(first.same_places, second.place.where());
-    if (second.contender.ok &&
-        (!first.contender.ok || second.contender.score() < first.contender.score() + blur(first.contender))) {
+    if (second.candidate.ok &&
+        (!first.candidate.ok || second.candidate.score() < first.candidate.score() + blur(first.candidate))) {
       first.same_places.push_back(first.place.where());
       std::swap(first.place, second.place);
       std::swap(first.excitation, second.excitation);
       std::swap(first.laws, second.laws);
       std::swap(first.law, second.law);
-      std::swap(first.contender, second.contender);
+      std::swap(first.candidate, second.candidate);
       std::swap(first.laws_tried, second.laws_tried);
     } else {
       first.same_places.push_back(second.place.where());

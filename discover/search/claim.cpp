@@ -18,7 +18,7 @@ std::string as_one_of_a_set(const TriedEffect& w) {
 
 /// The reason is told in the units of the noise as settled by the claimed model.
 void judge_again(const Evidence& evidence, TriedEffect& w, const ModelError& before) {
-  Contender was;
+  CandidateModel was;
   was.ok = true;
   was.error_of = before;
   was.parameters = 0;
@@ -43,10 +43,10 @@ void add_tie(SearchState& state, int step, FoundStep& found, const TriedEffect& 
 
 bool stays_itself(const SearchState& state, TriedEffect& t) {
   if (t.sharp || t.finished) return t.admitted;
-  Contender final = state.stopped() ? Contender{} : refit(state.shop, t.contender, Effort::final);
+  CandidateModel final = state.stopped() ? CandidateModel{} : refit(state.context, t.candidate, Effort::final);
   // Of two that explain as well the one with finer rows, which knows its intervals.
-  const bool as_good = final.ok && final.error_of.evidence() <= t.contender.error_of.evidence() + rules::tie;
-  t.finished = as_good ? std::move(final) : t.contender;
+  const bool as_good = final.ok && final.error_of.evidence() <= t.candidate.error_of.evidence() + rules::tie;
+  t.finished = as_good ? std::move(final) : t.candidate;
   const auto why = why_implausible(*t.effect, t.laws[t.law], *t.finished, t.excitation);
   if (why.empty()) return true;
   t.admitted = false;
@@ -61,18 +61,18 @@ void claim(SearchState& state, int step, std::vector<TriedEffect>& tried, std::s
   FoundStep found;
   found.before = state.current.error_of;
   stays_itself(state, w);
-  if (w.finished) w.contender = *w.finished;
+  if (w.finished) w.candidate = *w.finished;
   for (const int t : ties) add_tie(state, step, found, w, tried[static_cast<std::size_t>(t)]);
   take(state, step, w, std::move(found));
 }
 
 void take(SearchState& state, int step, TriedEffect& w, FoundStep found) {
-  state.current = w.contender;
+  state.current = w.candidate;
   state.settle(state.current);
   found.before =
       state.evidence->error(state.before_prediction.y.empty() ? state.base.prediction : state.before_prediction);
   state.before_prediction = state.current.prediction;
-  w.contender.error_of = state.current.error_of;
+  w.candidate.error_of = state.current.error_of;
   judge_again(*state.evidence, w, found.before);
   found.after = state.current.error_of;
   found.winner = candidate_of(w, step);

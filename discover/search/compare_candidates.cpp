@@ -14,9 +14,9 @@
 namespace hysteron {
 namespace {
 
-double evidence_of(const Contender& contender, const std::string& output) {
+double evidence_of(const CandidateModel& candidate, const std::string& output) {
   double sum = 0;
-  for (const auto& r : contender.error_of.recordings)
+  for (const auto& r : candidate.error_of.recordings)
     if (r.output == output) sum += r.evidence;
   return sum;
 }
@@ -26,9 +26,9 @@ Prediction best_of_each_output(const SearchState& state, const std::vector<Tried
   Prediction best = state.current.prediction;
   for (std::size_t o = 0; o < state.base_model->outputs().size(); ++o) {
     const std::string& output = state.base_model->outputs()[o];
-    const Contender* who = &state.current;
+    const CandidateModel* who = &state.current;
     for (const auto& t : tried)
-      if (t.contender.ok && evidence_of(t.contender, output) < evidence_of(*who, output)) who = &t.contender;
+      if (t.candidate.ok && evidence_of(t.candidate, output) < evidence_of(*who, output)) who = &t.candidate;
     if (state.base_model->outputs().size() == 1) return who->prediction;
     for (std::size_t r = 0; r < best.y.size(); ++r)
       if (!best.y[r].empty()) best.y[r][o] = who->prediction.y[r][o];
@@ -39,18 +39,18 @@ Prediction best_of_each_output(const SearchState& state, const std::vector<Tried
 /// Not a line and more, but another shape of as many numbers that fits better: what laws may have left speaks for
 /// neither.
 bool in_place_of_a_line(const TriedEffect& t, const TriedEffect& line) {
-  return t.contender.parameters <= line.contender.parameters &&
-         line.contender.error_of.evidence() - t.contender.error_of.evidence() > rules::claim_fall;
+  return t.candidate.parameters <= line.candidate.parameters &&
+         line.candidate.error_of.evidence() - t.candidate.error_of.evidence() > rules::claim_fall;
 }
 
 /// A law that has a zero of its own found anew, and is neutral otherwise, is a calibration by another name; so is one
 /// that is not beyond what the laws that stand may have left.
 void leave_to_calibration(std::vector<TriedEffect>& tried, const std::vector<double>& left) {
   for (const auto& plain : tried) {
-    if (!plain.effect->straight || !plain.contender.ok) continue;  // also where the laws that stand may have left it
+    if (!plain.effect->straight || !plain.candidate.ok) continue;  // also where the laws that stand may have left it
     for (auto& t : tried) {
       if (!t.admitted || !t.effect->moves_zero) continue;
-      if (in_place_of_a_line(t, plain) || more_than_a_line(*t.effect, plain.contender, t.contender.error_of, left))
+      if (in_place_of_a_line(t, plain) || more_than_a_line(*t.effect, plain.candidate, t.candidate.error_of, left))
         continue;
       t.admitted = false;
       t.reason = "a gain and a zero alone take away as much";
@@ -67,8 +67,8 @@ bool within_reach(const SearchState& state, const TriedEffect& t, const std::vec
     if (recordings[i].role == Role::validate) own += left[i];
   own = std::min(own, state.current.error_of.excess_validate());
   // What was taken up by the values that are held can be in the way on other recordings.
-  const double fall = std::max(state.current.error_of.chi2_validate - t.contender.error_of.chi2_validate,
-                               state.current.error_of.chi2_train - t.contender.error_of.chi2_train);
+  const double fall = std::max(state.current.error_of.chi2_validate - t.candidate.error_of.chi2_validate,
+                               state.current.error_of.chi2_train - t.candidate.error_of.chi2_train);
   return fall > rules::screened_part * std::max(rules::claim_fall, own);
 }
 
@@ -81,7 +81,7 @@ std::set<std::size_t> worth_a_fit(const std::vector<TriedEffect>& tried) {
   };
   auto list = first(4);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tried[a].contender.error_of.evidence_train < tried[b].contender.error_of.evidence_train;
+    return tried[a].candidate.error_of.evidence_train < tried[b].candidate.error_of.evidence_train;
   });
   list.merge(first(2));
   return list;
@@ -92,7 +92,7 @@ std::set<std::size_t> worth_a_fit(const std::vector<TriedEffect>& tried) {
 Law started_from(const TriedEffect& t, std::size_t law) {
   Law richer = t.laws[law];
   if (richer.apart) return richer;
-  for (const auto& p : parameters_of(t.contender, static_cast<int>(t.contender.standing.size()) - 1)) {
+  for (const auto& p : parameters_of(t.candidate, static_cast<int>(t.candidate.placed.size()) - 1)) {
     if (p.estimate == nullptr || p.estimate->linear) continue;
     for (auto& q : richer.free)
       if (q.path == p.law->path) {
@@ -107,14 +107,14 @@ Law started_from(const TriedEffect& t, std::size_t law) {
 /// of them explains nothing that is not explained.
 bool has_too_many_numbers(const TriedEffect& t, std::size_t law, const std::vector<TriedEffect>& tried) {
   const TriedEffect& best = tried[ranking(tried).front()];
-  if (best.effect == t.effect || best.contender.error_of.over_floor() > rules::floor_gate) return false;
+  if (best.effect == t.effect || best.candidate.error_of.over_floor() > rules::floor_gate) return false;
   return t.laws[law].free.size() > best.laws[best.law].free.size() + rules::too_many_numbers;
 }
 
 /// Indices of the laws, beside the first, that are tried of each candidate, given as indices of `tried`.
 std::vector<std::vector<std::size_t>> laws_to_enrich_by(const SearchState& state, const std::vector<TriedEffect>& tried,
                                                         const std::vector<std::size_t>& order, int step, As as) {
-  const bool far = step == 1 && tried[order.front()].contender.error_of.over_floor() > 3;
+  const bool far = step == 1 && tried[order.front()].candidate.error_of.over_floor() > 3;
   const auto left = left_by_laws(state, as);
   const TriedEffect& best = tried[order.front()];
   const bool decided = best.admitted && best.share > rules::decided;
@@ -136,14 +136,14 @@ std::vector<std::vector<std::size_t>> laws_to_enrich_by(const SearchState& state
 
 /// A fit that was broken off, or goes on in turn, is gone on with until it brings nothing: beside one that has not
 /// ended any other law looks better.
-bool fitted_to_its_end(const Workshop& shop, TriedEffect& t) {
+bool fitted_to_its_end(const FitContext& context, TriedEffect& t) {
   constexpr int most = 4;
   bool better = false;
   for (int i = 0; i < most && !stop_asked(); ++i) {
-    Contender further = refit(shop, t.contender, Effort::full);
-    const double gain = further.ok ? t.contender.score() - further.score() : 0;
+    CandidateModel further = refit(context, t.candidate, Effort::full);
+    const double gain = further.ok ? t.candidate.score() - further.score() : 0;
     if (!(gain > 0)) break;
-    t.contender = std::move(further);
+    t.candidate = std::move(further);
     better = true;
     if (gain < rules::alike) break;
   }
@@ -152,36 +152,36 @@ bool fitted_to_its_end(const Workshop& shop, TriedEffect& t) {
 
 /// The candidate by this law, if that is better, and what to record of it. On top of others these are held where the
 /// simple law had them: there it was fitted together with them, and nowhere else does its refinement fit better.
-TriedLaw enriched(const SearchState& state, const Workshop& shop, TriedEffect& t, std::size_t law, int step) {
-  std::optional<Contender> as_found;
-  if (step > 1 && t.contender.standing.back().weights.empty()) as_found = before_last(shop, t.contender);
-  Contender richer = with_effect(shop, as_found ? *as_found : state.current, *t.effect, started_from(t, law), t.place,
-                                 t.excitation, step == 1 ? Effort::full : Effort::screen);
-  if (step > 1 && richer.ok && richer.score() < t.contender.score()) {
-    Contender together = refit(shop, richer, Effort::full);
+TriedLaw enriched(const SearchState& state, const FitContext& context, TriedEffect& t, std::size_t law, int step) {
+  std::optional<CandidateModel> as_found;
+  if (step > 1 && t.candidate.placed.back().weights.empty()) as_found = before_last(context, t.candidate);
+  CandidateModel richer = with_effect(context, as_found ? *as_found : state.current, *t.effect, started_from(t, law),
+                                      t.place, t.excitation, step == 1 ? Effort::full : Effort::screen);
+  if (step > 1 && richer.ok && richer.score() < t.candidate.score()) {
+    CandidateModel together = refit(context, richer, Effort::full);
     if (together.ok) richer = std::move(together);
   }
   // For the same, fewer numbers are taken: a spare pole stands where a lag is not, and is in everybody's way there.
   const double gain = t.laws[law].free.size() > t.laws[t.law].free.size() ? rules::alike : 0;
   TriedLaw tried = tried_law(t.laws[law], richer, state.current.error_of);
   if (!richer.ok) return tried;
-  tried.reason = why_no_better(richer, t.contender, t.laws[t.law], gain);
+  tried.reason = why_no_better(richer, t.candidate, t.laws[t.law], gain);
   // What makes it better is then not the effect: a second mode at the limit of damping is somebody's lag.
   if (tried.reason.empty()) tried.reason = why_implausible(*t.effect, t.laws[law], richer, t.excitation);
   if (!tried.reason.empty()) return tried;
   tried.taken = true;
-  t.contender = std::move(richer);
+  t.candidate = std::move(richer);
   t.law = law;
   return tried;
 }
 
 }  // namespace
 
-std::vector<double> left_by_laws_of(const SearchState& state, const Contender& model) {
-  if (model.standing.empty()) return {};
+std::vector<double> left_by_laws_of(const SearchState& state, const CandidateModel& model) {
+  if (model.placed.empty()) return {};
   // A gain and a zero are exact: what is left behind them is called a curve.
   Prediction begun = state.base.prediction;
-  for (const auto& s : model.standing)
+  for (const auto& s : model.placed)
     if (calibrates(s))
       for (const int o : measured_moved(state, model, s.place.moves_from()))
         begun = state.evidence->calibrated(std::move(begun), o);
@@ -200,9 +200,9 @@ std::vector<double> left_by_laws(const SearchState& state, As as) {
 std::vector<std::size_t> ranking(const std::vector<TriedEffect>& tried) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < tried.size(); ++i)
-    if (tried[i].contender.ok) order.push_back(i);
+    if (tried[i].candidate.ok) order.push_back(i);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tried[a].contender.score() < tried[b].contender.score();
+    return tried[a].candidate.score() < tried[b].candidate.score();
   });
   return order;
 }
@@ -217,8 +217,8 @@ int best_admitted(const std::vector<TriedEffect>& tried) {
   for (const std::size_t i : ranking(tried)) {
     const TriedEffect& t = tried[i];
     if (!t.admitted) continue;
-    if (best < 0) least = t.contender.score();
-    if (t.contender.score() > least + rules::alike) break;
+    if (best < 0) least = t.candidate.score();
+    if (t.candidate.score() > least + rules::alike) break;
     const int next = static_cast<int>(i);
     if (best < 0 || numbers(next) < numbers(best)) best = next;
   }
@@ -230,7 +230,7 @@ void compare_all(SearchState& state, std::vector<TriedEffect>& tried, As as) {
   state.current.error_of = state.evidence->error(state.current.prediction);
   const auto left = left_by_laws(state, as);
   for (auto& t : tried) {
-    if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
+    if (t.candidate.ok) t.candidate.error_of = state.evidence->error(t.candidate.prediction);
     judge(*state.evidence, t, state.current, left);
   }
   leave_to_calibration(tried, left);
@@ -242,11 +242,11 @@ void refit_best(SearchState& state, std::vector<TriedEffect>& tried, As as, doub
   std::vector<std::size_t> together, screened_out;
   for (const std::size_t i : ranking(tried))
     (worth.contains(i) && within_reach(state, tried[i], left) ? together : screened_out).push_back(i);
-  state.side_by_side(together.size(), [&](std::size_t k, const Workshop& shop) {
+  state.side_by_side(together.size(), [&](std::size_t k, const FitContext& context) {
     TriedEffect& t = tried[together[k]];
     state.progress("together with what was found: " + t.effect->id, progress);
-    Contender better = refit(shop, t.contender, Effort::full);
-    if (better.ok) t.contender = std::move(better);
+    CandidateModel better = refit(context, t.candidate, Effort::full);
+    if (better.ok) t.candidate = std::move(better);
     return false;
   });
   compare_all(state, tried, as);
@@ -258,16 +258,16 @@ void enrich(SearchState& state, std::vector<TriedEffect>& tried, int step, As as
   if (order.empty()) return;
   const auto laws = laws_to_enrich_by(state, tried, order, step, as);
   std::atomic<bool> any = false;
-  state.side_by_side(order.size(), [&](std::size_t k, const Workshop& shop) {
+  state.side_by_side(order.size(), [&](std::size_t k, const FitContext& context) {
     TriedEffect& t = tried[order[k]];
     // A law that stands apart begins nowhere near the simple one.
     const bool refines = std::any_of(laws[k].begin(), laws[k].end(), [&](std::size_t l) { return !t.laws[l].apart; });
-    if (step > 1 && refines && fitted_to_its_end(shop, t)) any = true;
+    if (step > 1 && refines && fitted_to_its_end(context, t)) any = true;
     if (!laws[k].empty()) record_present(t, state.current.error_of);
     for (const std::size_t law : laws[k]) {
       if (state.stopped()) break;
       state.progress(fmt::format("{}: {}", t.effect->id, t.laws[law].name), progress);
-      record(t.laws_tried, enriched(state, shop, t, law, step));
+      record(t.laws_tried, enriched(state, context, t, law, step));
       if (t.laws_tried.back().taken) any = true;
     }
     return false;
@@ -275,10 +275,10 @@ void enrich(SearchState& state, std::vector<TriedEffect>& tried, int step, As as
   if (any) compare_all(state, tried, as);
 }
 
-void refine(const SearchState& state, const Workshop& shop, TriedEffect& t) {
+void refine(const SearchState& state, const FitContext& context, TriedEffect& t) {
   const std::size_t begun = t.law;
   for (std::size_t law = 1; law < t.laws.size() && !state.stopped(); ++law)
-    if (law != begun && !t.laws[law].apart) enriched(state, shop, t, law, 2);
+    if (law != begun && !t.laws[law].apart) enriched(state, context, t, law, 2);
 }
 
 void try_hidden(SearchState& state, std::vector<TriedEffect>& tried, const Effect& winner, As as) {
@@ -287,9 +287,9 @@ void try_hidden(SearchState& state, std::vector<TriedEffect>& tried, const Effec
     if (!look_alike(*t.effect, winner) || state.stopped()) continue;
     t.laws = t.effect->laws(t.excitation);
     if (t.laws.empty() || same_finding(tried, t) != nullptr) continue;
-    t.contender =
-        with_effect(state.shop, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
-    if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
+    t.candidate =
+        with_effect(state.context, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
+    if (t.candidate.ok) t.candidate.error_of = state.evidence->error(t.candidate.prediction);
     judge(*state.evidence, t, state.current, left);
     t.hidden = true;
     tried.push_back(std::move(t));

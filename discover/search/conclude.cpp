@@ -39,7 +39,7 @@ ByRole to_be_taken_beyond(const SearchState& state) {
 /// A line where a standing law looks for lines is that law's: it wanders a little, and its law does not.
 bool is_of_a_standing_law(const SearchState& state, const Structure& s) {
   if (s.kind != "line_in_time" || !(s.period > 0)) return false;
-  for (const auto& standing : state.current.standing)
+  for (const auto& standing : state.current.placed)
     for (const auto& p : standing.law.free)
       for (const auto& [low, high] : p.line_bands)
         if (low * s.period <= 1 && 1 <= high * s.period) return true;
@@ -54,7 +54,7 @@ std::string holds_too_little(const Structure& s) {
 /// What stands on the way to another output says nothing about it, nor it about that.
 bool has_a_rival(const SearchState& state, const Structure& s) {
   const auto& outputs = state.base_model->outputs();
-  return std::any_of(state.current.standing.begin(), state.current.standing.end(), [&](const Standing& standing) {
+  return std::any_of(state.current.placed.begin(), state.current.placed.end(), [&](const PlacedEffect& standing) {
     const auto moved = measured_moved(state, state.current, standing.place.moves_from());
     return std::any_of(moved.begin(), moved.end(),
                        [&](int o) { return outputs[static_cast<std::size_t>(o)] == s.output; });
@@ -67,7 +67,7 @@ Requirement beside_effects(const SearchState& state, const Structure& s, Where w
   if (!s.explains()) return {{}, "bursts only say when, and explain nothing"};
   if (is_of_a_standing_law(state, s)) return {{}, "a law that stands looks for lines there: this one is its own"};
   if (!(s.share_removed > rules::structure_share)) return {{}, holds_too_little(s)};
-  if (!state.current.standing.empty() && !has_a_rival(state, s)) return {{}, "the effects stand before other outputs"};
+  if (!state.current.placed.empty() && !has_a_rival(state, s)) return {{}, "the effects stand before other outputs"};
   const ByRole removed = removed_beyond_calibration(state, s), beyond = to_be_taken_beyond(state);
   const double by_effects =
       where == Where::validation ? removed.validate + beyond.validate : removed.all() + beyond.all();
@@ -83,7 +83,8 @@ JudgedSearch in_all_recordings(const SearchState& state) {
   JudgedSearch judged{{}, Where::all_recordings, {}};
   if (state.evidence->over_usual_floor(state.current.prediction).one <= rules::floor_gate) return judged;
   state.unless_stopped([&] {
-    judged.search = find_structures(*state.evidence, state.base.prediction, state.shop.threads, Where::all_recordings);
+    judged.search =
+        find_structures(*state.evidence, state.base.prediction, state.context.threads, Where::all_recordings);
   });
   const Structure* s = judged.search.winner();
   if (s == nullptr) return judged;
@@ -125,7 +126,7 @@ Left left_by_base(const SearchState& state) {
   Left left{over > rules::floor_gate || over_usual > rules::slow_noise, std::max(over, over_usual), {}};
   if (left.more_than_noise)
     left.looked_at = state.unless_stopped(
-        [&] { left.search = find_structures(*state.evidence, state.base.prediction, state.shop.threads); });
+        [&] { left.search = find_structures(*state.evidence, state.base.prediction, state.context.threads); });
   return left;
 }
 
@@ -145,7 +146,7 @@ void withdraw(SearchState& state) {
 void test_recordings(SearchState& state) {
   const auto test = state.base_model->recordings(Role::test);
   if (test.empty()) return;
-  const Prediction p = predicted(state.shop, state.current, test);
+  const Prediction p = predicted(state.context, state.current, test);
   if (!p.ok) return;
   state.evidence->add_test(state.d.final_error, p);
 }
@@ -184,8 +185,8 @@ void tell_noise(SearchState& state) {
 /// What was found early moved on beside what came later: what is told of it are the numbers of the last model.
 void take_final_summaries(SearchState& state) {
   auto& steps = state.d.steps;
-  for (std::size_t i = 0; i < state.current.standing.size(); ++i) {
-    const Standing& s = state.current.standing[i];
+  for (std::size_t i = 0; i < state.current.placed.size(); ++i) {
+    const PlacedEffect& s = state.current.placed[i];
     const auto is = [&](const FoundStep& f) {
       return f.winner.effect == s.effect->id && f.winner.place == s.place.where();
     };
@@ -232,7 +233,7 @@ OfBase structure_of_base(SearchState& state, const Left& left) {
 /// What stands out of what the effects leave.
 void structure_behind_effects(SearchState& state) {
   JudgedSearch rest{
-      find_structures(*state.evidence, state.current.prediction, state.shop.threads), Where::validation, {}};
+      find_structures(*state.evidence, state.current.prediction, state.context.threads), Where::validation, {}};
   const Structure* s = rest.search.winner();
   if (s != nullptr) rest.requirement = to_stand_out(*s);
   const bool told = wins(rest);

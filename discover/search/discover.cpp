@@ -42,16 +42,16 @@ void lines_of_user(const SearchState& state, std::vector<std::optional<Wandering
 }
 
 /// Lines of the mains that stand, by the output that they are on.
-std::vector<std::optional<WanderingLine>> lines_of(const SearchState& state, const Contender& model) {
+std::vector<std::optional<WanderingLine>> lines_of(const SearchState& state, const CandidateModel& model) {
   std::vector<std::optional<WanderingLine>> lines(state.base_model->outputs().size());
   lines_of_user(state, lines);
-  for (std::size_t i = 0; i < model.standing.size(); ++i)
+  for (std::size_t i = 0; i < model.placed.size(); ++i)
     for (const auto& p : parameters_of(model, static_cast<int>(i))) {
       if (p.law->line_bands.empty() || p.estimate == nullptr) continue;
       // A cosine and a sine of each harmonic are found anew in each recording.
-      const auto& free = model.standing[i].law.free;
+      const auto& free = model.placed[i].law.free;
       const auto amplitudes = std::count_if(free.begin(), free.end(), [](const auto& f) { return f.per_recording; });
-      for (const int o : measured_moved(state, model, model.standing[i].place.moves_from()))
+      for (const int o : measured_moved(state, model, model.placed[i].place.moves_from()))
         lines[static_cast<std::size_t>(o)] = WanderingLine{p.estimate->used, static_cast<int>(amplitudes / 2), false};
     }
   return lines;
@@ -66,11 +66,11 @@ SearchState::SearchState(const Diagram& diagram, const DataSet& given, const Reg
       options(wishes),
       data(std::make_shared<const DataSet>(given)),
       user(diagram) {
-  shop.registry = &registry;
-  shop.data = data;
-  shop.free_paths = options.free_paths;
-  shop.looser = options.looser;
-  shop.threads = options.threads;
+  context.registry = &registry;
+  context.data = data;
+  context.free_paths = options.free_paths;
+  context.looser = options.looser;
+  context.threads = options.threads;
 }
 
 void SearchState::progress(const std::string& what, double done) const {
@@ -90,20 +90,20 @@ bool SearchState::unless_stopped(const std::function<void()>& work) const {
 }
 
 std::size_t SearchState::side_by_side(std::size_t n,
-                                      const std::function<bool(std::size_t, const Workshop&)>& job) const {
-  std::vector<std::shared_ptr<Notebook>> notes(n);
+                                      const std::function<bool(std::size_t, const FitContext&)>& job) const {
+  std::vector<std::shared_ptr<DerivativeStore>> derivatives(n);
   std::atomic<std::size_t> first{n};
-  shop.threads.each(n, [&](std::size_t i) {
+  context.threads.each(n, [&](std::size_t i) {
     if (i > first || stopped()) return;
-    Workshop own = shop;
-    own.notes = notes[i] = std::make_shared<Notebook>(shop.notes);
+    FitContext own = context;
+    own.derivatives = derivatives[i] = std::make_shared<DerivativeStore>(context.derivatives);
     bool answer = false;
     unless_stopped([&] { answer = job(i, own); });
     if (!answer) return;
     for (std::size_t was = first; i < was && !first.compare_exchange_weak(was, i);) continue;
   });
   for (std::size_t i = 0; i < n && i <= first; ++i)
-    if (notes[i]) shop.notes->add(*notes[i]);
+    if (derivatives[i]) context.derivatives->add(*derivatives[i]);
   return first;
 }
 
@@ -112,8 +112,8 @@ bool SearchState::wanted(const Effect& effect) const {
   return std::find(options.only.begin(), options.only.end(), effect.id) != options.only.end();
 }
 
-void SearchState::settle(Contender& best) {
-  evidence->known_lines(lines_of(*this, best), [&] { return without_lines(shop, best); });
+void SearchState::settle(CandidateModel& best) {
+  evidence->known_lines(lines_of(*this, best), [&] { return without_lines(context, best); });
   evidence->settle(best.prediction);
   best.error_of = evidence->error(best.prediction);
 }
@@ -133,12 +133,12 @@ void Found::restore(SearchState& state) const {
 }
 
 void fit_candidates(SearchState& state, std::vector<TriedEffect>& tried, int step) {
-  state.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
+  state.side_by_side(tried.size(), [&](std::size_t i, const FitContext& context) {
     TriedEffect& t = tried[i];
     const double part = 0.6 * static_cast<double>(i) / static_cast<double>(tried.size());
     state.progress(fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
                    (step - 1 + part) / state.options.max_steps);
-    t.contender = with_effect(shop, state.current, *t.effect, t.laws.front(), t.place, t.excitation,
+    t.candidate = with_effect(context, state.current, *t.effect, t.laws.front(), t.place, t.excitation,
                               step == 1 || taken_up(state, *t.effect) ? Effort::full : Effort::screen);
     return false;
   });
@@ -212,7 +212,7 @@ bool one_step(SearchState& state, int step, As as, std::vector<TriedEffect>* kep
   int winner = -1;
   std::vector<int> ties;
   bool numbers = false;
-  const Contender before = state.current;
+  const CandidateModel before = state.current;
   decide(state, [&] {
     compare_all(state, tried, as);
     if (step > 1) refit_best(state, tried, as, progress(0.7));
@@ -352,9 +352,9 @@ class Searches {
     auto state = std::make_unique<SearchState>(diagram, as_found(data, with_), registry, effects, options);
     state->d.smooth_inputs = with_.smooth_inputs;
     state->d.asked_for = options.only;
-    if (!numbers_.empty()) state->shop.free_nominal_parameters(numbers_);
+    if (!numbers_.empty()) state->context.free_nominal_parameters(numbers_);
     search(*state);
-    runs_ += state->shop.notes->runs();
+    runs_ += state->context.derivatives->runs();
     return state;
   }
 

@@ -11,8 +11,8 @@ namespace hysteron {
 namespace {
 
 /// The user's model with the numbers that it has.
-Contender as_written(const SearchState& state, const Prediction& prediction) {
-  Contender c;
+CandidateModel as_written(const SearchState& state, const Prediction& prediction) {
+  CandidateModel c;
   c.diagram = state.user;
   c.program = state.base_model->program_pointer();
   c.prediction = prediction;
@@ -46,15 +46,15 @@ void fit_base(SearchState& state) {
          "give at least one recording the role \"train\" and one the role \"validate\", or name a single CSV: it is "
          "cut in time");
   state.evidence = std::make_unique<Evidence>(*state.base_model);
-  state.shop.evidence = state.evidence.get();
-  state.shop.row_tolerance =
+  state.context.evidence = state.evidence.get();
+  state.context.row_tolerance =
       row_tolerance(*state.base_model, state.evidence->noise(), state.options.looser * rules::of_noise);
   // Without the user's model there is nothing to tell: nothing but the caller's own stop ends this.
   improve_starts(*state.base_model, state.evidence->judge(), {}, state.evidence->recordings());
   const Prediction as_given = state.base_model->predict({}, state.evidence->recordings());
-  const bool any_free = !free_parameters(state.base_model->program(), state.shop.free_paths).empty();
+  const bool any_free = !free_parameters(state.base_model->program(), state.context.free_paths).empty();
   const bool to_its_end = state.unless_stopped(
-      [&] { state.current = base_contender(state.shop, state.user, any_free ? Effort::full : Effort::final); });
+      [&] { state.current = base_model(state.context, state.user, any_free ? Effort::full : Effort::final); });
   if (!to_its_end) {
     state.current = as_written(state, as_given);
     if (any_free)
@@ -69,8 +69,8 @@ void fit_base(SearchState& state) {
   // Free numbers were fitted by the noise of the data sheet: every candidate, fitted by that of the residual, would be
   // credited with what they gain by it.
   if (any_free && to_its_end) {
-    Contender again;
-    state.unless_stopped([&] { again = refit(state.shop, state.current, Effort::final); });
+    CandidateModel again;
+    state.unless_stopped([&] { again = refit(state.context, state.current, Effort::final); });
     for (auto& e : again.fit.estimates)  // they began where the user has them
       for (const auto& first : state.current.fit.estimates)
         if (first.path == e.path && first.recording == e.recording) e.start = first.start;

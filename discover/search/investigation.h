@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/models/contender.h"
+#include "discover/models/candidate_model.h"
 #include "discover/search/discover.h"
 
 namespace hysteron {
@@ -19,13 +19,13 @@ struct TriedEffect {
   Place place;
   Excitation excitation;
   std::vector<Law> laws;
-  std::size_t law = 0;  ///< of laws: the one in `contender`
+  std::size_t law = 0;  ///< of laws: the one in `candidate`
   std::vector<std::string> same_places, same_effects;
   int twin = -1;  ///< the same finding, fitted at the other end of its places: index in the list; -1 = none
   std::vector<std::string> outputs;  ///< that the place moves; empty = all
-  Contender contender;
-  std::optional<Contender> finished;         ///< with the finest rows and intervals, as it is claimed
-  std::optional<ModelError> without_line{};  ///< of Contender::without_line
+  CandidateModel candidate;
+  std::optional<CandidateModel> finished;    ///< with the finest rows and intervals, as it is claimed
+  std::optional<ModelError> without_line{};  ///< of CandidateModel::without_line
   double fall_train = 0, fall_validate = 0;  ///< of the evidence, against the model before
   double share = 0;       ///< of the excess on validation that it removes, of the outputs that it can move
   bool admitted = false;  ///< passes the rules of a claim
@@ -115,19 +115,19 @@ inline bool falls_in_both_roles(const ModelError& now, const ModelError& was) {
 
 /// Fills falls, share, admitted and reason. `left_by_laws`: of chi2 in each of ModelError::recordings, what the laws
 /// that stand may have left of their own effects; empty = judged as the first effect.
-void judge(TriedEffect& tried, const Contender& before, const std::vector<double>& left_by_laws);
-/// With what is left without the line that its law looks for (Contender::without_line).
-void judge(const Evidence& evidence, TriedEffect& tried, const Contender& before,
+void judge(TriedEffect& tried, const CandidateModel& before, const std::vector<double>& left_by_laws);
+/// With what is left without the line that its law looks for (CandidateModel::without_line).
+void judge(const Evidence& evidence, TriedEffect& tried, const CandidateModel& before,
            const std::vector<double>& left_by_laws);
 
 /// Is what `effect` takes away of what `before` leaves more than the laws of that one may have left of their own
 /// effects?
-bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
+bool more_than_laws_leave(const Effect& effect, const CandidateModel& before, const ModelError& after,
                           const std::vector<double>& left_by_laws);
 
 /// Does an effect whose law holds a gain and a zero besides its own take more away than these alone, which leave
 /// `straight`, and more than the laws that stand may have left?
-bool more_than_a_line(const Effect& effect, const Contender& straight, const ModelError& after,
+bool more_than_a_line(const Effect& effect, const CandidateModel& straight, const ModelError& after,
                       const std::vector<double>& left_by_laws);
 
 /// From how many beginnings a law is fitted, the best of which is kept.
@@ -141,18 +141,18 @@ std::string what_it_takes(const TriedEffect& tried);
 
 /// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
 /// is.
-std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Excitation& at);
+std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at);
 
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);
 
 std::string percent(double share);
-std::vector<FoundParameter> found_parameters(const Contender& c, const Excitation& at);
+std::vector<FoundParameter> found_parameters(const CandidateModel& c, const Excitation& at);
 Candidate candidate_of(const TriedEffect& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
 std::string step_sentence(const FoundStep& step, const Effect& effect);
 /// Of the effect that stands at this index, with the values of the whole model; "" where its law says nothing.
-std::string summary_of(const Contender& c, std::size_t standing, const Excitation& at);
+std::string summary_of(const CandidateModel& c, std::size_t standing, const Excitation& at);
 /// Headline, sentences, warnings of the finished discovery.
 void put_into_words(Discovery& d, const DataSet& data);
 

@@ -150,8 +150,8 @@ bool lists(const std::vector<std::string>& ids, const Effect& effect) {
 
 /// Its law can imitate one that stands (hysteresis a friction), or what that one leaves of its own. A straight line
 /// leaves nothing.
-bool imitates_a_standing_law(const Effect& effect, const Contender& standing) {
-  return std::any_of(standing.standing.begin(), standing.standing.end(), [&](const Standing& s) {
+bool imitates_a_standing_law(const Effect& effect, const CandidateModel& standing) {
+  return std::any_of(standing.placed.begin(), standing.placed.end(), [&](const PlacedEffect& s) {
     return !calibrates(s) && (lists(effect.contains, *s.effect) || lists(s.effect->leaves, effect));
   });
 }
@@ -197,7 +197,7 @@ std::vector<double> as_seen_at_rest(const ModelError& was, const ModelError& is,
 }
 
 /// What the laws that stand may have left, as much more as one has to take away that looks like that.
-std::vector<double> left_for(const Effect& effect, const Contender& standing, std::vector<double> left_by_laws) {
+std::vector<double> left_for(const Effect& effect, const CandidateModel& standing, std::vector<double> left_by_laws) {
   if (imitates_a_standing_law(effect, standing))
     for (double& chi2 : left_by_laws) chi2 *= std::pow(rules::imitated_left / rules::own_law_left, 2);
   return left_by_laws;
@@ -207,10 +207,10 @@ std::vector<double> left_for(const Effect& effect, const Contender& standing, st
 /// anything that is slow: what it takes away there proves nothing, nor what the others take away elsewhere since then.
 /// A line proves itself where it is seen, by what is left there without it.
 ModelError proved(const ModelError& was, const TriedEffect& tried) {
-  ModelError is = tried.contender.error_of;
+  ModelError is = tried.candidate.error_of;
   if (!tried.without_line) return is;
   const ModelError& without = *tried.without_line;
-  const double line = line_of(tried.contender);
+  const double line = line_of(tried.candidate);
   for (std::size_t i = 0; i < is.recordings.size() && without.ok; ++i) {
     RecordingError& r = is.recordings[i];
     const auto& before = was.recordings[i];
@@ -227,7 +227,7 @@ ModelError proved(const ModelError& was, const TriedEffect& tried) {
 }
 
 /// Values of the newest law that were found on validate recordings which can speak for it.
-int found_where_proved(const Contender& c, const Contender& before) {
+int found_where_proved(const CandidateModel& c, const CandidateModel& before) {
   const int found = std::max(0, c.found_on_validation - before.found_on_validation);
   const auto judging = [](const RecordingError& r) { return r.role == Role::validate; };
   const double line = line_of(c);
@@ -241,24 +241,24 @@ int found_where_proved(const Contender& c, const Contender& before) {
 /// Where nothing stands that could have left it, and nothing was found on recordings that judge: chance takes less of
 /// all recordings away with as many numbers (chi2 of as many degrees of freedom). ln N for each is the price where they
 /// are known as well as N rows know a number: of a weak slow effect they know few.
-bool beyond_chance(const TriedEffect& tried, const Contender& before, bool first, double beginnings) {
-  const int numbers = tried.contender.parameters - before.parameters;
-  return first && tried.contender.found_on_validation == before.found_on_validation &&
+bool beyond_chance(const TriedEffect& tried, const CandidateModel& before, bool first, double beginnings) {
+  const int numbers = tried.candidate.parameters - before.parameters;
+  return first && tried.candidate.found_on_validation == before.found_on_validation &&
          tried.fall_train + tried.fall_validate > rules::by_chance(numbers, beginnings);
 }
 
 /// A recording that hardly shows an effect can agree with the others, and not prove it: what they prove counts, less
 /// the price of every number that was fitted, and of every beginning that was tried.
-bool all_agree(const TriedEffect& tried, const Contender& before) {
+bool all_agree(const TriedEffect& tried, const CandidateModel& before) {
   return tried.fall_validate > rules::agreed_fall &&
-         (before.score() - tried.contender.score() > rules::claim_fall ||
+         (before.score() - tried.candidate.score() > rules::claim_fall ||
           beyond_chance(tried, before, true, beginnings_of(tried.laws[tried.law])));
 }
 
 /// It is worth its numbers. Beginnings were compared on fitted recordings: where others prove it, they are paid for.
-bool is_worth_its_numbers(const TriedEffect& tried, const Contender& before, bool first) {
+bool is_worth_its_numbers(const TriedEffect& tried, const CandidateModel& before, bool first) {
   const bool proved = tried.fall_validate > rules::claim_fall;
-  return tried.contender.score() < before.score() ||
+  return tried.candidate.score() < before.score() ||
          beyond_chance(tried, before, first, proved ? 1 : beginnings_of(tried.laws[tried.law]));
 }
 
@@ -271,7 +271,7 @@ double beginnings_of(const Law& law) {
 }
 
 std::vector<double> own_values(const TriedEffect& tried) {
-  return values_of(tried.contender, tried.contender.standing.size() - 1);
+  return values_of(tried.candidate, tried.candidate.placed.size() - 1);
 }
 
 std::string what_it_takes(const TriedEffect& tried) {
@@ -280,13 +280,13 @@ std::string what_it_takes(const TriedEffect& tried) {
       percent(std::clamp(tried.share, 0.0, 1.0)), tried.fall_validate);
 }
 
-std::string why_implausible(const Effect& effect, const Law& law, const Contender& fitted, const Excitation& at) {
+std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at) {
   if (!effect.implausible) return "";
-  const auto values = values_of(fitted, fitted.standing.size() - 1);
+  const auto values = values_of(fitted, fitted.placed.size() - 1);
   return !values.empty() && values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
 }
 
-bool more_than_laws_leave(const Effect& effect, const Contender& before, const ModelError& after,
+bool more_than_laws_leave(const Effect& effect, const CandidateModel& before, const ModelError& after,
                           const std::vector<double>& left_by_laws) {
   if (left_by_laws.empty()) return true;
   const bool imitates = imitates_a_standing_law(effect, before);
@@ -296,7 +296,7 @@ bool more_than_laws_leave(const Effect& effect, const Contender& before, const M
          (!imitates || more_in_all(before.error_of, after, left));
 }
 
-bool more_than_a_line(const Effect& effect, const Contender& straight, const ModelError& after,
+bool more_than_a_line(const Effect& effect, const CandidateModel& straight, const ModelError& after,
                       const std::vector<double>& left_by_laws) {
   return straight.error_of.evidence() - after.evidence() > rules::claim_fall &&
          more_than_laws_leave(effect, straight, after, left_by_laws);
@@ -317,15 +317,15 @@ std::vector<double> fall_by_recording(const ModelError& before, const ModelError
   return falls;
 }
 
-void judge(const Evidence& evidence, TriedEffect& tried, const Contender& before,
+void judge(const Evidence& evidence, TriedEffect& tried, const CandidateModel& before,
            const std::vector<double>& left_by_laws) {
   tried.without_line.reset();
-  if (tried.contender.without_line) tried.without_line = evidence.error(*tried.contender.without_line);
+  if (tried.candidate.without_line) tried.without_line = evidence.error(*tried.candidate.without_line);
   judge(tried, before, left_by_laws);
 }
 
-void judge(TriedEffect& tried, const Contender& before, const std::vector<double>& left_by_laws) {
-  const Contender& c = tried.contender;
+void judge(TriedEffect& tried, const CandidateModel& before, const std::vector<double>& left_by_laws) {
+  const CandidateModel& c = tried.candidate;
   tried.admitted = tried.patch = false;
   if (!c.ok) {
     tried.reason = "could not be fitted: " + c.error;

@@ -8,7 +8,7 @@
 
 namespace hysteron {
 
-TriedLaw tried_law(const Law& law, const Contender& fitted, const ModelError& before) {
+TriedLaw tried_law(const Law& law, const CandidateModel& fitted, const ModelError& before) {
   TriedLaw tried;
   tried.law = law.name;
   tried.failed = !fitted.ok;
@@ -25,7 +25,7 @@ TriedLaw tried_law(const Law& law, const Contender& fitted, const ModelError& be
 }
 
 void record_present(TriedEffect& t, const ModelError& before) {
-  TriedLaw present = tried_law(t.laws[t.law], t.contender, before);
+  TriedLaw present = tried_law(t.laws[t.law], t.candidate, before);
   present.taken = !present.failed;
   const auto known =
       std::find_if(t.laws_tried.begin(), t.laws_tried.end(), [](const TriedLaw& law) { return law.taken; });
@@ -44,7 +44,7 @@ void record(std::vector<TriedLaw>& laws, TriedLaw tried) {
   laws.push_back(std::move(tried));
 }
 
-std::string why_no_better(const Contender& fitted, const Contender& present, const Law& present_law,
+std::string why_no_better(const CandidateModel& fitted, const CandidateModel& present, const Law& present_law,
                           double for_the_same) {
   if (fitted.score() < present.score() - for_the_same) return "";
   const double more = present.error_of.evidence() - fitted.error_of.evidence();

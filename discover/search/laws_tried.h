@@ -9,14 +9,14 @@
 namespace hysteron {
 
 /// A law as it was fitted, beside the model before it; not taken yet.
-TriedLaw tried_law(const Law& law, const Contender& fitted, const ModelError& before);
+TriedLaw tried_law(const Law& law, const CandidateModel& fitted, const ModelError& before);
 /// The present law of the candidate begins the record, or is told anew in it.
 void record_present(TriedEffect& t, const ModelError& before);
 /// One that was tried against it: where it is taken, the present one was not.
 void record(std::vector<TriedLaw>& laws, TriedLaw tried);
 /// Why a law that was fitted does not take the place of the present one, "" where it explains more. `for_the_same`: so
 /// much must the score fall where it has more numbers.
-std::string why_no_better(const Contender& fitted, const Contender& present, const Law& present_law,
+std::string why_no_better(const CandidateModel& fitted, const CandidateModel& present, const Law& present_law,
                           double for_the_same);
 
 }  // namespace hysteron

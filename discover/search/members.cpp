@@ -8,7 +8,7 @@
 namespace hysteron {
 namespace {
 
-std::optional<TriedEffect> tried_at(const SearchState& state, const Workshop& shop, const Contender& model,
+std::optional<TriedEffect> tried_at(const SearchState& state, const FitContext& context, const CandidateModel& model,
                                     const Member& m, const Place& place, Line line) {
   TriedEffect t;
   t.effect = m.effect;
@@ -19,8 +19,8 @@ std::optional<TriedEffect> tried_at(const SearchState& state, const Workshop& sh
   const auto law = std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == m.law; });
   if (law == t.laws.end()) return std::nullopt;
   t.law = static_cast<std::size_t>(law - t.laws.begin());
-  t.contender = with_effect(shop, model, *t.effect, *law, t.place, t.excitation, Effort::full);
-  if (!t.contender.ok) return std::nullopt;
+  t.candidate = with_effect(context, model, *t.effect, *law, t.place, t.excitation, Effort::full);
+  if (!t.candidate.ok) return std::nullopt;
   t.admitted = true;
   return t;
 }
@@ -29,13 +29,13 @@ std::optional<TriedEffect> tried_at(const SearchState& state, const Workshop& sh
 std::pair<std::optional<TriedEffect>, std::size_t> largest_of(const SearchState& state,
                                                               const std::vector<Member>& members) {
   std::vector<std::optional<TriedEffect>> all(members.size());
-  state.side_by_side(members.size(), [&](std::size_t i, const Workshop& shop) {
-    all[i] = tried_again(state, shop, state.current, members[i]);
+  state.side_by_side(members.size(), [&](std::size_t i, const FitContext& context) {
+    all[i] = tried_again(state, context, state.current, members[i]);
     return false;
   });
   std::pair<std::optional<TriedEffect>, std::size_t> best;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (auto& t = all[i]; t && (!best.first || t->contender.score() < best.first->contender.score()))
+    if (auto& t = all[i]; t && (!best.first || t->candidate.score() < best.first->candidate.score()))
       best = {std::move(t), i};
   return best;
 }
@@ -61,41 +61,41 @@ void mark_claimed(SearchState& state, const std::vector<Member>& before) {
 
 }  // namespace
 
-std::vector<Member> members_of(const Contender& contender) {
+std::vector<Member> members_of(const CandidateModel& candidate) {
   std::vector<Member> list;
-  for (const auto& s : contender.standing) list.push_back({s.effect, s.place, s.law.name});
+  for (const auto& s : candidate.placed) list.push_back({s.effect, s.place, s.law.name});
   return list;
 }
 
-std::optional<TriedEffect> tried_again(const SearchState& state, const Workshop& shop, const Contender& model,
+std::optional<TriedEffect> tried_again(const SearchState& state, const FitContext& context, const CandidateModel& model,
                                        const Member& m, Line line) {
   auto places = places_of(*m.effect, model.diagram, state.registry, state.data.get());
   const auto same = [&](const Place& p) { return p.kind == m.place.kind && p.where() == m.place.where(); };
   if (std::any_of(places.begin(), places.end(), same)) std::erase_if(places, [&](const Place& p) { return !same(p); });
   std::optional<TriedEffect> best;
   for (const auto& place : places) {
-    auto t = tried_at(state, shop, model, m, place, line);
-    if (t && (!best || t->contender.score() < best->contender.score())) best = std::move(t);
+    auto t = tried_at(state, context, model, m, place, line);
+    if (t && (!best || t->candidate.score() < best->candidate.score())) best = std::move(t);
   }
   return best;
 }
 
-std::optional<Contender> rest_of(const SearchState& state, const Workshop& shop, std::size_t i, Line line) {
+std::optional<CandidateModel> rest_of(const SearchState& state, const FitContext& context, std::size_t i, Line line) {
   const auto members = members_of(state.current);
-  Contender rest = state.base;
-  const bool calibration = calibrates(state.current.standing[i]) && line == Line::held;
+  CandidateModel rest = state.base;
+  const bool calibration = calibrates(state.current.placed[i]) && line == Line::held;
   rest.zero_held = calibration || (state.current.zero_held && line == Line::held);
   for (std::size_t j = 0; j < members.size(); ++j) {
     if (j == i) continue;
-    auto t = tried_again(state, shop, rest, members[j], calibration ? Line::held : Line::of_a_curve);
+    auto t = tried_again(state, context, rest, members[j], calibration ? Line::held : Line::of_a_curve);
     if (!t) return std::nullopt;
-    rest = std::move(t->contender);
+    rest = std::move(t->candidate);
   }
   return rest;
 }
 
-bool tell_again(SearchState& state, const Contender& set) {
-  const Contender current = state.current;
+bool tell_again(SearchState& state, const CandidateModel& set) {
+  const CandidateModel current = state.current;
   const auto steps = state.d.steps;
   const Prediction before = state.before_prediction;
   state.current = state.base;
@@ -112,10 +112,10 @@ bool tell_again(SearchState& state, const Contender& set) {
     if (!t) break;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
     if (left.empty()) {
-      if (set.score() < t->contender.score()) t->contender = set;
+      if (set.score() < t->candidate.score()) t->candidate = set;
       sharpen(state, *t);
     }
-    if (!why_implausible(*t->effect, t->laws[t->law], t->contender, t->excitation).empty()) break;
+    if (!why_implausible(*t->effect, t->laws[t->law], t->candidate, t->excitation).empty()) break;
     FoundStep found;
     for (const auto& was : steps)
       if (was.winner.effect == t->effect->id && was.winner.place == t->place.where()) {

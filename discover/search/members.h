@@ -18,7 +18,7 @@ struct Member {
 };
 
 /// In the order in which they came.
-std::vector<Member> members_of(const Contender& contender);
+std::vector<Member> members_of(const CandidateModel& candidate);
 
 /// Whose is the straight line that a curve may take up: nobody's where a calibration was taken out to see what it gives
 /// back.
@@ -32,12 +32,13 @@ inline bool leaves_the_question_open(const FoundStep& step) {
 
 /// The effect on a model, at the wire where the set has it, or, where that wire came with another effect, at the best
 /// one; nullopt if it cannot be had.
-std::optional<TriedEffect> tried_again(const SearchState& state, const Workshop& shop, const Contender& model,
+std::optional<TriedEffect> tried_again(const SearchState& state, const FitContext& context, const CandidateModel& model,
                                        const Member& m, Line line = Line::of_a_curve);
 
 /// The present set without member `i`, the others from the user's own model on: a law may have found the user's weights
 /// and zeros anew, and these hold only beside it. Without a calibration, gain and zero are the user's again (who else
 /// would take them up is not asked), or a curve's. nullopt if one of the others cannot be had.
-std::optional<Contender> rest_of(const SearchState& state, const Workshop& shop, std::size_t i, Line line = Line::held);
+std::optional<CandidateModel> rest_of(const SearchState& state, const FitContext& context, std::size_t i,
+                                      Line line = Line::held);
 
 }  // namespace hysteron

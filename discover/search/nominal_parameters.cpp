@@ -62,7 +62,7 @@ struct Cost {
   double numbers = 0, moved = 0;
   bool plausible = true;  ///< none of them at its bound
 };
-Cost cost_of(const Contender& c, const std::map<std::string, double>& numbers) {
+Cost cost_of(const CandidateModel& c, const std::map<std::string, double>& numbers) {
   Cost cost;
   for (const auto& e : c.fit.estimates) {
     const auto n = numbers.find(e.path);
@@ -77,26 +77,27 @@ Cost cost_of(const Contender& c, const std::map<std::string, double>& numbers) {
 
 /// The numbers, where they may be asked for at all.
 std::map<std::string, double> may_be_let_go(const SearchState& state) {
-  if (state.options.numbers_are_exact || !state.shop.roughly.empty() || state.stopped()) return {};
+  if (state.options.numbers_are_exact || !state.context.roughly.empty() || state.stopped()) return {};
   auto numbers = held_numbers(state);
   if (numbers.size() > most_numbers) numbers.clear();
   return numbers;
 }
 
-Contender with_numbers(const SearchState& state, const Contender& model, const std::map<std::string, double>& numbers,
-                       Effort effort) {
-  Workshop shop = state.shop;
-  shop.free_nominal_parameters(numbers);
-  return refit(shop, model, effort);
+CandidateModel with_numbers(const SearchState& state, const CandidateModel& model,
+                            const std::map<std::string, double>& numbers, Effort effort) {
+  FitContext context = state.context;
+  context.free_nominal_parameters(numbers);
+  return refit(context, model, effort);
 }
 
 /// `model` with these numbers let go, if that explains more than `other` and is `enough`. A law that finds weights anew
 /// pays nothing for them: beside it nobody does.
-std::optional<Contender> explaining_better(const SearchState& state, const Contender& model,
-                                           const std::map<std::string, double>& numbers, const Contender& other,
-                                           const Law* law, const std::function<bool(const Contender&)>& enough) {
+std::optional<CandidateModel> explaining_better(const SearchState& state, const CandidateModel& model,
+                                                const std::map<std::string, double>& numbers,
+                                                const CandidateModel& other, const Law* law,
+                                                const std::function<bool(const CandidateModel&)>& enough) {
   const bool free_of_charge = law != nullptr && law->reweighs;
-  Contender c = model;
+  CandidateModel c = model;
   for (const Effort effort : {Effort::full, Effort::final}) {  // what they cost is known once there are intervals
     c = with_numbers(state, c, numbers, effort);
     if (!c.ok || !enough(c)) return {};
@@ -111,7 +112,7 @@ std::optional<Contender> explaining_better(const SearchState& state, const Conte
 
 /// Numbers of which one does what another does (a force and the spring it acts on) each move half the way. The fewest
 /// that explain as much as all: those that moved for certain, and of the others the ones that moved most.
-std::map<std::string, double> fewest(const SearchState& state, const Contender& model, const Contender& all,
+std::map<std::string, double> fewest(const SearchState& state, const CandidateModel& model, const CandidateModel& all,
                                      const std::map<std::string, double>& numbers) {
   std::map<std::string, double> few;
   std::vector<std::pair<double, std::string>> others;
@@ -125,13 +126,13 @@ std::map<std::string, double> fewest(const SearchState& state, const Contender& 
       others.emplace_back(-moved / std::abs(n->second), e.path);
   }
   std::sort(others.begin(), others.end());
-  const auto worth = [](const Contender& c, const std::map<std::string, double>& free_nominal_parameters) {
+  const auto worth = [](const CandidateModel& c, const std::map<std::string, double>& free_nominal_parameters) {
     return c.score() + cost_of(c, free_nominal_parameters).moved;
   };
   const double reached = worth(all, numbers) + rules::tie;
   for (std::size_t next = 0; few.size() < numbers.size(); ++next) {
     if (!few.empty()) {
-      const Contender c = with_numbers(state, model, few, Effort::full);
+      const CandidateModel c = with_numbers(state, model, few, Effort::full);
       if (c.ok && worth(c, few) < reached) return few;
     }
     if (next >= others.size()) break;
@@ -141,7 +142,7 @@ std::map<std::string, double> fewest(const SearchState& state, const Contender& 
 }
 
 /// More than a gain and a zero of each output would explain: one that is off alone is a calibration, and called that.
-bool is_no_calibration(const SearchState& state, const Contender& c) {
+bool is_no_calibration(const SearchState& state, const CandidateModel& c) {
   Prediction straight = state.current.prediction;
   for (int o = 0; o < static_cast<int>(state.base_model->outputs().size()); ++o)
     straight = state.evidence->calibrated(std::move(straight), o);
@@ -152,7 +153,7 @@ bool is_no_calibration(const SearchState& state, const Contender& c) {
 /// left, for a spring a little harder is just what a law that is not exact leaves of a loop in it.
 bool is_more_than_laws_leave(const SearchState& state, const ModelError& now) {
   const ModelError& was = state.current.error_of;
-  const bool first = state.current.standing.empty();
+  const bool first = state.current.placed.empty();
   const double share = first ? rules::share_of_first : rules::share_of_rest;
   if (now.excess_validate() > (1 - share) * was.excess_validate()) return false;
   const auto left = left_by_laws(state, first ? As::first : As::further);
@@ -168,7 +169,7 @@ bool is_more_than_laws_leave(const SearchState& state, const ModelError& now) {
 std::map<std::string, double> held_numbers(const SearchState& state) {
   std::map<std::string, double> numbers;
   const Program& program = state.base_model->program();
-  const auto free = free_parameters(program, state.shop.free_paths);
+  const auto free = free_parameters(program, state.context.free_paths);
   for (std::size_t i = 0; i < program.parameters.size(); ++i) {
     const ParameterInfo& p = program.parameters[i];
     const bool is_free = std::any_of(free.begin(), free.end(),
@@ -191,11 +192,11 @@ std::map<std::string, double> held_numbers(const SearchState& state) {
 bool are_the_numbers(SearchState& state, const TriedEffect* winner) {
   const auto numbers = may_be_let_go(state);
   if (numbers.empty()) return false;
-  const auto enough = [&](const Contender& c) {
+  const auto enough = [&](const CandidateModel& c) {
     return falls_in_both_roles(c.error_of, state.current.error_of) && is_no_calibration(state, c) &&
            (winner != nullptr || is_more_than_laws_leave(state, c.error_of));
   };
-  const auto all = explaining_better(state, state.current, numbers, winner ? winner->contender : state.current,
+  const auto all = explaining_better(state, state.current, numbers, winner ? winner->candidate : state.current,
                                      winner ? &winner->laws[winner->law] : nullptr, enough);
   if (all) state.other_numbers = fewest(state, state.current, *all, numbers);
   return all.has_value();
@@ -204,13 +205,13 @@ bool are_the_numbers(SearchState& state, const TriedEffect* winner) {
 bool are_numbers_in_place_of_an_effect(SearchState& state) {
   const auto numbers = may_be_let_go(state);
   if (numbers.empty()) return false;
-  for (std::size_t i = 0; i < state.current.standing.size(); ++i) {
-    if (calibrates(state.current.standing[i])) continue;
-    const Contender rest = without(state.shop, state.current, i);
+  for (std::size_t i = 0; i < state.current.placed.size(); ++i) {
+    if (calibrates(state.current.placed[i])) continue;
+    const CandidateModel rest = without(state.context, state.current, i);
     if (!rest.ok) continue;
-    const Law& law = state.current.standing[i].law;
+    const Law& law = state.current.placed[i].law;
     const auto all =
-        explaining_better(state, rest, numbers, state.current, &law, [](const Contender&) { return true; });
+        explaining_better(state, rest, numbers, state.current, &law, [](const CandidateModel&) { return true; });
     if (!all) continue;
     state.other_numbers = fewest(state, rest, *all, numbers);
     return true;
@@ -224,23 +225,23 @@ std::map<std::string, double> numbers_to_try(const SearchState& state) {
   if (numbers.empty()) return {};
   // Those that change nothing of the model alone - a mass of 1 kg where force and spring are free - need no search.
   const ModelError was = state.evidence->error(state.base.prediction);
-  const Contender c = with_numbers(state, state.base, numbers, Effort::full);
+  const CandidateModel c = with_numbers(state, state.base, numbers, Effort::full);
   const bool tell = c.ok && falls_in_both_roles(c.error_of, was) &&
                     c.error_of.excess_validate() < (1 - rules::hardly_shown) * was.excess_validate();
   return tell ? numbers : std::map<std::string, double>{};
 }
 
 std::map<std::string, double> numbers_that_help(const SearchState& free_nominal_parameters, const SearchState& held) {
-  const auto& numbers = free_nominal_parameters.shop.roughly;
-  const Contender& now = free_nominal_parameters.current;
-  Contender was = held.current;
+  const auto& numbers = free_nominal_parameters.context.roughly;
+  const CandidateModel& now = free_nominal_parameters.current;
+  CandidateModel was = held.current;
   was.error_of = free_nominal_parameters.evidence->error(was.prediction);
   const Cost cost = cost_of(now, numbers);
   const double each = std::log(std::max(now.error_of.effective_sample_size, 2.0));
   const double score = now.score() + cost.moved + cost.numbers * each + rules::tie;
   const bool most = now.error_of.excess_validate() < (1 - rules::share_of_rest) * was.error_of.excess_validate();
   if (!most || !cost.plausible || score > was.score()) return {};
-  Contender as_written = now;
+  CandidateModel as_written = now;
   Trial written;
   for (const auto& [path, value] : numbers) written.push_back({parameter_index(*now.program, path), value, -1});
   as_written.diagram = with_parameters(now.diagram, *now.program, written);
@@ -249,12 +250,12 @@ std::map<std::string, double> numbers_that_help(const SearchState& free_nominal_
 
 void tell_other_numbers(SearchState& state) {
   for (const auto& e : state.current.fit.estimates) {
-    const auto n = state.shop.roughly.find(e.path);
-    if (n == state.shop.roughly.end() || !e.sigma) continue;
+    const auto n = state.context.roughly.find(e.path);
+    if (n == state.context.roughly.end() || !e.sigma) continue;
     if (std::abs(e.used - n->second) > rules::moved * *e.sigma)
       state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, *e.sigma});
   }
-  if (!state.shop.roughly.empty() && state.d.other_numbers.empty())
+  if (!state.context.roughly.empty() && state.d.other_numbers.empty())
     state.d.warnings.push_back(
         "numbers that the model holds were let go, each near what is written, and all figures are with what was found "
         "for "

@@ -11,7 +11,7 @@ namespace hysteron {
 namespace {
 
 const Effect* standing_effect(const SearchState& state, const std::string& id) {
-  for (const auto& s : state.current.standing)
+  for (const auto& s : state.current.placed)
     if (s.effect->id == id) return s.effect;
   return nullptr;
 }
@@ -47,18 +47,18 @@ std::vector<const Effect*> with_rivals(const SearchState& state, const Effect& e
 std::vector<TriedEffect> tried_on(SearchState& state, const std::vector<std::string>& outputs,
                                   const std::vector<const Effect*>& effects, int step, double progress) {
   auto tried = list_candidates(state, step, outputs, effects);
-  state.side_by_side(tried.size(), [&](std::size_t i, const Workshop& shop) {
+  state.side_by_side(tried.size(), [&](std::size_t i, const FitContext& context) {
     TriedEffect& t = tried[i];
     state.progress(t.effect->id + " at " + t.place.where(), progress);
     for (const Law& law : laws_as_found(state, *t.effect, t.laws)) {
-      Contender c = with_effect(shop, state.current, *t.effect, law, t.place, t.excitation, Effort::full);
-      const bool stays = t.contender.ok && (!c.ok || c.score() >= t.contender.score());
+      CandidateModel c = with_effect(context, state.current, *t.effect, law, t.place, t.excitation, Effort::full);
+      const bool stays = t.candidate.ok && (!c.ok || c.score() >= t.candidate.score());
       TriedLaw one = tried_law(law, c, state.current.error_of);
       one.taken = c.ok && !stays;
-      if (c.ok && stays) one.reason = why_no_better(c, t.contender, t.laws[t.law], 0);
+      if (c.ok && stays) one.reason = why_no_better(c, t.candidate, t.laws[t.law], 0);
       record(t.laws_tried, std::move(one));
       if (stays) continue;
-      t.contender = std::move(c);
+      t.candidate = std::move(c);
       t.law = static_cast<std::size_t>(
           std::find_if(t.laws.begin(), t.laws.end(), [&](const Law& l) { return l.name == law.name; }) -
           t.laws.begin());
@@ -91,12 +91,12 @@ int best_place(const SearchState& state, std::vector<TriedEffect>& tried, const 
 
 std::vector<Law> laws_as_found(const SearchState& state, const Effect& effect, const std::vector<Law>& laws) {
   std::vector<Law> list{laws.begin(), laws.begin() + std::min<std::ptrdiff_t>(1, std::ssize(laws))};
-  for (const auto& s : state.current.standing)
+  for (const auto& s : state.current.placed)
     for (std::size_t law = 1; s.effect == &effect && law < laws.size() && list.size() < 2; ++law)
       if (laws[law].name == s.law.name) list.push_back(laws[law]);
   for (Law& law : list)
-    for (std::size_t i = 0; i < state.current.standing.size(); ++i) {
-      if (state.current.standing[i].effect != &effect) continue;
+    for (std::size_t i = 0; i < state.current.placed.size(); ++i) {
+      if (state.current.placed[i].effect != &effect) continue;
       for (const auto& p : parameters_of(state.current, static_cast<int>(i)))
         for (auto& q : law.free)
           if (p.estimate != nullptr && !p.estimate->linear && q.path == p.law->path)

@@ -30,24 +30,25 @@ struct SearchState {
   /// Does what can be left out where the search is stopped, and is broken off then. True if it came to its end.
   bool unless_stopped(const std::function<void()>& work) const;
   void progress(const std::string& what, double done) const;  ///< by any thread
-  /// Fits that do not need each other, several at a time: job(i, shop) for each i in [0, n), begun in this order, until
-  /// one answers true or the search is stopped: a job that is broken off leaves what it had not begun with. Returns the
-  /// first that did, n if none; what later ones left does not count.
-  /// What fits write down others find only after the last: then nothing depends on the number of threads.
-  std::size_t side_by_side(std::size_t n, const std::function<bool(std::size_t i, const Workshop& shop)>& job) const;
+  /// Fits that do not need each other, several at a time: job(i, context) for each i in [0, n), begun in this order,
+  /// until one answers true or the search is stopped: a job that is broken off leaves what it had not begun with.
+  /// Returns the first that did, n if none; what later ones left does not count. What fits write down others find only
+  /// after the last: then nothing depends on the number of threads.
+  std::size_t side_by_side(std::size_t n,
+                           const std::function<bool(std::size_t i, const FitContext& context)>& job) const;
   bool wanted(const Effect& effect) const;
   /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units.
-  void settle(Contender& best);
+  void settle(CandidateModel& best);
 
   const Registry& registry;
   const Effects& effects;
   const DiscoverOptions& options;
   std::shared_ptr<const DataSet> data;
   const Diagram& user;
-  Workshop shop;
+  FitContext context;
   std::unique_ptr<DataModel> base_model;
   std::unique_ptr<Evidence> evidence;
-  Contender base, current;
+  CandidateModel base, current;
   std::optional<SmoothInput> smooth;            ///< found on the way: all begins anew with it
   std::map<std::string, double> other_numbers;  ///< likewise, with these numbers of the model free
   bool begins_anew() const { return smooth || !other_numbers.empty(); }
@@ -73,7 +74,7 @@ class Found {
   void restore(SearchState& state) const;
 
  private:
-  Contender current_;
+  CandidateModel current_;
   Prediction before_prediction_;
   std::vector<FoundStep> steps_;
   std::vector<Candidate> candidates_;
@@ -85,7 +86,7 @@ void fit_base(SearchState& state);
 /// One of its family stands in the present model.
 bool standing(const SearchState& state, const Effect& effect);
 /// One of its family stands in this model on the way to an output that the place moves: each axis has its own.
-bool standing_before(const SearchState& state, const Contender& model, const Effect& effect, const Place& place);
+bool standing_before(const SearchState& state, const CandidateModel& model, const Effect& effect, const Place& place);
 /// An effect that can be taken for one that stands: what there is of it, that one has taken up in its own values, and
 /// with these held it would not be seen.
 bool taken_up(const SearchState& state, const Effect& effect);
@@ -103,14 +104,15 @@ struct Choice {
 };
 /// Every effect that `may` be taken and could be seen on `model`, at each place where none of its family stands, by
 /// each of its `laws`.
-std::vector<Choice> choices_on(const SearchState& state, const Contender& model,
+std::vector<Choice> choices_on(const SearchState& state, const CandidateModel& model,
                                const std::function<bool(const Effect&)>& may,
                                const std::function<std::vector<Law>(const Effect&, const Excitation&)>& laws);
 /// Outputs of a model, measured or not, to which a wire leads: a coupling that reads it beside another axis does not
 /// put it on the way of that one. Empty where nobody knows.
-std::vector<std::string> outputs_moved(const SearchState& state, const Contender& model, const std::string& written);
+std::vector<std::string> outputs_moved(const SearchState& state, const CandidateModel& model,
+                                       const std::string& written);
 /// The measured ones of them, as indices of DataModel::outputs().
-std::vector<int> measured_moved(const SearchState& state, const Contender& model, const std::string& written);
+std::vector<int> measured_moved(const SearchState& state, const CandidateModel& model, const std::string& written);
 /// Outputs that no standing effect moves.
 std::vector<std::string> untouched_outputs(const SearchState& state);
 /// Outputs that nothing of this family that stands moves.
@@ -121,7 +123,7 @@ std::vector<std::string> outputs_without(const SearchState& state, const std::st
 void leave_out_idle(SearchState& state);
 /// A set does without this member: `rest`, the others fitted without it, gives back less than a claim has to take away,
 /// or no more than what the laws of the others may have left.
-bool is_needless(const SearchState& state, const Effect& member, const Contender& rest);
+bool is_needless(const SearchState& state, const Effect& member, const CandidateModel& rest);
 /// Names of effects that stand, each once.
 int found_effects(const SearchState& state);
 /// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.
@@ -130,7 +132,7 @@ TriedEffect* same_finding(std::vector<TriedEffect>& kept, const TriedEffect& t);
 void join_twins(std::vector<TriedEffect>& tried);
 /// What rows that are off by a part of the noise can add to chi2 or take from it: their square, and their product with
 /// the noise.
-double blur(const Contender& contender);
+double blur(const CandidateModel& candidate);
 /// Of chi2 on validation recordings, what a candidate may have lost there by the errors of its fit where these show it
 /// more than those that were fitted: a value known to 11 % leaves 1 % of its effect. Least squares with as many numbers
 /// p lose p times the ratio of the two on average; what that is in a usual split is not counted.
@@ -145,7 +147,7 @@ enum class As { first, further };
 /// where none stands.
 std::vector<double> left_by_laws(const SearchState& state, As as);
 /// The same for the laws of any model.
-std::vector<double> left_by_laws_of(const SearchState& state, const Contender& model);
+std::vector<double> left_by_laws_of(const SearchState& state, const CandidateModel& model);
 
 /// Indices of candidates that could be fitted, best score first.
 std::vector<std::size_t> ranking(const std::vector<TriedEffect>& tried);
@@ -159,7 +161,7 @@ void refit_best(SearchState& state, std::vector<TriedEffect>& tried, As as, doub
 /// effect that was found they are screened with that one held, and fitted together only where that brings something.
 void enrich(SearchState& state, std::vector<TriedEffect>& tried, int step, As as, double progress);
 /// The same of one that stands beside others: the laws that refine its own.
-void refine(const SearchState& state, const Workshop& shop, TriedEffect& t);
+void refine(const SearchState& state, const FitContext& context, TriedEffect& t);
 /// What these recordings cannot show may have acted in all of them alike. Where the winner looks like it, it is a
 /// rival: that it was refused says nothing against it.
 void try_hidden(SearchState& state, std::vector<TriedEffect>& tried, const Effect& winner, As as);
@@ -195,7 +197,7 @@ void keep_candidates(SearchState& state, const std::vector<TriedEffect>& tried, 
                      const std::vector<int>& ties);
 
 /// What the recordings show at places of the model, with what is free anyway and how the user's model rings.
-std::vector<Excitation> circumstances_on(const SearchState& state, const Contender& model,
+std::vector<Excitation> circumstances_on(const SearchState& state, const CandidateModel& model,
                                          const std::vector<Place>& places);
 
 /// What a gain and a zero alone take away nearly all of is theirs first, whatever the winner's law holds besides:
@@ -250,10 +252,11 @@ enum class Came { one_by_one, at_once };
 /// compared with nobody: each is asked, and look-alikes that explain the recordings as well in its place are ties.
 /// `before`: the set as it was when it was last asked so; what came since says nothing about a member that shares no
 /// output with it.
-void reconsider(SearchState& state, double progress, Came came = Came::one_by_one, const Contender* before = nullptr);
+void reconsider(SearchState& state, double progress, Came came = Came::one_by_one,
+                const CandidateModel* before = nullptr);
 /// Axes are built alike: a member that stands on another one too is left for an effect that does not only where the
 /// error in the outputs' units falls as well.
-bool may_leave(const SearchState& state, const Standing& member, const TriedEffect& other);
+bool may_leave(const SearchState& state, const PlacedEffect& member, const TriedEffect& other);
 /// A law was chosen while others were missing. Each member is tried by its other laws beside the rest; the first that
 /// brings something on recordings not used for the fit is taken, and the set told anew. False: all are as they were.
 bool refine_what_stands(SearchState& state, double progress);
@@ -266,7 +269,7 @@ void exchange_for_what_they_hold(SearchState& state, double progress);
 
 /// Where the law that was claimed last can hold another effect's besides its own: a plainer law of the same effect on
 /// `before`, and that other one or what looks like it, in its place, if they explain the recordings better.
-bool in_two(SearchState& state, Contender before, double progress);
+bool in_two(SearchState& state, CandidateModel before, double progress);
 
 /// Where structure is left: begins with the next best of the first step instead (where nothing was claimed, with the
 /// best of those that were patches), one more effect on each, and takes the pair that explains the recordings better
@@ -277,7 +280,7 @@ bool another_beginning(SearchState& state, const std::vector<TriedEffect>& first
 bool two_more(SearchState& state, const std::vector<TriedEffect>& last);
 /// Tells the steps of a set anew, from the user's model on. False, and nothing is changed, if a member cannot be had,
 /// or is not itself in it.
-bool tell_again(SearchState& state, const Contender& set);
+bool tell_again(SearchState& state, const CandidateModel& set);
 
 /// Where nobody was claimed: who was refused as a patch in the `first` step alone, though chance does not take so much,
 /// where nothing is left unexplained that it could be a patch of. True if it is claimed now.

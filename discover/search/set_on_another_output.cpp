@@ -11,7 +11,7 @@ namespace {
 /// Effects that stand, none of whose family moves this output.
 std::vector<const Effect*> missing_on(const SearchState& state, const std::string& output) {
   std::vector<const Effect*> list;
-  for (const auto& s : state.current.standing) {
+  for (const auto& s : state.current.placed) {
     if (s.effect->side == Side::other_axis || std::find(list.begin(), list.end(), s.effect) != list.end()) continue;
     const auto without = outputs_without(state, s.effect->family);
     if (std::find(without.begin(), without.end(), output) != without.end()) list.push_back(s.effect);
@@ -20,7 +20,7 @@ std::vector<const Effect*> missing_on(const SearchState& state, const std::strin
 }
 
 /// `model` with the effect at the best place on the way to this output alone, by the laws by which it stands elsewhere.
-std::optional<TriedEffect> with_effect_on(const SearchState& state, const Contender& model, const Effect& effect,
+std::optional<TriedEffect> with_effect_on(const SearchState& state, const CandidateModel& model, const Effect& effect,
                                           const std::string& output, double progress) {
   auto list = choices_on(
       state, model, [&](const Effect& e) { return &e == &effect; },
@@ -30,7 +30,7 @@ std::optional<TriedEffect> with_effect_on(const SearchState& state, const Conten
     return moved.size() != 1 || state.base_model->outputs()[static_cast<std::size_t>(moved.front())] != output;
   });
   std::vector<TriedEffect> fitted(list.size());
-  state.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+  state.side_by_side(list.size(), [&](std::size_t i, const FitContext& context) {
     TriedEffect& t = fitted[i];
     state.progress(effect.id + ", with what stands on another axis, at " + list[i].place.where(), progress);
     t.effect = &effect;
@@ -38,14 +38,14 @@ std::optional<TriedEffect> with_effect_on(const SearchState& state, const Conten
     t.excitation = list[i].at;
     t.laws = {list[i].law};
     t.outputs = {output};
-    t.contender = with_effect(shop, model, effect, list[i].law, list[i].place, list[i].at, Effort::full);
-    t.admitted = t.contender.ok && why_implausible(effect, list[i].law, t.contender, list[i].at).empty();
+    t.candidate = with_effect(context, model, effect, list[i].law, list[i].place, list[i].at, Effort::full);
+    t.admitted = t.candidate.ok && why_implausible(effect, list[i].law, t.candidate, list[i].at).empty();
     return false;
   });
   const int best = best_admitted(fitted);
   if (best < 0) return std::nullopt;
   TriedEffect t = std::move(fitted[static_cast<std::size_t>(best)]);
-  t.contender.error_of = state.evidence->error(t.contender.prediction);
+  t.candidate.error_of = state.evidence->error(t.candidate.prediction);
   return t;
 }
 
@@ -55,7 +55,7 @@ std::vector<TriedEffect> all_on(const SearchState& state, const std::vector<cons
   std::vector<TriedEffect> set;
   for (const Effect* e : effects) {
     if (state.stopped()) return {};
-    auto t = with_effect_on(state, set.empty() ? state.current : set.back().contender, *e, output, progress);
+    auto t = with_effect_on(state, set.empty() ? state.current : set.back().candidate, *e, output, progress);
     if (!t) return {};
     set.push_back(std::move(*t));
   }
@@ -70,7 +70,7 @@ double excess_on(const ModelError& error, const std::string& output) {
 }
 
 /// On recordings not used for the fit it is no chance, and it is worth its numbers.
-bool speaks_for(const Contender& before, const Contender& after) {
+bool speaks_for(const CandidateModel& before, const CandidateModel& after) {
   return before.error_of.evidence_validate - after.error_of.evidence_validate > rules::claim_fall &&
          after.score() < before.score();
 }
@@ -78,7 +78,7 @@ bool speaks_for(const Contender& before, const Contender& after) {
 /// As a first effect has to, the set takes most of what stands above the noise there, and none of it is needless.
 bool belongs_there(const SearchState& state, const std::vector<TriedEffect>& set, const std::string& output,
                    double progress) {
-  const Contender& all = set.back().contender;
+  const CandidateModel& all = set.back().candidate;
   const double excess = excess_on(state.current.error_of, output);
   if (!speaks_for(state.current, all) || excess - excess_on(all.error_of, output) < rules::share_of_first * excess)
     return false;
@@ -87,9 +87,9 @@ bool belongs_there(const SearchState& state, const std::vector<TriedEffect>& set
     for (std::size_t k = 0; k < set.size(); ++k)
       if (k != i) others.push_back(set[k].effect);
     const auto rest = all_on(state, others, output, progress);
-    if (!rest.empty() && !speaks_for(rest.back().contender, all)) return false;
+    if (!rest.empty() && !speaks_for(rest.back().candidate, all)) return false;
   }
-  return speaks_for(set[set.size() - 2].contender, all);
+  return speaks_for(set[set.size() - 2].candidate, all);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<std::string> inputs_before(const SearchState& state, const TriedEffe
   std::vector<std::string> list;
   if (t.outputs.empty()) return list;
   for (const auto& input : state.base_model->program().input_names) {
-    const auto moved = outputs_moved(state, t.contender, input);
+    const auto moved = outputs_moved(state, t.candidate, input);
     const auto is_moved = [&](const std::string& o) { return std::find(moved.begin(), moved.end(), o) != moved.end(); };
     if (input == t.place.side || std::any_of(t.outputs.begin(), t.outputs.end(), is_moved)) list.push_back(input);
   }
@@ -28,12 +28,12 @@ std::vector<std::string> inputs_before(const SearchState& state, const TriedEffe
 
 /// Compiled anew: fitted values stand in the diagram. Of an effect of the sensor also what lies before it.
 Rival rival_of(const SearchState& state, const TriedEffect& t) {
-  const Contender& c = t.contender;
+  const CandidateModel& c = t.candidate;
   Rival r;
   r.effect = t.effect->id;
   r.program = compile(c.diagram, state.registry);
   if (is_of_sensor(*t.effect))
-    r.motion = compile(remove_effect(c.diagram, state.registry, c.standing.back().name, t.effect->id), state.registry);
+    r.motion = compile(remove_effect(c.diagram, state.registry, c.placed.back().name, t.effect->id), state.registry);
   if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
   r.look_alikes = t.effect->look_alikes;
   r.inputs = inputs_before(state, t);

@@ -13,17 +13,17 @@ namespace {
 /// With few recordings a spare gain tells look-alikes apart that are none: each gets one, and an offset, before the
 /// comparison.
 double tie_score(SearchState& state, const TriedEffect& t, bool few) {
-  if (!few || t.effect->straight) return t.contender.tie_score();
+  if (!few || t.effect->straight) return t.candidate.tie_score();
   const Effect* calibration = state.effects.find("calibration");
-  if (calibration == nullptr) return t.contender.tie_score();
-  const auto places = places_of(*calibration, t.contender.diagram, state.registry);
-  if (places.empty()) return t.contender.tie_score();
-  const auto at = circumstances_at(t.contender.diagram, state.registry, *state.data, places.front(),
-                                   free_anyway(state.shop, t.contender));
-  if (!calibration->unseen(at).empty()) return t.contender.tie_score();
-  const Contender free = with_effect(state.shop, t.contender, *calibration, calibration->laws(at).front(),
-                                     places.front(), at, Effort::full);
-  return free.ok ? std::min(free.tie_score(), t.contender.tie_score()) : t.contender.tie_score();
+  if (calibration == nullptr) return t.candidate.tie_score();
+  const auto places = places_of(*calibration, t.candidate.diagram, state.registry);
+  if (places.empty()) return t.candidate.tie_score();
+  const auto at = circumstances_at(t.candidate.diagram, state.registry, *state.data, places.front(),
+                                   free_anyway(state.context, t.candidate));
+  if (!calibration->unseen(at).empty()) return t.candidate.tie_score();
+  const CandidateModel free = with_effect(state.context, t.candidate, *calibration, calibration->laws(at).front(),
+                                          places.front(), at, Effort::full);
+  return free.ok ? std::min(free.tie_score(), t.candidate.tie_score()) : t.candidate.tie_score();
 }
 
 }  // namespace
@@ -37,12 +37,12 @@ bool is_the_winner_and_more(const SearchState& state, const TriedEffect& t, cons
 void sharpen(SearchState& state, TriedEffect& t) {
   if (t.sharp || state.stopped()) return;
   t.sharp = true;
-  Contender finer = refit(state.shop, t.contender, Effort::final);
+  CandidateModel finer = refit(state.context, t.candidate, Effort::final);
   if (!finer.ok) return;
   finer.error_of = state.evidence->error(finer.prediction);
-  t.contender = std::move(finer);
+  t.candidate = std::move(finer);
   // Where it goes on to, it may no longer be itself.
-  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.contender, t.excitation); !why.empty()) {
+  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.candidate, t.excitation); !why.empty()) {
     t.admitted = false;
     t.reason = why;
   }
@@ -51,10 +51,10 @@ void sharpen(SearchState& state, TriedEffect& t) {
 /// Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks, or
 /// if the rival leaves far more.
 bool as_imperfect(const SearchState& state, const TriedEffect& rival, const TriedEffect& winner) {
-  const double left = winner.contender.error_of.over_floor() - 1, by_rival = rival.contender.error_of.over_floor() - 1;
+  const double left = winner.candidate.error_of.over_floor() - 1, by_rival = rival.candidate.error_of.over_floor() - 1;
   if (left + 1 <= rules::floor_gate || by_rival > rules::far_more * left) return false;
-  return std::abs(vuong(state.evidence->pieces(rival.contender.prediction),
-                        state.evidence->pieces(winner.contender.prediction))) < rules::pieces_tell;
+  return std::abs(vuong(state.evidence->pieces(rival.candidate.prediction),
+                        state.evidence->pieces(winner.candidate.prediction))) < rules::pieces_tell;
 }
 
 double lost_by_the_fit(const TriedEffect& t) {
@@ -68,13 +68,13 @@ std::vector<int> ties_of(SearchState& state, const std::vector<TriedEffect>& tri
   const TriedEffect& w = tried[winner];
   const bool spare_gain = few && !w.effect->straight;  // beside that one the spare gain is the winner itself
   std::vector<int> ties;
-  double own = w.contender.tie_score();
+  double own = w.candidate.tie_score();
   bool freed = false;
   for (const std::size_t i : ranking(tried)) {
     const TriedEffect& t = tried[i];
     if (i == winner || t.effect->id == w.effect->id || !t.admitted) continue;
     if (is_the_winner_and_more(state, t, *w.effect)) continue;
-    const double behind = t.contender.tie_score() - w.contender.tie_score();
+    const double behind = t.candidate.tie_score() - w.candidate.tie_score();
     bool tied = behind < rules::tie;
     if (!tied && look_alike(*t.effect, *w.effect))
       tied = behind < rules::tie + std::max(lost_by_the_fit(t), lost_by_the_fit(w));
@@ -101,7 +101,7 @@ int plainer_first(const std::vector<TriedEffect>& tried, int winner) {
     const TriedEffect& t = tried[i];
     if (t.admitted && t.outputs == w.outputs &&
         std::find(plainer.begin(), plainer.end(), t.effect->id) != plainer.end() &&
-        t.contender.tie_score() - w.contender.tie_score() < rules::tie)
+        t.candidate.tie_score() - w.candidate.tie_score() < rules::tie)
       return static_cast<int>(i);
   }
   return winner;
@@ -111,8 +111,8 @@ void as_on_another_axis(const SearchState& state, std::vector<TriedEffect>& trie
                         std::vector<int>& ties) {
   const auto stands = [&](int i) {
     const std::string& id = tried[static_cast<std::size_t>(i)].effect->id;
-    return std::any_of(state.current.standing.begin(), state.current.standing.end(),
-                       [&](const Standing& s) { return s.effect->id == id; });
+    return std::any_of(state.current.placed.begin(), state.current.placed.end(),
+                       [&](const PlacedEffect& s) { return s.effect->id == id; });
   };
   if (stands(winner)) return;
   const auto built_alike = std::find_if(ties.begin(), ties.end(), [&](int i) {
@@ -123,12 +123,12 @@ void as_on_another_axis(const SearchState& state, std::vector<TriedEffect>& trie
 
 void sharpen_rivals(SearchState& state, std::vector<TriedEffect>& tried, std::size_t winner) {
   TriedEffect& w = tried[winner];
-  const double reach = rules::tie + blur(w.contender);
-  const double best = w.contender.tie_score();
+  const double reach = rules::tie + blur(w.candidate);
+  const double best = w.candidate.tie_score();
   bool sharp = false;
   for (auto& t : tried) {
     if (&t == &w || !t.admitted || t.effect->id == w.effect->id || !look_alike(*t.effect, *w.effect)) continue;
-    const double gap = t.contender.tie_score() - best;
+    const double gap = t.candidate.tie_score() - best;
     if (gap < rules::tie || gap > reach) continue;
     if (!sharp) sharpen(state, w);
     sharp = true;

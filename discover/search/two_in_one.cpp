@@ -17,21 +17,22 @@ namespace {
 constexpr std::size_t held_ones_fitted = 3;
 
 /// Of those that could be fitted.
-std::optional<Contender> best_of(std::vector<Contender> fitted) {
-  std::optional<Contender> best;
+std::optional<CandidateModel> best_of(std::vector<CandidateModel> fitted) {
+  std::optional<CandidateModel> best;
   for (auto& c : fitted)
     if (c.ok && (!best || c.score() < best->score())) best = std::move(c);
   return best;
 }
 
 /// The effect of `mixed` on `before`, by its best law that holds no other one's.
-std::optional<Contender> by_a_plain_law(const SearchState& state, const Contender& before, const Standing& mixed) {
+std::optional<CandidateModel> by_a_plain_law(const SearchState& state, const CandidateModel& before,
+                                             const PlacedEffect& mixed) {
   const auto at = circumstances_on(state, before, {mixed.place}).front();
   auto laws = mixed.effect->laws(at);
   std::erase_if(laws, [](const Law& law) { return !law.holds.empty(); });
-  std::vector<Contender> plain(laws.size());
-  state.side_by_side(laws.size(), [&](std::size_t i, const Workshop& shop) {
-    plain[i] = with_effect(shop, before, *mixed.effect, laws[i], mixed.place, at, Effort::full);
+  std::vector<CandidateModel> plain(laws.size());
+  state.side_by_side(laws.size(), [&](std::size_t i, const FitContext& context) {
+    plain[i] = with_effect(context, before, *mixed.effect, laws[i], mixed.place, at, Effort::full);
     return false;
   });
   return best_of(std::move(plain));
@@ -39,16 +40,16 @@ std::optional<Contender> by_a_plain_law(const SearchState& state, const Contende
 
 /// `plain` with one of the effects that the mixed law could hold, by the best of its laws at the best of its places:
 /// screened with the plain law held, the best few are fitted together with it.
-std::optional<Contender> with_a_held_one(const SearchState& state, const Contender& plain, const Law& mixed,
-                                         double progress) {
+std::optional<CandidateModel> with_a_held_one(const SearchState& state, const CandidateModel& plain, const Law& mixed,
+                                              double progress) {
   const auto list = choices_on(
       state, plain, [&](const Effect& e) { return could_hold(state, mixed, e); },
       [](const Effect& e, const Excitation& at) { return e.laws(at); });
-  std::vector<Contender> fitted(list.size());
-  state.side_by_side(list.size(), [&](std::size_t i, const Workshop& shop) {
+  std::vector<CandidateModel> fitted(list.size());
+  state.side_by_side(list.size(), [&](std::size_t i, const FitContext& context) {
     const auto& [effect, law, place, at] = list[i];
-    state.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.standing.back().effect->id), progress);
-    fitted[i] = with_effect(shop, plain, *effect, law, place, at, Effort::screen);
+    state.progress(fmt::format("{} beside {}, each by itself", effect->id, plain.placed.back().effect->id), progress);
+    fitted[i] = with_effect(context, plain, *effect, law, place, at, Effort::screen);
     return false;
   });
   std::vector<std::size_t> best(list.size());
@@ -57,10 +58,10 @@ std::optional<Contender> with_a_held_one(const SearchState& state, const Contend
   std::stable_sort(best.begin(), best.end(),
                    [&](std::size_t a, std::size_t b) { return fitted[a].score() < fitted[b].score(); });
   best.resize(std::min(best.size(), held_ones_fitted));
-  std::vector<Contender> together(best.size());
-  state.side_by_side(best.size(), [&](std::size_t k, const Workshop& shop) {
+  std::vector<CandidateModel> together(best.size());
+  state.side_by_side(best.size(), [&](std::size_t k, const FitContext& context) {
     const auto& [effect, law, place, at] = list[best[k]];
-    Contender both = refit(shop, fitted[best[k]], Effort::full);
+    CandidateModel both = refit(context, fitted[best[k]], Effort::full);
     if (both.ok && why_implausible(*effect, law, both, at).empty()) together[k] = std::move(both);
     return false;
   });
@@ -68,7 +69,7 @@ std::optional<Contender> with_a_held_one(const SearchState& state, const Contend
 }
 
 /// Is the other effect more than what the plainer law may have left of its own?
-bool is_no_rest(const Contender& before, const Contender& plain, const Contender& both) {
+bool is_no_rest(const CandidateModel& before, const CandidateModel& plain, const CandidateModel& both) {
   const double of_law = before.error_of.evidence() - plain.error_of.evidence();
   return plain.error_of.evidence() - both.error_of.evidence() > rules::plain_left * rules::plain_left * of_law;
 }
@@ -95,10 +96,10 @@ int held_one_first(const SearchState& state, const std::vector<TriedEffect>& tri
   return winner;
 }
 
-bool in_two(SearchState& state, Contender before, double progress) {
-  const Standing mixed = state.current.standing.back();
-  const auto stands = [&](const Standing& s) { return could_hold(state, mixed.law, *s.effect); };
-  if (mixed.law.holds.empty() || std::any_of(before.standing.begin(), before.standing.end(), stands)) return false;
+bool in_two(SearchState& state, CandidateModel before, double progress) {
+  const PlacedEffect mixed = state.current.placed.back();
+  const auto stands = [&](const PlacedEffect& s) { return could_hold(state, mixed.law, *s.effect); };
+  if (mixed.law.holds.empty() || std::any_of(before.placed.begin(), before.placed.end(), stands)) return false;
   state.progress(fmt::format("{} by itself", mixed.effect->id), progress);
   before.error_of = state.evidence->error(before.prediction);  // in the units of the noise as the claim settled it
   const auto plain = by_a_plain_law(state, before, mixed);

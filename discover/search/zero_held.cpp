@@ -13,7 +13,7 @@ namespace {
 
 /// Where the sensor itself, or what is beside the wire, has a constant of its own, the zero is as much that law's as
 /// anybody's.
-bool has_own_constant(const Standing& s) {
+bool has_own_constant(const PlacedEffect& s) {
   return s.place.kind == "measured" || (s.effect->side != Side::none && !s.effect->own_zero);
 }
 
@@ -28,10 +28,10 @@ bool rival_has_own_constant(const SearchState& state) {
 }
 
 /// How far the laws may move the zero by themselves [SI].
-double own_zero(const Contender& c) {
+double own_zero(const CandidateModel& c) {
   double sum = 0;
-  for (std::size_t i = 0; i < c.standing.size(); ++i) {
-    const Standing& s = c.standing[i];
+  for (std::size_t i = 0; i < c.placed.size(); ++i) {
+    const PlacedEffect& s = c.placed[i];
     if (!s.effect->own_zero) continue;
     const auto values = values_of(c, i);
     if (values.size() == s.law.free.size()) sum += s.effect->own_zero(s.law, values);
@@ -41,11 +41,11 @@ double own_zero(const Contender& c) {
 
 /// The laws that stand, fitted with the zeros of the user's model; nullopt if none of them found one anew, or if it is
 /// not the sensor's alone.
-std::optional<Contender> with_the_users_zeros(SearchState& state) {
+std::optional<CandidateModel> with_the_users_zeros(SearchState& state) {
   if (rival_has_own_constant(state)) return std::nullopt;
-  Contender c = state.current;
+  CandidateModel c = state.current;
   std::vector<ParameterValue> zeros;
-  for (auto& s : c.standing) {
+  for (auto& s : c.placed) {
     if (calibrates(s) || (!s.zeros.empty() && has_own_constant(s))) return std::nullopt;
     for (const auto& path : s.zeros) {
       const int parameter = parameter_index(*c.program, path);
@@ -56,16 +56,16 @@ std::optional<Contender> with_the_users_zeros(SearchState& state) {
   if (zeros.empty()) return std::nullopt;
   c.diagram = with_parameters(c.diagram, *c.program, zeros);
   c.zero_held = true;
-  c = refit(state.shop, c, Effort::full);
+  c = refit(state.context, c, Effort::full);
   if (!c.ok) return std::nullopt;
   c.error_of = state.evidence->error(c.prediction);
   return c;
 }
 
 /// A calibration that stands moves no zero beyond what the other laws could move it by themselves.
-bool owes_its_zero(const Contender& c) {
-  for (std::size_t i = 0; i < c.standing.size(); ++i) {
-    if (!calibrates(c.standing[i])) continue;
+bool owes_its_zero(const CandidateModel& c) {
+  for (std::size_t i = 0; i < c.placed.size(); ++i) {
+    if (!calibrates(c.placed[i])) continue;
     for (const auto& p : parameters_of(c, static_cast<int>(i)))
       if (p.estimate != nullptr && p.law->path == "offset") return std::abs(p.estimate->used) <= own_zero(c);
   }
@@ -73,12 +73,12 @@ bool owes_its_zero(const Contender& c) {
 }
 
 /// The calibration that stands where another law has a constant of its own; -1 = none.
-int calibration_beside_a_constant(const Contender& c) {
+int calibration_beside_a_constant(const CandidateModel& c) {
   int calibration = -1;
   bool constant = false;
-  for (std::size_t i = 0; i < c.standing.size(); ++i) {
-    if (calibrates(c.standing[i])) calibration = static_cast<int>(i);
-    constant = constant || (c.standing[i].effect->moves_zero && has_own_constant(c.standing[i]));
+  for (std::size_t i = 0; i < c.placed.size(); ++i) {
+    if (calibrates(c.placed[i])) calibration = static_cast<int>(i);
+    constant = constant || (c.placed[i].effect->moves_zero && has_own_constant(c.placed[i]));
   }
   return constant ? calibration : -1;
 }
@@ -111,7 +111,7 @@ bool with_the_zero_of_a_curve(SearchState& state, const std::function<bool()>& o
   const int calibration = calibration_beside_a_constant(state.current);
   if (calibration < 0 || state.stopped()) return false;
   const double score = state.current.score();
-  const auto rest = rest_of(state, state.shop, static_cast<std::size_t>(calibration), Line::of_a_curve);
+  const auto rest = rest_of(state, state.context, static_cast<std::size_t>(calibration), Line::of_a_curve);
   if (!rest || !(rest->score() < score + rules::tie)) return false;
   const Found found(state);
   if (tell_again(state, *rest) && one_more() && state.current.score() < score - rules::exchange) return true;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "discover/models/fit_contender.h"
+#include "discover/models/fit_candidate_model.h"
 #include "discover/search/nominal_parameters.h"
 
 namespace hysteron {
@@ -32,7 +32,7 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
 std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
   const BlockScore score(*free.evidence, {best.left});
   // The same model and numbers from rest.
-  Workshop at_rest = free.shop;
+  FitContext at_rest = free.context;
   at_rest.data = std::make_shared<const DataSet>(given);
   const auto program = compile(best.model.diagram, free.registry);
   DataModel from_rest(program, at_rest.data, accuracy(at_rest, *program, Effort::full));
@@ -69,10 +69,11 @@ std::map<std::string, double> numbers_not_exact(const SearchState& state) {
 Nulls fit_nulls(const FitSetting& setting, int renewals) {
   Nulls nulls;
   nulls.written = measured(setting, setting.state.base, Numbers::written, setting.state.evidence->noise(), {});
-  if (TableModel again = refitted(setting, setting.state.shop, nulls.written, Numbers::written, renewals); again.ok())
+  if (TableModel again = refitted(setting, setting.state.context, nulls.written, Numbers::written, renewals);
+      again.ok())
     nulls.written = std::move(again);
   if (!setting.numbers.empty())
-    nulls.let_go = refitted(setting, setting.state.shop, nulls.written, Numbers::let_go, renewals);
+    nulls.let_go = refitted(setting, setting.state.context, nulls.written, Numbers::let_go, renewals);
   return nulls;
 }
 

@@ -19,8 +19,8 @@ constexpr double as_written = 0.1;
 /// last terms.
 struct Told {
   std::map<std::string, double> kept;  ///< numbers that are not what is written, as written [SI]
-  Workshop shop;
-  std::vector<Contender> chain;                 ///< [k]: with the first k terms; the last is the whole model
+  FitContext context;
+  std::vector<CandidateModel> chain;            ///< [k]: with the first k terms; the last is the whole model
   std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
 };
 
@@ -29,34 +29,35 @@ Told to_be_told(SearchState& state, const Selection& selection) {
   const FitSetting& setting = selection.setting();
   TableModel best = selection.best();
   if (best.numbers == Numbers::let_go)
-    state.unless_stopped([&] { best = with_fewest_numbers(setting, state.shop, selection.score(), best, told.kept); });
+    state.unless_stopped(
+        [&] { best = with_fewest_numbers(setting, state.context, selection.score(), best, told.kept); });
   const FitSetting few = setting.with(told.kept);
-  told.shop =
-      workshop_for(few, state.shop, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
-  told.shop.data = state.data;  // others judge
-  const auto of_all = std::exchange(told.shop.notes, std::make_shared<Notebook>());
-  Contender whole = best.model;
+  told.context =
+      context_for(few, state.context, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
+  told.context.data = state.data;  // others judge
+  const auto of_all = std::exchange(told.context.derivatives, std::make_shared<DerivativeStore>());
+  CandidateModel whole = best.model;
   state.unless_stopped([&] {
-    Contender final = refit(told.shop, whole, Effort::final);
+    CandidateModel final = refit(told.context, whole, Effort::final);
     if (final.ok) whole = std::move(final);
   });
   told.terms = terms_of(whole);
   told.chain.assign(told.terms.size() + 1, whole);
   for (std::size_t k = told.terms.size(); k-- > 0;) {
-    Contender before = told.chain[k + 1];
+    CandidateModel before = told.chain[k + 1];
     // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
-    for (std::size_t i = before.standing.size(); i-- > 0 && before.ok;)
-      if (before.standing[i].effect == whole.standing[told.terms[k].front()].effect)
-        before = without(told.shop, before, i);
-    told.chain[k] = before.ok ? refit(told.shop, before, Effort::full) : before;
+    for (std::size_t i = before.placed.size(); i-- > 0 && before.ok;)
+      if (before.placed[i].effect == whole.placed[told.terms[k].front()].effect)
+        before = without(told.context, before, i);
+    told.chain[k] = before.ok ? refit(told.context, before, Effort::full) : before;
     if (!told.chain[k].ok) told.chain[k] = k == 0 ? state.base : told.chain[k + 1];
   }
-  of_all->count(told.shop.notes->runs());
+  of_all->count(told.context.derivatives->runs());
   return told;
 }
 
 /// Of the candidates of all rounds the one that stands as this term.
-TriedEffect tried_as(const Selection& selection, const Standing& s) {
+TriedEffect tried_as(const Selection& selection, const PlacedEffect& s) {
   for (auto round = selection.rounds().rbegin(); round != selection.rounds().rend(); ++round)
     for (const auto& r : round->rivals)
       if (r.tried.effect == s.effect && r.tried.place.where() == s.place.where()) {
@@ -100,22 +101,22 @@ std::string how_much_more(const Selection& selection, const TableModel& f, const
 void tell_step(SearchState& state, Selection& selection, const Told& told, std::size_t k) {
   FoundStep found;
   const auto& term = told.terms[k];
-  const Contender& whole = told.chain.back();
-  TriedEffect w = tried_as(selection, whole.standing[term.front()]);
+  const CandidateModel& whole = told.chain.back();
+  TriedEffect w = tried_as(selection, whole.placed[term.front()]);
   const ModelError before = state.evidence->error(told.chain[k].prediction);
-  w.contender = told.chain[k + 1];
-  w.contender.error_of = state.evidence->error(w.contender.prediction);
-  w.fall_train = before.evidence_train - w.contender.error_of.evidence_train;
-  w.fall_validate = before.evidence_validate - w.contender.error_of.evidence_validate;
+  w.candidate = told.chain[k + 1];
+  w.candidate.error_of = state.evidence->error(w.candidate.prediction);
+  w.fall_train = before.evidence_train - w.candidate.error_of.evidence_train;
+  w.fall_validate = before.evidence_validate - w.candidate.error_of.evidence_validate;
   const double excess = before.excess_validate();
-  w.share = excess > 0 ? std::clamp(1 - w.contender.error_of.excess_validate() / excess, 0.0, 1.0) : 0;
-  w.fall_by_recording = fall_by_recording(before, w.contender.error_of);
+  w.share = excess > 0 ? std::clamp(1 - w.candidate.error_of.excess_validate() / excess, 0.0, 1.0) : 0;
+  w.fall_by_recording = fall_by_recording(before, w.candidate.error_of);
   w.admitted = true;
   w.reason = what_it_takes(w);
   const bool alone = told.chain.size() == 2;
   const int step = static_cast<int>(k) + 1;
   unless_it_fails(state, [&] {
-    const Effect& effect = *whole.standing[term.front()].effect;
+    const Effect& effect = *whole.placed[term.front()].effect;
     auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
     if (alone)
       for (auto& hidden : selection.hidden_in_place_of(effect)) rivals.push_back(std::move(hidden));
@@ -125,12 +126,12 @@ void tell_step(SearchState& state, Selection& selection, const Told& told, std::
     if (!alone && !rivals.empty() && rivals.front().tried.effect == &effect && rivals.front().fitted.ok()) {
       winner = rivals.front().fitted;
       last = rivals.front().tried;
-      last.contender = winner.model;
+      last.candidate = winner.model;
     }
     for (const auto& r : tied(state, selection, winner, effect, rivals)) {
       TriedEffect rival = r.tried;
-      rival.contender = r.fitted.model;
-      rival.contender.error_of = state.evidence->error(rival.contender.prediction);
+      rival.candidate = r.fitted.model;
+      rival.candidate.error_of = state.evidence->error(rival.candidate.prediction);
       rival.admitted = true;
       rival.reason = "explains the recordings as well as the one that was taken";
       add_tie(state, step, found, last, rival);
@@ -138,12 +139,12 @@ void tell_step(SearchState& state, Selection& selection, const Told& told, std::
     return true;
   });
   found.before = before;
-  found.after = w.contender.error_of;
+  found.after = w.candidate.error_of;
   found.winner = candidate_of(w, step);
   found.winner.claimed = true;
-  for (std::size_t i = 1; i < term.size(); ++i) found.winner.also_at.push_back(whole.standing[term[i]].place.where());
-  found.change = w.contender.change;
-  found.change.diagram = w.contender.diagram;
+  for (std::size_t i = 1; i < term.size(); ++i) found.winner.also_at.push_back(whole.placed[term[i]].place.where());
+  found.change = w.candidate.change;
+  found.change.diagram = w.candidate.diagram;
   state.d.steps.push_back(std::move(found));
 }
 
@@ -154,12 +155,12 @@ void tell_candidates(SearchState& state, const Selection& selection, const Told&
     const TableModel& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
     for (const auto& r : round.rivals) {
       TriedEffect t = r.tried;
-      t.contender = r.fitted.model;
-      if (t.contender.ok) t.contender.error_of = state.evidence->error(t.contender.prediction);
+      t.candidate = r.fitted.model;
+      if (t.candidate.ok) t.candidate.error_of = state.evidence->error(t.candidate.prediction);
       t.reason =
           !r.fitted.ok() ? "could not be fitted: " + r.fitted.model.error : how_much_more(selection, r.fitted, before);
       Candidate c = candidate_of(t, step);
-      for (const auto& s : told.chain.back().standing)
+      for (const auto& s : told.chain.back().placed)
         c.claimed = c.claimed || (s.effect->id == c.effect && s.place.where() == c.place);
       state.d.candidates.push_back(std::move(c));
     }
@@ -215,7 +216,7 @@ Discovery select_model(const Diagram& diagram, const DataSet& data, const Regist
   }
   tell_starts(state, moving);
   conclude(state);
-  state.d.model_runs = state.shop.notes->runs();
+  state.d.model_runs = state.context.derivatives->runs();
   return std::move(state.d);
 }
 

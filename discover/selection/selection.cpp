@@ -110,11 +110,11 @@ TableModel without_prediction(const TableModel& f) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
+std::vector<std::vector<std::size_t>> terms_of(const CandidateModel& model) {
   std::vector<std::vector<std::size_t>> terms;
-  for (std::size_t i = 0; i < model.standing.size(); ++i) {
+  for (std::size_t i = 0; i < model.placed.size(); ++i) {
     const auto same = std::find_if(terms.begin(), terms.end(), [&](const auto& term) {
-      return model.standing[term.front()].effect == model.standing[i].effect;
+      return model.placed[term.front()].effect == model.placed[i].effect;
     });
     if (same == terms.end())
       terms.push_back({i});
@@ -125,9 +125,10 @@ std::vector<std::vector<std::size_t>> terms_of(const Contender& model) {
 }
 
 Selection::Selection(SearchState& state, std::map<std::string, double> numbers)
-    : books_(state), setting_(state, std::move(numbers)) {
-  const auto before = std::exchange(books_.shop.notes, std::make_shared<Notebook>());  // of other recordings
-  books_.shop.notes->count(before->runs());
+    : state_(state), setting_(state, std::move(numbers)) {
+  const auto before =
+      std::exchange(state_.context.derivatives, std::make_shared<DerivativeStore>());  // of other recordings
+  state_.context.derivatives->count(before->runs());
 }
 
 void Selection::remember(const TableModel& fitted) {
@@ -151,7 +152,7 @@ void Selection::take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> 
     }
 }
 
-void Selection::measure() { setting_.score = std::make_shared<const BlockScore>(*books_.evidence, left_); }
+void Selection::measure() { setting_.score = std::make_shared<const BlockScore>(*state_.evidence, left_); }
 
 void Selection::sort(std::vector<Addition>& rivals) const {
   std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
@@ -163,19 +164,19 @@ void Selection::sort(std::vector<Addition>& rivals) const {
 /// Every effect at every place, and at all like ones, of the present model.
 std::vector<Addition> Selection::everywhere(int step) {
   std::vector<Addition> rivals;
-  for (auto& t : list_candidates(books_, step)) {
+  for (auto& t : list_candidates(state_, step)) {
     Addition rival;
     rival.tried = std::move(t);
     rivals.push_back(std::move(rival));
   }
-  for (auto& a : at_like_places(books_, rivals)) rivals.push_back(std::move(a));
+  for (auto& a : at_like_places(state_, rivals)) rivals.push_back(std::move(a));
   return rivals;
 }
 
 std::vector<Addition> Selection::list(int step) {
-  books_.current = best_.model;
+  state_.current = best_.model;
   auto rivals = everywhere(step);
-  for (auto& r : rivals) r.slowness = slowness(books_, r.tried);
+  for (auto& r : rivals) r.slowness = slowness(state_, r.tried);
   return rivals;
 }
 
@@ -186,16 +187,16 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
       if (l == 0 || rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);
   // Each answer of its own: the score that orders them is that of all.
   std::vector<FitsOfRival> answers(jobs.size());
-  books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
+  state_.side_by_side(jobs.size(), [&](std::size_t j, const FitContext& context) {
     const auto [i, law] = jobs[j];
     const TriedEffect& t = rivals[i].tried;
-    books_.progress(
+    state_.progress(
         fmt::format("step {}: {} at {}", step, t.effect->id, t.place.where()),
-        (step - 1 + 0.6 * static_cast<double>(j) / static_cast<double>(jobs.size())) / books_.options.max_steps);
+        (step - 1 + 0.6 * static_cast<double>(j) / static_cast<double>(jobs.size())) / state_.options.max_steps);
     const double tried = ln_tried(rivals, *t.effect);
     const auto choice = term_of(rivals[i], law);
     const auto add = [&](const TableModel& from, Effort effort) {
-      answers[j].push_back({i, law, with_term(setting_, shop, from, choice, tried, effort)});
+      answers[j].push_back({i, law, with_term(setting_, context, from, choice, tried, effort)});
     };
     if (step == 1 && rivals[i].slowness > 0) {
       add(nulls_.let_go.ok() ? nulls_.let_go : nulls_.written, Effort::screen);
@@ -226,13 +227,13 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
     return r.slowness < slowest ? i < finalists || score_of(r.fitted) > best : score_of(r.fitted) > best_at_first;
   };
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
-  for (std::size_t first = 0; first < rivals.size() && !books_.stopped(); first += at_once) {
+  for (std::size_t first = 0; first < rivals.size() && !state_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
     std::vector<FitsOfRival> answers(n);
-    books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
+    state_.side_by_side(n, [&](std::size_t i, const FitContext& context) {
       const Addition& rival = rivals[first + i];
       if (rival.fitted.ok() && is_asked(first + i))
-        answers[i] = {{first + i, rival.tried.law, refitted(setting_, shop, rival.fitted, numbers, few_renewals)}};
+        answers[i] = {{first + i, rival.tried.law, refitted(setting_, context, rival.fitted, numbers, few_renewals)}};
       return false;
     });
     take_up(rivals, std::move(answers));
@@ -248,10 +249,10 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
 void Selection::settle_best(std::vector<Addition>& rivals) {
   const std::size_t n = std::min(finalists, rivals.size());
   std::vector<FitsOfRival> answers(n);
-  books_.side_by_side(n, [&](std::size_t i, const Workshop& shop) {
+  state_.side_by_side(n, [&](std::size_t i, const FitContext& context) {
     const TableModel& f = rivals[i].fitted;
     if (f.ok() && f.numbers == Numbers::let_go)
-      answers[i] = {{i, rivals[i].tried.law, refitted(setting_, shop, f, f.numbers)}};
+      answers[i] = {{i, rivals[i].tried.law, refitted(setting_, context, f, f.numbers)}};
     return false;
   });
   take_up(rivals, std::move(answers));
@@ -272,15 +273,15 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
       if (!rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);  // those stood among the first
   }
   std::vector<FitsOfRival> answers(jobs.size());
-  books_.side_by_side(jobs.size(), [&](std::size_t j, const Workshop& shop) {
+  state_.side_by_side(jobs.size(), [&](std::size_t j, const FitContext& context) {
     const auto [i, law] = jobs[j];
     // With the numbers of the simple law's model: those of the null bear what the effect does.
     std::vector<std::size_t> last(rivals[i].also.size() + 1);  // it came last
-    std::iota(last.begin(), last.end(), rivals[i].fitted.model.standing.size() - last.size());
-    const TableModel bare = without_term(setting_, shop, rivals[i].fitted, last);
+    std::iota(last.begin(), last.end(), rivals[i].fitted.model.placed.size() - last.size());
+    const TableModel bare = without_term(setting_, context, rivals[i].fitted, last);
     if (!bare.ok()) return false;
     const double tried = ln_tried(rivals, *rivals[i].tried.effect);
-    answers[j] = {{i, law, with_term(setting_, shop, bare, term_of(rivals[i], law), tried, Effort::full)}};
+    answers[j] = {{i, law, with_term(setting_, context, bare, term_of(rivals[i], law), tried, Effort::full)}};
     return false;
   });
   for (const auto& list : answers)
@@ -300,9 +301,9 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
       if (a.fitted.ok() && (is_quick(a) || type_of(a) == type_of(*best[a.rival]))) asked.push_back(&a);
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   std::vector<FitsOfRival> settled(asked.size());
-  books_.side_by_side(asked.size(), [&](std::size_t k, const Workshop& shop) {
+  state_.side_by_side(asked.size(), [&](std::size_t k, const FitContext& context) {
     const FitOfRival& a = *asked[k];
-    settled[k] = {{a.rival, a.law, refitted(setting_, shop, a.fitted, numbers, few_renewals)}};
+    settled[k] = {{a.rival, a.law, refitted(setting_, context, a.fitted, numbers, few_renewals)}};
     return false;
   });
   take_up(rivals, std::move(settled));
@@ -325,7 +326,7 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
       if (r.slowness == slow) some.push_back(std::move(r));
     const bool only_noise =
         !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < near_noise;
-    if (!some.empty() && !only_noise && !books_.stopped()) {
+    if (!some.empty() && !only_noise && !state_.stopped()) {
       fit_first_laws(some, step);
       std::vector<TableModel> begun;
       for (const auto& r : some)
@@ -345,9 +346,9 @@ bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
   fit(rivals, step);
-  const bool broken_off = books_.stopped();
+  const bool broken_off = state_.stopped();
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
-  for (auto& r : rivals) r.tried.contender = r.fitted.model;
+  for (auto& r : rivals) r.tried.candidate = r.fitted.model;
   rounds_.push_back({best_, std::move(rivals)});
   const Round& round = rounds_.back();
   const TableModel& before = step == 1 ? nulls_.better(score()) : best_;
@@ -368,12 +369,12 @@ bool Selection::add_one(int step) {
 /// single term the rest is the user's own model from other numbers than it had been searched from.
 bool Selection::leave_out() {
   for (const auto& term : terms_of(best_.model)) {
-    TableModel rest = without_term(setting_, books_.shop, best_, term);
-    if (rest.ok()) rest = refitted(setting_, books_.shop, rest, best_.numbers);
+    TableModel rest = without_term(setting_, state_.context, best_, term);
+    if (rest.ok()) rest = refitted(setting_, state_.context, rest, best_.numbers);
     if (!rest.ok()) continue;
     remember(rest);
     measure();
-    if (rest.model.standing.empty() && score_of(rest) > score_of(nulls_.better(score())))
+    if (rest.model.placed.empty() && score_of(rest) > score_of(nulls_.better(score())))
       (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
     if (score_of(rest) + rules::by_score < score_of(best_)) continue;
     best_ = std::move(rest);
@@ -384,21 +385,21 @@ bool Selection::leave_out() {
 
 void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
   std::vector<FitsOfRival> answers(rivals.size());
-  books_.side_by_side(rivals.size(), [&](std::size_t k, const Workshop& shop) {
+  state_.side_by_side(rivals.size(), [&](std::size_t k, const FitContext& context) {
     const std::size_t law = rivals[k].tried.law;
-    const TableModel f = with_term(setting_, shop, rest, term_of(rivals[k], law),
+    const TableModel f = with_term(setting_, context, rest, term_of(rivals[k], law),
                                    ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
-    if (f.ok()) answers[k] = {{k, law, refitted(setting_, shop, f, best_.numbers)}};
+    if (f.ok()) answers[k] = {{k, law, refitted(setting_, context, f, best_.numbers)}};
     return false;
   });
   take_up(rivals, std::move(answers));
-  for (auto& r : rivals) r.tried.contender = r.fitted.model;
+  for (auto& r : rivals) r.tried.candidate = r.fitted.model;
 }
 
 /// Of what list_candidates() has just found hidden, what looks like this effect.
 std::vector<Addition> Selection::take_hidden(const Effect& effect) {
   std::vector<Addition> rivals;
-  for (auto& t : books_.hidden) {
+  for (auto& t : state_.hidden) {
     if (!look_alike(*t.effect, effect)) continue;
     t.laws = t.effect->laws(t.excitation);
     t.hidden = true;
@@ -406,15 +407,15 @@ std::vector<Addition> Selection::take_hidden(const Effect& effect) {
     rival.tried = std::move(t);
     if (!rival.tried.laws.empty()) rivals.push_back(std::move(rival));
   }
-  books_.hidden.clear();
+  state_.hidden.clear();
   return rivals;
 }
 
 std::vector<Addition> Selection::hidden_in_place_of(const Effect& effect) {
   const TableModel& null = nulls_.better(score());
-  const Contender was = std::exchange(books_.current, null.model);
-  list_candidates(books_, 2);
-  books_.current = was;
+  const CandidateModel was = std::exchange(state_.current, null.model);
+  list_candidates(state_, 2);
+  state_.current = was;
   auto rivals = take_hidden(effect);
   fit_on(null, rivals);
   return rivals;
@@ -422,10 +423,10 @@ std::vector<Addition> Selection::hidden_in_place_of(const Effect& effect) {
 
 std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
   std::vector<Addition> rivals;
-  const Standing& leaving = best_.model.standing[term.front()];
-  const TableModel rest = without_term(setting_, books_.shop, best_, term);
+  const PlacedEffect& leaving = best_.model.placed[term.front()];
+  const TableModel rest = without_term(setting_, state_.context, best_, term);
   if (!rest.ok()) return rivals;
-  const Contender was = std::exchange(books_.current, rest.model);
+  const CandidateModel was = std::exchange(state_.current, rest.model);
   for (auto& r : everywhere(2)) {
     const bool same = r.tried.effect == leaving.effect;
     const bool itself = same && r.tried.place.where() == leaving.place.where() && r.also.size() + 1 == term.size();
@@ -433,7 +434,7 @@ std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& ter
     if (itself) r.tried.law = place_of(r.tried.laws, leaving.law.name);
     rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(r));
   }
-  books_.current = was;
+  state_.current = was;
   for (auto& hidden : take_hidden(*leaving.effect)) rivals.push_back(std::move(hidden));
   fit_on(rest, rivals);
   std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
@@ -449,7 +450,7 @@ bool Selection::exchange() {
   const auto terms = terms_of(best_.model);
   for (std::size_t i = 0; i + 1 < terms.size(); ++i)
     for (const auto& r : in_place_of(terms[i]))
-      if (r.fitted.ok() && !r.tried.hidden && r.tried.effect != best_.model.standing[terms[i].front()].effect &&
+      if (r.fitted.ok() && !r.tried.hidden && r.tried.effect != best_.model.placed[terms[i].front()].effect &&
           is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
         best_ = r.fitted;
         return true;
@@ -463,11 +464,11 @@ void Selection::run() {
   remember(nulls_.let_go);
   measure();
   best_ = nulls_.better(score());
-  for (int step = 1; step <= books_.options.max_steps && !books_.stopped(); ++step) {
+  for (int step = 1; step <= state_.options.max_steps && !state_.stopped(); ++step) {
     if (!add_one(step)) break;
-    while (!books_.stopped() && leave_out()) continue;
-    if (best_.model.standing.empty()) break;
-    if (!books_.stopped()) exchange();
+    while (!state_.stopped() && leave_out()) continue;
+    if (best_.model.placed.empty()) break;
+    if (!state_.stopped()) exchange();
   }
 }
 

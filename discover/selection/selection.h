@@ -18,7 +18,7 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 
 /// A rival: one effect more than the model it stands on.
 struct Addition {
-  TriedEffect tried;              ///< effect, place, laws; `contender` is that of `fitted`
+  TriedEffect tried;              ///< effect, place, laws; `candidate` is that of `fitted`
   std::vector<TriedEffect> also;  ///< the same effect at like places, where it enters all of them at once
   int slowness = 0;               ///< the quick ones are asked first
   TableModel fitted;              ///< with its best law
@@ -31,7 +31,7 @@ struct Round {
 };
 
 /// Indices of a model's standing effects, those of one name together: what enters like places at once is one term.
-std::vector<std::vector<std::size_t>> terms_of(const Contender& model);
+std::vector<std::vector<std::size_t>> terms_of(const CandidateModel& model);
 
 class Selection {
  public:
@@ -77,7 +77,7 @@ class Selection {
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
 
-  SearchState& books_;
+  SearchState& state_;
   FitSetting setting_;
   Nulls nulls_;
   TableModel best_;

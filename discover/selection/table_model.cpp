@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "discover/models/fit_contender.h"
+#include "discover/models/fit_candidate_model.h"
 #include "discover/search/nominal_parameters.h"
 
 namespace hysteron {
@@ -14,9 +14,9 @@ namespace {
 constexpr double settled = 0.05;                 // of V
 constexpr double two_sided = 1.959963984540054;  // 95 % of a normal distribution
 
-int numbers_of(const Contender& c, std::size_t recordings) {
+int numbers_of(const CandidateModel& c, std::size_t recordings) {
   int n = 0;
-  for (const auto& s : c.standing) {
+  for (const auto& s : c.placed) {
     for (const auto& p : s.law.free) n += p.per_recording ? static_cast<int>(recordings) : 1;
     n += static_cast<int>(s.zeros.size() + s.weights.size());
   }
@@ -37,11 +37,11 @@ bool alike(const NoiseModel& a, const NoiseModel& b) {
 }
 
 /// Derivatives that another fit has found were weighed by other weights.
-Contender refit_afresh(Workshop shop, const Contender& c, Effort effort) {
-  const auto notes = shop.notes;
-  shop.notes = std::make_shared<Notebook>();
-  Contender next = refit(shop, c, effort);
-  notes->count(shop.notes->runs());
+CandidateModel refit_afresh(FitContext context, const CandidateModel& c, Effort effort) {
+  const auto derivatives = context.derivatives;
+  context.derivatives = std::make_shared<DerivativeStore>();
+  CandidateModel next = refit(context, c, effort);
+  derivatives->count(context.derivatives->runs());
   return next;
 }
 
@@ -84,13 +84,13 @@ double tie_score_of(const BlockScore& score, const TableModel& f) {
   return score.fit_of(f.left) - f.parameters - all_tried(f) - 0.5 * f.moved;
 }
 
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, NoiseModel weights,
+TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried) {
   TableModel f;
   f.numbers = numbers;
   f.model = std::move(model);
   f.weights = std::move(weights);
-  for (const auto& s : f.model.standing)
+  for (const auto& s : f.model.placed)
     if (const auto known = tried.find(s.effect->id); known != tried.end()) f.tried.insert(*known);
   if (!f.model.ok) return f;
   const Evidence& evidence = *setting.state.evidence;
@@ -108,8 +108,9 @@ NoiseModel weights_of(const FitSetting& setting, const TableModel& f) {
                        : BlockScore(evidence, {f.left}).weights(evidence, f.left);
 }
 
-Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers) {
-  Workshop own = shop;
+FitContext context_for(const FitSetting& setting, const FitContext& context, const NoiseModel& weights,
+                       Numbers numbers) {
+  FitContext own = context;
   own.weights = weights;
   own.data = setting.all;
   // Whole models are compared by hundreds of fits: what needs more steps is too stiff for that, and integrating it
@@ -122,24 +123,24 @@ Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const Noi
   return own;
 }
 
-TableModel refitted(const FitSetting& setting, const Workshop& shop, const TableModel& from, Numbers numbers,
+TableModel refitted(const FitSetting& setting, const FitContext& context, const TableModel& from, Numbers numbers,
                     int renewals) {
   TableModel now = from;
   for (int i = 0; i < renewals; ++i) {
     NoiseModel weights = weights_of(setting, now);
     if (i > 0 && alike(weights, now.weights)) break;
-    Contender next = refit_afresh(workshop_for(setting, shop, weights, numbers), now.model, Effort::full);
+    CandidateModel next = refit_afresh(context_for(setting, context, weights, numbers), now.model, Effort::full);
     if (!next.ok) return i > 0 ? now : TableModel{};
     now = measured(setting, std::move(next), numbers, std::move(weights), from.tried);
   }
   return now;
 }
 
-TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+TableModel with_term(const FitSetting& setting, const FitContext& context, const TableModel& from,
                      const std::vector<Choice>& term, double ln_tried, Effort effort) {
   const NoiseModel weights = weights_of(setting, from);
-  const Workshop own = workshop_for(setting, shop, weights, Numbers::written);
-  Contender c = from.model;
+  const FitContext own = context_for(setting, context, weights, Numbers::written);
+  CandidateModel c = from.model;
   for (const auto& choice : term) {
     c = with_effect(own, c, *choice.effect, choice.law, choice.place, choice.at, effort);
     if (!c.ok) break;
@@ -153,12 +154,12 @@ TableModel with_term(const FitSetting& setting, const Workshop& shop, const Tabl
   return f;
 }
 
-TableModel without_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+TableModel without_term(const FitSetting& setting, const FitContext& context, const TableModel& from,
                         const std::vector<std::size_t>& term) {
-  Contender rest = from.model;
-  for (auto i = term.rbegin(); i != term.rend() && rest.ok; ++i) rest = without(shop, rest, *i);
+  CandidateModel rest = from.model;
+  for (auto i = term.rbegin(); i != term.rend() && rest.ok; ++i) rest = without(context, rest, *i);
   NoiseModel weights = weights_of(setting, from);
-  if (rest.ok) rest = refit(workshop_for(setting, shop, weights, Numbers::written), rest, Effort::full);
+  if (rest.ok) rest = refit(context_for(setting, context, weights, Numbers::written), rest, Effort::full);
   return measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
 }
 
@@ -235,7 +236,7 @@ std::map<std::string, double> worth_it(const FitResult& fit, const std::map<std:
 
 }  // namespace
 
-TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+TableModel with_fewest_numbers(const FitSetting& setting, const FitContext& context, const BlockScore& score,
                                const TableModel& let_go, std::map<std::string, double>& kept) {
   constexpr int most_rounds = 4;
   const double worth = 6 + std::log(std::max(score.n_eff(), 2.0));
@@ -243,8 +244,8 @@ TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, 
   kept = setting.numbers;
   for (int round = 0; round < most_rounds && !kept.empty(); ++round) {
     const FitSetting these = setting.with(kept);
-    const Workshop own = workshop_for(these, shop, weights_of(these, now), Numbers::let_go);
-    const Contender c = refit_afresh(own, now.model, Effort::final);
+    const FitContext own = context_for(these, context, weights_of(these, now), Numbers::let_go);
+    const CandidateModel c = refit_afresh(own, now.model, Effort::final);
     if (!c.ok) break;
     const auto few = worth_it(c.fit, kept, worth);
     if (few.size() == kept.size()) break;
@@ -256,7 +257,7 @@ TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, 
     start.model.diagram = with_parameters(c.diagram, *c.program, written);
     std::erase_if(start.model.fit.estimates,
                   [&](const ParameterEstimate& e) { return kept.contains(e.path) && !few.contains(e.path); });
-    TableModel next = refitted(setting.with(few), shop, start, few.empty() ? Numbers::written : Numbers::let_go);
+    TableModel next = refitted(setting.with(few), context, start, few.empty() ? Numbers::written : Numbers::let_go);
     if (!next.ok()) break;
     kept = few;
     now = std::move(next);

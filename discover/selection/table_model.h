@@ -18,7 +18,7 @@ enum class Numbers { written, let_go };
 
 /// One row of the model table.
 struct TableModel {
-  Contender model;
+  CandidateModel model;
   Numbers numbers = Numbers::written;
   NoiseModel weights;  ///< it was fitted by these
   LeftSums left;
@@ -55,27 +55,28 @@ double score_of(const BlockScore& score, const TableModel& fitted);
 double tie_score_of(const BlockScore& score, const TableModel& fitted);
 
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
-TableModel measured(const FitSetting& setting, Contender model, Numbers numbers, NoiseModel weights,
+TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
-Workshop workshop_for(const FitSetting& setting, const Workshop& shop, const NoiseModel& weights, Numbers numbers);
+FitContext context_for(const FitSetting& setting, const FitContext& context, const NoiseModel& weights,
+                       Numbers numbers);
 /// By what the model leaves itself: see BlockScore::weights().
 NoiseModel weights_of(const FitSetting& setting, const TableModel& model);
 
 /// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
 /// truth all weights are wrong, and the user's numbers are held too firmly by what is written. At most `renewals`
 /// times.
-TableModel refitted(const FitSetting& setting, const Workshop& shop, const TableModel& from, Numbers numbers,
+TableModel refitted(const FitSetting& setting, const FitContext& context, const TableModel& from, Numbers numbers,
                     int renewals = most_renewals);
 
 /// `from` with one more effect, at one place or at several like ones. The user's numbers stay as `from` has them.
 /// `ln_tried`: see TableModel::tried.
-TableModel with_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+TableModel with_term(const FitSetting& setting, const FitContext& context, const TableModel& from,
                      const std::vector<Choice>& term, double ln_tried, Effort effort);
 
 /// `from` without the effects that stand at these places of its list, fitted with all else as it is.
-TableModel without_term(const FitSetting& setting, const Workshop& shop, const TableModel& from,
+TableModel without_term(const FitSetting& setting, const FitContext& context, const TableModel& from,
                         const std::vector<std::size_t>& term);
 
 /// Of a number that was fitted by weights that count witnesses: one standard deviation [SI], not scaled by what the
@@ -84,7 +85,7 @@ double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimat
 
 /// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and
 /// fits again with the others. `kept`: the others, as written.
-TableModel with_fewest_numbers(const FitSetting& setting, const Workshop& shop, const BlockScore& score,
+TableModel with_fewest_numbers(const FitSetting& setting, const FitContext& context, const BlockScore& score,
                                const TableModel& let_go, std::map<std::string, double>& kept);
 
 }  // namespace hysteron

@@ -30,8 +30,8 @@ TEST_F(Axes, AnEffectOfOneAxisIsInNobodysWayOnTheOther) {
     return *std::find_if(places.begin(), places.end(), [&](const Place& p) { return p.wire == wire; });
   };
   const auto at = circumstances_at(diagram, registry, data, on("u2"), {});
-  const Contender model =
-      with_effect(state.shop, state.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
+  const CandidateModel model =
+      with_effect(state.context, state.base, clamp, clamp.laws(at).front(), on("u2"), at, Effort::screen);
   ASSERT_TRUE(model.ok) << model.error;
   EXPECT_TRUE(standing_before(state, model, clamp, on("u2")));
   EXPECT_FALSE(standing_before(state, model, clamp, on("u")));
@@ -70,11 +70,11 @@ TEST_F(Axes, WhatExplainsAsMuchOnAnotherAxisIsWhatStandsOnTheFirst) {
   std::vector<int> ties{1, 2};
   as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 0) << "nothing stands";
-  state.current.standing.emplace_back().effect = effects.find("amplifier_lag");
+  state.current.placed.emplace_back().effect = effects.find("amplifier_lag");
   as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 2);
   EXPECT_EQ(ties, (std::vector<int>{1, 0}));
-  state.current.standing.emplace_back().effect = effects.find("rate_dependence");
+  state.current.placed.emplace_back().effect = effects.find("rate_dependence");
   as_on_another_axis(state, tried, winner, ties);
   EXPECT_EQ(winner, 2) << "it stands itself";
 }
@@ -90,7 +90,7 @@ struct FirstAxisIsKnown {
       for (const auto& place : places_of(e, state.current.diagram, registry, &data)) {
         if (outputs_moved(state, state.current, place.wire) != std::vector<std::string>{"y"}) continue;
         const auto at = circumstances_on(state, state.current, {place}).front();
-        state.current = with_effect(state.shop, state.current, e, e.laws(at).front(), place, at, Effort::full);
+        state.current = with_effect(state.context, state.current, e, e.laws(at).front(), place, at, Effort::full);
         break;
       }
     }
@@ -111,9 +111,9 @@ struct FirstAxisIsKnown {
 
 TEST_F(Axes, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
   FirstAxisIsKnown both(registry, effects, FirstAxisIsKnown::late_and_bent(3e-3, 0.04));
-  ASSERT_EQ(both.state.current.standing.size(), 2u);
+  ASSERT_EQ(both.state.current.placed.size(), 2u);
   EXPECT_TRUE(as_a_set_on_another_output(both.state, 0));
-  EXPECT_EQ(both.state.current.standing.size(), 4u);
+  EXPECT_EQ(both.state.current.placed.size(), 4u);
   EXPECT_LT(both.state.current.error_of.over_floor(), 1.2) << "chi2 of 1600 rows is known to 4 %";
   ASSERT_EQ(both.state.d.steps.size(), 2u);
   EXPECT_EQ(both.state.d.steps[0].winner.effect, "amplifier_lag");
@@ -129,7 +129,7 @@ TEST_F(Axes, WhatIsAPatchAloneActsAsASetOnTheOtherAxis) {
         };
     FirstAxisIsKnown one(registry, effects, law);
     EXPECT_FALSE(as_a_set_on_another_output(one.state, 0)) << tau << " " << bend;
-    EXPECT_EQ(one.state.current.standing.size(), 2u);
+    EXPECT_EQ(one.state.current.placed.size(), 2u);
   }
 }
 
@@ -236,8 +236,8 @@ struct ClaimedOnAxes {
       if (outputs_moved(state, state.current, place.wire) == std::vector<std::string>{output}) t.place = place;
     t.excitation = circumstances_on(state, state.current, {t.place}).front();
     t.laws = t.effect->laws(t.excitation);
-    t.contender =
-        with_effect(state.shop, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
+    t.candidate =
+        with_effect(state.context, state.current, *t.effect, t.laws.front(), t.place, t.excitation, Effort::full);
     t.admitted = true;
     FoundStep found;
     if (!tied.empty()) found.ties.emplace_back().effect = tied;
@@ -279,14 +279,14 @@ TEST_F(Axes, WhatStandsOnBothIsLeftOnlyForLessError) {
   reconsider(state, 0);
   TriedEffect other;
   other.effect = effects.find("dead_time");
-  other.contender = state.current;
-  other.contender.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
-  EXPECT_FALSE(may_leave(state, state.current.standing[0], other));
-  other.contender.error_of.nrmse_validate = 0.99 * state.current.error_of.nrmse_validate;
-  EXPECT_TRUE(may_leave(state, state.current.standing[0], other));
-  state.current.standing.pop_back();
-  other.contender.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
-  EXPECT_TRUE(may_leave(state, state.current.standing[0], other)) << "it stands on one axis alone";
+  other.candidate = state.current;
+  other.candidate.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
+  EXPECT_FALSE(may_leave(state, state.current.placed[0], other));
+  other.candidate.error_of.nrmse_validate = 0.99 * state.current.error_of.nrmse_validate;
+  EXPECT_TRUE(may_leave(state, state.current.placed[0], other));
+  state.current.placed.pop_back();
+  other.candidate.error_of.nrmse_validate = 1.01 * state.current.error_of.nrmse_validate;
+  EXPECT_TRUE(may_leave(state, state.current.placed[0], other)) << "it stands on one axis alone";
 }
 
 TEST_F(Axes, ATieOfTheFirstStepIsLookedAtAgainBesideWhatCameLater) {

@@ -51,13 +51,13 @@ class Judging : public ::testing::Test {
     t.effect = effects.find(effect);
     t.laws.resize(1);
     if (beginnings > 0) t.laws.front().free.emplace_back().scan.resize(beginnings);
-    t.contender.ok = true;
-    t.contender.parameters = numbers;
-    t.contender.error_of = after;
-    Contender was;
+    t.candidate.ok = true;
+    t.candidate.parameters = numbers;
+    t.candidate.error_of = after;
+    CandidateModel was;
     was.ok = true;
     was.error_of = before;
-    was.standing.emplace_back().effect = effects.find(on_top_of);
+    was.placed.emplace_back().effect = effects.find(on_top_of);
     judge(t, was, left);
     return t;
   }
@@ -103,15 +103,15 @@ TriedEffect a_line(const Effects& effects, const ModelError& after, const ModelE
   law.free.emplace_back().path = "frequency";
   law.free.back().line_bands = {{49.5, 50.5}};
   t.laws = {law};
-  t.contender.ok = true;
-  t.contender.error_of = after;
-  for (const std::size_t slow : {0u, 2u}) t.contender.error_of.recordings[slow].step = 1;
-  for (const std::size_t fast : {1u, 3u}) t.contender.error_of.recordings[fast].step = 1e-3;
-  auto& standing = t.contender.standing.emplace_back();
+  t.candidate.ok = true;
+  t.candidate.error_of = after;
+  for (const std::size_t slow : {0u, 2u}) t.candidate.error_of.recordings[slow].step = 1;
+  for (const std::size_t fast : {1u, 3u}) t.candidate.error_of.recordings[fast].step = 1e-3;
+  auto& standing = t.candidate.placed.emplace_back();
   standing.effect = t.effect;
   standing.law = law;
   standing.name = "hum";
-  auto& estimate = t.contender.fit.estimates.emplace_back();
+  auto& estimate = t.candidate.fit.estimates.emplace_back();
   estimate.path = parameter_path("hum", law, law.free.front());
   estimate.used = 50;
   t.without_line = without;
@@ -134,7 +134,7 @@ TEST_F(Judging, WhatTheFitLostWhereItHadLessToGoByIsNoLoss) {
 }
 
 TEST_F(Judging, ALineProvesItselfWhereRowsResolveIt) {
-  Contender was;
+  CandidateModel was;
   was.ok = true;
   was.error_of = error(1900, 1900, 1900, 1900);
   // Everybody gains in the slow rows, and by what others found since then in the fast ones: without the line no less.
@@ -311,9 +311,9 @@ TEST_F(Judging, WhereNobodyStatesTheNoiseAThirdOfTheRestIsEnough) {
 }
 
 TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
-  Contender before;
+  CandidateModel before;
   before.error_of = error(1000, 1090, 1000, 1090);
-  before.standing.emplace_back().effect = effects.find("hysteresis");
+  before.placed.emplace_back().effect = effects.find("hysteresis");
   const ModelError after = error(1000, 1050, 1000, 1050);
   const Effect &creep = effects.get("creep"), &friction = effects.get("friction");
   EXPECT_TRUE(more_than_laws_leave(creep, before, after, {}));
@@ -335,9 +335,9 @@ TEST_F(Judging, WhatLawsLeaveIsMeasuredBetweenAnyTwoModels) {
 
 TEST_F(Judging, ACurveIsWhatItTakesBeyondALine) {
   const Effect& curve = effects.get("sensor_nonlinearity");
-  Contender straight;
+  CandidateModel straight;
   straight.error_of = error(1000, 1090, 1000, 1090);
-  straight.standing.emplace_back().effect = effects.find("creep");
+  straight.placed.emplace_back().effect = effects.find("creep");
   const ModelError after = error(1000, 1050, 1000, 1050);
   EXPECT_TRUE(more_than_a_line(curve, straight, after, {}));
   EXPECT_FALSE(more_than_a_line(curve, straight, error(1000, 1086, 1000, 1086), {})) << "no more than chance";
@@ -361,7 +361,7 @@ TEST_F(Judging, OfTwoThatFitAlikeTheOneWithFewerNumbersIsTaken) {
     TriedEffect t = judged(error(1400, 1900, 1400, 1900), error(1000, chi2, 1000, chi2), {0, 0, 0, 0});
     t.laws.resize(1);
     for (int i = 0; i < numbers; ++i) t.laws[0].free.push_back({.path = std::to_string(i)});
-    t.contender.parameters = 0;  // the score is the error alone
+    t.candidate.parameters = 0;  // the score is the error alone
     return t;
   };
   EXPECT_EQ(best_admitted({of(4, 1000), of(2, 1000 + 0.4 * rules::alike)}), 1) << "0.8 of what is alike";

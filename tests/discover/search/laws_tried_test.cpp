@@ -16,8 +16,8 @@ namespace {
 using namespace testing;
 
 /// A fit that leaves so much of chi2, with so many numbers of which each costs 5.
-Contender leaves(double chi2, int parameters) {
-  Contender c;
+CandidateModel leaves(double chi2, int parameters) {
+  CandidateModel c;
   c.ok = true;
   c.parameters = parameters;
   c.error_of.evidence_validate = chi2;
@@ -25,7 +25,7 @@ Contender leaves(double chi2, int parameters) {
   return c;
 }
 
-std::string why_not(const Contender& richer, double for_the_same = 0) {
+std::string why_not(const CandidateModel& richer, double for_the_same = 0) {
   Law plain;
   plain.name = "plain";
   return why_no_better(richer, leaves(100, 1), plain, for_the_same);
@@ -49,7 +49,7 @@ TEST(LawsTried, OneThatIsTakenSaysWhyTheFormerIsNot) {
 }
 
 TEST(LawsTried, WhatCouldNotBeFittedSaysSoAndHasNoNumbers) {
-  Contender none;
+  CandidateModel none;
   none.error = "the gap is wider than the range";
   Law law;
   law.name = "gap";

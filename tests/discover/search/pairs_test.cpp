@@ -326,7 +326,7 @@ TEST_F(Pairs, LostMotionWithSoftFlanksStaysLostMotionBesideACurve) {
 
 TEST(PartsOfAModel, AxesWithNothingBetweenThemAreFittedApart) {
   const Registry registry = all_blocks();
-  Contender c;
+  CandidateModel c;
   c.diagram = two_axes();
   c.program = compile(c.diagram, registry);
   ASSERT_EQ(parts_of(c, {}).size(), 2u);

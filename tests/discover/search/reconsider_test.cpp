@@ -62,7 +62,7 @@ class Sets : public ::testing::Test {
     auto lags = list_candidates(state, 1);
     std::erase_if(lags, [](const TriedEffect& t) { return t.effect->id != "amplifier_lag"; });
     fit_candidates(state, lags, 1);
-    return !lags.empty() && lags.front().contender.ok && tell_again(state, lags.front().contender);
+    return !lags.empty() && lags.front().candidate.ok && tell_again(state, lags.front().candidate);
   }
   /// This effect stands alone by the first law that `is` the one that is meant.
   static bool begins_with(SearchState& state, const std::string& effect,
@@ -75,8 +75,8 @@ class Sets : public ::testing::Test {
     const auto law = std::find_if(t.laws.begin(), t.laws.end(), is);
     if (law == t.laws.end()) return false;
     t.law = static_cast<std::size_t>(law - t.laws.begin());
-    t.contender = with_effect(state.shop, state.current, *t.effect, *law, t.place, t.excitation, Effort::full);
-    return t.contender.ok && tell_again(state, t.contender) && state.d.steps.front().winner.effect == effect;
+    t.candidate = with_effect(state.context, state.current, *t.effect, *law, t.place, t.excitation, Effort::full);
+    return t.candidate.ok && tell_again(state, t.candidate) && state.d.steps.front().winner.effect == effect;
   }
   /// Hysteresis by its law that could hold a curve.
   static bool begins_with_mixed_loops(SearchState& state) {
@@ -105,7 +105,7 @@ class Sets : public ::testing::Test {
   };
   static std::vector<std::string> standing(const SearchState& state) {
     std::vector<std::string> list;
-    for (const auto& s : state.current.standing) list.push_back(s.effect->id);
+    for (const auto& s : state.current.placed) list.push_back(s.effect->id);
     return list;
   }
   static std::set<std::string> names(const Discovery& d) {
@@ -215,8 +215,8 @@ std::vector<double> curved_and_late(std::vector<double> u) {
 }
 
 bool has_law(const SearchState& state, const std::string& name) {
-  const auto& standing = state.current.standing;
-  return std::any_of(standing.begin(), standing.end(), [&](const Standing& s) { return s.law.name == name; });
+  const auto& standing = state.current.placed;
+  return std::any_of(standing.begin(), standing.end(), [&](const PlacedEffect& s) { return s.law.name == name; });
 }
 
 TEST_F(Sets, WhatComesInAnothersPlaceIsRefinedAsAnyCandidateIs) {
@@ -279,9 +279,9 @@ TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
   ASSERT_FALSE(limits.empty());
   fit_candidates(state, limits, 2);
   const TriedEffect& limit = limits.front();
-  ASSERT_TRUE(limit.contender.ok);
+  ASSERT_TRUE(limit.candidate.ok);
   const double before = state.current.error_of.evidence();
-  state.current = limit.contender;
+  state.current = limit.candidate;
   state.current.error_of = state.evidence->error(state.current.prediction);
   ASSERT_NEAR(state.current.error_of.evidence(), before, 1) << "the limit limits something";
   FoundStep step;
@@ -291,8 +291,8 @@ TEST_F(Sets, WhatDoesNothingBesideWhatCameLaterIsLeftOutWhateverTheTime) {
   leave_out_idle(state);
   ASSERT_EQ(state.d.steps.size(), 1u);
   EXPECT_EQ(state.d.steps.front().winner.effect, "amplifier_lag") << "without which 0.6 rows of delay are left";
-  ASSERT_EQ(state.current.standing.size(), 1u);
-  EXPECT_EQ(state.current.standing.front().effect->id, "amplifier_lag");
+  ASSERT_EQ(state.current.placed.size(), 1u);
+  EXPECT_EQ(state.current.placed.front().effect->id, "amplifier_lag");
   EXPECT_NEAR(state.current.error_of.evidence(), before, 1);
 }
 
@@ -316,10 +316,10 @@ TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
   std::erase_if(delays, [](const TriedEffect& t) { return t.effect->id != "dead_time"; });
   ASSERT_FALSE(delays.empty());
   TriedEffect& delay = delays.front();
-  delay.contender = with_effect(state.shop, state.current, *delay.effect, delay.laws.front(), delay.place,
+  delay.candidate = with_effect(state.context, state.current, *delay.effect, delay.laws.front(), delay.place,
                                 delay.excitation, Effort::screen);
-  ASSERT_TRUE(delay.contender.ok);
-  ASSERT_NEAR(delay.contender.error_of.evidence(), before, 8) << "a screening ends a few of chi2 early";
+  ASSERT_TRUE(delay.candidate.ok);
+  ASSERT_NEAR(delay.candidate.error_of.evidence(), before, 8) << "a screening ends a few of chi2 early";
   take(state, 2, delay, {});
   ASSERT_EQ(state.d.steps.size(), 2u);
   late = true;
@@ -329,7 +329,7 @@ TEST_F(Sets, WhatTheOthersExplainAsWellIsLeftOutWhileThereIsTime) {
   leave_out_idle(state);
   ASSERT_EQ(state.d.steps.size(), 1u);
   EXPECT_EQ(state.d.steps.front().winner.effect, "dead_time") << "the last one was compared when it was claimed";
-  ASSERT_EQ(state.current.standing.size(), 1u);
+  ASSERT_EQ(state.current.placed.size(), 1u);
   EXPECT_NEAR(state.current.error_of.evidence(), before, 2);
   EXPECT_EQ(state.d.steps.front().after.rms_validate, state.current.error_of.rms_validate);
 }

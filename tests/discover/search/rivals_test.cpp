@@ -14,10 +14,10 @@ using namespace testing;
 /// Two candidates that explain the same, on recordings that a gain explains.
 class Rivals : public Discoveries {
  protected:
-  Rivals() : books_(diagram_, data_, registry, effects, options_), tried_(2) {
-    fit_base(books_);
+  Rivals() : state_(diagram_, data_, registry, effects, options_), tried_(2) {
+    fit_base(state_);
     for (auto& t : tried_) {
-      t.contender.ok = t.admitted = true;
+      t.candidate.ok = t.admitted = true;
       t.laws.resize(1);
     }
   }
@@ -27,7 +27,7 @@ class Rivals : public Discoveries {
   }
   std::vector<int> ties(const char* winner, const char* other) {
     are(winner, other);
-    return ties_of(books_, tried_, 0);
+    return ties_of(state_, tried_, 0);
   }
   static DataSet sines() {
     const auto t = rows(400, 0.005);
@@ -37,7 +37,7 @@ class Rivals : public Discoveries {
   const Diagram diagram_ = plain_gain();
   const DataSet data_ = sines();
   const DiscoverOptions options_;
-  SearchState books_;
+  SearchState state_;
   std::vector<TriedEffect> tried_;
 };
 
@@ -46,7 +46,7 @@ TEST_F(Rivals, WhatACurveAloneTakesAwayIsNoLawsThatCouldHoldIt) {
   tried_[1].fall_train = tried_[1].fall_validate = 950;
   const auto first = [&](const char* winner, const char* other) {
     are(winner, other);
-    return held_one_first(books_, tried_, 0);
+    return held_one_first(state_, tried_, 0);
   };
   EXPECT_EQ(first("hysteresis", "asymmetry"), 0) << "plays of a straight drive hold no curve";
   tried_[0].laws[0].holds = {"asymmetry"};

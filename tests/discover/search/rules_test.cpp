@@ -173,7 +173,7 @@ TEST_F(Rules, EachBlockThatRemembersHasAPastOfItsOwn) {
   auto list = list_candidates(state, 1);
   ASSERT_EQ(where(list), (std::vector<std::string>{"joint", "nut"}));
   fit_candidates(state, list, 1);
-  ASSERT_TRUE(list[0].contender.ok) << list[0].contender.error;
+  ASSERT_TRUE(list[0].candidate.ok) << list[0].candidate.error;
   take(state, 1, list[0], {});
   EXPECT_EQ(where(list_candidates(state, 2)), std::vector<std::string>{"nut"});
 }
@@ -251,7 +251,8 @@ TEST_F(Rules, ARicherLawBeginsAmongWhatWasFittedTogetherWithTheSimpleOne) {
   const Effect& lag = effects.get("amplifier_lag");
   const Place place = places_of(lag, diagram, registry, &data).front();
   const auto at = circumstances_at(diagram, registry, data, place, {});
-  const Contender first = with_effect(state.shop, state.base, lag, lag.laws(at).front(), place, at, Effort::full);
+  const CandidateModel first =
+      with_effect(state.context, state.base, lag, lag.laws(at).front(), place, at, Effort::full);
   state.current = first;
   state.settle(state.current);
   auto tried = list_candidates(state, 2, {}, {&effects.get("creep")});
@@ -260,18 +261,18 @@ TEST_F(Rules, ARicherLawBeginsAmongWhatWasFittedTogetherWithTheSimpleOne) {
   ASSERT_EQ(tried.size(), 1U);
   compare_all(state, tried, As::further);
   refit_best(state, tried, As::further, 0);
-  const Contender simple = tried.front().contender;
+  const CandidateModel simple = tried.front().candidate;
   ASSERT_TRUE(simple.ok) << simple.error;
   EXPECT_LT(values_of(simple, 0).front(), 0.95 * values_of(first, 0).front()) << "time of the lag";
 
-  const Contender held = before_last(state.shop, simple);
-  EXPECT_EQ(held.standing.size(), 1U);
+  const CandidateModel held = before_last(state.context, simple);
+  EXPECT_EQ(held.placed.size(), 1U);
   EXPECT_EQ(held.parameters, first.parameters);
   EXPECT_DOUBLE_EQ(values_of(held, 0).front(), values_of(simple, 0).front());
 
   enrich(state, tried, 2, As::further, 0);
   EXPECT_EQ(tried.front().law, 1U);
-  EXPECT_LT(tried.front().contender.score(), simple.score() - 100);
+  EXPECT_LT(tried.front().candidate.score(), simple.score() - 100);
 }
 
 // --- the next experiment ---------------------------------------------------------------------------------------------

@@ -1,31 +1,31 @@
 // Decides how the free numbers of one model of a discovery are fitted: which they are, in which order, to what
-// accuracy. Does not decide what stands in the model (contender.h). Internal to discover.
+// accuracy. Does not decide what stands in the model (candidate.h). Internal to discover.
 #pragma once
 
 #include <vector>
 
-#include "discover/models/contender.h"
+#include "discover/models/candidate_model.h"
 
 namespace hysteron {
 
 /// Compiles the diagram of `c` and fits it: the parts that do not need each other one by one. `fresh` = index of the
 /// effect that starts from its law instead of its values, -1 = none.
-void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh);
+void fit_candidate_model(const FitContext& context, CandidateModel& c, Effort effort, int fresh);
 
 /// The free parameters of one law where it stands; `recordings`: those of which each has its own value.
-std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
+std::vector<FreeParameter> free_of_law(const Program& program, const PlacedEffect& standing, bool is_new,
                                        const std::vector<int>& recordings);
 
 /// Does it look for a line: is one of its parameters the frequency of one.
 bool has_line(const Law& law);
 
 /// Recordings whose start is searched for begin where the model was last found to begin.
-void begin_as_found(const Contender& c, DataModel& model);
+void begin_as_found(const CandidateModel& c, DataModel& model);
 
 /// How finely candidates are simulated.
-DataModelOptions accuracy(const Workshop& shop, const Program& program, Effort effort);
+DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort);
 std::vector<int> train_and_validate(const DataSet& data);
 /// Noise of the outputs of `model`, which may be some of those that are judged.
-NoiseModel noise_of(const Workshop& shop, const DataModel& model);
+NoiseModel noise_of(const FitContext& context, const DataModel& model);
 
 }  // namespace hysteron

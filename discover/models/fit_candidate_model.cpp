@@ -1,4 +1,4 @@
-#include "discover/models/fit_contender.h"
+#include "discover/models/fit_candidate_model.h"
 
 #include <fmt/format.h>
 
@@ -31,25 +31,25 @@ enum class Own { free, held };
 
 /// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
 /// was found at: another one near by would cost nothing.
-bool is_known_line(const Workshop& shop, const Contender& c, const Standing& s, const LawParameter& p) {
-  if (p.line_bands.empty() || shop.evidence == nullptr) return false;
+bool is_known_line(const FitContext& context, const CandidateModel& c, const PlacedEffect& s, const LawParameter& p) {
+  if (p.line_bands.empty() || context.evidence == nullptr) return false;
   const ParameterInfo* info = c.program->find_parameter(parameter_path(s.name, s.law, p));
   if (info == nullptr) return false;
-  const auto& judged = shop.evidence->model().outputs();
+  const auto& judged = context.evidence->model().outputs();
   const auto outputs = outputs_behind(*c.program, info->block);
   return std::any_of(outputs.begin(), outputs.end(), [&](int o) {
     const auto here = std::find(judged.begin(), judged.end(), c.program->output_names[static_cast<std::size_t>(o)]);
     return here != judged.end() &&
-           shop.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out.any();
+           context.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out.any();
   });
 }
 
 /// A number that the model held is near what is written.
-void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f) {
-  const auto n = shop.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
-  if (n == shop.roughly.end()) return;
-  const double written = n->second, width = shop.known_to.width * std::abs(written);
-  const auto [low, high] = std::minmax({shop.known_to.least * written, shop.known_to.most * written});
+void know_roughly(const FitContext& context, const Program& program, FreeParameter& f) {
+  const auto n = context.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
+  if (n == context.roughly.end()) return;
+  const double written = n->second, width = context.known_to.width * std::abs(written);
+  const auto [low, high] = std::minmax({context.known_to.least * written, context.known_to.most * written});
   f.prior = {written - width, written + width};
   f.lower = std::max(f.lower, low);
   f.upper = std::min(f.upper, high);
@@ -57,24 +57,24 @@ void know_roughly(const Workshop& shop, const Program& program, FreeParameter& f
 }
 
 /// The free parameters: the user's own, and those of the chosen effects.
-std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, int fresh,
-                                   const std::vector<int>& recordings, KnownLines lines = KnownLines::held,
+std::vector<FreeParameter> free_of(const FitContext& context, const CandidateModel& c, const std::vector<bool>& chosen,
+                                   int fresh, const std::vector<int>& recordings, KnownLines lines = KnownLines::held,
                                    Own own = Own::free) {
-  auto free = own == Own::free ? free_parameters(*c.program, shop.free_paths) : std::vector<FreeParameter>{};
-  for (auto& f : free) know_roughly(shop, *c.program, f);
-  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+  auto free = own == Own::free ? free_parameters(*c.program, context.free_paths) : std::vector<FreeParameter>{};
+  for (auto& f : free) know_roughly(context, *c.program, f);
+  for (std::size_t i = 0; i < c.placed.size(); ++i) {
     if (!chosen[i]) continue;
     const bool is_new = static_cast<int>(i) == fresh;
-    Standing standing = c.standing[i];
+    PlacedEffect standing = c.placed[i];
     if (!is_new && lines == KnownLines::held)
-      std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(shop, c, standing, p); });
+      std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(context, c, standing, p); });
     for (auto& f : free_of_law(*c.program, standing, is_new, recordings)) {
       std::erase_if(free, [&](const FreeParameter& have) {
         return have.parameter == f.parameter && have.recording == f.recording;
       });
       free.push_back(std::move(f));
     }
-    for (const auto* anew : {&c.standing[i].zeros, &c.standing[i].weights})
+    for (const auto* anew : {&c.placed[i].zeros, &c.placed[i].weights})
       for (const auto& path : *anew) {
         FreeParameter f = free_parameter(*c.program, path);
         const bool have =
@@ -90,7 +90,7 @@ std::vector<FreeParameter> free_of(const Workshop& shop, const Contender& c, con
 constexpr double residual_share = 1.0 / 300;
 
 /// Values of single recordings that are not free this time.
-Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
+Trial held(const CandidateModel& c, const std::vector<FreeParameter>& free) {
   Trial trial;
   for (const auto& v : c.of_recordings) {
     if (c.program->find_parameter(v.path) == nullptr) continue;  // its effect has left
@@ -102,7 +102,7 @@ Trial held(const Contender& c, const std::vector<FreeParameter>& free) {
   return trial;
 }
 
-void keep_of_recordings(Contender& c, const Trial& held) {
+void keep_of_recordings(CandidateModel& c, const Trial& held) {
   c.of_recordings.clear();
   for (const auto* trial : {&held, static_cast<const Trial*>(&c.fit.values)})
     for (const auto& v : *trial)
@@ -115,7 +115,7 @@ void keep_of_recordings(Contender& c, const Trial& held) {
 // the one that is claimed.
 constexpr double full_matters = 0.2, screen_matters = 0.5;
 
-void keep_starts(Contender& c, const DataModel& model, const Judge& judge) {
+void keep_starts(CandidateModel& c, const DataModel& model, const Judge& judge) {
   const auto starts = starts_of(model, judge, c.prediction);
   const auto& states = model.free_initial_states();
   c.starts.assign(starts.size(), {});
@@ -123,12 +123,12 @@ void keep_starts(Contender& c, const DataModel& model, const Judge& judge) {
     for (std::size_t k = 0; k < starts[r].size(); ++k) c.starts[r][states[k]] = starts[r][k];
 }
 
-void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& values) {
+void predict(const FitContext& context, CandidateModel& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
   const long before = model.runs();
   const bool free_starts = !model.free_initial_states().empty();
   std::optional<Judge> judge;
-  if (free_starts) judge.emplace(model, noise_of(shop, model));
+  if (free_starts) judge.emplace(model, noise_of(context, model));
   if (model.starts_are_searched()) improve_starts(model, *judge, values, model.recordings(judged));
   c.prediction = model.predict(values, model.recordings(judged));
   if (free_starts && c.prediction.ok) keep_starts(c, model, *judge);
@@ -137,16 +137,16 @@ void predict(const Workshop& shop, Contender& c, DataModel& model, const Trial& 
   c.error = c.prediction.error;
 }
 
-DataModel model_of(const Workshop& shop, const Contender& c, const ProgramPointer& program, Effort effort) {
-  DataModelOptions options = accuracy(shop, *program, effort);
+DataModel model_of(const FitContext& context, const CandidateModel& c, const ProgramPointer& program, Effort effort) {
+  DataModelOptions options = accuracy(context, *program, effort);
   if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
-  DataModel model(program, shop.data, options);
+  DataModel model(program, context.data, options);
   begin_as_found(c, model);
   return model;
 }
 
 /// Not those of the last fit, which is finer than a search needs.
-void keep_cuts(Contender& c, const DataModel& model, Effort effort) {
+void keep_cuts(CandidateModel& c, const DataModel& model, Effort effort) {
   if (effort != Effort::final) c.cuts[model.program().output_names] = std::make_shared<const Cuts>(model.cuts());
 }
 
@@ -163,23 +163,23 @@ std::string name_of_fit(const Program& program, const std::vector<FreeParameter>
 /// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
-double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-                  const std::vector<std::string>& outputs, KnownLines lines = KnownLines::held,
-                  Intervals intervals = Intervals::told, Own own = Own::free) {
-  c.program = compile(c.diagram, *shop.registry);
+double fit_chosen(const FitContext& context, CandidateModel& c, Effort effort, int fresh,
+                  const std::vector<bool>& chosen, const std::vector<std::string>& outputs,
+                  KnownLines lines = KnownLines::held, Intervals intervals = Intervals::told, Own own = Own::free) {
+  c.program = compile(c.diagram, *context.registry);
   const bool some = outputs.size() < c.program->output_names.size();
-  const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *shop.registry) : c.program;
-  DataModel model = model_of(shop, c, seen, effort);
-  auto free = free_of(shop, c, chosen, fresh, train_and_validate(*shop.data), lines, own);
+  const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *context.registry) : c.program;
+  DataModel model = model_of(context, c, seen, effort);
+  auto free = free_of(context, c, chosen, fresh, train_and_validate(*context.data), lines, own);
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
     if (!c.prediction.y.empty()) return 0;  // another part was fitted, and told all outputs
-    DataModel whole = model_of(shop, c, c.program, effort);
-    predict(shop, c, whole, fixed);
+    DataModel whole = model_of(context, c, c.program, effort);
+    predict(context, c, whole, fixed);
     return 0;
   }
-  NoiseModel noise = noise_of(shop, model);
+  NoiseModel noise = noise_of(context, model);
   FitOptions options;
   options.max_iterations = effort == Effort::full ? 15 : 30;
   const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), fixed, free);
@@ -192,14 +192,14 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
   options.fixed = fixed;
   FitResult before = std::move(c.fit);
-  const bool sought = fresh >= 0 && has_line(c.standing[static_cast<std::size_t>(fresh)].law);
+  const bool sought = fresh >= 0 && has_line(c.placed[static_cast<std::size_t>(fresh)].law);
   if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
     for (auto& o : noise.outputs) o.left_out = {};
   const bool again = effort == Effort::full && fresh < 0;
   const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
-  if (again) options.known_derivatives = shop.notes->derivatives_of(name);
+  if (again) options.known_derivatives = context.derivatives->derivatives_of(name);
   c.fit = fit(model, noise, free, options);
-  if (again && c.fit.derivatives) shop.notes->keep(name, c.fit.derivatives);
+  if (again && c.fit.derivatives) context.derivatives->keep(name, c.fit.derivatives);
   c.ok = c.fit.ok;
   c.error = c.fit.error;
   c.runs += model.runs();
@@ -209,12 +209,12 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
   Trial all = c.fit.values;
   all.insert(all.end(), fixed.begin(), fixed.end());
   if (some) {
-    DataModel whole = model_of(shop, c, c.program, effort);
-    whole.choose_substeps(all, noise_of(shop, whole).white());
-    predict(shop, c, whole, all);
+    DataModel whole = model_of(context, c, c.program, effort);
+    whole.choose_substeps(all, noise_of(context, whole).white());
+    predict(context, c, whole, all);
     keep_cuts(c, whole, effort);
   } else {
-    predict(shop, c, model, all);
+    predict(context, c, model, all);
   }
   keep_cuts(c, model, effort);
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
@@ -228,10 +228,11 @@ double fit_chosen(const Workshop& shop, Contender& c, Effort effort, int fresh, 
 
 /// Laws with many weights one behind the other multiply each other: linear each, not together. Each trial of what is
 /// not linear simulates every weight of the rest; solving the laws in turn costs a fraction of that.
-bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<bool>& chosen, Effort effort) {
+bool better_in_turn(const FitContext& context, const CandidateModel& c, const std::vector<bool>& chosen,
+                    Effort effort) {
   if (std::count(chosen.begin(), chosen.end(), true) < 2) return false;
   std::vector<int> parameters;
-  for (const auto& f : free_of(shop, c, chosen, -1, {})) parameters.push_back(f.parameter);
+  for (const auto& f : free_of(context, c, chosen, -1, {})) parameters.push_back(f.parameter);
   const auto affine = jointly_affine(*c.program, parameters, c.program->output_signals);
   const auto linear = std::count(affine.begin(), affine.end(), true);
   const auto searched = static_cast<std::ptrdiff_t>(affine.size()) - linear;
@@ -239,15 +240,15 @@ bool better_in_turn(const Workshop& shop, const Contender& c, const std::vector<
 }
 
 /// One effect after the other, the newest first: it has no values yet. The answer: whether any of them is slow.
-bool sweep_through(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-                   const std::vector<std::string>& outputs, Intervals intervals) {
+bool sweep_through(const FitContext& context, CandidateModel& c, Effort effort, int fresh,
+                   const std::vector<bool>& chosen, const std::vector<std::string>& outputs, Intervals intervals) {
   bool slow = false;
-  for (std::size_t k = 0; k < c.standing.size(); ++k) {
-    const std::size_t i = c.standing.size() - 1 - k;
+  for (std::size_t k = 0; k < c.placed.size(); ++k) {
+    const std::size_t i = c.placed.size() - 1 - k;
     if (!chosen[i]) continue;
-    std::vector<bool> one(c.standing.size(), false);
+    std::vector<bool> one(c.placed.size(), false);
     one[i] = true;
-    const double steps = fit_chosen(shop, c, effort, static_cast<int>(i) == fresh ? fresh : -1, one, outputs,
+    const double steps = fit_chosen(context, c, effort, static_cast<int>(i) == fresh ? fresh : -1, one, outputs,
                                     KnownLines::held, intervals);
     if (!c.ok) return false;
     slow = slow || steps > 0;
@@ -265,54 +266,54 @@ std::ptrdiff_t linear_beside(const Program& program, std::vector<int> numbers, c
 
 /// Do the user's free numbers take it from a new law that some of its own are linear: of a mode behind a stage whose
 /// weights are free, what it adds is then searched from a start that is far from everything, at each frequency.
-bool begins_better_alone(const Workshop& shop, const Contender& c, int fresh) {
+bool begins_better_alone(const FitContext& context, const CandidateModel& c, int fresh) {
   if (fresh < 0) return false;
   std::vector<int> own, law;
-  for (const auto& f : free_parameters(*c.program, shop.free_paths)) own.push_back(f.parameter);
+  for (const auto& f : free_parameters(*c.program, context.free_paths)) own.push_back(f.parameter);
   if (own.empty()) return false;
-  for (const auto& f : free_of_law(*c.program, c.standing[static_cast<std::size_t>(fresh)], true, {}))
+  for (const auto& f : free_of_law(*c.program, c.placed[static_cast<std::size_t>(fresh)], true, {}))
     law.push_back(f.parameter);
   return linear_beside(*c.program, law, {}) > linear_beside(*c.program, law, own);
 }
 
 /// The chosen effects of one part, together or in turn.
-void fit_part(const Workshop& shop, Contender& c, Effort effort, int fresh, const std::vector<bool>& chosen,
+void fit_part(const FitContext& context, CandidateModel& c, Effort effort, int fresh, const std::vector<bool>& chosen,
               const std::vector<std::string>& outputs) {
-  if (begins_better_alone(shop, c, fresh)) {
-    std::vector<bool> one(c.standing.size(), false);
+  if (begins_better_alone(context, c, fresh)) {
+    std::vector<bool> one(c.placed.size(), false);
     one[static_cast<std::size_t>(fresh)] = true;
-    fit_chosen(shop, c, effort, fresh, one, outputs, KnownLines::held, Intervals::not_yet, Own::held);
+    fit_chosen(context, c, effort, fresh, one, outputs, KnownLines::held, Intervals::not_yet, Own::held);
     if (!c.ok) return;
     fresh = -1;
   }
-  if (!better_in_turn(shop, c, chosen, effort)) {
-    fit_chosen(shop, c, effort, fresh, chosen, outputs);
+  if (!better_in_turn(context, c, chosen, effort)) {
+    fit_chosen(context, c, effort, fresh, chosen, outputs);
     return;
   }
   double last = std::numeric_limits<double>::infinity();
   int sweeps = 6;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const bool slow = sweep_through(shop, c, effort, sweep == 0 ? fresh : -1, chosen, outputs, Intervals::not_yet);
+    const bool slow = sweep_through(context, c, effort, sweep == 0 ? fresh : -1, chosen, outputs, Intervals::not_yet);
     if (!c.ok) return;
     if (slow) sweeps = 2;  // a slow model is searched from coarse to fine anyway
     const double now = c.fit.chi2;
     if (last - now < 1) break;
     last = now;
   }
-  if (effort == Effort::final) sweep_through(shop, c, effort, -1, chosen, outputs, Intervals::told);
+  if (effort == Effort::final) sweep_through(context, c, effort, -1, chosen, outputs, Intervals::told);
 }
 
 /// Known lines once more by themselves: beside an effect that came later their frequency may be another one by a
 /// little, and in a long recording that is many turns.
-void tune_known_lines(const Workshop& shop, Contender& c, Effort effort, const std::vector<bool>& chosen,
+void tune_known_lines(const FitContext& context, CandidateModel& c, Effort effort, const std::vector<bool>& chosen,
                       const std::vector<std::string>& outputs) {
   std::vector<bool> lines(chosen.size(), false);
   for (std::size_t i = 0; i < chosen.size(); ++i)
     lines[i] =
-        chosen[i] && std::any_of(c.standing[i].law.free.begin(), c.standing[i].law.free.end(),
-                                 [&](const LawParameter& p) { return is_known_line(shop, c, c.standing[i], p); });
+        chosen[i] && std::any_of(c.placed[i].law.free.begin(), c.placed[i].law.free.end(),
+                                 [&](const LawParameter& p) { return is_known_line(context, c, c.placed[i], p); });
   if (std::find(lines.begin(), lines.end(), true) != lines.end())
-    fit_chosen(shop, c, effort, -1, lines, outputs, KnownLines::tuned);
+    fit_chosen(context, c, effort, -1, lines, outputs, KnownLines::tuned);
 }
 
 /// Does any recording measure one of these outputs: what nobody measured, nothing can fit.
@@ -338,7 +339,7 @@ void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
 
 }  // namespace
 
-void begin_as_found(const Contender& c, DataModel& model) {
+void begin_as_found(const CandidateModel& c, DataModel& model) {
   if (!model.starts_are_searched() || c.starts.empty()) return;
   for (int r = 0; r < model.n_recordings(); ++r) {
     const auto& found = c.starts[static_cast<std::size_t>(r)];
@@ -353,7 +354,7 @@ void begin_as_found(const Contender& c, DataModel& model) {
   }
 }
 
-std::vector<FreeParameter> free_of_law(const Program& program, const Standing& standing, bool is_new,
+std::vector<FreeParameter> free_of_law(const Program& program, const PlacedEffect& standing, bool is_new,
                                        const std::vector<int>& recordings) {
   std::vector<FreeParameter> list;
   for (const auto& p : standing.law.free) {
@@ -378,23 +379,23 @@ std::vector<FreeParameter> free_of_law(const Program& program, const Standing& s
 
 /// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
 /// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
-DataModelOptions accuracy(const Workshop& shop, const Program& program, Effort effort) {
+DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort) {
   DataModelOptions options;
-  options.threads = shop.threads;
+  options.threads = context.threads;
   options.max_substeps = 1024;
   double rows = 1;
-  for (const auto& r : shop.data->recordings)
+  for (const auto& r : context.data->recordings)
     if (r.role == Role::train) rows += static_cast<double>(r.last);
-  options.bdf_otherwise = shop.bdf_otherwise;
+  options.bdf_otherwise = context.bdf_otherwise;
   const double work = rows * work_of_a_step(program);
   const double fewest = 32 / work_of_a_step(program);
   while (effort != Effort::final && options.max_substeps > fewest &&
-         options.max_substeps * work > shop.simulation_steps) {
+         options.max_substeps * work > context.simulation_steps) {
     options.max_substeps /= 2;
     options.bdf_otherwise = false;
   }
-  options.relative_tolerance *= shop.looser;
-  options.substep_tolerance = effort == Effort::final ? shop.row_tolerance / 5 : shop.row_tolerance;
+  options.relative_tolerance *= context.looser;
+  options.substep_tolerance = effort == Effort::final ? context.row_tolerance / 5 : context.row_tolerance;
   options.substep_share = effort == Effort::final ? residual_share / 5 : residual_share;
   return options;
 }
@@ -406,10 +407,10 @@ std::vector<int> train_and_validate(const DataSet& data) {
   return list;
 }
 
-NoiseModel noise_of(const Workshop& shop, const DataModel& model) {
-  if (shop.evidence == nullptr) return noise_before_fit(model);
-  const auto& all = shop.evidence->model().outputs();
-  const NoiseModel& of_all = shop.weights ? *shop.weights : shop.evidence->noise();
+NoiseModel noise_of(const FitContext& context, const DataModel& model) {
+  if (context.evidence == nullptr) return noise_before_fit(model);
+  const auto& all = context.evidence->model().outputs();
+  const NoiseModel& of_all = context.weights ? *context.weights : context.evidence->noise();
   NoiseModel some;
   for (const auto& name : model.outputs())
     some.outputs.push_back(
@@ -417,17 +418,17 @@ NoiseModel noise_of(const Workshop& shop, const DataModel& model) {
   return some;
 }
 
-void fit_contender(const Workshop& shop, Contender& c, Effort effort, int fresh) {
-  c.program = compile(c.diagram, *shop.registry);
-  for (const auto& part : parts_of(c, shop.free_paths)) {
+void fit_candidate_model(const FitContext& context, CandidateModel& c, Effort effort, int fresh) {
+  c.program = compile(c.diagram, *context.registry);
+  for (const auto& part : parts_of(c, context.free_paths)) {
     if (fresh >= 0 && !part.has(static_cast<std::size_t>(fresh))) continue;  // nothing there has changed
-    if (!any_recorded(*shop.data, part.outputs)) continue;
+    if (!any_recorded(*context.data, part.outputs)) continue;
     auto chosen = part.effects;
     if (effort == Effort::screen && fresh >= 0)
       for (std::size_t i = 0; i < chosen.size(); ++i)
-        chosen[i] = chosen[i] && (static_cast<int>(i) == fresh || calibrates(c.standing[i]));
-    fit_part(shop, c, effort, fresh, chosen, part.outputs);
-    if (c.ok && effort != Effort::screen) tune_known_lines(shop, c, effort, chosen, part.outputs);
+        chosen[i] = chosen[i] && (static_cast<int>(i) == fresh || calibrates(c.placed[i]));
+    fit_part(context, c, effort, fresh, chosen, part.outputs);
+    if (c.ok && effort != Effort::screen) tune_known_lines(context, c, effort, chosen, part.outputs);
     if (!c.ok) return;
   }
 }

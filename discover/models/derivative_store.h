@@ -11,12 +11,12 @@ namespace hysteron {
 
 /// The derivatives that fits have found last, by the names of these: a further effect beside the others hardly changes
 /// them. And how many simulations they took.
-class Notebook {
+class DerivativeStore {
  public:
-  Notebook() = default;
+  DerivativeStore() = default;
   /// Of fits that run beside others: they know what stands in `earlier`, to which nobody writes meanwhile, and write
   /// here.
-  explicit Notebook(std::shared_ptr<const Notebook> earlier) : earlier_(std::move(earlier)) {}
+  explicit DerivativeStore(std::shared_ptr<const DerivativeStore> earlier) : earlier_(std::move(earlier)) {}
 
   /// Null where that was not fitted, or long ago.
   std::shared_ptr<const Dense> derivatives_of(const std::string& name) const;
@@ -24,10 +24,10 @@ class Notebook {
   void count(long runs) { runs_ += runs; }
   long runs() const { return runs_; }
   /// What was written into `later`.
-  void add(const Notebook& later);
+  void add(const DerivativeStore& later);
 
  private:
-  std::shared_ptr<const Notebook> earlier_;
+  std::shared_ptr<const DerivativeStore> earlier_;
   std::map<std::string, std::shared_ptr<const Dense>> derivatives_;
   std::size_t numbers_ = 0;
   long runs_ = 0;

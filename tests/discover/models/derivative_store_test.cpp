@@ -1,5 +1,5 @@
 // What fits leave to later ones, and what those beside each other see of it.
-#include "discover/models/notebook.h"
+#include "discover/models/derivative_store.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ std::shared_ptr<const Dense> of_size(std::size_t numbers) {
   return std::make_shared<const Dense>(std::move(d));
 }
 
-TEST(Notebook, KnowsWhatWasWrittenLast) {
-  Notebook notes;
+TEST(DerivativeStore, KnowsWhatWasWrittenLast) {
+  DerivativeStore notes;
   EXPECT_EQ(notes.derivatives_of("lag"), nullptr);
   notes.keep("lag", of_size(3));
   const auto last = of_size(3);
@@ -23,11 +23,11 @@ TEST(Notebook, KnowsWhatWasWrittenLast) {
   EXPECT_EQ(notes.derivatives_of("lag"), last);
 }
 
-TEST(Notebook, FitsBesideEachOtherSeeWhatWasWrittenBeforeThem) {
-  const auto notes = std::make_shared<Notebook>();
+TEST(DerivativeStore, FitsBesideEachOtherSeeWhatWasWrittenBeforeThem) {
+  const auto notes = std::make_shared<DerivativeStore>();
   const auto before = of_size(1), first = of_size(1), second = of_size(1);
   notes->keep("lag", before);
-  Notebook one(notes), other(notes);
+  DerivativeStore one(notes), other(notes);
   one.keep("lag", first);
   other.keep("creep", second);
   one.count(5);
@@ -43,8 +43,8 @@ TEST(Notebook, FitsBesideEachOtherSeeWhatWasWrittenBeforeThem) {
   EXPECT_EQ(notes->runs(), 12);
 }
 
-TEST(Notebook, ForgetsAllBeforeItOutgrowsMemory) {
-  Notebook notes;
+TEST(DerivativeStore, ForgetsAllBeforeItOutgrowsMemory) {
+  DerivativeStore notes;
   notes.keep("lag", of_size(6'000'000));
   notes.keep("lag", of_size(6'000'000));  // in place of the first
   EXPECT_NE(notes.derivatives_of("lag"), nullptr);

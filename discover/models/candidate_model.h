@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "discover/hypotheses/effect.h"
+#include "discover/models/derivative_store.h"
 #include "discover/models/evidence.h"
-#include "discover/models/notebook.h"
 #include "discover/placement/add.h"
 #include "fit/estimate/fit.h"
 
 namespace hysteron {
 
-/// An effect in a contender's diagram.
-struct Standing {
+/// An effect in a candidate's diagram.
+struct PlacedEffect {
   const Effect* effect = nullptr;
   Law law;
   Place place;
@@ -33,11 +33,11 @@ struct RecordingValue {
   double value = 0;  ///< [SI]
 };
 
-struct Contender {
+struct CandidateModel {
   bool ok = false;
   std::string error;  ///< why not ok
   Diagram diagram;    ///< with fitted values
-  std::vector<Standing> standing;
+  std::vector<PlacedEffect> placed;
   Added change;  ///< of the last effect
   ProgramPointer program;
   FitResult fit;
@@ -72,7 +72,7 @@ struct KnownTo {
 };
 
 /// What every fit of a discovery shares.
-struct Workshop {
+struct FitContext {
   const Registry* registry = nullptr;
   std::shared_ptr<const DataSet> data;
   std::vector<std::string> free_paths;  ///< of the user's, beside those that the diagram declares free
@@ -92,13 +92,13 @@ struct Workshop {
   bool bdf_otherwise = true;  ///< see DataModelOptions
   double looser = 1;          ///< than usual, for what is not simulated in fixed substeps
   Threads threads{};          ///< recordings side by side
-  std::shared_ptr<Notebook> notes = std::make_shared<Notebook>();
+  std::shared_ptr<DerivativeStore> derivatives = std::make_shared<DerivativeStore>();
 };
 
 /// `part` of the noise of the output that is measured best, as a share of its span.
 double row_tolerance(const DataModel& model, const NoiseModel& noise, double part);
 
-/// How much of a contender is fitted.
+/// How much of a candidate is fitted.
 enum class Effort {
   screen,  ///< the last effect's law, the user's linear parameters and a calibration; other effects keep their values
   full,    ///< everything
@@ -106,41 +106,41 @@ enum class Effort {
 };
 
 /// The user's diagram itself.
-Contender base_contender(const Workshop& shop, const Diagram& diagram, Effort effort);
+CandidateModel base_model(const FitContext& context, const Diagram& diagram, Effort effort);
 /// `before` with one more effect.
-Contender with_effect(const Workshop& shop, const Contender& before, const Effect& effect, const Law& law,
-                      const Place& place, const Excitation& at, Effort effort);
+CandidateModel with_effect(const FitContext& context, const CandidateModel& before, const Effect& effect,
+                           const Law& law, const Place& place, const Excitation& at, Effort effort);
 /// The same model fitted again with more effort, from where it stands.
-Contender refit(const Workshop& shop, const Contender& contender, Effort effort);
+CandidateModel refit(const FitContext& context, const CandidateModel& candidate, Effort effort);
 /// The same model without one of its effects, with the values that were found together with it; not simulated. Not ok
 /// where another one stands upon it.
-Contender without(const Workshop& shop, const Contender& contender, std::size_t standing);
+CandidateModel without(const FitContext& context, const CandidateModel& candidate, std::size_t standing);
 /// What stood before the last effect, with the values that were found together with it.
-Contender before_last(const Workshop& shop, const Contender& contender);
+CandidateModel before_last(const FitContext& context, const CandidateModel& candidate);
 
 /// The effect is a straight line: its gain and zero are free whatever else is fitted.
-bool calibrates(const Standing& standing);
+bool calibrates(const PlacedEffect& standing);
 
 /// What is free besides the laws' own parameters: the user's, and gain and zero of a calibration that stands. A gain or
 /// zero that is free anyway is no law's.
-std::vector<std::string> free_anyway(const Workshop& shop, const Contender& contender);
+std::vector<std::string> free_anyway(const FitContext& context, const CandidateModel& candidate);
 
-/// What the contender says of other recordings, those of the test: values of single recordings are found on them.
-Prediction predicted(const Workshop& shop, const Contender& contender, const std::vector<int>& recordings);
+/// What the candidate says of other recordings, those of the test: values of single recordings are found on them.
+Prediction predicted(const FitContext& context, const CandidateModel& candidate, const std::vector<int>& recordings);
 /// The same of its train and validate recordings, with the lines of the mains silent and nothing fitted.
-Prediction without_lines(const Workshop& shop, const Contender& contender);
+Prediction without_lines(const FitContext& context, const CandidateModel& candidate);
 
-/// The parameters of a contender's effects (`standing` = index, or all of them with -1), with remarks for people.
+/// The parameters of a candidate's effects (`standing` = index, or all of them with -1), with remarks for people.
 struct ParameterOfEffect {
   const LawParameter* law = nullptr;
   const ParameterEstimate* estimate = nullptr;
 };
-std::vector<ParameterOfEffect> parameters_of(const Contender& contender, int standing = -1);
+std::vector<ParameterOfEffect> parameters_of(const CandidateModel& candidate, int standing = -1);
 /// [Hz] of the line that the last effect's law looks for; 0 = it looks for none.
-double line_of(const Contender& contender);
+double line_of(const CandidateModel& candidate);
 /// Rows so far apart [s] tell a line from slower ones.
 inline bool resolves(double step, double line) { return 2 * step * line < 1; }
 /// Values [SI] of the parameters of one effect that were estimated, in the order of its law.
-std::vector<double> values_of(const Contender& contender, std::size_t standing);
+std::vector<double> values_of(const CandidateModel& candidate, std::size_t standing);
 
 }  // namespace hysteron
