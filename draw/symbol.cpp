@@ -69,6 +69,7 @@ const Look* find_look(const std::string& type) {
       {"mass_on_stiffening_spring", {"mass", true}},
       {"mass_with_friction", {"mass", true}},
       {"mass_with_stops", {"mass", true}},
+      {"mass_with_cogging", {"mass", true}},
       {"mass_on_spring_of_plays", {"mass", true}},
       {"mass_on_bouc_wen_spring", {"mass", true}},
       {"inertia", {"inertia", true}},

@@ -67,10 +67,25 @@ void InertiaWithCogging::describe(BlockSpec<InertiaWithCogging>& spec) {
   describe_start(spec, rotation);
 }
 
+void MassWithCogging::describe(BlockSpec<MassWithCogging>& spec) {
+  spec.name("mass_with_cogging", "one mass that magnets draw to certain positions, driven by a force");
+  spec.law(
+          "mass dv/dt = force + cosine cos(2 pi x/period) + sine sin(2 pi x/period) - damping v - stiffness x, dx/dt = "
+          "v")
+      .from("Gieras, Piech, Tomczuk, Linear Synchronous Motors, 2nd ed. (2011), section 3.3");
+  spec.remark("Of a linear motor with iron; period: the pitch of its magnets, or what is seen.");
+  describe_motion(spec, translation).optional("0");
+  spec.param(&Params<double>::cosine, "cosine", "N", "of the force of the magnets, at position 0");
+  spec.param(&Params<double>::sine, "sine", "N", "of it, a quarter of a period further on");
+  spec.param(&Params<double>::period, "period", "m", "after which it comes again").positive();
+  describe_start(spec, translation);
+}
+
 Kernel inertia_block() { return kernel<Inertia>(); }
 Kernel inertia_with_friction_block() { return kernel<InertiaWithFriction>(); }
 Kernel inertia_with_drag_block() { return kernel<InertiaWithDrag>(); }
 Kernel inertia_with_presliding_block() { return kernel<InertiaWithPresliding>(); }
 Kernel inertia_with_cogging_block() { return kernel<InertiaWithCogging>(); }
+Kernel mass_with_cogging_block() { return kernel<MassWithCogging>(); }
 
 }  // namespace hysteron::blocks

@@ -23,6 +23,7 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
       .variation("drag", "mass_with_drag", {{"drag", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
       .variation("resonance", "mass_with_mode", {{"share", "0"}, {"frequency", "1 Hz"}})
+      .variation("cogging", "mass_with_cogging", {{"cosine", "0 N"}, {"sine", "0 N"}, {"period", "1 m"}})
       .variation("stops", "mass_with_stops", {{"lower", "-inf m"}, {"upper", "inf m"}});
   describe_memories(spec);
   describe_motion(spec);

@@ -78,6 +78,7 @@ struct Excitation {
   bool starts_away_from_zero = false;  ///< the wire is not at zero at the start of some recording
   bool gain_is_free = false;           ///< a free gain in series behind the place makes a gain here undetermined
   bool offset_is_free = false;         ///< a free offset behind the place (or a free zero of each recording)
+  bool zero_of_recording = false;      ///< each recording has a zero of its own: nobody knows where a scale begins
   /// Program paths of the constants that add to the signal behind the place ("sensor.offset"), free or not.
   std::vector<std::string> zeros;
   std::vector<std::string> weights;        ///< program paths of the weights of operators behind the place
@@ -109,6 +110,9 @@ struct LawParameter {
   /// A frequency of a line: the bands [Hz] in which the strongest lines of the residual take the place of `scan`, where
   /// there is a residual to look at.
   std::vector<std::pair<double, double>> line_bands{};
+  /// A period in the signal of the wire, which is measured: those of the strongest ripples of the residual over that
+  /// signal take the place of `scan`, where there is a residual to look at.
+  bool period_of_wire = false;
   /// Its value is another one in each recording and found on that recording alone, validation included; linear.
   bool per_recording = false;
   /// It changes places with others of the law that are: where two have one value, no slope leads a search apart again.

@@ -306,7 +306,7 @@ class Observer {
     }
     for (const auto& name : program_->output_names)
       if (const auto note = data_.notes.find(name); note != data_.notes.end() && note->second.zero_per_recording)
-        c.offset_is_free = true;
+        c.offset_is_free = c.zero_of_recording = true;
     look_at_holds(c);
     return c;
   }

@@ -56,6 +56,27 @@ void begin_at_lines(const SearchState& state, TriedEffect& t) {
     }
 }
 
+/// Periods of the strongest ripples of each output that the place moves, over that output.
+std::vector<double> ripples_left(const SearchState& state, const TriedEffect& t) {
+  constexpr std::size_t most = 4;  // the lowest may be a trend
+  std::vector<double> periods;
+  for (std::size_t o = 0; o < state.base_model->outputs().size(); ++o) {
+    if (!t.outputs.empty() && !contains(t.outputs, state.base_model->outputs()[o])) continue;
+    const ResidualParts parts(*state.evidence, state.current.prediction, static_cast<int>(o));
+    if (parts.levels().empty()) continue;
+    for (const double period : strongest_ripples(parts, 0, most)) periods.push_back(period);
+  }
+  return periods;
+}
+
+/// So is a period in the signal of the wire.
+void begin_at_ripples(const SearchState& state, TriedEffect& t) {
+  for (auto& law : t.laws)
+    for (auto& p : law.free)
+      if (p.period_of_wire)
+        if (auto periods = ripples_left(state, t); !periods.empty()) p.scan = std::move(periods);
+}
+
 /// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory
 /// its past.
 bool in_another_block(const Effect& a, const Place& at_a, const Effect& b, const Place& at_b) {
@@ -243,6 +264,7 @@ std::vector<TriedEffect> list_candidates(SearchState& state, int step, const std
     for (auto& t : *list_of) {
       t.outputs = outputs_moved(state, state.current, t.place.moves_from());
       begin_at_lines(state, t);
+      begin_at_ripples(state, t);
     }
   return kept;
 }

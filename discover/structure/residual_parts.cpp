@@ -75,10 +75,21 @@ void ResidualParts::read_levels(const std::vector<int>& recordings, const Predic
   }
 }
 
+// A free zero takes the mean away. Of a constant only rounding would be left, and weights found from that could be
+// anything.
 Vector ResidualParts::whitened(const ResidualPart& part, const Rows& rows) const {
   const Whitener& filter = filters_[index(part)];
   Vector w(static_cast<Eigen::Index>(filter.size()));
-  filter.apply(rows, w.data());
+  if (!model_.zero_per_recording(output_)) {
+    filter.apply(rows, w.data());
+    return w;
+  }
+  Rows about_mean = rows;
+  const double first = rows.empty() ? 0 : rows.front();  // of a constant the mean of differences is zero exactly
+  double mean = 0;
+  for (double& v : about_mean) mean += (v -= first) / static_cast<double>(rows.size());
+  for (double& v : about_mean) v -= mean;
+  filter.apply(about_mean, w.data());
   return w;
 }
 

@@ -73,7 +73,6 @@ class ResidualParts {
   int output_;
   double white_ = 0;
   ByRole before_{}, beyond_{}, floor_{};
-  std::vector<bool> zero_is_free_;
   std::vector<Whitener> filters_;
   std::vector<ResidualPart> parts_;
   std::vector<Level> levels_;

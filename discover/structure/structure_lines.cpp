@@ -61,9 +61,24 @@ void climb(double& x, double& fall, double width, double least, const std::funct
       if (const double f = fall_at(at); f > fall) x = at, fall = f;
 }
 
-/// The residual over a level, train recordings only, added up in `bins` of the level's span; and how many rows.
+/// Rows less the straight line over x that fits them best: a trend would stand above every ripple.
+Rows without_trend(const Rows& rows, const Rows& x) {
+  const double n = static_cast<double>(rows.size());
+  double mean_x = 0, mean = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) mean_x += x[i] / n, mean += rows[i] / n;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (rows[i] - mean);
+  }
+  Rows left(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) left[i] = rows[i] - mean - (xx > 0 ? xy / xx * (x[i] - mean_x) : 0);
+  return left;
+}
+
+/// The residual over a level, train recordings only, each without its trend, added up in `bins` of the level's span;
+/// and how many rows.
 struct OverLevel {
-  static constexpr std::size_t bins = 8192;  // 60 to a period of the finest ripple that is sought
+  static constexpr std::size_t bins = 8192;  // 20 to a period of the finest ripple that is sought
   Rows sums = Rows(bins, 0.0);
   double rows = 0;
 };
@@ -73,9 +88,10 @@ OverLevel over_level(const ResidualParts& parts, std::size_t level) {
   OverLevel o;
   for (const auto& p : parts.list()) {
     if (!p.train) continue;
-    for (std::size_t i = 0; i < p.e.size(); ++i) {
+    const Rows e = without_trend(p.e, p.levels[level]);
+    for (std::size_t i = 0; i < e.size(); ++i) {
       const double place = (p.levels[level][i] - over.lowest) / over.span() * OverLevel::bins;
-      o.sums[std::min(static_cast<std::size_t>(std::max(place, 0.0)), OverLevel::bins - 1)] += p.e[i];
+      o.sums[std::min(static_cast<std::size_t>(std::max(place, 0.0)), OverLevel::bins - 1)] += e[i];
     }
     o.rows += static_cast<double>(p.e.size());
   }
@@ -169,6 +185,18 @@ std::vector<double> strongest_lines(const ResidualParts& parts, const std::vecto
   std::vector<double> list;
   for (const auto& peak : highest(std::move(peaks), apart, most)) list.push_back(peak.f);
   return list;
+}
+
+std::vector<double> strongest_ripples(const ResidualParts& parts, std::size_t level, std::size_t most) {
+  constexpr double fewest = 3, finest = 400, step = 0.25;  // periods over the range: one apart they can be told
+  const double span = parts.levels()[level].span();
+  if (!(span > 0)) return {};
+  const OverLevel residual = over_level(parts, level);
+  std::vector<Peak> ripples;
+  for (double lines = fewest; lines <= finest; lines += step) ripples.push_back({lines, ripple_power(residual, lines)});
+  std::vector<double> periods;
+  for (const auto& ripple : highest(std::move(ripples), 1, most)) periods.push_back(span / ripple.f);
+  return periods;
 }
 
 std::optional<Structure> line_in_time(const ResidualParts& parts) {

@@ -1,6 +1,7 @@
 // Bodies: one mass on a spring, with what holds it back.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/reference/elements.h"
 #include "tests/reference/law.h"
@@ -175,7 +176,10 @@ class PreslidingBody : public StiffeningBody {
 class CoggingBody : public Body {
  public:
   explicit CoggingBody(const Block& b)
-      : Body(b), cosine(b.number("cosine")), sine(b.number("sine")), periods(b.number("periods")) {}
+      : Body(b),
+        cosine(b.number("cosine")),
+        sine(b.number("sine")),
+        periods(b.type == "mass_with_cogging" ? 2 * std::numbers::pi / b.number("period") : b.number("periods")) {}
 
  protected:
   double held_back(const Point& p) const override {
@@ -197,7 +201,7 @@ LawPointer make_body(const Block& b) {
   if (b.type == "mass_with_stops") return std::make_unique<StoppedBody>(b);
   if (b.type == "mass_with_presliding" || b.type == "inertia_with_presliding")
     return std::make_unique<PreslidingBody>(b, false);
-  if (b.type == "inertia_with_cogging") return std::make_unique<CoggingBody>(b);
+  if (b.type == "inertia_with_cogging" || b.type == "mass_with_cogging") return std::make_unique<CoggingBody>(b);
   if (b.type == "mass_on_hysteretic_spring") return std::make_unique<PreslidingBody>(b, true);
   return nullptr;
 }

@@ -24,6 +24,7 @@ const bench::Samples rotary{
      {{"inertia", {2}}, {"stiffness", {50}}, {"contact_stiffness", {20, 9}}, {"slip_distance", {0.1, 0.4}}}},
     {"inertia_with_cogging",
      {{"inertia", {2}}, {"stiffness", {5}}, {"cosine", {0.4}}, {"sine", {-0.3}}, {"periods", {3}}}},
+    {"mass_with_cogging", {{"mass", {2}}, {"stiffness", {5}}, {"cosine", {0.4}}, {"sine", {-0.3}}, {"period", {2}}}},
     {"gear", {{"ratio", {3}}, {"stiffness", {7}}, {"damping", {0.3}}, {"efficiency", {0.8}}}},
     {"gear", {{"ratio", {3}}, {"stiffness", {7}}, {"damping", {0.3}}, {"gap", {0.5}}, {"efficiency", {0.8}}}},
     {"belt", {{"radius", {0.4}}, {"stiffness", {7}}, {"damping", {0.3}}}},
@@ -134,6 +135,18 @@ TEST(RotaryBlocks, AnInertiaWithCoggingRestsWhereItsTeethDrawIt) {
   EXPECT_NEAR(rest(-2, 0), 0, 1e-14);
   EXPECT_NEAR(rest(-2, 1), pi / 6 / 5, 1e-14);
   EXPECT_TRUE(std::isnan(rest(-2, 3))) << "it turns";
+}
+
+TEST(RotaryBlocks, AMassWithCoggingGoesAsAnInertiaWithAsManyPeriodsOnItsWay) {
+  // 2 pi/5 m are a fifth of what a turn is: 5 periods. One law, so the same numbers but for the rounding of 2 pi/5.
+  const Bench along("mass_with_cogging",
+                    {{"mass", {2}}, {"stiffness", {3}}, {"cosine", {0.4}}, {"sine", {-0.3}}, {"period", {2 * pi / 5}}});
+  const Bench about("inertia_with_cogging",
+                    {{"inertia", {2}}, {"stiffness", {3}}, {"cosine", {0.4}}, {"sine", {-0.3}}, {"periods", {5}}});
+  EXPECT_NEAR(along.rest({0.2})[0], about.rest({0.2})[0], 1e-15);
+  // m dv/dt at x = period/4: the sine alone, -0.3 N, with 0.2 N from outside and 3 N/m.
+  const Bench free("mass_with_cogging", {{"mass", {2}}, {"cosine", {0.4}}, {"sine", {-0.3}}, {"period", {0.8}}});
+  EXPECT_NEAR(free.derivative({0.2}, {0.2, 0})[1], (0.2 - 0.3) / 2, 1e-15);
 }
 
 TEST(GearBlock, CarriesTorqueWithItsRatioAndLosesItsShare) {
