@@ -11,6 +11,13 @@ namespace {
 
 constexpr double fewest_periods = 3, most_periods = 400;  // passed on the way from the lowest to the highest position
 
+/// What comes again with every step between the levels of the column is its rounding.
+double shortest_period(const Excitation& at) { return std::max(at.range() / most_periods, 1.5 * at.resolution); }
+
+bool is_position(const Unit& unit) {
+  return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
+}
+
 /// Amplitudes of one harmonic. Where each recording has a zero of its own, the scale begins somewhere else in each, and
 /// so does its error.
 void add_harmonic(Law& law, const Excitation& at, const char* cosine, const char* sine) {
@@ -37,11 +44,11 @@ Law harmonics(const Excitation& at, int n) {
   LawParameter period;
   period.path = "period";
   period.start = range / 10;
-  period.lower = range / most_periods;
+  period.lower = at.range() > 0 ? shortest_period(at) : range / most_periods;
   period.upper = range / (fewest_periods - 1);
   period.log_scale = true;
   period.period_of_wire = true;
-  for (double k = fewest_periods; k <= most_periods; k *= 1.3) period.scan.push_back(range / k);
+  for (double k = fewest_periods; range / k >= period.lower; k *= 1.3) period.scan.push_back(range / k);
   give(law.block, "period", with_unit(period.start, at.unit));
   law.free = {period};
   add_harmonic(law, at, "cosine", "sine");
@@ -78,7 +85,14 @@ Effect periodic_error() {
                        shown(values[0]), at.unit.text, at.zero_of_recording ? ", in the last recording" : "");
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{harmonics(at, 1), harmonics(at, 2)}; };
-  e.unseen = stands_still;
+  e.unseen = [](const Excitation& at) -> std::string {
+    if (const auto still = stands_still(at); !still.empty() || !at.from_data) return still;
+    if (!is_position(at.unit))
+      return fmt::format("what is measured in {} is no position: a length, an angle or counts", at.unit.text);
+    if (shortest_period(at) * fewest_periods > at.range())
+      return "the steps of the column are a third of its range or more";
+    return "";
+  };
   return e;
 }
 

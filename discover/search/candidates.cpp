@@ -73,8 +73,11 @@ std::vector<double> ripples_left(const SearchState& state, const TriedEffect& t)
 void begin_at_ripples(const SearchState& state, TriedEffect& t) {
   for (auto& law : t.laws)
     for (auto& p : law.free)
-      if (p.period_of_wire)
-        if (auto periods = ripples_left(state, t); !periods.empty()) p.scan = std::move(periods);
+      if (p.period_of_wire) {
+        auto periods = ripples_left(state, t);
+        std::erase_if(periods, [&](double period) { return period < p.lower || period > p.upper; });
+        if (!periods.empty()) p.scan = std::move(periods);
+      }
 }
 
 /// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory
