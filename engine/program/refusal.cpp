@@ -9,18 +9,18 @@
 namespace hysteron {
 namespace {
 
-struct Place {
+struct NamedNumber {
   int slot = -1;  ///< in Run::p; -1: the block has no such parameter
   Unit unit{};
   bool difference = false;
 };
 
 /// The first number of a parameter of the block.
-Place place_of(const Program& program, const BlockInstance& block, const std::string& name) {
+NamedNumber place_of(const Program& program, const BlockInstance& block, const std::string& name) {
   const auto& declared = block.kernel->declaration.parameters;
   const auto found = std::find_if(declared.begin(), declared.end(), [&](const auto& p) { return p.name == name; });
   if (found == declared.end()) return {};
-  Place place;
+  NamedNumber place;
   place.slot = block.p_begin + block.p_at[at(static_cast<int>(found - declared.begin()))];
   place.difference = found->is_difference;
   for (const auto& info : program.parameters)
@@ -40,7 +40,7 @@ std::string refusal_text(const Program& program, const Run& run, int block, cons
     filled += text.substr(from, open - from);
     const std::string mark = text.substr(open + 1, close - open - 1);
     const std::size_t in = mark.find(" in ");
-    const Place place = place_of(program, b, in == mark.npos ? mark : mark.substr(in + 4));
+    const NamedNumber place = place_of(program, b, in == mark.npos ? mark : mark.substr(in + 4));
     if (place.slot < 0)
       filled += "{" + mark + "}";  // no mark of ours: a piece of JSON, for example
     else

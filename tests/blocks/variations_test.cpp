@@ -220,6 +220,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"scale", {{"scale", 1.2}}},
       {"noise", {{"rms", "0.1 V"}}},
       {"computing_time", {{"samples", 1.0}}},
+      {"cogging", {{"cosine", "0.1 N"}, {"sine", "0.2 N"}, {"period", "10 mm"}}},
       {"interpolation_error", {{"error_sine", "0.01 rad"}}},
       {"periodic_error", {{"error_sine", "10 mm"}}},
       {"angle_in backlash", {{"gap", "0.2 rad"}}},
