@@ -6,7 +6,7 @@
 # with which ENDING goes on (";" of a declaration, " {" of a definition), and writes a source with the function
 #   std::vector<TYPE (*)()> NAMESPACE::LIST()
 # that includes HEADER, the file that declares it. Sets LIST in the caller to the path of that source.
-# ORDER is a file with one name a line: these come first, in this order; the others follow by path. Since it is there for the eye
+# ORDER, if it is given, is a file with one name a line: these come first, in this order; the others follow by path. Since it is there for the eye
 # alone (the order in which lists are printed), nothing new has to be written into it.
 # A file without such a function, a name that two files have and a name in ORDER that no file has stop the build with what
 # to do; CURE says it for the first case.
@@ -32,8 +32,13 @@ function(hysteron_list_functions LIST)
     endforeach()
   endforeach()
 
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${L_ORDER})
-  file(STRINGS ${L_ORDER} names REGEX "^[a-z0-9_]+$")
+  set(names)
+  set(sorted "")
+  if(L_ORDER)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${L_ORDER})
+    file(STRINGS ${L_ORDER} names REGEX "^[a-z0-9_]+$")
+    set(sorted " and ${L_ORDER}")
+  endif()
   foreach(name ${names})
     if(NOT name IN_LIST found)
       message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/${L_ORDER}: there is no \"${L_TYPE} ${name}${L_SUFFIX}()\"; "
@@ -51,7 +56,7 @@ function(hysteron_list_functions LIST)
   endforeach()
   set(path ${CMAKE_CURRENT_BINARY_DIR}/${LIST}.cpp)
   file(CONFIGURE OUTPUT ${path} @ONLY CONTENT [[
-// Made by the build (cmake/list_functions.cmake) from the sources and @L_ORDER@.
+// Made by the build (cmake/list_functions.cmake) from the sources@sorted@.
 #include "@L_HEADER@"
 
 namespace @L_NAMESPACE@ {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/cli/verb.h"
+#include "app/verbs/export_c.h"
 #include "app/verbs/export_kind.h"
 #include "engine/diagram/error.h"
 
@@ -11,7 +12,7 @@ namespace hysteron {
 namespace {
 
 const std::vector<ExportKind>& kinds() {
-  static const std::vector<ExportKind> all{export_fmu()};
+  static const std::vector<ExportKind> all{export_c(), export_fmu()};
   return all;
 }
 
@@ -66,7 +67,9 @@ Answer export_act(const Arguments& arguments, const Watch& watch) {
 }
 
 std::string export_help() {
-  std::string text = "Answers: how does this run somewhere else.\n\nExamples:\n  hysteron export fmu stage.json\n";
+  std::string text =
+      "Answers: how does this run somewhere else.\n\nExamples:\n  hysteron export c controller.json -o out\n"
+      "  hysteron export fmu stage.json\n";
   for (const auto& kind : kinds()) text += fmt::format("\n{}: {}\n\n{}\n", kind.name, kind.summary, kind.help);
   return text + "\nExit codes: 0 done, 2 the diagram is wrong or cannot be written so, 3 the numerics failed.";
 }
@@ -85,7 +88,7 @@ std::vector<shape::Member> export_shape() {
 }  // namespace
 
 Verb export_verb() {
-  return {"export",      "a diagram as a program for somewhere else: a unit for other simulators",
+  return {"export",      "a diagram as a program for somewhere else: C code, a unit for other simulators",
           export_help(), all_options(),
           export_act,    export_shape};
 }

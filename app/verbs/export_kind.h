@@ -1,5 +1,5 @@
 // Decides what a kind of "hysteron export" is: a program of another form, made of a diagram. Each kind stands in a
-// source of its own (export_fmu.cpp) and in the table of export.cpp.
+// source of its own (export_c.cpp, export_fmu.cpp) and in the table of export.cpp.
 #pragma once
 
 #include <string>

@@ -22,13 +22,14 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"engine", {}},
     {"models", {}},
     {"blocks", {"engine", "models"}},
+    {"export", {"engine", "blocks"}},
     {"io", {"engine"}},
     {"fit", {"engine", "io"}},
     {"discover", {"engine", "io", "fit"}},
     {"report", {"io", "engine", "fit", "discover", "draw"}},
     {"draw", {"engine"}},
     {"studio", {"engine", "io", "draw"}},
-    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw", "studio"}},
+    {"app", {"engine", "models", "blocks", "io", "fit", "discover", "report", "draw", "studio", "export"}},
     {"interop", {"engine", "blocks", "io", "report", "app"}},
 };
 
@@ -45,6 +46,7 @@ const std::map<std::string, std::vector<std::string>> storeys = {
      {"sources", "math", "logic", "vectors", "linear", "continuous", "hysteresis", "compensators", "mechanics",
       "electrical", "sampled", "temperature", "disturbances", "measurement", "fmi", ""}},
     {"io", {"files", "json", "formats", "data", "fmi", "diagram", "jobs", "results"}},
+    {"export", {"c"}},
     {"fit", {"numerics", "signals", "model", "estimate", "inspect", "compare", "study", "thesis"}},
     {"discover",
      {"wiring", "hypotheses", "effects", "placement", "demonstration", "experiment", "models", "structure", "search",

@@ -66,6 +66,12 @@ TEST(Docs, ACompensatorOfOnesOwnStageLowersTheTrackingErrorAsTheySay) {
   expect("closed_bw", 0.018, 0.006, 0.0006);
 }
 
+TEST(Docs, TheControllerInCHasTheBitsThatThePageShows) {
+  const Folder folder;
+  do_as_shown("export-c.md", folder);
+  EXPECT_TRUE(folder.has("out/comp.json"));
+}
+
 TEST(Docs, TheExampleOfAFitRunsAndFindsWhatIsHidden) {
   const Folder folder;
   do_as_shown("docs/fit.md", folder);

@@ -1,0 +1,10 @@
+// Decides what "hysteron export c" does: C99 of a compensator or controller.
+#pragma once
+
+#include "app/verbs/export_kind.h"
+
+namespace hysteron {
+
+ExportKind export_c();
+
+}  // namespace hysteron

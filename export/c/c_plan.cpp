@@ -1,0 +1,175 @@
+#include "export/c/c_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/c_laws.h"
+#include "engine/diagram/error.h"
+#include "engine/diagram/index.h"
+#include "engine/diagram/time_text.h"
+#include "engine/events/clocks.h"
+
+namespace hysteron {
+namespace {
+
+/// So many of `tick` are `time`; -1 if it is no whole number of them.
+long whole_ticks(double time, double tick) {
+  const double ratio = time / tick, whole = std::round(ratio);
+  return std::fabs(ratio - whole) <= 1e-9 * std::max(1.0, whole) && whole < 1e9 ? static_cast<long>(whole) : -1;
+}
+
+double time_of(const Fraction& f) { return static_cast<double>(f.n) / static_cast<double>(f.d); }
+
+class Planning {
+ public:
+  Planning(ProgramPointer program, double period) : period_(period) {
+    plan_.begin = start(*program);
+    plan_.program = std::move(program);
+    plan_.period = period > 0 ? period : shortest_period(*plan_.program);
+  }
+
+  CPlan operator()() {
+    const Program& program = *plan_.program;
+    const std::vector<bool> needed = needed_for_outputs(program);
+    plan_.inputs = program.input_signals;
+    plan_.outputs = program.output_signals;
+    for (std::size_t i = 0; i < program.blocks.size(); ++i)
+      if (needed[i]) refuse_what_moves_by_itself(program.blocks[i]);
+    refuse_loops(needed);
+    for (const Step& step : program.hit_values)
+      if (step.order == Order::value && needed[at(step.block)]) add(step.block);
+    problems_.throw_if_any();
+    return std::move(plan_);
+  }
+
+ private:
+  void refuse(const BlockInstance& b, const std::string& what, const std::string& cure) {
+    problems_.add("not_in_c", b.path, fmt::format("{} ({}) {}", b.path, b.kernel->declaration.type, what), cure);
+  }
+  static bool is_input(const BlockInstance& b) { return b.kernel->declaration.type == "input"; }
+
+  void refuse_what_moves_by_itself(const BlockInstance& b) {
+    const auto& d = b.kernel->declaration;
+    if (is_input(b)) return;
+    if (b.enabling >= 0)
+      refuse(b, "stands in a diagram that is switched on and off",
+             "write what stands in it into the outermost diagram, with a switch behind it");
+    else if (b.kernel->has_modes())
+      refuse(b, "changes its law at events between the steps", "name a signal behind it as an input: --from SIGNAL");
+    else if (b.sizes.history)
+      refuse(b, "remembers the past of its input between the steps",
+             "put a delay_line in its place, which delays by whole samples");
+    else if (d.is_series || is_source(b))
+      refuse(b, "is a signal of time, which the controller is to be given",
+             fmt::format("make it an input of the code: --from {}", b.path));
+    else if (b.sizes.states > 0)
+      refuse_continuous(b);
+  }
+  static bool is_source(const BlockInstance& b) {
+    return is_source_of_time(b) && b.kernel->declaration.type != "constant";
+  }
+  void refuse_continuous(const BlockInstance& b) {
+    const CLaw* law = find_c_law(b.kernel->declaration.type);
+    const bool could = b.kernel->declaration.is_linear || (law != nullptr && !law->sampled_type.empty());
+    if (could && period_ == 0 && plan_.period == 0)
+      refuse(b, "has states that move continuously, and nothing says how often the code runs",
+             "say it: --rate \"10 kHz\"");
+    else
+      refuse(b, "has states that move continuously and no sampled form",
+             "put a sampled block in its place (hysteron blocks, group sampled), or make what is behind it an input: "
+             "--from SIGNAL");
+  }
+  void refuse_loops(const std::vector<bool>& needed) {
+    for (const Loop& loop : plan_.program->loops) {
+      if (!loop.of_values() ||
+          std::none_of(loop.blocks.begin(), loop.blocks.end(), [&](int b) { return needed[at(b)]; }))
+        continue;
+      std::string names;
+      for (const int b : loop.blocks) names += (names.empty() ? "" : ", ") + plan_.program->blocks[at(b)].path;
+      problems_.add("not_in_c", plan_.program->blocks[at(loop.blocks.front())].path,
+                    "these need each other at the same instant: " + names,
+                    "put a delay_line of one sample into the loop, or make one of its signals an input: --from SIGNAL");
+    }
+  }
+
+  void add(int block) {
+    const BlockInstance& b = plan_.program->blocks[at(block)];
+    if (is_input(b) || is_source(b) || b.kernel->declaration.is_series || b.sizes.states > 0 || b.kernel->has_modes() ||
+        b.sizes.history)
+      return;
+    const CLaw* law = find_c_law(b.kernel->declaration.type);
+    if (law == nullptr || law->code == nullptr) {
+      refuse(b, "has no form in C", "make what is behind it an input of the code: --from SIGNAL");
+      return;
+    }
+    View<double> view = view_of(*plan_.program, plan_.begin, block);
+    view.n_x = b.kernel->is_sampled() ? b.sizes.sampled_states : b.sizes.states;
+    PlannedBlock planned{block, law->code(CBlock{b.shape, view})};
+    if (!planned.code.refusal.empty()) {
+      const auto cure = planned.code.refusal.find("; ");
+      refuse(b, "has no form in C: " + planned.code.refusal.substr(0, cure),
+             cure == std::string::npos ? "name a signal behind it as an input: --from SIGNAL"
+                                       : planned.code.refusal.substr(cure + 2));
+      return;
+    }
+    if (b.kernel->is_sampled()) clock(b, block, planned);
+    plan_.blocks.push_back(std::move(planned));
+  }
+  void clock(const BlockInstance& b, int block, PlannedBlock& planned) {
+    const Clocking clocking = clocking_of(*plan_.program, plan_.begin, block);
+    const double period = time_of(clocking.period), offset = time_of(clocking.offset);
+    planned.every = whole_ticks(period, plan_.period);
+    planned.first = whole_ticks(offset, plan_.period);
+    if (planned.every >= 1 && planned.first >= 0) return;
+    refuse(b,
+           fmt::format("runs every {} from {} on, which are no whole numbers of steps of {}", time_text(period),
+                       time_text(offset), time_text(plan_.period)),
+           "give a --rate of which every period and offset is a whole number of steps");
+  }
+
+  double period_;
+  CPlan plan_;
+  Problems problems_;
+};
+
+}  // namespace
+
+std::vector<bool> needed_for_outputs(const Program& program) {
+  std::vector<bool> needed(program.blocks.size(), false);
+  std::vector<int> next;
+  const auto read = [&](int signal) {
+    const int block = program.signals[at(signal)].block;
+    if (!needed[at(block)]) next.push_back(block);
+    needed[at(block)] = true;
+  };
+  for (const int signal : program.output_signals) read(signal);
+  while (!next.empty()) {
+    const int block = next.back();
+    next.pop_back();
+    for (const int signal : program.blocks[at(block)].source) read(signal);
+    const int enabling = program.blocks[at(block)].enabling;
+    if (enabling < 0) continue;
+    const int by = program.enablings[at(enabling)].block;
+    if (!needed[at(by)]) next.push_back(by);
+    needed[at(by)] = true;
+  }
+  return needed;
+}
+
+double shortest_period(const Program& program) {
+  const Run run = start(program);
+  const std::vector<bool> needed = needed_for_outputs(program);
+  double shortest = 0;
+  for (const int block : program.sampled_blocks) {
+    if (!needed[at(block)]) continue;
+    const double period = time_of(clocking_of(program, run, block).period);
+    if (shortest == 0 || period < shortest) shortest = period;
+  }
+  return shortest;
+}
+
+CPlan plan_c(const ProgramPointer& program, double period) { return Planning(program, period)(); }
+
+}  // namespace hysteron

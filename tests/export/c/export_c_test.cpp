@@ -1,0 +1,272 @@
+// What "hysteron export c" says and refuses; random diagrams; float; another processor.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/export/c/in_c.h"
+
+namespace hysteron {
+namespace {
+
+using process::Folder;
+using process::Outcome;
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+constexpr char compensator[] = R"({
+  "format": 1, "title": "compensator", "inputs": {"wanted": {"unit": "um"}},
+  "blocks": {"inverse": {"type": "prandtl_ishlinskii_inverse", "in": "wanted",
+                         "thresholds": ["0 V", "1 V", "2.5 V"], "weights": {"value": [0.8, 0.1, 0.2], "unit": "um/V"}},
+             "within": {"type": "saturation", "lower": "-1 V", "upper": "9 V", "in": "inverse"}},
+  "outputs": {"drive": "within"}})";
+
+TEST(ExportC, WritesWhatItSaysNamedAfterTheBlocksWithUnits) {
+  const Folder folder;
+  folder.write("d.json", compensator);
+  const Outcome outcome = in_c::exported(folder, {"d.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(holds(outcome.out, "2 blocks in C, 3 numbers remembered")) << outcome.out;
+  const std::string header = folder.read("out/comp.h"), source = folder.read("out/comp.c");
+  EXPECT_TRUE(holds(header, "double wanted; /* [m] */")) << header;
+  EXPECT_TRUE(holds(source, "static const double inverse_thresholds[3]")) << source;
+  EXPECT_TRUE(holds(source, "within_upper = 9.0; /* [kg m^2 s^-3 A^-1]")) << source;
+  EXPECT_FALSE(holds(source, "malloc"));
+  EXPECT_EQ(in_c::tried(folder).code, 0);
+  // The closed form: u = wanted/0.8 on the virgin branch up to the second threshold of the inverse, 0.8 um.
+  folder.write("out/one.c",
+               "#include \"comp.h\"\n#include <stdio.h>\nint main(void)\n{\n    comp_state s;\n    comp_input in = "
+               "{0.4e-6};\n    comp_output out;\n    comp_start(&s);\n    comp_step(&s, &in, &out);\n    "
+               "printf(\"%.12f\\n\", out.drive);\n    return 0;\n}\n");
+  const Outcome one = process::shell(folder.path(), "cd out && cc -std=c99 -o one one.c comp.c -lm && ./one");
+  EXPECT_EQ(one.out, "0.500000000000\n") << one.err;
+}
+
+TEST(ExportC, InFloatItTellsTheDeviationInTheUnitOfTheSignal) {
+  const Folder folder;
+  folder.write("d.json", compensator);
+  ASSERT_EQ(in_c::exported(folder, {"d.json", "--number", "float32"}).code, 0);
+  EXPECT_FALSE(holds(folder.read("out/comp.c"), "double"));
+  const Outcome run = in_c::tried(folder);
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  EXPECT_TRUE(holds(run.out, "drive: largest deviation ") && holds(run.out, " V of ")) << run.out;
+}
+
+TEST(ExportC, RefusesEverythingThatItCannotWriteAtOnceByName) {
+  const Folder folder;
+  folder.write("d.json", R"({"format": 1, "title": "t", "inputs": {"u": {"unit": "V"}}, "blocks": {
+    "late": {"type": "dead_time", "delay": "1 ms", "in": "u"},
+    "tone": {"type": "sine", "amplitude": "1 V", "frequency": "5 Hz"},
+    "stage": {"type": "mass_spring_damper", "mass": "1 kg", "stiffness": "1 N/m", "damping": "1 N s/m", "in": "force"},
+    "force": {"type": "gain", "gain": "1 N/V", "in": "all"},
+    "all": {"type": "sum", "in": ["late", "tone"]}}, "outputs": {"x": "stage.position", "v": "all"}})");
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "1 kHz"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(holds(outcome.err, "late (dead_time) remembers the past of its input")) << outcome.err;
+  EXPECT_TRUE(holds(outcome.err, "tone (sine) is a signal of time")) << outcome.err;
+  EXPECT_TRUE(holds(outcome.err, "--from tone")) << outcome.err;
+  EXPECT_FALSE(folder.has("out/comp.c"));
+}
+
+TEST(ExportC, AWrongWordIsAnsweredWithTheRightOne) {
+  const Folder folder;
+  folder.write("d.json", compensator);
+  const auto says = [&](const std::vector<std::string>& words, const std::string& part) {
+    const Outcome outcome = in_c::exported(folder, words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(holds(outcome.err, part)) << outcome.err;
+  };
+  says({"d.json", "--to", "invers"}, "inverse");
+  says({"d.json", "--rate", "10 V"}, "--rate \"10 kHz\"");
+  says({"d.json", "--name", "my comp"}, "no name in C");
+  says({"d.json", "--number", "int"}, "float64 nor float32");
+  const Outcome kind = process::hysteron(folder.path(), {"export", "d", "d.json"});
+  EXPECT_TRUE(kind.code == 2 && holds(kind.err, "nothing is exported as")) << kind.err;
+}
+
+TEST(ExportC, LinearPartsAreMatricesFromStepToStep) {
+  const Folder folder;
+  folder.write("d.json", R"({"format": 1, "title": "pi", "inputs": {"e": {"unit": "um"}}, "blocks": {
+    "pi": {"type": "pi_controller", "kp": "0.2 V/um", "ki": "300 V/um/s", "in": "e"},
+    "filter": {"type": "lag", "times": ["2 ms"], "in": "e"}}, "outputs": {"u": "pi", "f": "filter"}})");
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "10 kHz"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  const std::string page = folder.read("out/comp.md");
+  EXPECT_TRUE(holds(page, "pi: pi_controller as matrices from step to step, its input straight")) << page;
+}
+
+TEST(ExportC, SumsOfSamplesHaveTheBitsOfTheEngine) {
+  const Folder folder;
+  folder.write("d.json", R"({"format": 1, "title": "sums", "inputs": {"v": {"unit": "um/s"}}, "blocks": {
+    "forward": {"type": "discrete_integrator", "rule": "forward", "period": "1 ms", "in": "v"},
+    "backward": {"type": "discrete_integrator", "rule": "backward", "period": "2 ms", "in": "v"},
+    "trapezoidal": {"type": "discrete_integrator", "rule": "trapezoidal", "period": "1 ms", "in": "v"}},
+    "outputs": {"a": "forward", "b": "backward", "c": "trapezoidal"}})");
+  ASSERT_EQ(in_c::exported(folder, {"d.json"}).code, 0);
+  const Outcome run = in_c::tried(folder);
+  EXPECT_TRUE(run.code == 0 && holds(run.out, in_c::same_bits)) << run.out << run.err;
+}
+
+/// A block of the random diagrams: `in` is wired to `wires` signals before it.
+struct Part {
+  const char* json;
+  int wires;
+};
+constexpr Part parts[] = {
+    {R"("type": "gain", "gain": 0.7)", 1},
+    {R"("type": "pass")", 1},
+    {R"("type": "calibration", "gain": 1.1, "offset": -0.3)", 1},
+    {R"("type": "sum", "signs": "+-")", 2},
+    {R"("type": "sum")", 3},
+    {R"("type": "product")", 2},
+    {R"("type": "abs")", 1},
+    {R"("type": "sign")", 1},
+    {R"("type": "saturation", "lower": -0.4, "upper": 0.6)", 1},
+    {R"("type": "dead_zone", "lower": -0.1, "upper": 0.2)", 1},
+    {R"("type": "wrap", "period": 0.7)", 1},
+    {R"("type": "rectifier", "mix": 0.4)", 1},
+    {R"("type": "rounding", "step": 0.13)", 1},
+    {R"("type": "min_max", "is": "min")", 3},
+    {R"("type": "polynomial", "coefficients": [0.1, 0.9, -0.2, 0.05], "reference": 0.8, "lower": -0.6, "upper": 0.9)",
+     1},
+    {R"("type": "lookup", "at": [-0.5, 0, 0.2, 1], "values": [0.3, 0, 0.5, 0.4], "outside": "extrapolate")", 1},
+    {R"("type": "soft_saturation", "limit": 0.8, "sharpness": 2.5)", 1},
+    {R"("type": "switch", "level": 0.2)", 3},
+    {R"("type": "play", "radius": 0.15)", 1},
+    {R"("type": "play", "radius": 0.2, "sides": "one", "before": 0.4)", 1},
+    {R"("type": "prandtl_ishlinskii", "thresholds": [0, 0.1, 0.3], "weights": [0.6, 0.2, 0.3], "sides": "two")", 1},
+    {R"("type": "prandtl_ishlinskii_inverse", "thresholds": [0, 0.2, 0.5], "weights": [0.6, 0.2, -0.1], "before": 0.7)",
+     1},
+    {R"("type": "generalized_prandtl_ishlinskii", "thresholds": [0, 0.1, 0.3], "weights": [0.6, 0.2, 0.3], "lower": -1, "upper": 1, "slope_at_lower": 0.5, "slope_at_upper": 1.8)",
+     1},
+    {R"("type": "asymmetric_prandtl_ishlinskii", "thresholds": [0, 0.1, 0.3], "weights": [0.6, 0.2, 0.3], "saturation": 0.5, "bend": 0.8)",
+     1},
+    {R"("type": "preisach", "levels": [-1, -0.2, 0.1, 0.8], "weights": [0.1, 0.2, 0.1, 0.3, 0.05, 0.2], "gain": 0.5)",
+     1},
+    {R"("type": "sampled_asymmetric_inverse", "thresholds": [0, 0.1, 0.3], "weights": [0.6, 0.2, 0.3], "saturation": 0.5, "bend": 0.8, "period": "1 ms")",
+     1},
+    {R"("type": "sampled_bouc_wen_inverse", "alpha": 0.4, "beta": 0.9, "gamma": 0.1, "d_p": 1.2, "period": "1 ms")", 1},
+    {R"("type": "sampled_bouc_wen_inverse", "alpha": 0.4, "beta": 0.9, "gamma": 0.1, "d_p": 1.2, "exponent": 1.5, "scale": 0.5, "period": "1 ms")",
+     1},
+    {R"("type": "sample_hold", "period": "3 ms", "offset": "1 ms")", 1},
+    {R"("type": "quantizer", "bits": 8, "lower": -1, "upper": 1, "period": "1 ms")", 1},
+    {R"("type": "delay_line", "samples": 3, "period": "2 ms")", 1},
+    {R"("type": "fir", "coefficients": [0.3, 0.4, 0.2], "period": "1 ms")", 1},
+    {R"("type": "moving_average", "samples": 4, "period": "1 ms")", 1},
+    {R"("type": "discrete_transfer_function", "num": [0.2, 0.1], "den": [1, -0.6, 0.1], "gain": 1.5, "period": "1 ms")",
+     1},
+    {R"("type": "discrete_transfer_function", "num": [0.2, 0.1], "den": [1, -0.6], "direct": "no", "period": "2 ms")",
+     1},
+    {R"("type": "digital_filter", "order": 3, "corner": "80 Hz", "period": "1 ms")", 1},
+    {R"("type": "discrete_state_space", "a": [[0.5, 0.1], [0, 0.8]], "b": [[0.2], [0.4]], "c": [[1, 0.5]], "d": [[0.1]], "period": "1 ms")",
+     1},
+    {R"("type": "sampled_pid", "kp": 0.8, "ki": "20 1/s", "lower": -0.5, "upper": 0.6, "anti_windup": "clamping", "period": "1 ms")",
+     1},
+    {R"("type": "sampled_pid", "kp": 0.8, "ki": "20 1/s", "kd": "1 ms", "filter": "3 ms", "rule": "trapezoidal", "lower": -0.5, "upper": 0.6, "anti_windup": "back_calculation", "period": "2 ms")",
+     1},
+    {R"("type": "discrete_pid", "kp": 0.8, "ki": "20 1/s", "kd": "1 ms", "lower": -0.5, "upper": 0.6, "rate": "50 1/s", "period": "1 ms")",
+     2},
+};
+
+std::string random_diagram(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto any = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  std::vector<std::string> signals{"u", "v"};
+  std::string blocks;
+  const std::size_t count = 3 + any(7);
+  for (std::size_t k = 0; k < count; ++k) {
+    // Each part is met: the first of every diagram goes through all of them.
+    const Part& part = parts[k == 0 ? seed % std::size(parts) : any(std::size(parts))];
+    std::string wires;
+    for (int w = 0; w < part.wires; ++w)
+      wires += fmt::format("{}\"{}\"", w == 0 ? "" : ", ", signals[any(signals.size())]);
+    blocks += fmt::format("{}\n\"b{}\": {{{}, \"in\": [{}]}}", k == 0 ? "" : ",", k, part.json, wires);
+    signals.push_back(fmt::format("b{}", k));
+  }
+  // Every block is an output, and both inputs are read.
+  std::string outputs;
+  for (std::size_t k = 0; k < count; ++k) outputs += fmt::format("\"y{0}\": \"b{0}\", ", k);
+  return fmt::format(R"({{"format": 1, "title": "random {}", "inputs": {{"u": {{}}, "v": {{}}}}, "blocks": {{{},
+    "both": {{"type": "sum", "in": ["u", "v"]}}}}, "outputs": {{{}"both": "both"}}}})",
+                     seed, blocks, outputs);
+}
+
+void expect_the_bits_of_the_engine(unsigned seed) {
+  const Folder folder;
+  const std::string diagram = random_diagram(seed);
+  folder.write("d.json", diagram);
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "1 kHz"});
+  ASSERT_EQ(outcome.code, 0) << diagram << outcome.err;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_EQ(run.code, 0) << diagram << run.out << run.err;
+  EXPECT_TRUE(holds(run.out, in_c::same_bits)) << diagram << run.out;
+}
+
+TEST(ExportC, RandomDiagramsHaveTheBitsOfTheEngine) {
+  for (unsigned seed = 0; seed < std::size(parts); ++seed) expect_the_bits_of_the_engine(seed);
+}
+TEST(LongExportC, ManyRandomDiagramsHaveTheBitsOfTheEngine) {
+  for (unsigned seed = 1000; seed < 1400; ++seed) expect_the_bits_of_the_engine(seed);
+}
+
+TEST(LongExportC, AnotherProcessorComesToTheSameBits) {
+  const char* const compiler = "arm-linux-gnueabihf-gcc";
+  const Folder folder;
+  if (process::shell(folder.path(), fmt::format("command -v {} && command -v qemu-arm", compiler)).code != 0)
+    GTEST_SKIP() << "needs gcc-arm-linux-gnueabihf and qemu-user (scripts/packages.txt, group arm)";
+  // No function of libm: its last bits may be others there.
+  folder.write("d.json", compensator);
+  for (const std::string number : {"float64", "float32"}) {
+    ASSERT_EQ(in_c::exported(folder, {"d.json", "--number", number}).code, 0);
+    const Outcome run = in_c::tried(folder, compiler, "qemu-arm -L /usr/arm-linux-gnueabihf");
+    EXPECT_EQ(run.code, 0) << run.out << run.err;
+    if (number == "float64") {
+      EXPECT_TRUE(holds(run.out, in_c::same_bits)) << run.out;
+    }
+  }
+}
+
+constexpr char stage[] = R"({
+  "format": 1, "title": "stage", "inputs": {"u": {"unit": "V"}},
+  "blocks": {"stack": {"type": "prandtl_ishlinskii", "in": "u", "thresholds": ["0 V", "1 V", "2.5 V"],
+                       "weights": {"value": [0.8, 0.1, 0.2], "unit": "um/V"}},
+             "creep": {"type": "creep", "in": "stack", "amounts": [0.03, 0.02], "times": ["0.05 s", "1 s"]},
+             "sensor": {"type": "calibration", "gain": 1.02, "offset": "0.3 um", "in": "creep"}},
+  "outputs": {"y": "sensor"}})";
+
+TEST(ExportC, TheInverseOfAModelMakesItFollow) {
+  const Folder folder;
+  folder.write("stage.json", stage);
+  const Outcome outcome = in_c::exported(folder, {"stage.json", "--inverse", "--rate", "1 kHz"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(holds(outcome.out, "driven by it, the model misses y by at most")) << outcome.out;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  // Undone exactly but for the way between the steps: far below a nanometre of a stroke of a micrometre.
+  folder.write("check.json", R"({"format": 1, "title": "check", "blocks": {
+    "wanted": {"type": "sine", "amplitude": "3 um", "offset": "3.3 um", "frequency": "1 Hz", "phase": "-90 deg"},
+    "inverse": {"type": "diagram", "file": "out/comp.json", "in": "wanted"},
+    "stage": {"type": "diagram", "file": "stage.json", "in": "inverse.u"},
+    "error": {"type": "sum", "signs": "+-", "in": ["stage.y", "wanted"]}},
+    "record": ["error", "wanted"], "simulate": {"until": "2 s", "every": "1 ms"}})");
+  const Outcome check = process::hysteron(folder.path(), {"run", "check.json", "-o", "check"});
+  EXPECT_EQ(check.code, 0) << check.err;
+}
+
+TEST(ExportC, WhatHasNoInverseIsNamed) {
+  const Folder folder;
+  folder.write("stage.json", R"({"format": 1, "title": "t", "inputs": {"u": {"unit": "V"}}, "blocks": {
+    "bent": {"type": "polynomial", "coefficients": {"value": [0, 1], "unit": "um"}, "reference": "1 V", "lower": "-9 V", "upper": "9 V", "in": "u"},
+    "direct": {"type": "gain", "gain": "1 um/V", "in": "u"},
+    "both": {"type": "sum", "in": ["bent", "direct"]}}, "outputs": {"y": "both"}})");
+  const Outcome two_ways = in_c::exported(folder, {"stage.json", "--inverse"});
+  EXPECT_TRUE(two_ways.code == 2 && holds(two_ways.err, "both (sum) sees the input \"u\" on more than one way"))
+      << two_ways.err;
+  const Outcome bent = in_c::exported(folder, {"stage.json", "--inverse", "--to", "bent"});
+  EXPECT_TRUE(bent.code == 2 && holds(bent.err, "bent (polynomial) has no inverse here")) << bent.err;
+}
+
+}  // namespace
+}  // namespace hysteron
