@@ -122,25 +122,25 @@ CutDiagram inverse_of(const CutDiagram& part, const Arguments& arguments, double
 
 /// How far the model is from what is wanted when the code drives it, [SI], from the second half of the rows on.
 double missed_by(const CutDiagram& part, const CutDiagram& inverse, const std::vector<double>& times,
-                 const Rows& wanted, const Rows& command) {
+                 const SignalRows& wanted, const SignalRows& command) {
   const ProgramPointer model = compile_file(part.diagram);
-  Rows inputs;
+  SignalRows inputs;
   for (const auto& name : model->input_names) {
     const auto names = inverse.diagram.inputs.names();
     const auto other = std::find(names.begin() + 1, names.end(), name) - names.begin();
     inputs.push_back(static_cast<std::size_t>(other) < names.size() ? wanted[static_cast<std::size_t>(other)]
                                                                     : command.front());
   }
-  const Rows reached = continuous_outputs(*model, times, inputs);
+  const SignalRows reached = continuous_outputs(*model, times, inputs);
   double most = 0;
   for (std::size_t k = times.size() / 2; k < times.size(); ++k)
     most = std::max(most, std::fabs(reached.front()[k] - wanted.front()[k]));
   return most;
 }
 
-/// Rows that go in, and where they are from.
+/// SignalRows that go in, and where they are from.
 struct Given {
-  Rows inputs;
+  SignalRows inputs;
   std::vector<double> times;
   std::string from;
 };
@@ -152,8 +152,8 @@ double row_period(const CPlan& plan, const SimulateOptions& whole, double span) 
 }
 
 /// The signals of the whole diagram that the code gets, as a simulation of it gives them at these times.
-Rows signals_of_whole(const Program& whole, const Diagram& diagram, const std::vector<std::string>& names, Run run,
-                      SimulateOptions options) {
+SignalRows signals_of_whole(const Program& whole, const Diagram& diagram, const std::vector<std::string>& names,
+                            Run run, SimulateOptions options) {
   options.signals.clear();
   for (const auto& name : names) {
     const std::string known = program_name(diagram, name);
@@ -210,7 +210,7 @@ Given rows_for(const Arguments& arguments, const Diagram& diagram, const Program
 }
 
 /// Largest differences per output [SI].
-std::vector<double> differences(const Rows& a, const Rows& b) {
+std::vector<double> differences(const SignalRows& a, const SignalRows& b) {
   std::vector<double> largest;
   for (std::size_t i = 0; i < a.size(); ++i) {
     double most = 0;
@@ -249,7 +249,7 @@ Answer export_c_act(const Arguments& arguments, const Watch& watch) {
     const CPlan plan = plan_c(made.program, rate);
     const CSource source = c_source(plan, wish);
     const Given given = rows_for(arguments, diagram, *whole, cut, made, plan);
-    const Rows expected = stepped_outputs(*made.program, given.times, given.inputs);
+    const SignalRows expected = stepped_outputs(*made.program, given.times, given.inputs);
     CFindings findings{made.replaced, {}, given.from, given.times.size()};
     if (!made.replaced.empty())
       findings.off = differences(expected, continuous_outputs(*made.continuous, given.times, given.inputs));

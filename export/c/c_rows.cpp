@@ -10,7 +10,8 @@
 namespace hysteron {
 namespace {
 
-Rows outputs(const Program& program, const std::vector<double>& times, const Rows& inputs, SimulateOptions options) {
+SignalRows outputs(const Program& program, const std::vector<double>& times, const SignalRows& inputs,
+                   SimulateOptions options) {
   Run run = start(program);
   for (std::size_t i = 0; i < program.input_names.size(); ++i) {
     auto series = std::make_shared<Series>(Series{times, inputs[i], Between::linear});
@@ -35,7 +36,7 @@ std::vector<double> step_times(double period, std::size_t count) {
   return times;
 }
 
-Rows stepped_outputs(const Program& program, const std::vector<double>& times, const Rows& inputs) {
+SignalRows stepped_outputs(const Program& program, const std::vector<double>& times, const SignalRows& inputs) {
   SimulateOptions options;
   options.method = Method::euler;
   // Steps end where an input turns and where something is sampled; nothing moves between.
@@ -43,7 +44,7 @@ Rows stepped_outputs(const Program& program, const std::vector<double>& times, c
   return outputs(program, times, inputs, options);
 }
 
-Rows continuous_outputs(const Program& program, const std::vector<double>& times, const Rows& inputs) {
+SignalRows continuous_outputs(const Program& program, const std::vector<double>& times, const SignalRows& inputs) {
   SimulateOptions options;
   options.relative_tolerance = 1e-9;
   return outputs(program, times, inputs, options);

@@ -14,11 +14,11 @@ std::string quoted(const std::string& text) {
   return made + "\"";
 }
 
-std::string table(const Rows& inputs, const Rows& outputs, std::size_t count) {
+std::string table(const SignalRows& inputs, const SignalRows& outputs, std::size_t count) {
   std::string text;
   for (std::size_t k = 0; k < count; ++k) {
     std::string row;
-    for (const Rows* part : {&inputs, &outputs})
+    for (const SignalRows* part : {&inputs, &outputs})
       for (const auto& signal : *part)
         row += (row.empty() ? "" : ", ") + c_text::literal(c_text::Real::float64, signal[k]);
     text += "    {" + row + "},\n";
@@ -94,7 +94,8 @@ void replace(std::string& text, const std::string& what, const std::string& by) 
 
 }  // namespace
 
-std::string c_test_source(const CSource& source, const CWish& wish, const Rows& inputs, const Rows& outputs) {
+std::string c_test_source(const CSource& source, const CWish& wish, const SignalRows& inputs,
+                          const SignalRows& outputs) {
   const std::string name = c_text::identifier(wish.name);
   const std::string number = wish.real == c_text::Real::float64 ? "double" : "float";
   const std::size_t count = outputs.front().size();

@@ -56,7 +56,7 @@ class Frame {
 
 bool drawable(double x, double y, bool log_x) { return std::isfinite(x) && std::isfinite(y) && (!log_x || x > 0); }
 
-void draw(Frame& frame, const TextCurve& curve, const Ends& across, const Ends& up, bool log_x) {
+void draw_curve(Frame& frame, const TextCurve& curve, const Ends& across, const Ends& up, bool log_x) {
   double x_before = 0, y_before = 0;
   bool pen_down = false;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -85,7 +85,7 @@ std::string text_plot(const std::vector<TextCurve>& curves, const std::string& x
   if (across.empty()) return "";
   up.without_rounding();
   Frame frame;
-  for (const auto& curve : curves) draw(frame, curve, across, up, log_x);
+  for (const auto& curve : curves) draw_curve(frame, curve, across, up, log_x);
   std::string out = "  " + y_label;
   for (const auto& curve : curves) out += fmt::format("   {} {}", std::string(2, curve.mark), curve.name);
   out += '\n';
