@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<JobVerb> verbs{{"run", {{"--set", false, true}, {"--data", false, false}}}};
+const std::vector<JobVerb> live_verbs{{"run", {{"--set", false, true}, {"--data", false, false}}}};
 
 /// The JSON and the numbers of an answer.
 std::pair<json, std::vector<double>> read(const std::string& bytes) {
@@ -41,7 +41,7 @@ class StudioLive : public testing::Test {
 
 TEST_F(StudioLive, GivesTheColumnsThatAreLookedAt) {
   std::vector<std::string> words;
-  Live live(open_, verbs, {"/elsewhere"},
+  Live live(open_, live_verbs, {"/elsewhere"},
             {[&](const std::vector<std::string>& w, const OwnVerbs::Stop&) {
                words = w;
                return two_rows();
@@ -61,7 +61,7 @@ TEST_F(StudioLive, GivesTheColumnsThatAreLookedAt) {
 }
 
 TEST_F(StudioLive, EndsWhatTakesTooLong) {
-  Live live(open_, verbs, {},
+  Live live(open_, live_verbs, {},
             {[](const std::vector<std::string>&, const OwnVerbs::Stop& stop) -> VerbAnswer {
                while (!stop()) std::this_thread::yield();
                fail("took_too_long", "run", "it took long", "let go");
@@ -72,7 +72,7 @@ TEST_F(StudioLive, EndsWhatTakesTooLong) {
 
 TEST_F(StudioLive, ALaterRequestEndsTheOneBefore) {
   std::atomic<bool> is_computing{false};
-  Live live(open_, verbs, {},
+  Live live(open_, live_verbs, {},
             {[&](const std::vector<std::string>& words, const OwnVerbs::Stop& stop) -> VerbAnswer {
                if (words[1].ends_with("quick.json")) return two_rows();
                is_computing = true;
@@ -95,7 +95,8 @@ TEST_F(StudioLive, ALaterRequestEndsTheOneBefore) {
 }
 
 TEST_F(StudioLive, CarriesOutNoOtherWords) {
-  Live live(open_, verbs, {}, {[](const std::vector<std::string>&, const OwnVerbs::Stop&) { return two_rows(); }, {}});
+  Live live(open_, live_verbs, {},
+            {[](const std::vector<std::string>&, const OwnVerbs::Stop&) { return two_rows(); }, {}});
   EXPECT_THROW((void)live.answer({{"verb", "new"}, {"diagram", "d.json"}}), Error);
   EXPECT_THROW((void)live.answer({{"verb", "run"}, {"diagram", "../d.json"}}), Error);
   EXPECT_THROW((void)live.answer({{"verb", "run"}, {"diagram", "d.json"}, {"options", {{"-o", "x"}}}}), Error);
