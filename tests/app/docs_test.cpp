@@ -117,6 +117,8 @@ TEST(Docs, EveryPageWithCommandsIsDoneByATest) {
                                    "docs/adding-an-effect.md",
                                    "docs/datasets.md",
                                    "docs/diagrams.md",
+                                   "docs/export-c.md",  // readme_test.cpp
+                                   "docs/from-measurement-to-controller.md",
                                    "docs/identification.md",
                                    "docs/oscilloscope.md",
                                    "docs/recordings.md",
@@ -171,6 +173,17 @@ TEST(Docs, PagesOnStudiesAndOnReproducing) {
   EXPECT_TRUE(folder.has("out/study.h5"));
   fs::remove_all(folder.path() + "/out");
   EXPECT_EQ(do_as_shown("docs/reproduce.md", folder), 1);
+}
+
+TEST(Docs, ThePageFromAMeasurementToTheController) {
+  const Folder folder;
+  fs::copy(root / "diagrams", folder.path() + "/diagrams", fs::copy_options::recursive);
+  EXPECT_EQ(do_as_shown("docs/from-measurement-to-controller.md", folder), 3);
+}
+
+TEST(Docs, ThePageOnAnOscilloscope) {
+  const Folder folder;
+  EXPECT_GE(do_as_shown("docs/oscilloscope.md", folder), 2);
 }
 
 TEST(LongDocs, ThePageOnIdentification) {

@@ -68,7 +68,7 @@ TEST(Docs, ACompensatorOfOnesOwnStageLowersTheTrackingErrorAsTheySay) {
 
 TEST(Docs, TheControllerInCHasTheBitsThatThePageShows) {
   const Folder folder;
-  do_as_shown("export-c.md", folder);
+  do_as_shown("docs/export-c.md", folder);
   EXPECT_TRUE(folder.has("out/comp.json"));
 }
 
