@@ -15,6 +15,13 @@
 namespace hysteron {
 namespace {
 
+/// What a reader calls the SI unit of a dimension: "V", not the product of metres and kilograms that it is.
+std::string si_name(const Dimension& dimension) {
+  for (const char* name : {"V", "N", "Pa", "W", "ohm", "F", "H", "T", "Wb"})
+    if (parse_unit(name).dimension == dimension) return name;
+  return to_text(dimension);
+}
+
 using c_text::in_comment;
 using c_text::indented;
 using c_text::Names;
@@ -78,7 +85,7 @@ class Writing {
   }
   CPort port(int signal, const std::string& name, Names& own) {
     const SignalInfo& info = program_.signals[at(signal)];
-    return {own.take(name), info.path, info.unit, to_text(info.dimension)};
+    return {own.take(name), info.path, info.unit, si_name(info.dimension)};
   }
   void ports() {
     Names in, out;
@@ -132,7 +139,7 @@ class Writing {
     const ParameterInfo* info = program_.find_parameter(b.path + "." + name);
     if (info == nullptr)
       info = program_.find_parameter(b.path + "." + name + (declared.kind == ParameterKind::matrix ? "[0][0]" : "[0]"));
-    const std::string unit = info == nullptr ? "" : bracketed(to_text(info->unit.dimension)) + " ";
+    const std::string unit = info == nullptr ? "" : bracketed(si_name(info->unit.dimension)) + " ";
     return constant(b, name, v.list(i), single, unit + declared.meaning);
   }
 
@@ -324,7 +331,7 @@ class Writing {
     return text;
   }
   std::string unit_behind(int signal) const {
-    return fmt::format(" /* {} */\n", bracketed(to_text(program_.signals[at(signal)].dimension)));
+    return fmt::format(" /* {} */\n", bracketed(si_name(program_.signals[at(signal)].dimension)));
   }
   std::string declared(const BlockInstance& b) const {
     std::string text;

@@ -185,7 +185,7 @@ TEST(GivenMemory, ThatNoInputCouldHaveLeftIsAnErrorThatNamesTheOperators) {
     ASSERT_EQ(e.problems.size(), 1U);
     EXPECT_EQ(e.problems[0].code, "bad_value");
     EXPECT_EQ(e.problems[0].path, "/simulate/memory/y");
-    EXPECT_NE(e.problems[0].what.find("thresholds 1.2 and 1.8"), std::string::npos) << e.problems[0].what;
+    EXPECT_NE(e.problems[0].what.find("thresholds 1.2 V and 1.8 V"), std::string::npos) << e.problems[0].what;
     EXPECT_NE(e.problems[0].cure.find("past"), std::string::npos);
   }
 }
