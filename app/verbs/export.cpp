@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/cli/verb.h"
-#include "app/verbs/export_c.h"
-#include "app/verbs/export_kind.h"
+#include "app/exports/export_c.h"
+#include "app/exports/export_kind.h"
 #include "engine/diagram/error.h"
 
 namespace hysteron {

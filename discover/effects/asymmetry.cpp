@@ -1,5 +1,5 @@
 // The effect asymmetry: a static curve before the memory.
-#include "discover/effects/static_curves.h"
+#include "discover/hypotheses/static_curves.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

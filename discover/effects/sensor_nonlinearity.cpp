@@ -1,5 +1,5 @@
 // The effect sensor_nonlinearity: a static curve at the sensor.
-#include "discover/effects/static_curves.h"
+#include "discover/hypotheses/static_curves.h"
 #include "discover/hypotheses/effect_terms.h"
 
 namespace hysteron::effects {

@@ -1,4 +1,4 @@
-// Decides how effects enter and leave one model of a discovery. See candidate.h.
+// Decides how effects enter and leave one model of a discovery. See candidate_model.h.
 #include "discover/models/candidate_model.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Decides how the free numbers of one model of a discovery are fitted: which they are, in which order, to what
-// accuracy. Does not decide what stands in the model (candidate.h). Internal to discover.
+// accuracy. Does not decide what stands in the model (candidate_model.h). Internal to discover.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,7 +10,6 @@
 #include "blocks/c_laws.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/index.h"
-#include "engine/matrices/decompositions.h"
 #include "engine/program/names.h"
 #include "export/c/linear_block.h"
 
@@ -261,7 +261,7 @@ class Inverting {
   void undo_dynamics(const std::string& name, const std::string& now, const BlockInstance& b, const LinearBlock& l) {
     const double d = l.d(0, 0);
     const Eigen::MatrixXd a = l.a - l.b * l.c / d, in = l.b / d, out = -l.c / d;
-    if ((eigenvalues_of(a).real().array() > 0).any()) {
+    if ((a.eigenvalues().real().array() > 0).any()) {
       refuse(name, "has an inverse that is not stable", "name a signal before it as what is to follow: --to SIGNAL");
       return;
     }

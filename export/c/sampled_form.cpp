@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "blocks/c_laws.h"
-#include "engine/matrices/decompositions.h"
 #include "export/c/linear_block.h"
 
 namespace hysteron {
@@ -28,7 +28,7 @@ Stepped sampled(const LinearBlock& l, double period, BetweenSteps between) {
   all.topLeftCorner(n, n) = l.a * period;
   all.block(0, n, n, m) = l.b * period;
   all.block(n, n + m, m, m) = Matrix::Identity(m, m);
-  const Matrix e = exponential(all);
+  const Matrix e = all.exp();
   const Matrix f = e.topLeftCorner(n, n), whole = e.block(0, n, n, m), g1 = e.block(0, n + m, n, m);
   if (between == BetweenSteps::held) return {f, whole, l.c, l.d};
   return {f, whole - g1 + f * g1, l.c, l.d + l.c * g1};

@@ -18,6 +18,7 @@ constexpr const char* model = "made from a model within it: tests/blocks/sampled
 constexpr const char* inverse = "an inverse: tests/blocks/laws_in_diagrams_test.cpp puts it before its law";
 constexpr const char* material = "tests/models and tests/blocks/hysteresis";
 constexpr const char* effect = "what an effect puts in: tests/discover hide it by formulas of their own";
+constexpr const char* other_program = "another simulator's program: tests/interop/fmi";
 constexpr const char* late = "the reference reads its past by delays that do not change: tests/blocks/continuous";
 constexpr const char* at_limits =
     "it is held at limits within the reference's steps: tests/blocks/events_in_diagrams_test.cpp";
@@ -59,6 +60,9 @@ const std::map<std::string, const char*>& never_drawn() {
                                                       {"generalized_prandtl_ishlinskii", effect},
                                                       {"late_prandtl_ishlinskii", effect},
                                                       {"mass_with_mode", effect},
+                                                      {"mass_with_cogging", effect},
+                                                      {"periodic_error", effect},
+                                                      {"fmu", other_program},
                                                       {"mass_with_drag", effect},
                                                       {"mass_on_spring_of_plays", effect},
                                                       {"mass_on_bouc_wen_spring", effect},

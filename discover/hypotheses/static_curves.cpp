@@ -1,5 +1,5 @@
 // What asymmetry and sensor_nonlinearity share: a static curve.
-#include "discover/effects/static_curves.h"
+#include "discover/hypotheses/static_curves.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 
 #include "app/cli/load.h"
 #include "app/cli/target.h"
-#include "app/verbs/export_kind.h"
+#include "app/exports/export_kind.h"
 #include "blocks/register_all.h"
 #include "engine/diagram/error.h"
 #include "engine/simulate/stepped_simulation.h"

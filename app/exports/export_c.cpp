@@ -1,4 +1,4 @@
-#include "app/verbs/export_c.h"
+#include "app/exports/export_c.h"
 
 #include <fmt/format.h>
 

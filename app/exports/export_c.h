@@ -1,7 +1,7 @@
 // Decides what "hysteron export c" does: C99 of a compensator or controller.
 #pragma once
 
-#include "app/verbs/export_kind.h"
+#include "app/exports/export_kind.h"
 
 namespace hysteron {
 
