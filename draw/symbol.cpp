@@ -78,6 +78,8 @@ const Look* find_look(const std::string& type) {
       {"inertia_with_drag", {"inertia", true}},
       {"inertia_with_cogging", {"inertia", true}},
       {"gear", {"gear"}},
+      {"periodic_error", {"u + e(u)"}},
+      {"fmu", {"FMU"}},
       {"belt", {"belt"}},
       {"ball_screw", {"screw", true}},
       {"dc_motor", {"motor", true}},
