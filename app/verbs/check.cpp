@@ -7,7 +7,7 @@
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
-#include "app/verbs/check_fmu.h"
+#include "app/exports/check_fmu.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {

@@ -1,4 +1,4 @@
-#include "app/verbs/check_fmu.h"
+#include "app/exports/check_fmu.h"
 
 #include <fmt/format.h>
 
