@@ -97,7 +97,7 @@ def workloads(folder):
         "run: closed loop, sampled at 10 kHz": ["run", str(DIAGRAMS / "chapter2" / "feedback_sampled.json"), "--until", "0.1 s"],
         "compare: two recordings of 20 000 rows": ["compare", at("off.json"), "--data", at("data.json")],
         "fit: a time constant, 20 000 rows": ["fit", at("lag.json"), "--data", at("data.json")],
-        "diagnose: a gain, 1500 rows": ["diagnose", at("off.json"), "--data", at("short.json"), "--threads", "1"],
+        "diagnose: a lag, 1500 rows": ["diagnose", at("off.json"), "--data", at("short.json"), "--threads", "1"],
         "study: 2000 draws": ["study", str(DIAGRAMS / "study" / "tolerance.json"), "--threads", "1"],
     }
 

@@ -63,7 +63,7 @@ void InertiaWithCogging::describe(BlockSpec<InertiaWithCogging>& spec) {
   describe_motion(spec, rotation).optional("0");
   spec.param(&Params<double>::cosine, "cosine", "N*m", "of the torque of the teeth, at angle 0");
   spec.param(&Params<double>::sine, "sine", "N*m", "of it, a quarter of a period further on");
-  spec.param(&Params<double>::periods, "periods", "", "of it in a turn").positive();
+  spec.param(&Params<double>::again, "periods", "", "of it in a turn").positive();
   describe_start(spec, rotation);
 }
 
@@ -77,7 +77,7 @@ void MassWithCogging::describe(BlockSpec<MassWithCogging>& spec) {
   describe_motion(spec, translation).optional("0");
   spec.param(&Params<double>::cosine, "cosine", "N", "of the force of the magnets, at position 0");
   spec.param(&Params<double>::sine, "sine", "N", "of it, a quarter of a period further on");
-  spec.param(&Params<double>::period, "period", "m", "after which it comes again").positive();
+  spec.param(&Params<double>::again, "period", "m", "after which it comes again").positive();
   describe_start(spec, translation);
 }
 

@@ -22,44 +22,38 @@ struct InertiaWithPresliding : MassWithElements<DahlElement> {
   static void describe(Declaration& d);
 };
 
-struct InertiaWithCogging : Mass {
+/// One law about an axis and along a line. Of their Params the third from the end tells how often the force or torque
+/// comes again, and Own::per_place(), from that, how many radians of its own a radian or a metre is.
+template <class Own>
+struct Cogging : Mass {
   template <class T>
   struct Params {
-    T inertia, damping, stiffness, cosine, sine, periods, initial_position, initial_velocity;
+    T mass, damping, stiffness, cosine, sine, again, initial_position, initial_velocity;
   };
-  static void describe(BlockSpec<InertiaWithCogging>& spec);
-  template <class T>
-  static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
-    const mass_spring_damper::Params<T> law{p.inertia, p.damping, p.stiffness, T{0}};
-    const T torque = in.force + cogging::torque(p.cosine, p.sine, p.periods, s.position);
-    return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, torque)};
-  }
-  static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
-    return {cogging::rest(p.cosine, p.sine, p.periods, p.stiffness, in.force), 0};
-  }
-};
-
-/// Of a linear motor: the same along a line, where what comes again is told by its period.
-struct MassWithCogging : Mass {
-  template <class T>
-  struct Params {
-    T mass, damping, stiffness, cosine, sine, period, initial_position, initial_velocity;
-  };
-  static void describe(BlockSpec<MassWithCogging>& spec);
   template <class T>
   static MotionState<T> derivative(const Params<T>& p, const MotionState<T>& s, const ForceIn<T>& in) {
     const mass_spring_damper::Params<T> law{p.mass, p.damping, p.stiffness, T{0}};
-    const T force = in.force + cogging::torque(p.cosine, p.sine, per_way(p.period), s.position);
+    const T force = in.force + cogging::torque(p.cosine, p.sine, Own::per_place(p.again), s.position);
     return {s.velocity, mass_spring_damper::acceleration(law, s.position, s.velocity, force)};
   }
   static MotionState<double> rest(const Params<double>& p, const ForceIn<double>& in) {
-    return {cogging::rest(p.cosine, p.sine, per_way(p.period), p.stiffness, in.force), 0};
+    return {cogging::rest(p.cosine, p.sine, Own::per_place(p.again), p.stiffness, in.force), 0};
   }
+};
 
- private:
-  /// [rad/m] as an inertia's periods count an angle.
+struct InertiaWithCogging : Cogging<InertiaWithCogging> {
+  static void describe(BlockSpec<InertiaWithCogging>& spec);
   template <class T>
-  static T per_way(const T& period) {
+  static T per_place(const T& periods) {
+    return periods;
+  }
+};
+
+/// Of a linear motor, where what comes again is told by its period [m].
+struct MassWithCogging : Cogging<MassWithCogging> {
+  static void describe(BlockSpec<MassWithCogging>& spec);
+  template <class T>
+  static T per_place(const T& period) {
     return T{6.283185307179586476925287} / period;
   }
 };

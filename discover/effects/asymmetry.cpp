@@ -1,6 +1,6 @@
 // The effect asymmetry: a static curve before the memory.
-#include "discover/hypotheses/static_curves.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/static_curves.h"
 
 namespace hysteron::effects {
 namespace {

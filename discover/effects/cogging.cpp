@@ -25,7 +25,7 @@ std::vector<double> periods_seen(const Excitation& at) {
 /// Along a line no number of poles bounds what may come again: from two periods over the way that was moved, as finely
 /// as so long a way tells them apart.
 std::vector<double> pitches_seen(const Excitation& at) {
-  constexpr double finest = 24;
+  constexpr double finest = 24;  // each is a start of a fit; of finer ones the mass evens out the force
   std::vector<double> seen;
   for (double n = 2; n <= finest; n += 0.5) seen.push_back(travel(at) / n);
   return seen;
@@ -64,7 +64,8 @@ Effect cogging() {
   e.id = e.family = "cogging";
   e.title = "Cogging";
   e.cause = "The teeth of a motor with magnets, turning or linear; an eccentric wheel; a ripple of torque.";
-  e.equation = "T = cosine*cos(periods*angle) + sine*sin(periods*angle), F = cosine*cos(2*pi*x/period) + ...";
+  e.equation =
+      "T = cosine*cos(periods*angle) + sine*sin(periods*angle), F = cosine*cos(2*pi*x/period) + sine*sin(2*pi*x/period)";
   e.source = "Hanselman, Brushless Permanent Magnet Motor Design, 2nd ed. (2003), chapter 8";
   e.residual = "A ripple whose frequency is the speed's, at the same angles whichever way and however fast it turns.";
   e.needs = "Slow turns through several periods, both ways.";

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double fewest_periods = 3, most_periods = 400;  // passed on the way from the lowest to the highest position
 
-/// What comes again with every step between the levels of the column is its rounding.
-double shortest_period(const Excitation& at) { return std::max(at.range() / most_periods, 1.5 * at.resolution); }
+/// Two levels of the column make a period at least; what comes again with every step between them is its rounding.
+double shortest_period(const Excitation& at) { return std::max(at.range() / most_periods, 2 * at.resolution); }
 
 bool is_position(const Unit& unit) {
   return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
 }
 
-/// Amplitudes of one harmonic. Where each recording has a zero of its own, the scale begins somewhere else in each, and
-/// so does its error.
+/// Amplitudes of one harmonic, of a tenth of the range at most: what is larger is no error of a position. Where each
+/// recording has a zero of its own, the scale begins somewhere else in each, and so does its error.
 void add_harmonic(Law& law, const Excitation& at, const char* cosine, const char* sine) {
   const double range = at.range() > 0 ? at.range() : 1;
   for (const char* path : {cosine, sine}) {
@@ -78,6 +78,7 @@ Effect periodic_error() {
   e.look_alikes = {
       {"mains_interference", "triangle", "a line of the mains keeps its frequency when the motion is slower"},
       {"cogging", "triangle", "a torque is softened by the inertia the more the faster it turns; a reading is not"},
+      {"quantization", "triangle", "rounding comes again with every step of the column, and is a saw tooth"},
       {"sensor_nonlinearity", "triangle", "a curve of few orders does not come again"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const auto shown = [&](double si) { return at.unit.difference_from_si(si); };
@@ -90,7 +91,7 @@ Effect periodic_error() {
     if (!is_position(at.unit))
       return fmt::format("what is measured in {} is no position: a length, an angle or counts", at.unit.text);
     if (shortest_period(at) * fewest_periods > at.range())
-      return "the steps of the column are a third of its range or more";
+      return "the column has fewer levels than three periods need, two each; record it more finely";
     return "";
   };
   return e;

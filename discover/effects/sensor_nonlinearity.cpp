@@ -1,6 +1,6 @@
 // The effect sensor_nonlinearity: a static curve at the sensor.
-#include "discover/hypotheses/static_curves.h"
 #include "discover/hypotheses/effect_terms.h"
+#include "discover/hypotheses/static_curves.h"
 
 namespace hysteron::effects {
 namespace {

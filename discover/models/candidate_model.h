@@ -33,6 +33,7 @@ struct RecordingValue {
   double value = 0;  ///< [SI]
 };
 
+/// The user's diagram with effects placed in it, fitted or to be fitted, and what it says of the recordings.
 struct CandidateModel {
   bool ok = false;
   std::string error;  ///< why not ok

@@ -57,14 +57,14 @@ void begin_at_lines(const SearchState& state, TriedEffect& t) {
 }
 
 /// Periods of the strongest ripples of each output that the place moves, over that output.
-std::vector<double> ripples_left(const SearchState& state, const TriedEffect& t) {
+std::vector<double> ripples_left(const SearchState& state, const TriedEffect& t, const LawParameter& period) {
   constexpr std::size_t most = 4;  // the lowest may be a trend
   std::vector<double> periods;
   for (std::size_t o = 0; o < state.base_model->outputs().size(); ++o) {
     if (!t.outputs.empty() && !contains(t.outputs, state.base_model->outputs()[o])) continue;
     const ResidualParts parts(*state.evidence, state.current.prediction, static_cast<int>(o));
     if (parts.levels().empty()) continue;
-    for (const double period : strongest_ripples(parts, 0, most)) periods.push_back(period);
+    for (const double p : strongest_ripples(parts, 0, period.lower, period.upper, most)) periods.push_back(p);
   }
   return periods;
 }
@@ -73,11 +73,8 @@ std::vector<double> ripples_left(const SearchState& state, const TriedEffect& t)
 void begin_at_ripples(const SearchState& state, TriedEffect& t) {
   for (auto& law : t.laws)
     for (auto& p : law.free)
-      if (p.period_of_wire) {
-        auto periods = ripples_left(state, t);
-        std::erase_if(periods, [&](double period) { return period < p.lower || period > p.upper; });
-        if (!periods.empty()) p.scan = std::move(periods);
-      }
+      if (p.period_of_wire)
+        if (auto periods = ripples_left(state, t, p); !periods.empty()) p.scan = std::move(periods);
 }
 
 /// Do two effects vary two blocks: of two tanks in a row, or of two masses, each has its own, and so has each memory

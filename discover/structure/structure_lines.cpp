@@ -187,13 +187,14 @@ std::vector<double> strongest_lines(const ResidualParts& parts, const std::vecto
   return list;
 }
 
-std::vector<double> strongest_ripples(const ResidualParts& parts, std::size_t level, std::size_t most) {
-  constexpr double fewest = 3, finest = 400, step = 0.25;  // periods over the range: one apart they can be told
+std::vector<double> strongest_ripples(const ResidualParts& parts, std::size_t level, double shortest, double longest,
+                                      std::size_t most) {
+  constexpr double step = 0.25;  // periods over the span: one apart they can be told
   const double span = parts.levels()[level].span();
-  if (!(span > 0)) return {};
   const OverLevel residual = over_level(parts, level);
   std::vector<Peak> ripples;
-  for (double lines = fewest; lines <= finest; lines += step) ripples.push_back({lines, ripple_power(residual, lines)});
+  for (double lines = span / longest; lines <= span / shortest; lines += step)
+    ripples.push_back({lines, ripple_power(residual, lines)});
   std::vector<double> periods;
   for (const auto& ripple : highest(std::move(ripples), 1, most)) periods.push_back(span / ripple.f);
   return periods;

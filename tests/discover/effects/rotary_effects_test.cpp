@@ -110,6 +110,28 @@ TEST_F(RotaryEffects, CoulombFrictionOfAShaftThatTurnsFreelyIsSeenInItsSpeed) {
   EXPECT_NEAR(friction_torque(d), 0.05, 2.5e-3);
 }
 
+TEST_F(RotaryEffects, CoggingOfALinearMotorIsNamedWithItsForceAndItsPeriod) {
+  // The same motion in metres: 12 periods on 2 pi m.
+  const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.02, .periods = 12, .gain = 0.05};
+  DataSet data = turned_recordings(s, 1e-4, 0.005, 20);
+  for (auto& r : data.recordings) r.units["y"] = parse_unit("m");
+  Diagram d = shaft(s);
+  d.blocks["torque"].parameters["gain"] = Value(std::to_string(s.gain) + " N/V");
+  Node& mass = d.blocks["rotor"];
+  mass.type = "mass_spring_damper";
+  mass.parameters = {};
+  mass.parameters["mass"] = Value(std::to_string(s.inertia) + " kg");
+  mass.parameters["damping"] = Value(std::to_string(s.damping) + " N s/m");
+  mass.parameters["stiffness"] = Value("0 N/m");
+  d.outputs["y"] = "rotor.position";
+  const Discovery found =
+      diagnosed(d, data, {"friction", "quadratic_drag", "cogging", "periodic_error", "sensor_nonlinearity"});
+  ASSERT_EQ(winner(found), "cogging") << tried(found);
+  // As near as the shaft's: 12 +- 0.01 periods and 1 % of the force.
+  EXPECT_NEAR(value(found, "period"), 2 * std::numbers::pi / 12, 2 * std::numbers::pi / 12 * 0.01 / 12);
+  EXPECT_NEAR(std::hypot(value(found, "cosine"), value(found, "sine")), 0.02, 2e-4);
+}
+
 TEST_F(RotaryEffects, CoggingIsNamedWithItsTorqueAndItsPeriodsInATurn) {
   const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.02, .periods = 12, .gain = 0.05};
   const Discovery d = diagnosed(shaft(s), turned_recordings(s, 1e-4, 0.005, 20),
