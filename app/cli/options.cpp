@@ -18,7 +18,8 @@ OptionSpec choose() {
   return {"--choose", "BLOCK=NAME", "use another candidate of a choice, e.g. compensator=none", false, true};
 }
 OptionSpec allow() {
-  return {"--allow", "PATH", "also read files of this folder; a file.fmu is run only if it is named so", false, true};
+  return {"--allow", "FILE|FOLDER", "also read files of this folder; a file.fmu is run only if it is named so", false,
+          true};
 }
 OptionSpec threads(const std::string& things) {
   return {"--threads", "N", things + " at once; default: one per core", false, false};

@@ -320,7 +320,7 @@ ExportKind export_c() {
           {{"--from", "SIGNAL", "make this signal an input of the code", false, true},
            {"--to", "SIGNAL", "work out this signal; default: the diagram's outputs", false, true},
            {"--name", "NAME", "of files, functions and types (default comp)", false, false},
-           {"--number", "TYPE", "float64 (default) or float32", false, false},
+           {"--number", "FORM", "float64 (default) or float32", false, false},
            {"--rate", "RATE", "how often the code runs: \"10 kHz\" or \"0.1 ms\"; default: as the sampled blocks do",
             false, false},
            {"--inverse", "", "write what undoes the diagram: from the wanted output to the input", false, false},

@@ -8,19 +8,17 @@
 
 #include "app/cli/load.h"
 #include "app/cli/target.h"
+#include "app/cli/words.h"
 #include "app/exports/export_kind.h"
 #include "blocks/register_all.h"
 #include "engine/diagram/error.h"
 #include "engine/simulate/stepped_simulation.h"
+#include "export/c/c_text.h"
 #include "io/diagram/packed_diagram.h"
 #include "io/files/atomic_file.h"
 #include "io/files/zip_archive.h"
 #include "io/fmi/exported_description.h"
 #include "report/pages/numbers.h"
-
-#ifndef HYSTERON_VERSION
-#define HYSTERON_VERSION "unknown"
-#endif
 
 namespace hysteron {
 namespace {
@@ -78,8 +76,9 @@ Answer act(const Arguments& arguments, const Watch& watch) {
   need_own_laws(*program);
   with_lines_of(diagram, [&] { SteppedSimulation begins(program, simulate_options(*program)); });
   const std::string packed = exported_program(diagram, all_blocks);
-  FmiDescription description = exported_description(*program, version, c_name(stem_of(file)), packed_token(packed));
-  description.tool = "hysteron " HYSTERON_VERSION;
+  FmiDescription description =
+      exported_description(*program, version, c_text::identifier(stem_of(file)), packed_token(packed));
+  description.tool = std::string("hysteron ") + version_of_program();
   Answer answer;
   answer.files.push_back({file, zipped({{"modelDescription.xml", fmi_description_text(description)},
                                         {"resources/program.json", packed},

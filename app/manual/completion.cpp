@@ -73,7 +73,7 @@ std::string bash_offer(const Value& value, const KnownNames& names) {
 /// Branches for what stands behind an option, and for the words of a verb in their order.
 std::string bash_branches(const Verb& verb, const KnownNames& names, std::string& positional) {
   std::string behind_options;
-  int place = 0, last_place = 0;
+  int place = 0;
   for (const auto& spec : all_options(verb)) {
     const Value value = value_of(spec);
     if (is_option(spec)) {
@@ -84,10 +84,9 @@ std::string bash_branches(const Verb& verb, const KnownNames& names, std::string
       continue;
     }
     const std::string offer = bash_offer(value, names);
-    last_place = ++place;
+    ++place;
     if (!offer.empty())
-      positional +=
-          fmt::format("    {}/{}) {} ;;\n", verb.name, spec.repeated ? "*" : std::to_string(last_place), offer);
+      positional += fmt::format("    {}/{}) {} ;;\n", verb.name, spec.repeated ? "*" : std::to_string(place), offer);
   }
   if (place == 0)  // words behind an option that takes several: new --from a.csv b.csv
     for (const auto& spec : verb.options)

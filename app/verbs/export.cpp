@@ -24,8 +24,8 @@ std::vector<std::string> names() {
 
 std::vector<OptionSpec> common_options() {
   OptionSpec folder = options::output_folder();
-  folder.meaning = "where the files go";
-  folder.placeholder = "PATH";
+  folder.meaning = "where it goes: a folder for C, a file for an FMU; default: named after the diagram";
+  folder.placeholder = "FILE|FOLDER";
   return {{"kind", "KIND", "what is written: " + fmt::format("{}", fmt::join(names(), ", ")), true, false},
           options::diagram(),
           folder,

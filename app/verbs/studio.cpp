@@ -18,10 +18,6 @@
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 
-#ifndef HYSTERON_VERSION
-#define HYSTERON_VERSION "unknown"
-#endif
-
 namespace hysteron {
 namespace {
 
@@ -105,7 +101,7 @@ Answer serve_studio(const Arguments& arguments, const Watch& watch) {
   constexpr int largest_port = 65535;
   settings.port = arguments.has("--port") ? arguments.whole_number("--port", 0, largest_port) : 0;
   settings.opens_browser = !arguments.has("--no-browser");
-  settings.api = {&registry(), all_blocks_json(),           HYSTERON_VERSION,
+  settings.api = {&registry(), all_blocks_json(),           version_of_program(),
                   {},          job_verb(verb_named("new")), {carry_out, preview}};
   settings.api.jobs = {std::filesystem::read_symlink("/proc/self/exe").string(), verbs_for_jobs(),
                        arguments.list("--allow"), arguments.threads()};

@@ -10,6 +10,7 @@
 namespace hysteron::blocks {
 namespace {
 
+// So many runs go on side by side without a way that is gone twice; each instance may hold a whole model.
 constexpr std::size_t most_instances = 16;
 
 std::vector<unsigned> references_of(const std::vector<ForeignVariable>& list) {

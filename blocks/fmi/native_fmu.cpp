@@ -46,10 +46,12 @@ class NativeFmu::Interface {
     if (function == nullptr) refuse(fmt::format("its binary has no function {}", name));
   }
 
-  /// `status`: 0 and 1 (a warning) are well in both versions.
+  /// `status`: 0 and 1 (a warning) are well in both versions. What was said in a call that went well does not explain
+  /// a later failure.
   void need_well(int status, const char* what) {
+    const std::string said = std::exchange(said_, "");
     if (status <= 1) return;
-    const std::string words = said_.empty() ? "it does not say why" : std::exchange(said_, "");
+    const std::string words = said.empty() ? "it does not say why" : said;
     fail_numerics("fmu_failed", place_.name, fmt::format("the FMU failed in {}: {}", what, words),
                   "see its documentation; smaller steps (period) may help");
   }

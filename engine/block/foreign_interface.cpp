@@ -39,17 +39,17 @@ double number(const std::string& text) {
   return *value;
 }
 
-constexpr std::size_t head_fields = 6, variable_fields = 7;
+constexpr std::size_t head_fields = 5, variable_fields = 6;
 
 }  // namespace
 
 std::string foreign_interface_text(const ForeignInterface& i) {
-  std::string text = fmt::format("{}\t{}\t{}\t{}\t{}\t{}", i.version, field(i.file), field(i.token),
-                                 field(i.identifier), field(i.binary), field(i.resources));
+  std::string text =
+      fmt::format("{}\t{}\t{}\t{}\t{}", i.version, field(i.file), field(i.token), field(i.binary), field(i.resources));
   const auto put = [&](char kind, const std::vector<ForeignVariable>& list) {
     for (const auto& v : list)
-      text += fmt::format("\n{}\t{}\t{}\t{}\t{}\t{}\t{}", kind, field(v.port), v.reference, field(v.unit), v.scale,
-                          v.offset, v.start);
+      text +=
+          fmt::format("\n{}\t{}\t{}\t{}\t{}\t{}", kind, field(v.port), v.reference, field(v.unit), v.scale, v.offset);
   };
   put('i', i.inputs), put('o', i.outputs), put('p', i.parameters);
   return text;
@@ -63,12 +63,12 @@ ForeignInterface foreign_interface(const std::string& text) {
   if (head.size() != head_fields) refuse();
   ForeignInterface i;
   i.version = static_cast<int>(number(head[0]));
-  i.file = head[1], i.token = head[2], i.identifier = head[3], i.binary = head[4], i.resources = head[5];
+  i.file = head[1], i.token = head[2], i.binary = head[3], i.resources = head[4];
   while (std::getline(in, line)) {
     const auto f = fields_of(line);
     if (f.size() != variable_fields || f[0].size() != 1) refuse();
     auto& list = f[0] == "i" ? i.inputs : f[0] == "o" ? i.outputs : i.parameters;
-    list.push_back({f[1], static_cast<unsigned>(number(f[2])), f[3], number(f[4]), number(f[5]), number(f[6])});
+    list.push_back({f[1], static_cast<unsigned>(number(f[2])), f[3], number(f[4]), number(f[5])});
   }
   return i;
 }

@@ -12,13 +12,12 @@ struct ForeignVariable {
   unsigned reference = 0;
   std::string unit{};            ///< SI, as parse_unit() reads it; "" = none
   double scale = 1, offset = 0;  ///< SI value = scale * its number + offset
-  double start = 0;              ///< its own number
 };
 
 struct ForeignInterface {
   std::string file{};                 ///< as the diagram writes it, for messages
   int version = 2;                    ///< of the Functional Mock-up Interface
-  std::string token{}, identifier{};  ///< by which its binary knows it
+  std::string token{};                ///< by which its binary knows it
   std::string binary{}, resources{};  ///< where they lie unpacked; "": it may not be run
   std::vector<ForeignVariable> inputs{}, outputs{}, parameters{};
 };

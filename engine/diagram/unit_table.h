@@ -2,6 +2,8 @@
 // learnt here. Besides lets a test read a unit from the whole of that table, where parse_unit() would know it without.
 #pragma once
 
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +19,7 @@ std::vector<std::string> common_unit_symbols();
 std::vector<std::string> common_unit_prefixes();
 
 /// While it lives, it collects the units that parse_unit() gives and that stand in the whole table alone, of all
-/// threads. One at a time.
+/// threads.
 class UnitLog {
  public:
   UnitLog();
@@ -25,6 +27,9 @@ class UnitLog {
   UnitLog(const UnitLog&) = delete;
   UnitLog& operator=(const UnitLog&) = delete;
   std::vector<Unit> units() const;  ///< by their texts
+
+ private:
+  std::map<std::string, Unit> found_;
 };
 
 /// From now on parse_unit() knows these without the table.

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "engine/diagram/error.h"
@@ -209,7 +208,7 @@ struct KnownUnits {
   std::mutex mutex;
   Table common{false};
   std::unique_ptr<Table> all;
-  std::map<std::string, Unit>* log = nullptr;
+  std::vector<std::map<std::string, Unit>*> logs{};
 };
 
 KnownUnits& known_units() {
@@ -220,7 +219,7 @@ KnownUnits& known_units() {
 }  // namespace
 
 Unit parse_unit(std::string_view text, const std::string& path) {
-  auto& [mutex, common, all, log] = known_units();
+  auto& [mutex, common, all, logs] = known_units();
   const std::lock_guard lock(mutex);
   const auto first = text.find_first_not_of(' ');
   const auto last = text.find_last_not_of(' ');
@@ -231,7 +230,7 @@ Unit parse_unit(std::string_view text, const std::string& path) {
   if (const Unit* unit = common.find(trimmed)) return *unit;
   if (!all) all = std::make_unique<Table>(true);
   if (const Unit* unit = all->find(trimmed)) {
-    if (log != nullptr) log->emplace(trimmed, *unit);
+    for (auto* log : logs) log->emplace(trimmed, *unit);
     return *unit;
   }
   const bool decimal_comma = trimmed.size() > 1 && trimmed[0] == ',' && trimmed[1] >= '0' && trimmed[1] <= '9';
@@ -243,18 +242,18 @@ Unit parse_unit(std::string_view text, const std::string& path) {
 
 UnitLog::UnitLog() {
   const std::lock_guard lock(known_units().mutex);
-  known_units().log = new std::map<std::string, Unit>;
+  known_units().logs.push_back(&found_);
 }
 
 UnitLog::~UnitLog() {
   const std::lock_guard lock(known_units().mutex);
-  delete std::exchange(known_units().log, nullptr);
+  std::erase(known_units().logs, &found_);
 }
 
 std::vector<Unit> UnitLog::units() const {
   const std::lock_guard lock(known_units().mutex);
   std::vector<Unit> list;
-  for (const auto& [text, unit] : *known_units().log) list.push_back(unit);
+  for (const auto& [text, unit] : found_) list.push_back(unit);
   return list;
 }
 

@@ -34,7 +34,9 @@ fmi2Status with(fmi2Component c, const Action& action) noexcept {
 /// For functions of types that no variable has, and for what the description says is not there.
 fmi2Status only_none(fmi2Component c, size_t count, const char* what) {
   return with(c, [&](FmuInstance&) {
-    if (count > 0) fail("bad_call", what, "this FMU has none", "see its model description: all variables are Real");
+    if (count > 0)
+      fail("bad_call", what, "this FMU has none",
+           "see its model description for what it offers; all variables are Real");
   });
 }
 

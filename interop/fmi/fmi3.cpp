@@ -30,7 +30,9 @@ fmi3Status with(fmi3Instance c, const Action& action) noexcept {
 
 fmi3Status only_none(fmi3Instance c, size_t count, const char* what) {
   return with(c, [&](FmuInstance&) {
-    if (count > 0) fail("bad_call", what, "this FMU has none", "see its model description: all variables are Float64");
+    if (count > 0)
+      fail("bad_call", what, "this FMU has none",
+           "see its model description for what it offers; all variables are Float64");
   });
 }
 

@@ -17,6 +17,9 @@
 namespace hysteron::interop {
 namespace {
 
+/// Relative: callers add up step sizes, and a million steps round to less.
+constexpr double time_rounding = 1e-9;
+
 /// For good: programs refer to it.
 const Registry& registry() {
   static const Registry all = all_blocks();
@@ -195,14 +198,14 @@ SteppedSimulation& FmuInstance::stepper() {
 
 void FmuInstance::step(double from, double size) {
   need_phase({Phase::stepping}, "step");
-  const double close = 1e-9 * std::max({std::abs(from), std::abs(t()), std::abs(size)});
+  const double close = time_rounding * std::max({std::abs(from), std::abs(t()), std::abs(size)});
   if (!(std::abs(from - t()) <= close))
     fail("bad_call", "step", fmt::format("it was to begin at {} s, and the instance is at {} s", from, t()),
          "begin each step where the last one ended, or set the state that was saved there");
   if (!(size > 0) || !std::isfinite(size))
     fail("bad_call", "step", fmt::format("{} s is no size of a step", size), "give a positive one");
   const double end = from + size;
-  if (state_.stop && end > *state_.stop + 1e-9 * std::max(std::abs(*state_.stop), size))
+  if (state_.stop && end > *state_.stop + time_rounding * std::max(std::abs(*state_.stop), size))
     fail("bad_call", "step", fmt::format("it would end at {} s, behind the stop time {} s", end, *state_.stop),
          "give a later stop time, or none");
   try {

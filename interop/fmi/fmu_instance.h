@@ -35,7 +35,6 @@ class FmuInstance {
   /// `resources`: the folder with program.json. Throws Error, where it is not that of this token too.
   FmuInstance(const std::string& resources, const std::string& token);
 
-  Phase phase() const { return state_.phase; }
   void set_up(std::optional<double> tolerance, double begin, std::optional<double> stop);
   void enter_initialization();
   void exit_initialization();

@@ -23,8 +23,8 @@ std::string packed_diagram(const PackedDiagram& packed);
 /// What packed_diagram() wrote. Throws Error "damaged_file".
 PackedDiagram unpacked_diagram(std::string_view text);
 
-/// The diagram with all that it needs on a machine that has nothing of it. `blocks` makes the
-/// registry: what it reads of units is packed, too.
+/// The diagram with all that it needs on a machine that has nothing of it. `blocks` makes the registry: what it reads
+/// of units is packed, too.
 std::string exported_program(const Diagram& diagram, Registry (*blocks)());
 
 /// By this a packed text is known again.

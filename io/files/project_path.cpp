@@ -43,8 +43,8 @@ ProjectPaths::ProjectPaths(const std::string& file, const std::vector<std::strin
     const bool is_file = fs::is_regular_file(folder);
     if (is_file) trusted_.push_back(real_path(folder).string());
     if (!is_file && !fs::is_directory(folder))
-      fail("bad_command_line", "--allow", fmt::format("there is no folder \"{}\"", folder),
-           "name a folder that exists");
+      fail("bad_command_line", "--allow", fmt::format("there is no folder or file \"{}\"", folder),
+           "name a folder that exists, or an FMU that you trust");
     folders_.push_back(real_path(folder).string());
   }
 }

@@ -43,7 +43,12 @@ bool is_link(zip_t* zip, zip_uint64_t index) {
 ZipArchive::ZipArchive(std::string file, Kind kind) : file_(std::move(file)), kind_(std::move(kind)) {
   int code = 0;
   zip_ = zip_open(file_.c_str(), ZIP_RDONLY, &code);
-  if (zip_ == nullptr) damaged(fmt::format("its zip archive is damaged (code {})", code));
+  if (zip_ != nullptr) return;
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  const std::string why = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  damaged("its zip archive is damaged: " + why);
 }
 
 ZipArchive::~ZipArchive() { zip_discard(zip_); }

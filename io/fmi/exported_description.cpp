@@ -160,18 +160,4 @@ FmiDescription exported_description(const Program& program, int version, const s
   return d;
 }
 
-std::string c_name(const std::string& text) {
-  std::string name;
-  for (const char c : text) {
-    const bool digit = c >= '0' && c <= '9';
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    if (name.empty() && !letter) name = "m_";
-    if (digit || letter)
-      name += c;
-    else if (!name.ends_with('_'))
-      name += '_';
-  }
-  return name.empty() ? "model" : name;
-}
-
 }  // namespace hysteron

@@ -13,7 +13,4 @@ namespace hysteron {
 FmiDescription exported_description(const Program& program, int version, const std::string& identifier,
                                     const std::string& token);
 
-/// A name of C that is like `text`: "stage_2" of "stage-2", "m_2" of "2".
-std::string c_name(const std::string& text);
-
 }  // namespace hysteron

@@ -16,12 +16,6 @@ const FmiScalar* FmiDescription::find(const std::string& wanted) const {
   return found == variables.end() ? nullptr : &*found;
 }
 
-const FmiScalar* FmiDescription::find_reference(unsigned reference) const {
-  const auto found =
-      std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.reference == reference; });
-  return found == variables.end() ? nullptr : &*found;
-}
-
 std::string fmi_binary_name(const FmiDescription& description) {
   return fmt::format("binaries/{}/{}.so", description.version == 2 ? "linux64" : "x86_64-linux",
                      description.identifier);
@@ -54,15 +48,17 @@ void find_faults_of(const FmiScalar& v, const std::set<std::string>& units, Faul
 }
 
 void find_faults_of_structure(const FmiDescription& d, Faults& faults) {
+  std::map<unsigned, const FmiScalar*> known;  // of aliases the first
+  for (const auto& v : d.variables) known.emplace(v.reference, &v);
   std::set<unsigned> listed;
   for (const auto& output : d.outputs) {
-    const FmiScalar* v = d.find_reference(output.reference);
-    if (v == nullptr || v->causality != "output")
+    const auto v = known.find(output.reference);
+    if (v == known.end() || v->second->causality != "output")
       faults.push_back(fmt::format("the structure lists {} as an output, which is none", output.reference));
     if (!listed.insert(output.reference).second)
       faults.push_back(fmt::format("the structure lists output {} twice", output.reference));
     for (const unsigned on : output.dependencies.value_or(std::vector<unsigned>{}))
-      if (d.find_reference(on) == nullptr)
+      if (!known.contains(on))
         faults.push_back(fmt::format("output {} depends on {}, which is no variable", output.reference, on));
   }
   for (const auto& v : d.variables)

@@ -45,8 +45,7 @@ struct FmiDescription {
   std::vector<FmiScalar> variables{};
   std::vector<FmiUnknown> outputs{}, initial_unknowns{};
 
-  const FmiScalar* find(const std::string& name) const;       ///< null if there is none
-  const FmiScalar* find_reference(unsigned reference) const;  ///< null if there is none
+  const FmiScalar* find(const std::string& name) const;  ///< null if there is none
 };
 
 std::string fmi_description_text(const FmiDescription& description);

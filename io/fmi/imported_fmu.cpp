@@ -41,8 +41,14 @@ class Unpacked {
     std::string name = (fs::temp_directory_path() / "hysteron-fmu-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       fail("cannot_write", name, "no folder can be made to unpack an FMU", "set TMPDIR to a folder with room");
+    try {
+      archive.unpack(name);
+    } catch (...) {  // half of it is no FMU: the next one who asks begins anew
+      std::error_code ignored;
+      fs::remove_all(name, ignored);
+      throw;
+    }
     folders_.emplace(identity, name);
-    archive.unpack(name);
     return name;
   }
 
@@ -102,7 +108,6 @@ class Importer {
     f.unit = si_unit(unit.dimension).text;
     f.scale = unit.scale;
     f.offset = v.relative ? 0 : unit.offset;
-    f.start = v.start.value_or(0);
     return f;
   }
 
@@ -144,7 +149,6 @@ ForeignInterface interface_of(const FmiDescription& d, const std::string& writte
   interface.file = written;
   interface.version = d.version;
   interface.token = d.token;
-  interface.identifier = d.identifier;
   Importer importer(d, interface);
   for (const auto& v : d.variables) importer.take(v);
   return interface;

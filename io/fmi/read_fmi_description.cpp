@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstring>
+#include <map>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -107,16 +107,14 @@ class Reader {
     for (const auto node : root_.child("TypeDefinitions").children()) {  // types carry units as well
       const char* name = node.attribute("name").value();
       const auto real = d_.version == 2 ? node.child("Real") : node;
-      if (const auto unit = real.attribute("unit")) units_of_types_.emplace_back(name, unit.value());
+      if (const auto unit = real.attribute("unit")) units_of_types_.emplace(name, unit.value());
     }
   }
 
   std::string unit_of(pugi::xml_node real) const {
     if (const auto unit = real.attribute("unit")) return unit.value();
-    const std::string type = real.attribute("declaredType").value();
-    for (const auto& [name, unit] : units_of_types_)
-      if (!type.empty() && name == type) return unit;
-    return "";
+    const auto type = units_of_types_.find(real.attribute("declaredType").value());
+    return type == units_of_types_.end() ? "" : type->second;
   }
 
   void read_variable(pugi::xml_node node, pugi::xml_node typed, std::string type) {
@@ -190,7 +188,7 @@ class Reader {
   pugi::xml_document document_;
   pugi::xml_node root_;
   FmiDescription d_;
-  std::vector<std::pair<std::string, std::string>> units_of_types_;
+  std::map<std::string, std::string> units_of_types_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // and what these print are done from top to bottom.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>

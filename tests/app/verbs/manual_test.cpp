@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,8 @@ TEST_F(Manual, BashOffersVerbsOptionsNamesAndFiles) {
   EXPECT_EQ(offered("hysteron blocks bouc_wen_i", 2), "bouc_wen_inverse\n");
   EXPECT_EQ(offered("hysteron run stage.json --errors j", 4), "json\n");
   EXPECT_EQ(offered("hysteron run stage.json -o s", 4), "share\n") << "a folder is no file";
+  EXPECT_EQ(offered("hysteron run stage.json --allow s", 4), "share stage.json\n") << "a folder or an FMU";
+  EXPECT_EQ(offered("hysteron export c stage.json --number f", 5), "\n") << "no block";
   EXPECT_EQ(offered("hysteron new --from lab.csv \"\"", 4), "lab.csv share stage.json\n");
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/diagram/error.h"
-#include "io/fmi/exported_description.h"
 
 namespace hysteron {
 namespace {
@@ -121,12 +120,6 @@ TEST(FmiDescription, FaultsAreTold) {
   EXPECT_TRUE(tells("output \"y\" is missing in the structure"));
   EXPECT_TRUE(tells("\"k\" needs a start value"));
   EXPECT_TRUE(tells("\"k\" is a parameter and continuous"));
-}
-
-TEST(FmiDescription, NamesOfCAreLikeTheirTexts) {
-  EXPECT_EQ(c_name("stage-2 b"), "stage_2_b");
-  EXPECT_EQ(c_name("2"), "m_2");
-  EXPECT_EQ(c_name(""), "model");
 }
 
 }  // namespace
