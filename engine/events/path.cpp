@@ -127,7 +127,9 @@ void JumpPath::commit(Run& run, Work& work, double t, const std::vector<double>&
 }
 
 void JumpPath::walk(Run& run, Work& work, double t, const std::vector<double>& x) {
-  for (int i = 1; i <= jump_pieces; ++i) commit(run, work, t, x, static_cast<double>(i) / jump_pieces);
+  for (int i = 1; i < jump_pieces; ++i) commit(run, work, t, x, static_cast<double>(i) / jump_pieces);
+  work.path = nullptr;  // its end is the value itself: from + (to - from) may be another in the last bit
+  commit(run, work, t, x, 1);
 }
 
 void JumpPath::integrate(Run& run, Work& work, double t, std::vector<double>& x) {

@@ -221,6 +221,24 @@ TEST(JumpPaths, ASampledDriveThroughPlayGivesTheMemoryOfItsSamples) {
   }
 }
 
+TEST(JumpPaths, MemoryOnTheWayEndsAtTheValueBehindTheJumpToTheBit) {
+  // Two plays in a row follow in pieces; from + (to - from) is often another number than `to`, and would be remembered.
+  const auto p = with_events(diagram({{"u", block("sine", {{"amplitude", "3 V"}, {"frequency", "1.3 Hz"}})},
+                                      {"held", block("test_sampler", {{"period", "0.01 s"}}, {"u"})},
+                                      {"first", block("play", {{"radius", "0.1 V"}}, {"held"})},
+                                      {"second", block("play", {{"radius", "0.2 V"}}, {"first"})}},
+                                     {"held", "first", "second"}));
+  const auto traces = run_to(*p, 2, 0.01);
+  double first = 0, second = 0;
+  for (std::size_t k = 0; k < traces.t.size(); ++k) {
+    const double u = traces.values[0][k];
+    first = std::max(u - 0.1, std::min(u + 0.1, first));
+    second = std::max(first - 0.2, std::min(first + 0.2, second));
+    EXPECT_EQ(traces.values[1][k], first) << k;
+    EXPECT_EQ(traces.values[2][k], second) << k;
+  }
+}
+
 TEST(JumpPaths, ALawThatIsNotRateIndependentRefusesAJump) {
   const auto make = [](const Node& between) {
     return diagram({{"step", block("step", {{"after", "1 V"}, {"time", "1 s"}})},
