@@ -28,6 +28,7 @@ CLaw prandtl_ishlinskii_inverse_c() {
             c.output = plays_in_c::move(one) +
                        "($x, $t.thresholds, $n.thresholds, $in.y);\n"
                        "$out.u = weighted_sum($t.weights, $x, $n.thresholds);";
+            c.is_monotone = true;  // as the law that it undoes, which has to rise
             return c;
           }};
 }

@@ -22,6 +22,7 @@ CLaw play_c() {
         c.functions = {c_functions::larger, c_functions::smaller, one ? plays_in_c::one_sided : plays_in_c::two_sided};
         c.output =
             std::string("$s.w = ") + (one ? "one_sided_play" : "play") + "($p.radius, $s.w, $in.u);\n$out.y = $s.w;";
+        c.is_monotone = true;
         return c;
       }};
 }
@@ -35,6 +36,7 @@ CLaw prandtl_ishlinskii_c() {
             c.output = plays_in_c::move(one) +
                        "($x, $p.thresholds, $n.thresholds, $in.u);\n"
                        "$out.y = weighted_sum($p.weights, $x, $n.thresholds);";
+            c.is_monotone = plays_in_c::rise(b.list("weights"));
             return c;
           },
           "", "prandtl_ishlinskii_inverse"};
@@ -109,6 +111,7 @@ static double relays(double *state, double *part, const double *levels, const do
             const std::string cells = std::to_string(b.list("levels").size() - 1);
             c.output = "double part[" + cells +
                        "];\n$out.y = $p.gain * $in.u + relays($x, part, $p.levels, $p.weights, " + cells + ", $in.u);";
+            c.is_monotone = b.number("gain") >= 0 && plays_in_c::rise(b.list("weights"));
             return c;
           }};
 }
@@ -120,8 +123,12 @@ constexpr char curve_at_one_temperature[] = "{$p.saturation, 2.0, 0.0, $p.bend}"
 
 CLaw asymmetric_prandtl_ishlinskii_c() {
   return {"asymmetric_prandtl_ishlinskii",
-          [](const CBlock&) { return plays_in_c::with_bent_curve(curve_at_one_temperature, "1.0"); }, "",
-          "sampled_asymmetric_inverse"};
+          [](const CBlock& b) {
+            CCode c = plays_in_c::with_bent_curve(curve_at_one_temperature, "1.0");
+            c.is_monotone = plays_in_c::rise(b.list("weights")) && b.number("saturation") >= 0;
+            return c;
+          },
+          "", "sampled_asymmetric_inverse"};
 }
 CLaw sampled_asymmetric_inverse_c() {
   return {"sampled_asymmetric_inverse", [](const CBlock& b) {

@@ -2,6 +2,8 @@
 // prandtl_ishlinskii.h and tapi.h, operation by operation. Does not decide which block calls them.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,10 @@ inline std::vector<std::string> functions(bool one) {
   using c_functions::larger, c_functions::smaller;
   if (one) return {larger, smaller, one_sided, move_one_sided, weighted_sum};
   return {larger, smaller, two_sided, move_two_sided, weighted_sum};
+}
+/// Does the sum over operators rise wherever they rise? Weights below zero may turn it.
+inline bool rise(std::span<const double> weights) {
+  return std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
 }
 /// The function that moves them.
 inline std::string move(bool one) { return one ? "move_one_sided_plays" : "move_plays"; }

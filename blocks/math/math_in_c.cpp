@@ -2,6 +2,8 @@
 // (export/).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/block/c_law.h"
 
 namespace hysteron::blocks {
@@ -68,6 +70,7 @@ CLaw sign_c() {
   return {"sign", [](const CBlock&) {
             CCode c;
             c.output = "$out.y = $in.u > 0.0 ? 1.0 : $in.u < 0.0 ? -1.0 : 0.0;";
+            c.is_monotone = true;
             return c;
           }};
 }
@@ -77,6 +80,7 @@ CLaw saturation_c() {
             CCode c;
             c.functions = {c_functions::larger, c_functions::smaller};
             c.output = "$out.y = larger($p.lower, smaller($p.upper, $in.u));";
+            c.is_monotone = true;
             return c;
           }};
 }
@@ -86,6 +90,7 @@ CLaw dead_zone_c() {
             CCode c;
             c.functions = {c_functions::larger, c_functions::smaller};
             c.output = "$out.y = $in.u - larger($p.lower, smaller($p.upper, $in.u));";
+            c.is_monotone = true;
             return c;
           }};
 }
@@ -98,8 +103,9 @@ CLaw wrap_c() {
 }
 
 CLaw rectifier_c() {
-  return {"rectifier", [](const CBlock&) {
+  return {"rectifier", [](const CBlock& b) {
             CCode c;
+            c.is_monotone = b.number("mix") <= 0.5;  // its slope below zero is 1 - 2 mix
             c.output = "$out.y = $in.u + $p.mix * (fabs($in.u) - $in.u);";
             return c;
           }};
@@ -109,6 +115,7 @@ CLaw rounding_c() {
   return {"rounding", [](const CBlock& b) {
             CCode c;
             c.output = b.number("step") > 0 ? "$out.y = round($in.u / $p.step) * $p.step;" : "$out.y = $in.u;";
+            c.is_monotone = true;
             return c;
           }};
 }
@@ -178,6 +185,9 @@ static double table_value(const double *knots, const double *values, int n, doub
             c.output = "$out.y = table_value($p.at, $p.values, $n.at, " + u + ");";
             if (b.choice("outside") == 2)
               c.output += "\nif ($in.0 < $p.at[0] || $in.0 > $p.at[$n.at - 1])\n    $out.y = NAN;";
+            const auto values = b.list("values");
+            c.is_monotone =
+                std::is_sorted(values.begin(), values.end()) || std::is_sorted(values.rbegin(), values.rend());
             return c;
           }};
 }
@@ -199,6 +209,7 @@ static double with_knee(double size, double n, double u)
 }
 )"};
             c.output = "$out.y = with_knee($p.limit, $p.sharpness, $in.u);";
+            c.is_monotone = true;
             return c;
           }};
 }

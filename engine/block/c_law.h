@@ -47,6 +47,9 @@ struct CCode {
   /// Statements behind the outputs of all blocks, where the inputs are only known then.
   std::string update{};
   std::vector<CTable> tables{};
+  /// While one input moves one way and the others stand still, the output moves one way (or stands still). Linear
+  /// blocks need not say it.
+  bool is_monotone = false;
   std::string refusal{};  ///< not empty: why this block cannot be written, and the cure
 };
 

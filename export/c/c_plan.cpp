@@ -28,6 +28,7 @@ class Planning {
     plan_.begin = start(*program);
     plan_.program = std::move(program);
     plan_.period = period > 0 ? period : shortest_period(*plan_.program);
+    jump_.resize(plan_.program->signals.size());
   }
 
   CPlan operator()() {
@@ -115,7 +116,54 @@ class Planning {
       return;
     }
     if (b.kernel->is_sampled()) clock(b, block, planned);
+    follow_jumps(b, block, planned.code);
     plan_.blocks.push_back(std::move(planned));
+  }
+
+  /// How a signal goes from its value before an instant to that behind it, while the outputs of sampled blocks jump
+  /// along straight ways (engine/events/path.h).
+  enum class Way { stands, straight, monotone, turns };
+  struct Jump {
+    Way way = Way::stands;
+    int sampled = -1;  ///< block whose jump it is
+    int turned = -1;   ///< block behind which it turns
+  };
+  /// Memory follows the whole way of a jump in the engine. In the code it sees both ends, which is the same for it
+  /// unless the way turns between them.
+  void follow_jumps(const BlockInstance& b, int block, const CCode& code) {
+    Jump jump;
+    if (b.kernel->is_sampled()) {
+      jump = {Way::straight, block, -1};
+    } else {
+      int moving = 0;
+      for (const int signal : b.source) {
+        const Jump& in = jump_[at(signal)];
+        if (in.way == Way::stands) continue;
+        ++moving;
+        if (in.way > jump.way) jump = in;
+      }
+      if (jump.way == Way::turns && b.sizes.memory > 0) refuse_jump(b, jump);
+      const bool linear = b.kernel->declaration.is_linear;
+      if (jump.way == Way::straight && linear) {
+        // straight ways add up to a straight one
+      } else if (moving == 1 && jump.way != Way::turns && (linear || code.is_monotone)) {
+        jump.way = Way::monotone;
+      } else if (moving > 0 && jump.way != Way::turns) {
+        jump.way = Way::turns;
+        jump.turned = block;
+      }
+    }
+    for (int k = 0; k < b.sizes.outputs; ++k) jump_[at(b.y_begin + k)] = jump;
+  }
+  void refuse_jump(const BlockInstance& b, const Jump& jump) {
+    const BlockInstance& turned = plan_.program->blocks[at(jump.turned)];
+    const std::string& sampled = plan_.program->blocks[at(jump.sampled)].path;
+    refuse(
+        b,
+        fmt::format("remembers every value on the way of a jump: {} is sampled and jumps, {} ({}) may turn on the way, "
+                    "and the code sees no value between its steps",
+                    sampled, turned.path, turned.kernel->declaration.type),
+        fmt::format("make the sampled signal an input of the code: --from {}", sampled));
   }
   void clock(const BlockInstance& b, int block, PlannedBlock& planned) {
     const Clocking clocking = clocking_of(*plan_.program, plan_.begin, block);
@@ -131,6 +179,7 @@ class Planning {
 
   double period_;
   CPlan plan_;
+  std::vector<Jump> jump_;  // per signal
   Problems problems_;
 };
 
