@@ -19,6 +19,7 @@
 #include "export/c/inverse.h"
 #include "export/c/sampled_form.h"
 #include "io/diagram/diagram_file.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
@@ -138,7 +139,7 @@ double missed_by(const CutDiagram& part, const CutDiagram& inverse, const std::v
   return most;
 }
 
-/// SignalRows that go in, and where they are from.
+/// Signals that go in [SI], and where they are from.
 struct Given {
   SignalRows inputs;
   std::vector<double> times;
@@ -267,10 +268,10 @@ Answer export_c_act(const Arguments& arguments, const Watch& watch) {
                     {stem + "_test.c", test},
                     {stem + ".md", c_page(plan, source, wish, findings)},
                     {stem + ".json", diagram_text(moved_diagram(made.diagram, stem + ".json"))}};
-    answer.text = fmt::format("{} block{} in C{}, {} numbers remembered, {} constant\n", plan.blocks.size(),
-                              plan.blocks.size() == 1 ? "" : "s",
-                              plan.period > 0 ? ", one step every " + time_text(plan.period) : "", source.state_numbers,
-                              source.constants);
+    answer.text =
+        fmt::format("{} in C{}, {} remembered, {}\n", count_text(static_cast<long>(plan.blocks.size()), "block"),
+                    plan.period > 0 ? ", one step every " + time_text(plan.period) : "",
+                    count_text(source.state_numbers, "number"), count_text(source.constants, "constant"));
     for (const auto& line : made.replaced) answer.text += "  " + line + "\n";
     for (const auto& line : told) answer.text += "  " + line + "\n";
     if (arguments.has("--inverse")) tell_missed(answer, missed, source);

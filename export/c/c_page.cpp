@@ -39,9 +39,9 @@ std::string c_page(const CPlan& plan, const CSource& source, const CWish& wish, 
                         1 / plan.period)
           : "Nothing in the code depends on how often it is called: it remembers turns of its inputs, not time.\n\n";
   text += "## Inputs\n\n" + port_table(source.inputs) + "\n## Outputs\n\n" + port_table(source.outputs);
-  text +=
-      fmt::format("\n## Size\n\n{} numbers are remembered ({} bytes), {} are constants ({} bytes, `static const`).\n",
-                  source.state_numbers, source.state_numbers * bytes, source.constants, source.constants * bytes);
+  text += fmt::format(
+      "\n## Size\n\nNumbers that are remembered: {} ({} bytes); constants: {} ({} bytes, `static const`).\n",
+      source.state_numbers, source.state_numbers * bytes, source.constants, source.constants * bytes);
   if (!findings.replaced.empty()) {
     text +=
         "\n## From continuous to sampled\n\nThe code holds other blocks than the diagram where states move continuously:\n\n";

@@ -20,7 +20,7 @@ struct CFindings {
 /// Markdown.
 std::string c_page(const CPlan& plan, const CSource& source, const CWish& wish, const CFindings& findings);
 
-/// "drive: 0.0012 V from the continuous diagram".
+/// "drive: at most 0.0012 V". off [SI].
 std::string deviation_text(const CPort& port, double off);
 
 }  // namespace hysteron

@@ -352,7 +352,6 @@ class Writing {
     for (const auto& f : functions_) functions += f + "\n";
     for (const auto& [block, m] : members_of_) starts += m.begun;
     std::string text = opening(n + ".c") + "#include \"" + n + ".h\"\n\n";
-    const std::string all = functions + step + starts + constants_;
     text += "#include <float.h>\n#include <math.h>\n\n";
     if (!constants_.empty()) text += "/* Numbers of the blocks [SI]. */\n" + constants_ + "\n";
     text += functions;

@@ -88,7 +88,6 @@ class Cut {
     std::string name = signal;
     if (dot == std::string::npos) {
       cut_.diagram.blocks.erase(signal);  // an input of its name takes its place
-      cut_names_.insert(signal);
     } else {
       name[dot] = '_';
       while (whole_.blocks.find(name) != nullptr || whole_.inputs.find(name) != nullptr) name += '_';
@@ -158,7 +157,6 @@ class Cut {
   const Diagram& whole_;
   const Program& program_;
   CutDiagram cut_;
-  std::set<std::string> cut_names_;
   std::map<std::string, std::string> signal_of_;
 };
 

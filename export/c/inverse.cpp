@@ -269,21 +269,12 @@ class Inverting {
       refuse(name, "has an offset besides its dynamics", "put the offset into a calibration behind it");
       return;
     }
-    const auto rows = [](const Eigen::MatrixXd& m) {
-      NumberMatrix written;
-      for (Eigen::Index r = 0; r < m.rows(); ++r) {
-        NumberList row;
-        for (Eigen::Index k = 0; k < m.cols(); ++k) row.push_back({m(r, k), {}});
-        written.rows.push_back(std::move(row));
-      }
-      return written;
-    };
     Node made;
     made.type = "state_space";
     made.in = {{"", now}};
-    made.parameters["a"] = rows(a);
-    made.parameters["b"] = rows(in);
-    made.parameters["c"] = rows(out);
+    made.parameters["a"] = written_matrix(a);
+    made.parameters["b"] = written_matrix(in);
+    made.parameters["c"] = written_matrix(out);
     made.parameters["d"] = NumberMatrix{{{{1 / d, {}}}}};
     made.parameters["input_unit"] = unit_of(dimension(b.y_begin));
     made.parameters["output_unit"] = unit_of(dimension(b.source.front()));

@@ -38,6 +38,16 @@ LinearBlock linear_block(const Program& program, const Run& run, int block) {
   return l;
 }
 
+NumberMatrix written_matrix(const Eigen::MatrixXd& matrix) {
+  NumberMatrix written;
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    NumberList row;
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) row.push_back({matrix(r, k), {}});
+    written.rows.push_back(std::move(row));
+  }
+  return written;
+}
+
 bool is_linear_block(const BlockInstance& b) {
   return b.kernel->declaration.is_linear && !b.kernel->has_modes() && !b.kernel->is_sampled() && !b.sizes.history &&
          b.sizes.memory == 0 && !b.kernel->derivative_wants_rate && b.n_u >= 1;

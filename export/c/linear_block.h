@@ -17,6 +17,9 @@ struct LinearBlock {
 /// Of a block that declares itself linear, has no modes and does not ask for rates.
 LinearBlock linear_block(const Program& program, const Run& run, int block);
 
+/// The matrix as a parameter of a diagram, SI.
+NumberMatrix written_matrix(const Eigen::MatrixXd& matrix);
+
 /// It does, and may be written so.
 bool is_linear_block(const BlockInstance& block);
 

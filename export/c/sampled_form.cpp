@@ -34,16 +34,6 @@ Stepped sampled(const LinearBlock& l, double period, BetweenSteps between) {
   return {f, whole - g1 + f * g1, l.c, l.d + l.c * g1};
 }
 
-NumberMatrix rows_of(const Matrix& matrix) {
-  NumberMatrix written;
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    NumberList row;
-    for (Eigen::Index k = 0; k < matrix.cols(); ++k) row.push_back({matrix(r, k), {}});
-    written.rows.push_back(std::move(row));
-  }
-  return written;
-}
-
 class Replacing {
  public:
   Replacing(const Program& program, const Registry& registry, double period, BetweenSteps between)
@@ -111,10 +101,10 @@ class Replacing {
     node.parameters = {};
     node.parameters_from_file = {};
     node.parameter_file.clear();
-    node.parameters["a"] = rows_of(l.a);
-    node.parameters["b"] = rows_of(l.b);
-    node.parameters["c"] = rows_of(l.c);
-    if (!l.d.isZero(0)) node.parameters["d"] = rows_of(l.d);
+    node.parameters["a"] = written_matrix(l.a);
+    node.parameters["b"] = written_matrix(l.b);
+    node.parameters["c"] = written_matrix(l.c);
+    if (!l.d.isZero(0)) node.parameters["d"] = written_matrix(l.d);
     NumberList initial;
     for (int k = 0; k < b.sizes.states; ++k) initial.push_back({run_.x[static_cast<std::size_t>(b.x_begin + k)], {}});
     node.parameters["initial"] = initial;
