@@ -27,24 +27,39 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
   return names;
 }
 
-/// Of the recordings that may move, those whose free start explains more than its states cost: by Schwarz's price in
-/// the recording's own witnesses.
+/// What this model says with these numbers from rest, but for the recordings named.
+Prediction from_rest(const SearchState& free, const DataSet& given, const TableModel& model,
+                     const std::vector<std::string>& moving) {
+  Discovery some_move;
+  some_move.found_starts = moving;
+  FitContext context = free.context;
+  context.data = std::make_shared<const DataSet>(as_found(given, some_move));
+  const auto program = compile(model.model.diagram, free.registry);
+  DataModel data_model(program, context.data, accuracy(context, *program, Effort::full));
+  return data_model.predict({}, free.evidence->recordings());
+}
+
+/// Of the recordings that may move, those that cannot rest (an integrator whose input is not zero), and those whose
+/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses.
 std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
-  const BlockScore score(*free.evidence, {best.left});
-  // The same model and numbers from rest.
-  FitContext at_rest = free.context;
-  at_rest.data = std::make_shared<const DataSet>(given);
-  const auto program = compile(best.model.diagram, free.registry);
-  DataModel from_rest(program, at_rest.data, accuracy(at_rest, *program, Effort::full));
-  const Prediction rest = from_rest.predict({}, free.evidence->recordings());
-  if (!rest.ok) return {};
-  const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
-  const auto states = static_cast<double>(free.base_model->free_initial_states().size());
+  const DataModel& model = *free.base_model;
   std::vector<std::string> moving;
+  Prediction rest = from_rest(free, given, best, moving);
+  if (!rest.ok) {
+    for (const int r : free.evidence->recordings())
+      if (rest.y[static_cast<std::size_t>(r)].empty()) moving.push_back(model.recording(r).name);
+    rest = from_rest(free, given, best, moving);
+  }
+  if (!rest.ok) return {};
+  const BlockScore score(*free.evidence, {best.left});
+  const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
+  const auto states = static_cast<double>(model.free_initial_states().size());
   for (const int r : free.evidence->recordings()) {
+    const std::string& name = model.recording(r).name;
+    if (std::find(moving.begin(), moving.end(), name) != moving.end()) continue;
     const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
     const double price = 0.5 * states * std::log(std::max(score.n_eff(r), 2.0));
-    if (gain > price) moving.push_back(free.base_model->recording(r).name);
+    if (gain > price) moving.push_back(name);
   }
   return moving;
 }

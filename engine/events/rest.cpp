@@ -194,10 +194,12 @@ void hold_free_states(Eigen::MatrixXd& jacobian, const Eigen::VectorXd& unit) {
     if (first.empty()) first = name;
     if (parts.size() < 10) parts.push_back(fmt::format("{} (d/dt = {:.4g} SI/s)", name, rate[i]));
   }
-  fail_numerics("no_rest", first.empty() ? "simulate" : first,
-                fmt::format("there is no equilibrium for the inputs at t = {:.9g} s: these states keep moving: {}", t,
-                            fmt::join(parts, ", ")),
-                "give initial states instead of \"rest\", or let the inputs start where an integrator's input is zero");
+  fail_numerics(
+      "no_rest", first.empty() ? "simulate" : first,
+      fmt::format("there is no equilibrium for the inputs at t = {:.9g} s: these states keep moving: {}", t,
+                  fmt::join(parts, ", ")),
+      "give initial states instead of \"rest\" (in a data set \"initial\": \"per_recording\" finds them), or let the "
+      "inputs start where an integrator's input is zero");
 }
 
 /// How far Newton's method came.

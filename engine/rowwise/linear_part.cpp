@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/diagram/index.h"
 #include "engine/matrices/decompositions.h"
@@ -217,6 +218,22 @@ void LinearPart::write_outputs(std::vector<double>& y) const {
   }
 }
 
+namespace {
+
+/// An integrator whose input is not zero cannot rest; where everything else can, it moves on with one velocity, which
+/// lies in the kernel of A: A (x - d) + B w = K c. What is left where that has no solution either (a free mass that is
+/// pushed) is nothing.
+std::optional<Eigen::VectorXd> to_steady_motion(const Eigen::MatrixXd& a, const Eigen::VectorXd& rate) {
+  const Eigen::MatrixXd kernel = a.fullPivLu().kernel();
+  Eigen::MatrixXd both(a.rows(), a.cols() + kernel.cols());
+  both << a, kernel;
+  const Eigen::VectorXd solution = both.completeOrthogonalDecomposition().solve(rate);
+  if ((rate - both * solution).norm() > 1e-9 * rate.norm()) return std::nullopt;
+  return solution.head(a.cols());
+}
+
+}  // namespace
+
 void LinearPart::start(const Program& program, const Run& run, std::vector<double>& y, bool at_rest) {
   for (std::size_t k = 0; k < blocks_.size(); ++k)
     for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)
@@ -227,7 +244,9 @@ void LinearPart::start(const Program& program, const Run& run, std::vector<doubl
     const Eigen::VectorXd rate = a_ * x_ + b_ * w_;
     if (!has_to_rest_) to_rest_.compute(a_);
     has_to_rest_ = true;
-    x_ -= to_rest_.solve(rate);
+    const Eigen::VectorXd to_rest = to_rest_.solve(rate);
+    const double still = (rate - a_ * to_rest).norm();
+    x_ -= still > 1e-9 * rate.norm() ? to_steady_motion(a_, rate).value_or(to_rest) : to_rest;
   }
   w_before_ = w_;
   write_outputs(y);

@@ -186,15 +186,15 @@ std::vector<Rows> DataModel::Content::one(int r, std::span<const ParameterValue>
   return rows_of(b, b.values);
 }
 
-/// It settles where its inputs hold it, and no start of its own was found.
+/// It settles where its inputs hold it; where a start of its own is found the run comes with it.
 bool DataModel::Content::settles(int r) const {
-  return bound[static_cast<std::size_t>(r)].start.empty() && from_rest(data->recordings[static_cast<std::size_t>(r)]);
+  return bound[static_cast<std::size_t>(r)].start.empty() && data->recordings[static_cast<std::size_t>(r)].at_rest;
 }
 
 Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> values) {
   const BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
-  if (from_rest(recording) && !b.start.empty()) {
+  if (from_rest(recording) && !settles(r)) {
     Run run = in_equilibrium(r, values);
     for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
     return run;
@@ -209,7 +209,13 @@ Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> va
   if (b.rest && std::equal(values.begin(), values.end(), b.rest_of.begin(), b.rest_of.end())) return *b.rest;
   Run rest = prepared(r, values);
   rest.t = b.instants.front();
-  settle_at_rest(*program, rest, rest.t);
+  try {
+    Run settled = rest;
+    settle_at_rest(*program, settled, settled.t);
+    rest = std::move(settled);
+  } catch (const Error& e) {  // an integrator whose input is not zero: its start is found from what is declared
+    if (data->recordings[static_cast<std::size_t>(r)].at_rest || e.problems.front().code != "no_rest") throw;
+  }
   b.rest_of.assign(values.begin(), values.end());
   b.rest = rest;
   return rest;

@@ -145,6 +145,45 @@ TEST_F(Selected, ARecordingThatBeginsInMotionIsToldAsThat) {
   EXPECT_EQ(d.found_starts, (std::vector<std::string>{"0.csv", "2.csv"}));
 }
 
+// An integrator holds still for no voltage but zero: where the drive begins elsewhere nobody needs to say that it
+// moves.
+TEST_F(Selected, ACarriageUnderWayIsToldAsThat) {
+  constexpr double gain = 2e-3, tau = 0.05;  // [m/s/V], [s]
+  Diagram d;
+  d.inputs["u"].unit = "V";
+  d.blocks["amplifier"].type = "gain";
+  d.blocks["amplifier"].in.push_back({"", "u"});
+  d.blocks["amplifier"].parameters["gain"] = Value("2 mm/s/V");
+  d.blocks["servo"].type = "lag";
+  d.blocks["servo"].in.push_back({"", "amplifier"});
+  d.blocks["servo"].parameters["times"] = Value("50 ms");
+  d.blocks["carriage"].type = "integrator";
+  d.blocks["carriage"].in.push_back({"", "servo"});
+  d.outputs["y"] = "carriage";
+  std::vector<Recording> list;
+  for (int r = 0; r < 3; ++r) {
+    const auto t = rows(1500, 0.01);
+    const auto u = sampled(t, [&](double s) { return std::cos((1.3 + 0.4 * r) * s) + 0.4 * std::cos(5.1 * s); });
+    auto y = noise(t.size(), white, 0, 17 + static_cast<std::uint64_t>(r));
+    double v = gain * 0.7, at = 1e-3 * r;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      y[k] += at;
+      if (k + 1 == t.size()) break;
+      // Straight between rows: the lag follows the line tau late, and what it was off it decays.
+      const double h = t[k + 1] - t[k], rise = gain * (u[k + 1] - u[k]) / h, off = v - (gain * u[k] - rise * tau);
+      const double decay = std::exp(-h / tau);
+      at += gain * u[k] * h + rise * (h * h / 2 - tau * h) + off * tau * (1 - decay);
+      v = gain * u[k + 1] - rise * tau + off * decay;
+    }
+    list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
+  }
+  DiscoverOptions options;
+  options.only = {"amplifier_lag", "saturation", "calibration"};
+  const Discovery found = select_model(d, data_set(std::move(list), white, 0), registry, effects, options);
+  EXPECT_EQ(found.verdict, Verdict::adequate) << tried(found);
+  EXPECT_EQ(found.found_starts, (std::vector<std::string>{"0.csv", "1.csv", "2.csv"}));
+}
+
 TEST_F(Selected, FrictionIsFoundBesideANumberThatIsOff) {
   Machine machine;
   machine.stiffness = 430;

@@ -113,6 +113,61 @@ TEST(Starts, OfARecordingAtRestStayThere) {
   EXPECT_TRUE(model.start_of(0).empty());
 }
 
+/// A drive of 2 mm/s/V with a lag of 50 ms that moves a carriage: an integrator holds still for no input but 0 V.
+Diagram carriage() {
+  Diagram d = lab::diagram("carriage");
+  lab::add(d, "amplifier", "gain", "u").parameters["gain"] = "2 mm/s/V";
+  lab::add(d, "servo", "lag", "amplifier").parameters["times"] = "50 ms";
+  lab::add(d, "carriage", "integrator", "servo");
+  return d;
+}
+
+/// Driven by 1 V cos(2 t/s) from the first row on, from this place [m] with this velocity [m/s] of the servo.
+DataSet carriage_under_way(double place, double velocity) {
+  DataSet data;
+  data.notes["y"].noise.white = noise;
+  lab::Noise random(6);
+  constexpr double tau = 0.05, w = 2, gain = 2e-3;
+  auto r = lab::recording("train", Role::train, 0.01, 1000, [](double t) { return std::cos(w * t); });
+  for (std::size_t i = 0; i < r.t.size(); ++i) {
+    // tau v' + v = gain cos(w t): v = a cos(w t) + b sin(w t) + c exp(-t/tau), integrated.
+    const double t = r.t[i], a = gain / (1 + w * w * tau * tau), b = a * w * tau, c = velocity - a;
+    r.columns["y"][i] = place + a / w * std::sin(w * t) + b / w * (1 - std::cos(w * t)) +
+                        c * tau * (1 - std::exp(-t / tau)) + noise * random();
+  }
+  data.recordings.push_back(std::move(r));
+  return data;
+}
+
+TEST(Starts, AreFoundWhereNoEquilibriumIs) {
+  DataSet data = carriage_under_way(4e-3, -1e-3);
+  start_free(data.recordings[0]);
+  const auto program = compile(carriage(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"amplifier.gain"});
+  ASSERT_EQ(free.size(), 1U);
+  free[0].start = 2.1e-3;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  // Inputs are straight between rows: a gain of 1 - w^2 h^2/12 = 1 - 3e-5.
+  EXPECT_NEAR(r.estimates[0].used, 2e-3, 4 * r.estimates[0].sigma.value_or(0) + 1e-4 * 2e-3);
+  EXPECT_NEAR(r.after.find(0)->rms[0], noise, 0.1 * noise) << "1000 rows know an rms to 2 %";
+}
+
+TEST(Starts, OfAnIntegratorAtRestThatCannotRestIsSteadyMotion) {
+  // Nobody says how it begins: the servo stands where 1 V holds it, and the carriage moves on from zero.
+  DataSet data = carriage_under_way(0, 2e-3);
+  const auto program = compile(carriage(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  const int all[] = {0};
+  const auto prediction = model.predict({}, all);
+  ASSERT_TRUE(prediction.ok) << prediction.error;
+  double largest = 0;
+  for (std::size_t i = 0; i < data.recordings[0].t.size(); ++i)
+    largest = std::max(largest, std::abs(prediction.y[0][0][i] - data.recordings[0].columns.at("y")[i]));
+  EXPECT_LT(largest, 5 * noise) << "1000 rows of noise; a servo at half its velocity is 50 um off";
+}
+
 std::vector<Beginning> told(const DataSet& data) {
   const auto program = compile(hard_spring(), lab::registry());
   DataModel model(program, lab::shared(data));
