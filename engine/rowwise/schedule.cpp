@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/diagram/series_cursor.h"
 #include "engine/rowwise/advance_points.h"
 
 namespace hysteron {
@@ -31,26 +32,6 @@ class Lengths {
   std::vector<double>& lengths_;
   std::map<double, int> known_;
   int last_ = -1;
-};
-
-/// Values of a series at times that go on, each on the piece that holds a time near it.
-class Cursor {
- public:
-  explicit Cursor(const Series& series) : s_(series) {}
-
-  double value(double t, double branch) {
-    const std::size_t n = s_.t.size();
-    while (next_ < n && s_.t[next_] <= branch) ++next_;
-    if (next_ == 0) return n == 0 ? 0.0 : s_.v.front();
-    const std::size_t i = next_ - 1;
-    if (s_.between == Between::hold || next_ == n) return s_.v[i];
-    if (t == s_.t[next_]) return s_.v[next_];
-    return s_.v[i] + (s_.v[next_] - s_.v[i]) * ((t - s_.t[i]) / (s_.t[next_] - s_.t[i]));
-  }
-
- private:
-  const Series& s_;
-  std::size_t next_ = 0;  // first sample behind the piece
 };
 
 }  // namespace
@@ -95,7 +76,7 @@ Schedule::Schedule(Instants all, std::vector<SeriesPointer> inputs)
   const bool held =
       std::any_of(series.begin(), series.end(), [](const auto& s) { return s->between == Between::hold; });
   Lengths known(lengths);
-  std::vector<Cursor> cursors;
+  std::vector<SeriesCursor> cursors;
   for (const auto& s : series) cursors.emplace_back(*s);
   for (auto* list : {&t, &h}) list->reserve(rows.size());
   for (auto& list : values) list.reserve(rows.size());

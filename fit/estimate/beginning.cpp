@@ -152,16 +152,32 @@ Window laid_over(const Answers& answers, const std::vector<Rows>& left, std::siz
   return window;
 }
 
-/// How far the inputs move between two rows, each as a share of its whole range.
-double motion(const std::vector<Rows>& inputs, std::size_t first, std::size_t rows) {
+/// One input of a recording and its whole range.
+struct Drive {
+  Rows rows;
+  double range = 0;
+};
+
+/// The inputs that move at all.
+std::vector<Drive> drives_of(const DataModel& model, int r) {
+  std::vector<Drive> drives;
+  for (int i = 0; i < static_cast<int>(model.program().input_names.size()); ++i) {
+    Rows rows = model.input(r, i);
+    if (rows.empty()) continue;
+    const auto [low, high] = std::minmax_element(rows.begin(), rows.end());
+    if (const double range = *high - *low; range > 0) drives.push_back({std::move(rows), range});
+  }
+  return drives;
+}
+
+/// How far the inputs move within `rows` rows from `first` on, each as a share of its whole range.
+double motion(const std::vector<Drive>& drives, std::size_t first, std::size_t rows) {
   double sum = 0;
-  for (const auto& u : inputs) {
-    const auto [low, high] = std::minmax_element(u.begin(), u.end());
-    if (first >= u.size() || !(*high > *low)) continue;
-    const auto begin = u.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto [least, most] = std::minmax_element(
-        begin, begin + std::min<std::ptrdiff_t>(u.end() - begin, static_cast<std::ptrdiff_t>(rows)));
-    sum += (*most - *least) / (*high - *low);
+  for (const auto& [u, range] : drives) {
+    if (first >= u.size()) continue;
+    const auto part = std::span(u).subspan(first, std::min(rows, u.size() - first));
+    const auto [least, most] = std::minmax_element(part.begin(), part.end());
+    sum += (*most - *least) / range;
   }
   return sum;
 }
@@ -203,18 +219,17 @@ std::vector<Beginning> begin_elsewhere(const DataModel& model, const NoiseModel&
     std::size_t all = 0;
     for (const auto& y : left) all = std::max(all, y.size());
     if (rows == 0 || all < rows * (least_windows + 1)) continue;
-    std::vector<Rows> inputs;
-    for (int i = 0; i < static_cast<int>(model.program().input_names.size()); ++i) inputs.push_back(model.input(r, i));
+    const auto drives = drives_of(model, r);
     const Window start = laid_over(answers, left, 0, rows);
     Beginning b{r, start.fall, 0, start.rank};
     double moved_elsewhere = 0;
     for (std::size_t first = rows; first + rows <= all; first += rows) {
       look_up();
       b.elsewhere = std::max(b.elsewhere, laid_over(answers, left, first, rows).fall);
-      moved_elsewhere = std::max(moved_elsewhere, motion(inputs, first, rows));
+      moved_elsewhere = std::max(moved_elsewhere, motion(drives, first, rows));
     }
     // Where the drive moves at the start and hardly anywhere else, a wrong answer to that looks the same.
-    if (motion(inputs, 0, rows) > most_motion * moved_elsewhere) continue;
+    if (motion(drives, 0, rows) > most_motion * moved_elsewhere) continue;
     const double chance = b.states + deviations * std::sqrt(2.0 * b.states);
     if (!(b.fall > chance) || !(b.fall > times_elsewhere * b.elsewhere)) continue;
     const auto& t = model.times(r);

@@ -28,7 +28,7 @@ Shifted shifted(const DataModel& model, const Judge& judge, const Prediction& pr
   const auto n = static_cast<long>(measured.size());
   const auto& noise = judge.noise().outputs[static_cast<std::size_t>(output)];
   const Whitener whitener(static_cast<std::size_t>(n - 2 * reach), noise.white, noise.one_over_f,
-                          model.zero_per_recording(output));
+                          model.zero_per_recording(output), Whitener::Order::any);
   std::vector<double> chi2, w(whitener.size());
   Rows rows(whitener.rows());
   for (int k = -reach; k <= reach; ++k) {

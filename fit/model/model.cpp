@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagram/series_cursor.h"
 #include "engine/program/names.h"
 #include "fit/model/model_content.h"
 #include "fit/numerics/threads.h"
@@ -79,7 +80,8 @@ Rows DataModel::input(int recording, int input) const {
   const auto& series = *b.run.series[static_cast<std::size_t>(program().blocks[block].series_index)];
   Rows rows;
   rows.reserve(b.times.size());
-  for (const double t : b.times) rows.push_back(series.value(t, t));
+  SeriesCursor cursor(series);
+  for (const double t : b.times) rows.push_back(cursor.value(t, t));
   return rows;
 }
 

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
@@ -348,7 +350,9 @@ bool has_plain_header(std::string_view text) {
 
 CsvTable read_csv(const std::string& file) { return Reader(file).read(); }
 
-std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments) {
+namespace {
+
+std::string csv_head(const CsvTable& table, const std::vector<std::string>& comments) {
   std::string out;
   for (const auto& comment : comments) out += fmt::format("# {}\n", comment);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -361,14 +365,19 @@ std::string csv_text(const CsvTable& table, const std::vector<std::string>& comm
     if (i > 0) out += ',';
     out += heading_text(column);
   }
-  out += '\n';
+  return out += '\n';
+}
+
+/// Writes rows from `row` on behind `out`, until it holds `enough` bytes; returns the first row that it has not
+/// written.
+std::size_t append_rows(const CsvTable& table, std::size_t row, std::size_t enough, std::string& out) {
   constexpr std::size_t longest = 32;  // a number is 24 characters at most, its comma or end of line one more
+  const std::size_t longest_row = longest * table.columns.size();
   LookUp look_up;
   std::size_t used = out.size();
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+  for (; row < table.rows() && used < enough; ++row) {
     look_up();
-    if (const std::size_t needed = used + longest * table.columns.size(); out.size() < needed)
-      out.resize(std::max(needed, row == 0 ? 0 : used + used / row * (table.rows() - row) + used / 16));
+    if (out.size() < used + longest_row) out.resize(used + std::max(longest_row, std::min(enough, used)));
     char* at = out.data() + used;
     for (const auto& column : table.columns) {
       at = fmt::format_to(at, FMT_COMPILE("{}"), column.values[row]);
@@ -378,11 +387,28 @@ std::string csv_text(const CsvTable& table, const std::vector<std::string>& comm
     used = static_cast<std::size_t>(at - out.data());
   }
   out.resize(used);
+  return row;
+}
+
+constexpr std::size_t piece = 1 << 18;  // [byte] formatted and written while it is in the processor's cache
+
+}  // namespace
+
+std::string csv_text(const CsvTable& table, const std::vector<std::string>& comments) {
+  std::string out = csv_head(table, comments);
+  append_rows(table, 0, std::numeric_limits<std::size_t>::max(), out);
   return out;
 }
 
 void write_csv(const std::string& file, const CsvTable& table, const std::vector<std::string>& comments) {
-  write_file(file, csv_text(table, comments));
+  std::string text = csv_head(table, comments);
+  bool head = true;
+  std::size_t row = 0;
+  write_file_in_pieces(file, [&]() -> std::string_view {
+    if (!std::exchange(head, false)) text.clear();
+    row = append_rows(table, row, piece, text);
+    return text;
+  });
 }
 
 }  // namespace hysteron

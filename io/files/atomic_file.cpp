@@ -65,10 +65,12 @@ int write_all(int fd, std::string_view content) {
   return 0;
 }
 
-void write_directly(const std::string& file, std::string_view content) {
+void write_directly(const std::string& file, const std::function<std::string_view()>& next_piece) {
   Handle handle(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
   if (handle.fd < 0) fail_write(file, errno);
-  int error = write_all(handle.fd, content);
+  int error = 0;
+  for (auto piece = next_piece(); error == 0 && !piece.empty(); piece = next_piece())
+    error = write_all(handle.fd, piece);
   const int at_close = handle.close();
   if (error == 0) error = at_close;
   if (error != 0) fail_write(file, error);
@@ -95,13 +97,17 @@ constexpr int most_writers = 1000;  // of one file at once
 }  // namespace
 
 void write_file(const std::string& file, std::string_view content) {
+  write_file_in_pieces(file, [&] { return std::exchange(content, {}); });
+}
+
+void write_file_in_pieces(const std::string& file, const std::function<std::string_view()>& next_piece) {
   const std::string target = behind_links(file);
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail_write(file, EISDIR);
-  if (exists && !S_ISREG(status.st_mode)) return write_directly(target, content);
+  if (exists && !S_ISREG(status.st_mode)) return write_directly(target, next_piece);
   UnfinishedFile unfinished(target);
-  unfinished.append(content);
+  for (auto piece = next_piece(); !piece.empty(); piece = next_piece()) unfinished.append(piece);
   unfinished.finish();
 }
 

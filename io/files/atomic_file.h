@@ -2,6 +2,7 @@
 // Does not know what stands in them.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,8 @@ namespace hysteron {
 /// `file` holds the old or the new content, never a part. A device or pipe (/dev/full) is written directly. Folders
 /// must exist. Throws Error "cannot_write"; Stopped (engine/diagram/stop.h), and then `file` is the old one.
 void write_file(const std::string& file, std::string_view content);
+/// The same for what is too long to be held in memory: `next_piece` gives piece by piece, an empty one at the end.
+void write_file_in_pieces(const std::string& file, const std::function<std::string_view()>& next_piece);
 
 /// A file that is written piece by piece: beside `file` under another name until it is finished. Locked while it is
 /// written, so that others tell it from what a killed process left.
