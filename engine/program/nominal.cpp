@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <utility>
 
 #include "engine/program/breakpoints.h"
 
@@ -29,12 +31,7 @@ class Sizer {
   NominalSizes operator()() {
     for (int b = 0; b < count(); ++b)
       if (block(b).n_u == 0) source(b);
-    // Along the wires. What has a size keeps it, so that a loop neither grows nor vanishes with its gain.
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (int b = 0; b < count(); ++b)
-        if (block(b).n_u > 0 && !known(b)) changed |= follow(b);
-    }
+    follow_wires();
     fill_unknown_states();
     return std::move(sizes_);
   }
@@ -46,11 +43,6 @@ class Sizer {
     return sizes_.signals[static_cast<std::size_t>(b.y_begin + output)];
   }
   double* states(const BlockInstance& b) { return sizes_.states.data() + b.x_begin; }
-  bool known(int b) {
-    for (int i = 0; i < block(b).sizes.outputs; ++i)
-      if (signal(block(b), i) == 0) return false;
-    return true;
-  }
   std::vector<double> input_sizes(const BlockInstance& b) const {
     std::vector<double> u;
     for (const int s : b.source) u.push_back(sizes_.signals[static_cast<std::size_t>(s)]);
@@ -62,8 +54,14 @@ class Sizer {
   std::vector<double> called(int b, Kernel::Call function, const std::vector<double>& u,
                              const std::vector<double>& rates, int results);
   void source(int b);
-  bool follow(int b);
-  void size_states(int b, const std::vector<double>& u);
+  /// What a block's states and outputs would be for the inputs known so far, and the largest output that has no size.
+  struct Reached {
+    std::vector<double> states, outputs;
+    double largest = 0;
+  };
+  Reached reached(int b);
+  std::vector<double> state_sizes(int b, const std::vector<double>& u);
+  void follow_wires();
   void fill_unknown_states();
 
   const Program& program_;
@@ -152,40 +150,67 @@ void Sizer::source(int b) {
   }
 }
 
-/// Sizes of a block's states and outputs from those of its inputs. False if nothing is known yet.
-bool Sizer::follow(int b) {
+Sizer::Reached Sizer::reached(int b) {
   const auto& info = block(b);
   const auto u = input_sizes(info);
-  if (std::all_of(u.begin(), u.end(), [](double size) { return size == 0; })) return false;
-  bool changed = false;
-  const auto note = [&](int output, double size) {
-    if (signal(info, output) > 0 || !(size > 0) || !std::isfinite(size)) return;
-    signal(info, output) = size;
-    changed = true;
-  };
+  Reached r;
+  if (std::all_of(u.begin(), u.end(), [](double size) { return size == 0; })) return r;
+  r.states.assign(states(info), states(info) + info.sizes.states);
   if (info.history_index >= 0) {
-    note(0, u.front());
-    return changed;
+    r.outputs = {u.front()};
+  } else {
+    if (info.sizes.states > 0 && r.states.front() == 0) r.states = state_sizes(b, u);
+    const auto all = output_at(b, r.states, u, run_.t, run_.branch);
+    // A difference of equals is as large as they are: add up what each input does alone.
+    std::vector<double> sum(all.size());
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      auto without = u;
+      without[i] = 0;
+      const auto y = output_at(b, r.states, without, run_.t, run_.branch);
+      for (std::size_t k = 0; k < y.size(); ++k) sum[k] += std::abs(all[k] - y[k]);
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) r.outputs.push_back(std::max(std::abs(all[k]), sum[k]));
   }
-  if (info.sizes.states > 0 && states(info)[0] == 0) size_states(b, u);
-  const std::vector<double> x(states(info), states(info) + info.sizes.states);
-  const auto all = output_at(b, x, u, run_.t, run_.branch);
-  std::vector<double> sum(all.size());
-  // A difference of equals is as large as they are: add up what each input does alone.
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    auto without = u;
-    without[i] = 0;
-    const auto y = output_at(b, x, without, run_.t, run_.branch);
-    for (std::size_t k = 0; k < y.size(); ++k) sum[k] += std::abs(all[k] - y[k]);
+  for (std::size_t k = 0; k < r.outputs.size(); ++k)
+    if (signal(info, static_cast<int>(k)) == 0 && std::isfinite(r.outputs[k]))
+      r.largest = std::max(r.largest, r.outputs[k]);
+  return r;
+}
+
+/// Along the wires, the largest first: what comes to a block by several ways has the size of the largest of them, and
+/// what has a size keeps it, so that a loop neither grows nor vanishes with its gain.
+void Sizer::follow_wires() {
+  std::vector<std::vector<int>> readers(program_.signals.size());
+  for (int b = 0; b < count(); ++b)
+    for (const int s : block(b).source) readers[static_cast<std::size_t>(s)].push_back(b);
+  using Next = std::pair<double, int>;  // the size that a block would give, and minus its place
+  std::priority_queue<Next> next;
+  const auto offer = [&](int b) {
+    if (block(b).n_u == 0) return;
+    if (const double size = reached(b).largest; size > 0) next.emplace(size, -b);
+  };
+  for (int b = 0; b < count(); ++b) offer(b);
+  while (!next.empty()) {
+    const auto [size, place] = next.top();
+    next.pop();
+    const int b = -place;
+    const auto& info = block(b);
+    const Reached r = reached(b);
+    if (r.largest != size) continue;  // what it gives was offered anew when its inputs grew
+    std::copy(r.states.begin(), r.states.end(), states(info));
+    for (int i = 0; i < info.sizes.outputs; ++i) {
+      const double y = r.outputs[static_cast<std::size_t>(i)];
+      if (signal(info, i) > 0 || !(y > 0) || !std::isfinite(y)) continue;
+      signal(info, i) = y;
+      for (const int reader : readers[static_cast<std::size_t>(info.y_begin + i)]) offer(reader);
+    }
   }
-  for (std::size_t k = 0; k < all.size(); ++k) note(static_cast<int>(k), std::max(std::abs(all[k]), sum[k]));
-  return changed;
 }
 
 /// From the declaration; else in equilibrium for inputs of this size; else what the derivative gathers in the time
 /// scale of the sources (from rest, where a law does not hold so far from it), though no more than the general guess (a
 /// controller's integrator stays small because its error does).
-void Sizer::size_states(int b, const std::vector<double>& u) {
+std::vector<double> Sizer::state_sizes(int b, const std::vector<double>& u) {
   const auto& info = block(b);
   const auto n = static_cast<std::size_t>(info.sizes.states);
   std::vector<double> size(n);
@@ -212,14 +237,17 @@ void Sizer::size_states(int b, const std::vector<double>& u) {
   for (std::size_t i = 0; i < n; ++i) {
     const auto k = std::min(i, declared.size() - 1);  // a sized block may declare one state for all of its kind
     if (!declared.empty() && declared[k].nominal_size > 0) size[i] = declared[k].nominal_size;
-    states(info)[i] = size[i];
   }
+  return size;
 }
 
 void Sizer::fill_unknown_states() {
   for (int b = 0; b < count(); ++b) {
     const auto& info = block(b);
-    if (info.sizes.states > 0 && states(info)[0] == 0) size_states(b, input_sizes(info));
+    if (info.sizes.states > 0 && states(info)[0] == 0) {
+      const auto size = state_sizes(b, input_sizes(info));
+      std::copy(size.begin(), size.end(), states(info));
+    }
     const bool length = is_length(program_.signals[static_cast<std::size_t>(info.y_begin)].dimension);
     for (int i = 0; i < info.sizes.states; ++i)
       if (!(states(info)[i] > 0)) states(info)[i] = length ? usual_length : usual_size;
