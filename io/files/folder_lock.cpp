@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds look_again{50};
+constexpr int most_coincidences = 8;  // on end; others who write there take away what they made, but not that often
 
 [[noreturn]] void cannot_write(const fs::path& folder, const fs::path& what, int error) {
   fail("cannot_write", folder.string(), fmt::format("{} cannot be made: {}", what.string(), std::strerror(error)),
@@ -62,6 +63,12 @@ FolderLock::~FolderLock() {
   remove_made();
 }
 
+/// Another process took `what` away this instant, or it is one of the places (/proc) where nothing can be made and the
+/// system says that it is not there.
+void FolderLock::try_again_or_fail(const fs::path& what) {
+  if (++vanished_ >= most_coincidences) cannot_write(folder_, what, ENOENT);
+}
+
 /// False where another process took one of them away this instant.
 bool FolderLock::make_folders() {
   fs::path path;
@@ -72,10 +79,13 @@ bool FolderLock::make_folders() {
       continue;
     }
     const int error = errno;
-    if (error == ENOENT) return false;  // the one around it, which was there, is gone
     std::error_code code;
-    if (fs::is_directory(path, code)) continue;
-    if (error == EEXIST && fs::symlink_status(path, code).type() == fs::file_type::not_found) return false;
+    if (error != ENOENT && fs::is_directory(path, code)) continue;
+    // The one around it, which was there, is gone, or it is itself.
+    if (error == ENOENT || (error == EEXIST && fs::symlink_status(path, code).type() == fs::file_type::not_found)) {
+      try_again_or_fail(path);
+      return false;
+    }
     cannot_write(folder_, path, error == EEXIST ? ENOTDIR : error);
   }
   return true;
@@ -91,7 +101,10 @@ bool FolderLock::take(std::string& holder) {
   if (!make_folders()) return false;
   const std::string file = (unfinished() / "lock").string();
   const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (fd < 0 && errno == ENOENT) return false;  // the last one took its folder away this instant
+  if (fd < 0 && errno == ENOENT) {  // the last one took its folder away
+    try_again_or_fail(file);
+    return false;
+  }
   if (fd < 0) cannot_write(folder_, file, errno);
   const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
   const bool taken = !locked && errno == EWOULDBLOCK;
@@ -101,6 +114,10 @@ bool FolderLock::take(std::string& holder) {
   if (taken || !same) {
     holder = content_of(fd);
     ::close(fd);
+    if (taken)
+      vanished_ = 0;
+    else
+      try_again_or_fail(file);
     return false;
   }
   const std::string text = this_process();

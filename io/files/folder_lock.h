@@ -31,11 +31,13 @@ class FolderLock {
  private:
   bool make_folders();
   bool take(std::string& holder);
+  void try_again_or_fail(const std::filesystem::path& what);
   void remove_made();
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;
   int descriptor_ = -1;
+  int vanished_ = 0;  ///< so often, on end, something went away that had just been there
 };
 
 /// True if a folder holds nothing, but for what an unfinished writing left and what a file system keeps in its root.

@@ -113,5 +113,25 @@ TEST(FolderLock, WhereNoFolderCanBeIsTold) {
   EXPECT_EQ(folder.count(), 1U);
 }
 
+// Of the folders of the kernel the system says that what cannot be made in them is not there, as it says of a folder
+// that somebody else takes away this instant.
+TEST(FolderLock, WhereNothingCanBeMadeItDoesNotWaitForEver) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("out"));
+  fs::create_symlink("/proc/self", folder.path("out/.hysteron"));  // is a folder, in which no lock can be made
+  for (const std::string place : {std::string("/proc/x"), std::string("/proc/x/y"), folder.path("out")}) {
+    try {
+      const FolderLock lock(place);
+      ADD_FAILURE() << place;
+    } catch (const Error& error) {
+      const auto& problem = error.problems.front();
+      EXPECT_EQ(problem.code, "cannot_write");
+      EXPECT_EQ(problem.path, place);
+      EXPECT_NE(problem.what.find("cannot be made: No such file or directory"), std::string::npos) << problem.what;
+      EXPECT_NE(problem.cure.find("-o"), std::string::npos) << problem.cure;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
