@@ -13,6 +13,7 @@
 #include "app/cli/publish.h"
 #include "app/cli/terminal.h"
 #include "app/cli/watch.h"
+#include "engine/diagram/stop.h"
 
 namespace hysteron {
 namespace {
@@ -61,17 +62,24 @@ std::string document_text(const Answer& answer, bool quiet) {
 }
 
 /// What is in place is told when it is: a failure comes behind what was said before it.
-void put_in_place(const Answer& answer, bool quiet, bool told) {
+void put_in_place(const Answer& answer, const Watch& watch, bool quiet, bool told) {
   const auto tell = [told](const std::string& text) {
     if (told && !text.empty()) fmt::print("{}", text);
   };
   tell(answer.text);
   if (!answer.folder.empty()) {
-    publish_folder(answer);
+    publish_folder(answer, watch);
     tell(document_text(answer, quiet));
   }
   publish_files(answer);
   tell(answer.closing);
+}
+
+/// Nothing is told, and the watch ends it, unless it has ended the verb, which kept what it had found.
+void put_in_place_silently(const Answer& answer, const Watch& watch) {
+  const auto stop = [&] { return answer.interrupted.empty() && watch.stop(); };
+  if (!answer.folder.empty()) publish_folder(answer, watch, stop);
+  publish_files(answer);
 }
 
 }  // namespace
@@ -81,7 +89,7 @@ int perform(const Verb& verb, const Arguments& arguments) {
   try {
     const Answer answer = verb.act(arguments, watched.watch);
     watched.line.clear();
-    put_in_place(answer, arguments.quiet(), !arguments.json());
+    put_in_place(answer, watched.watch, arguments.quiet(), !arguments.json());
     if (arguments.json()) fmt::print("{}", answer_json(verb, answer, watched.notes));
     watched.line.end(answer.interrupted.empty());
     if (!answer.interrupted.empty()) fmt::print(stderr, "{}\n", answer.interrupted);
@@ -101,10 +109,13 @@ Performed perform_silently(const Verb& verb, const Arguments& arguments, Watch w
     performed.notes.push_back(what);
     told(what);
   };
-  performed.answer = verb.act(arguments, watch);
+  {
+    const StopScope until_stopped(watch.stop);  // for the verbs that keep nothing of what they were at
+    performed.answer = verb.act(arguments, watch);
+  }
   Answer& answer = performed.answer;
   if (!arguments.has("-o") && answer.held == nullptr) answer.folder.clear();
-  put_in_place(answer, true, false);
+  put_in_place_silently(answer, watch);
   return performed;
 }
 

@@ -12,13 +12,13 @@
 namespace hysteron {
 namespace {
 
-/// Writes, unless Ctrl-C comes before anything is replaced. Who was interrupted before and keeps what was found by
-/// then is not stopped by the first Ctrl-C to come.
+/// Writes, unless Ctrl-C or `stop` comes before anything is replaced. Who was interrupted before and keeps what was
+/// found by then is not stopped by the first Ctrl-C to come.
 template <class Action>
-void write_in_order(const std::string& folder, const Action& action) {
+void write_in_order(const std::string& folder, const std::function<bool()>& stop, const Action& action) {
   const DeferInterrupts until_in_place(true);
   const int enough = interrupts() + (interrupted() ? 2 : 1);
-  const StopScope scope([enough] { return interrupts() >= enough; });
+  const StopScope scope([&stop, enough] { return interrupts() >= enough || (stop && stop()); });
   try {
     action();
   } catch (const Stopped&) {
@@ -26,10 +26,10 @@ void write_in_order(const std::string& folder, const Action& action) {
   }
 }
 
-FolderLock::Waiting say_who_writes(const std::string& folder) {
+FolderLock::Waiting say_who_writes(const std::string& folder, const Watch& watch) {
   constexpr int too_short_to_be_said = 10;  // calls, of which there are twenty a second
-  return [folder, calls = 0](const std::string& holder) mutable {
-    if (++calls == too_short_to_be_said) fmt::print(stderr, "waiting for {}, which writes into {}\n", holder, folder);
+  return [folder, say = watch.note, calls = 0](const std::string& holder) mutable {
+    if (++calls == too_short_to_be_said) say(fmt::format("waiting for {}, which writes into {}", holder, folder));
   };
 }
 
@@ -40,17 +40,17 @@ std::string place_in(const Answer& answer, const std::string& name) {
   return answer.folder + (slash ? "" : "/") + name;
 }
 
-std::shared_ptr<HeldFolder> hold_folder(const std::string& folder) {
-  return std::make_shared<HeldFolder>(folder, say_who_writes(folder));
+std::shared_ptr<HeldFolder> hold_folder(const std::string& folder, const Watch& watch) {
+  return std::make_shared<HeldFolder>(folder, say_who_writes(folder, watch));
 }
 
-void publish_folder(const Answer& answer) {
+void publish_folder(const Answer& answer, const Watch& watch, const std::function<bool()>& stop) {
   const std::string page = report_html(answer.document);
-  write_in_order(answer.folder, [&] {
+  write_in_order(answer.folder, stop, [&] {
     if (answer.held && answer.held->staged)
       finish_result(*answer.held->staged, answer.folder, answer.document, page);
     else
-      write_result(answer.folder, answer.document, page, say_who_writes(answer.folder));
+      write_result(answer.folder, answer.document, page, say_who_writes(answer.folder, watch));
   });
 }
 

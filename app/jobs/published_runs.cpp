@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/stop.h"
 
 namespace hysteron {
 namespace {
@@ -71,6 +72,8 @@ void do_task(Task& task, const std::vector<PublishedJob>& jobs, JobPool& pool, s
       pool.job(jobs[task.job].file).shared_result({task.run->name, task.run->pointer});
     } catch (const std::exception&) {
       // Told by the task that needs the run, with what it was needed for.
+    } catch (const Stopped&) {
+      results[task.job].error = std::current_exception();
     }
   }
   task.seconds = seconds_since(begin);
@@ -82,7 +85,8 @@ std::vector<JobDone> run_all(const std::vector<PublishedJob>& jobs, JobPool& poo
   std::vector<JobDone> results(jobs.size());
   std::vector<Task> tasks = tasks_of(jobs, pool);
   std::atomic<std::size_t> next{0}, ready{0};
-  const auto work = [&] {
+  const auto work = [&, asked = current_stop()] {
+    const StopScope same(asked);
     for (std::size_t i = next++; i < tasks.size(); i = next++) {
       do_task(tasks[i], jobs, pool, results);
       ++ready;

@@ -234,7 +234,7 @@ Answer study(const Arguments& arguments, const Watch& watch) {
     if (arguments.has("--shard")) return one_shard(arguments, watch, asked);
     const StudyFolder folder(asked.folder, asked.problem.study, digest_of(asked.problem.study), asked.shards);
     folder.check();
-    auto held = hold_folder(asked.folder);
+    auto held = hold_folder(asked.folder, watch);
     return wants_slurm(arguments) ? submit(arguments, asked, folder)
                                   : whole_study(arguments, watch, asked, folder, std::move(held));
   } catch (const Stopped&) {

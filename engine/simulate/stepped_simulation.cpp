@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/diagram/index.h"
+#include "engine/diagram/stop.h"
 #include "engine/events/rest.h"
 #include "engine/program/breakpoints.h"
 #include "engine/program/loops.h"
@@ -94,20 +95,26 @@ void SteppedSimulation::set(int input, double si) {
   wanted_[at(input)] = si;
 }
 
-/// What fails leaves the run somewhere between two instants.
+/// What fails leaves the run somewhere between two instants; what is stopped, where it may go on: work looks up before
+/// anything of a step or of an instant has happened.
 template <class Action>
 auto SteppedSimulation::unless_failed(const Action& action) {
   if (failed_)
     fail_numerics("stepper_failed", "stepper", fmt::format("it failed before, at t = {:.9g} s", t()),
                   "begin a new one, or go on from a copy that was taken before");
   failed_ = true;
-  if constexpr (std::is_void_v<decltype(action())>) {
-    action();
+  try {
+    if constexpr (std::is_void_v<decltype(action())>) {
+      action();
+      failed_ = false;
+    } else {
+      auto result = action();
+      failed_ = false;
+      return result;
+    }
+  } catch (const Stopped&) {
     failed_ = false;
-  } else {
-    auto result = action();
-    failed_ = false;
-    return result;
+    throw;
   }
 }
 
@@ -115,7 +122,11 @@ void SteppedSimulation::begin() {
   if (simulation_ != nullptr) return;
   for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i]->v.front() = wanted_[i];
   set_loop_accuracy(*program_, start_, options_.relative_tolerance, options_.absolute_tolerance);
-  if (options_.at_rest) settle_at_rest(*program_, start_, options_.begin);
+  if (options_.at_rest) {  // which may be stopped halfway
+    Run settled = start_;
+    settle_at_rest(*program_, settled, options_.begin);
+    start_ = std::move(settled);
+  }
   if (options_.method == Method::automatic)
     options_.method = choose_method(*program_, start_, options_.begin, options_.until - options_.begin).method;
   simulation_ = std::make_unique<AdaptiveSimulation>(*program_, start_, options_, std::vector<double>{infinity},

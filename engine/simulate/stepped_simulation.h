@@ -33,9 +33,11 @@ class SteppedSimulation {
   /// start; later it jumps, and is there before what is sampled at the same instant. Throws Error "bad_input".
   void set(int input, double si);
   /// Goes on to `until` [s]. A diagram with inputs leaves what is due at that very instant for the next call, since the
-  /// inputs of that instant are not set yet. Throws as simulate() does, and from then on Error "stepper_failed".
+  /// inputs of that instant are not set yet. Throws as simulate() does, and from then on Error "stepper_failed"; where
+  /// it was asked to stop (engine/diagram/stop.h) Stopped, and then it stands at t(), between two steps of its
+  /// integrator: another advance goes on to the same bits as if nobody had asked.
   void advance(double until);
-  /// Value of a signal [SI], as the last advance left it.
+  /// Value of a signal [SI], as the last advance left it. Throws Stopped likewise: the start may have to be settled.
   double value(int signal);
   long restarts() const;  ///< so often the integrator began anew behind its start
 

@@ -9,6 +9,7 @@
 #include "app/cli/perform.h"
 #include "engine/program/program.h"
 #include "engine/simulate/stepped_simulation.h"
+#include "interop/c/asked.h"
 #include "interop/c/hysteron.h"
 
 namespace hysteron::interop {
@@ -76,4 +77,5 @@ struct hy_stepper : hysteron::interop::Handle {
       : stepper(program, options) {}
   explicit hy_stepper(const hysteron::SteppedSimulation& other) : stepper(other) {}
   hysteron::SteppedSimulation stepper;
+  std::unique_ptr<hysteron::interop::Asked> asked;  ///< by hy_stepper_watch(); of this one alone, not of copies
 };

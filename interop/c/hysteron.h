@@ -94,7 +94,13 @@ HY_API hy_stepper* hy_stepper_new(const hy_diagram* diagram, const char* options
 HY_API int hy_stepper_set(hy_stepper* stepper, int input, double value, hy_error** error);
 
 /// Goes on to `until` [s]. In a diagram with inputs what is due at that very instant happens in the next call.
+///
+/// Where the watch ends it, HY_INTERRUPTED is returned and the stepper stands at hy_stepper_time(): another call goes
+/// on from there, to the same bits as if nobody had asked.
 HY_API int hy_stepper_advance(hy_stepper* stepper, double until, hy_error** error);
+
+/// Who is asked while this stepper (no copy of it) works, as a verb asks; NULL: nobody. The fraction is not known.
+HY_API void hy_stepper_watch(hy_stepper* stepper, hy_watch watch, void* context);
 
 /// The value of a signal, in its unit, as the last advance left it.
 HY_API int hy_stepper_get(hy_stepper* stepper, int signal, double* value, hy_error** error);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/diagram/index.h"
+#include "engine/diagram/stop.h"
 #include "engine/diagram/units.h"
 #include "interop/c/handles.h"
 
@@ -40,6 +41,15 @@ SimulateOptions options_of(const Program& program, const char* options) {
   return settings;
 }
 
+/// What `action` returns, unless the watch of the stepper ends it.
+template <class Action>
+auto watched(hy_stepper& stepper, const Action& action) {
+  if (stepper.asked == nullptr || !stepper.asked->somebody()) return action();
+  stepper.asked->begin(-1, "advance");
+  const StopScope scope([asked = stepper.asked.get()] { return asked->stop(); });
+  return action();
+}
+
 }  // namespace
 }  // namespace hysteron::interop
 
@@ -61,10 +71,15 @@ int hy_stepper_set(hy_stepper* stepper, int input, double value, hy_error** erro
   });
 }
 
+void hy_stepper_watch(hy_stepper* stepper, hy_watch watch, void* context) {
+  if (stepper == nullptr) return;
+  interop::guarded_code(nullptr, [&] { stepper->asked = std::make_unique<interop::Asked>(watch, context); });
+}
+
 int hy_stepper_advance(hy_stepper* stepper, double until, hy_error** error) {
   return interop::guarded_code(error, [&] {
     interop::need(stepper, "stepper");
-    stepper->stepper.advance(until);
+    interop::watched(*stepper, [&] { stepper->stepper.advance(until); });
   });
 }
 
@@ -72,7 +87,7 @@ int hy_stepper_get(hy_stepper* stepper, int signal, double* value, hy_error** er
   return interop::guarded_code(error, [&] {
     interop::need(stepper, "stepper");
     interop::need(value, "value");
-    const double si = stepper->stepper.value(signal);
+    const double si = interop::watched(*stepper, [&] { return stepper->stepper.value(signal); });
     *value = stepper->stepper.program().signals[at(signal)].unit.from_si(si);
   });
 }

@@ -2,13 +2,12 @@
 // traces as columns.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/answer_json.h"
 #include "app/cli/words.h"
+#include "app/study/study_slurm.h"
+#include "interop/c/asked.h"
 #include "interop/c/handles.h"
 #include "report/page/figure_file.h"
 #include "report/pages/numbers.h"
@@ -17,50 +16,6 @@ namespace hysteron::interop {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-/// Tells and asks the function of the caller now and then, one thread at a time.
-class Asked {
- public:
-  Asked(hy_watch told, void* context) : told_(told), context_(context), last_(Clock::now()) {}
-
-  Watch watch() {
-    Watch watch;
-    if (told_ == nullptr) return watch;
-    watch.show = [this](double fraction, const std::string& what) {
-      const std::unique_lock lock(mutex_, std::try_to_lock);
-      if (!lock) return;
-      fraction_ = fraction;
-      what_ = what;
-      ask();
-    };
-    watch.stop = [this] {
-      if (!stopped_ && due()) {
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock) ask();
-      }
-      return stopped_.load();
-    };
-    return watch;
-  }
-
- private:
-  bool due() const { return Clock::now() - last_.load() >= shortest_period; }
-  void ask() {
-    if (stopped_ || !due()) return;
-    stopped_ = told_(context_, fraction_, what_.c_str()) != 0;
-    last_ = Clock::now();
-  }
-
-  static constexpr std::chrono::milliseconds shortest_period{50};
-  hy_watch told_;
-  void* context_;
-  std::mutex mutex_;
-  std::atomic<bool> stopped_{false};
-  std::atomic<Clock::time_point> last_;
-  double fraction_ = -1;
-  std::string what_;
-};
 
 Json traces_of(const Document& document) {
   Json list = Json::array();
@@ -87,10 +42,15 @@ std::string result_json(const Verb& verb, const Performed& performed) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void need_verb_for_programs(const Verb& verb) {
+/// What starts the program again, which a library does not know: it has been loaded by another one.
+void need_work_for_a_library(const Verb& verb, const Arguments& arguments) {
   if (verb.name == "studio")
     fail("bad_call", verb.name, "serves a page, for which it starts the program itself again and again",
          "start it as a program: hysteron studio");
+  if (verb.name == "study" && wants_slurm(arguments))
+    fail(
+        "bad_call", "--slurm", "hands jobs to a cluster, each of which starts the program itself",
+        "start it as a program (hysteron study ... --slurm), or compute here: leave --slurm and what belongs to it out");
 }
 
 std::unique_ptr<hy_result> carry_out(const std::vector<std::string>& words, Asked& asked) {
@@ -100,7 +60,7 @@ std::unique_ptr<hy_result> carry_out(const std::vector<std::string>& words, Aske
     result->json = Json{{"verb", words.front()}, {"exit_code", reading.exit_code}, {"text", reading.text}}.dump();
     return result;
   }
-  need_verb_for_programs(*reading.verb);
+  need_work_for_a_library(*reading.verb, reading.arguments);
   Performed performed = perform_silently(*reading.verb, reading.arguments, asked.watch());
   result->json = result_json(*reading.verb, performed);
   result->answer = std::move(performed.answer);

@@ -9,6 +9,7 @@ import ctypes
 import json
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import threading
@@ -55,6 +56,7 @@ def _declare(library: ctypes.CDLL) -> None:
         ("hy_stepper_new", handle, [handle, text, error]),
         ("hy_stepper_set", whole, [handle, whole, number, error]),
         ("hy_stepper_advance", whole, [handle, number, error]),
+        ("hy_stepper_watch", None, [handle, _WATCH, handle]),
         ("hy_stepper_get", whole, [handle, whole, ctypes.POINTER(number), error]),
         ("hy_stepper_time", number, [handle]),
         ("hy_stepper_copy", handle, [handle, error]),
@@ -181,6 +183,15 @@ class _Watched:
         self.failure: Optional[BaseException] = None
         self.function = _WATCH(self._ask)
 
+    def begin(self) -> None:
+        self.stop, self.failure = False, None
+
+    def raise_failure(self) -> None:
+        if isinstance(self.failure, KeyboardInterrupt):
+            raise Interrupted("interrupted")
+        if self.failure is not None:
+            raise self.failure
+
     def _ask(self, _context: Any, fraction: float, what: bytes) -> int:
         try:
             if callable(self.told):
@@ -189,6 +200,43 @@ class _Watched:
             self.failure = failure
             self.stop = True
         return int(self.stop)
+
+
+class SteppedWatch:
+    """Lets Ctrl-C reach this thread while a stepper works in it: steps are too short for a thread of their own.
+
+    The handler of Python must not raise in the middle of a call of the library, where the exception would be lost: what
+    it raises waits until the library has ended.
+    """
+
+    def __init__(self, stepper: Handle) -> None:
+        self._watched = _Watched(False)
+        self._pointer = stepper.pointer
+        lib.hy_stepper_watch(self._pointer, self._watched.function, None)
+
+    def advance(self, until: float) -> None:
+        before = signal.getsignal(signal.SIGINT) if threading.current_thread() is threading.main_thread() else None
+        if not callable(before):
+            return done(lib.hy_stepper_advance, self._pointer, until)
+        handler = before
+        watched = self._watched
+        watched.begin()
+
+        def keep(number: int, frame: Any) -> None:
+            try:
+                handler(number, frame)
+            except BaseException as failure:
+                watched.failure = failure
+                watched.stop = True
+
+        signal.signal(signal.SIGINT, keep)
+        try:
+            done(lib.hy_stepper_advance, self._pointer, until)
+        except Interrupted:
+            pass  # told below, as whatever the handler raised
+        finally:
+            signal.signal(signal.SIGINT, before)
+        watched.raise_failure()
 
 
 def carried_out(name: str, words: Sequence[str], progress: Progress) -> Handle:

@@ -18,6 +18,7 @@ class Stepper:
     def __init__(self, diagram: Diagram, handle: library.Handle) -> None:
         self._diagram = diagram
         self._handle = handle
+        self._watch = library.SteppedWatch(handle)
 
     @property
     def t(self) -> float:
@@ -35,8 +36,8 @@ class Stepper:
         return self
 
     def advance(self, until: float) -> Stepper:
-        """Goes on to `until` [s]."""
-        library.done(library.lib.hy_stepper_advance, self._handle.pointer, float(until))
+        """Goes on to `until` [s]. Ctrl-C ends it with Interrupted; it stands at `t` then, and may go on."""
+        self._watch.advance(float(until))
         return self
 
     def __getitem__(self, signal: str) -> float:

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "engine/diagram/stop.h"
 #include "tests/engine/event_blocks.h"
 #include "tests/engine/simulate_tools.h"
 
@@ -149,6 +151,29 @@ TEST(Stepper, WhatCannotBeIsRefusedAndMayBeDoneRightBehindIt) {
   EXPECT_THROW(stepper.value(99), Error);
   stepper.advance(0.6);
   EXPECT_EQ(stepper.t(), 0.6);
+}
+
+// Stopped again and again at whatever step it looks up, it comes to the bits of a stepper that nobody stops.
+TEST(Stepper, WhatWasStoppedGoesOnToTheSameBits) {
+  const auto p = sampled_loop();
+  const SimulateOptions options{.until = 20, .relative_tolerance = 1e-9};
+  SteppedSimulation through(p, options), stopped(p, options);
+  through.advance(20);
+  int stops = 0;
+  while (stopped.t() < 20) {
+    bool stop = false;  // at every other time that somebody asks
+    const StopScope scope([&] { return std::exchange(stop, !stop); });
+    const double before = stopped.t();
+    try {
+      stopped.advance(20);
+    } catch (const Stopped&) {
+      ++stops;
+      EXPECT_GT(stopped.t(), before);
+      EXPECT_LT(stopped.t(), 20);
+    }
+  }
+  EXPECT_GT(stops, 3);
+  for (const int s : p->record_signals) EXPECT_EQ(stopped.value(s), through.value(s));
 }
 
 TEST(Stepper, WhatFailedDoesNotGoOn) {

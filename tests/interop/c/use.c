@@ -1,11 +1,16 @@
 // hysteron.h as a program in C uses it: a verb, its columns, an error, a stepper, the watch, and all of that in several
 // threads at once. Argument: the folder of the sources.
+#define _DEFAULT_SOURCE
+#include <fcntl.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "interop/c/hysteron.h"
 
@@ -112,6 +117,83 @@ static void the_watch_ends_work(void) {
   hy_free(error);
 }
 
+// Whatever a verb keeps of what it was at, and whatever it waits for.
+static void the_watch_ends_every_kind_of_work(void) {
+  hy_error* error = NULL;
+  char from[1200], job[1200];
+  snprintf(from, sizeof from, "%s/diagrams", folder);
+  const char* words[] = {"all", "--from", from};
+  int asked = 0;
+  CHECK(hy_verb("reproduce", 3, words, asked_before_the_end, &asked, &error) == NULL);
+  CHECK(asked == 1 && hy_error_code(error) == HY_INTERRUPTED);
+  hy_free(error);
+  // Somebody else writes into the folder, and does not end.
+  char place[] = "/tmp/hysteron_use_XXXXXX", hidden[64], lock[96];
+  CHECK(mkdtemp(place) != NULL);
+  snprintf(hidden, sizeof hidden, "%s/.hysteron", place), snprintf(lock, sizeof lock, "%s/lock", hidden);
+  CHECK(mkdir(hidden, 0777) == 0);
+  const int held = open(lock, O_RDWR | O_CREAT, 0666);
+  CHECK(held >= 0 && flock(held, LOCK_EX) == 0);
+  snprintf(job, sizeof job, "%s/tests/interop/stage.json", folder);
+  const char* writes[] = {job, "-o", place};
+  asked = 0;
+  CHECK(hy_verb("run", 3, writes, asked_before_the_end, &asked, &error) == NULL);
+  CHECK(asked == 1 && hy_error_code(error) == HY_INTERRUPTED);
+  hy_free(error);
+  CHECK(unlink(lock) == 0 && close(held) == 0 && rmdir(hidden) == 0 && rmdir(place) == 0);
+}
+
+static int asked_until(void* context, double fraction, const char* what) {
+  int* left = context;
+  CHECK(what != NULL && fraction < 0);  // how far a stepper is going is not known
+  return --*left <= 0;
+}
+
+static void the_watch_ends_an_advance(void) {
+  hy_error* error = NULL;
+  hy_diagram* diagram = hy_load(stage, NULL, NULL);
+  CHECK(diagram != NULL);
+  const char* at = strstr(hy_diagram_json(diagram), "\"signal\":");
+  const int y = at != NULL ? atoi(at + strlen("\"signal\":")) : 0;
+  hy_stepper* stepper = hy_stepper_new(diagram, "{\"until\": \"10000000 s\"}", &error);
+  CHECK(stepper != NULL);
+  hy_free(diagram);
+  int left = 2;
+  hy_stepper_watch(stepper, asked_until, &left);
+  CHECK(hy_stepper_advance(stepper, 1e7, &error) == HY_INTERRUPTED);  // of hours
+  CHECK(left == 0 && strstr(hy_error_json(error), "interrupted") != NULL);
+  hy_free(error);
+  const double t = hy_stepper_time(stepper);
+  CHECK(t > 0 && t < 1e7);
+  // A copy is watched by nobody, and both go on.
+  hy_stepper* copy = hy_stepper_copy(stepper, &error);
+  CHECK(copy != NULL);
+  left = 1000;
+  double one = 0, other = 0;
+  CHECK(hy_stepper_advance(stepper, t + 1, &error) == HY_DONE && error == NULL);
+  CHECK(hy_stepper_advance(copy, t + 1, &error) == HY_DONE && error == NULL);
+  CHECK(hy_stepper_get(stepper, y, &one, NULL) == HY_DONE && hy_stepper_get(copy, y, &other, NULL) == HY_DONE);
+  CHECK(fabs(one - other) < 1e-6);  // V; the integrator of a copy begins anew
+  hy_stepper_watch(stepper, NULL, NULL);
+  CHECK(hy_stepper_advance(stepper, t + 2, NULL) == HY_DONE);
+  hy_stepper_watch(NULL, NULL, NULL);
+  hy_free(copy);
+  hy_free(stepper);
+}
+
+static void what_starts_the_program_is_refused(void) {
+  hy_error* error = NULL;
+  const char* words[] = {"no_such_study.json", "--slurm"};
+  CHECK(hy_verb("study", 2, words, NULL, NULL, &error) == NULL && hy_error_code(error) == HY_BAD_INPUT);
+  CHECK(strstr(hy_error_json(error), "\"--slurm\"") != NULL && strstr(hy_error_json(error), "as a program") != NULL);
+  hy_free(error);
+  words[1] = "--slurm-dry-run";
+  CHECK(hy_verb("study", 2, words, NULL, NULL, &error) == NULL && strstr(hy_error_json(error), "--slurm") != NULL);
+  hy_free(error);
+  CHECK(hy_verb("studio", 0, NULL, NULL, NULL, &error) == NULL && strstr(hy_error_json(error), "as a program") != NULL);
+  hy_free(error);
+}
+
 static void* in_a_thread(void* argument) {
   const double gain = *(const double*)argument;
   double* both = malloc(2 * sizeof *both);
@@ -142,5 +224,8 @@ int main(int argc, char** argv) {
     free(both);
   }
   the_watch_ends_work();
+  the_watch_ends_every_kind_of_work();
+  the_watch_ends_an_advance();
+  what_starts_the_program_is_refused();
   return 0;
 }
