@@ -119,7 +119,7 @@ TEST(FolderLock, WhereNothingCanBeMadeItDoesNotWaitForEver) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path("out"));
   fs::create_symlink("/proc/self", folder.path("out/.hysteron"));  // is a folder, in which no lock can be made
-  for (const std::string place : {std::string("/proc/x"), std::string("/proc/x/y"), folder.path("out")}) {
+  for (const std::string& place : {std::string("/proc/x"), std::string("/proc/x/y"), folder.path("out")}) {
     try {
       const FolderLock lock(place);
       ADD_FAILURE() << place;
