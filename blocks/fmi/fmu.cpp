@@ -68,7 +68,7 @@ void Fmu::describe(Declaration& d) {
       "it (docs/fmi.md).");
   d.inputs_any("in", "$in", "its inputs, by their names");
   d.outputs_any("y", "$result", "its outputs, by their names");
-  d.text("file", {}, "the FMU, e.g. \"drive.fmu\"").optional("");
+  d.text("file", {}, "the FMU, e.g. \"drive.fmu\"");
   d.text("interface", {}, "made from the file; not written").optional("");
   d.sampled();
 }

@@ -12,6 +12,10 @@ namespace {
 
 // So many runs go on side by side without a way that is gone twice; each instance may hold a whole model.
 constexpr std::size_t most_instances = 16;
+// Beyond so many, runs are forgotten, but never those that were used last. A node takes some 200 bytes and its numbers.
+constexpr std::size_t most_nodes = 100'000;
+// Number of a node: its tree times this, and its place in the tree. 2^53 is what a double counts to.
+constexpr long places_of_tree = 1L << 28;
 
 std::vector<unsigned> references_of(const std::vector<ForeignVariable>& list) {
   std::vector<unsigned> references;
@@ -47,11 +51,37 @@ FmuRuns& FmuRuns::at_number(int number) {
   return *all.runs.at(static_cast<std::size_t>(number));
 }
 
-FmuRuns::Node& FmuRuns::node(long number) { return nodes_.at(static_cast<std::size_t>(number - 1)); }
+FmuRuns::Tree& FmuRuns::tree_of(long node) {
+  const auto found = trees_.find(node / places_of_tree);
+  if (found == trees_.end())
+    fail_numerics("fmu_forgotten", interface_.file,
+                  "the state of the FMU is no more known: too many other runs were begun since this one",
+                  "begin this run again from its start; the FMU goes the same way");
+  found->second.used = ++uses_;
+  return found->second;
+}
 
-long FmuRuns::added(Node node) {
-  nodes_.push_back(std::move(node));
-  return static_cast<long>(nodes_.size());
+FmuRuns::Node& FmuRuns::node(long number) {
+  return tree_of(number).nodes.at(static_cast<std::size_t>(number % places_of_tree));
+}
+
+long FmuRuns::added(long tree, Node node) {
+  auto& nodes = trees_.at(tree).nodes;
+  nodes.push_back(std::move(node));
+  ++nodes_;
+  return tree * places_of_tree + static_cast<long>(nodes.size()) - 1;
+}
+
+/// Whoever is at work has used its tree a moment ago; so have the instances that are live.
+void FmuRuns::forget() {
+  while (nodes_ > most_nodes && trees_.size() > most_instances) {
+    const auto oldest = std::min_element(trees_.begin(), trees_.end(),
+                                         [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    std::erase_if(live_, [&](const auto& i) { return i.node / places_of_tree == oldest->first; });
+    roots_.erase(oldest->second.root);
+    nodes_ -= oldest->second.nodes.size();
+    trees_.erase(oldest);
+  }
 }
 
 FmuRuns::Instance FmuRuns::fresh(const Node& root) {
@@ -86,12 +116,15 @@ long FmuRuns::root(double start, const std::vector<std::pair<int, double>>& para
   const std::lock_guard lock(mutex_);
   const auto known = roots_.find({start, parameters});
   if (known != roots_.end()) return known->second;
+  forget();
   Node root;
   root.from = start;
   root.parameters = parameters;
   Instance instance = fresh(root);
   root.outputs = read(instance);
-  const long number = added(std::move(root));
+  const long tree = ++last_tree_;
+  trees_[tree] = {{start, parameters}, {}, ++uses_};
+  const long number = added(tree, std::move(root));
   roots_[{start, parameters}] = number;
   instance.node = number;
   keep(std::move(instance));
@@ -134,7 +167,7 @@ long FmuRuns::advanced(long from_node, std::span<const double> inputs, double fr
   Instance instance = taken(from_node);
   step(instance, next);
   next.outputs = read(instance);
-  const long number = added(std::move(next));
+  const long number = added(from_node / places_of_tree, std::move(next));
   node(from_node).children.push_back(number);
   instance.node = number;
   keep(std::move(instance));

@@ -11,6 +11,7 @@
 #include "blocks/fmi/fmi2.h"
 #include "blocks/fmi/fmi3.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/percent_text.h"
 
 namespace hysteron {
 
@@ -68,16 +69,7 @@ class NativeFmu::Interface {
 
 namespace {
 
-/// RFC 3986: all but unreserved characters are escaped.
-std::string file_uri(const std::string& path) {
-  std::string uri = "file://";
-  for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' ||
-                       c == '-' || c == '.' || c == '_' || c == '~';
-    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri;
-}
+std::string file_uri(const std::string& path) { return "file://" + percent_encoded(path); }
 
 class Fmi2 : public NativeFmu::Interface {
  public:

@@ -2,12 +2,12 @@
 #include "blocks/fmi/fmi2.h"
 
 #include <cstring>
-#include <memory>
 #include <new>
 
 #include "interop/fmi/answered.h"
 #include "interop/fmi/fmu_instance.h"
 #include "interop/fmi/resource_folder.h"
+#include "interop/fmi/state_handle.h"
 
 namespace hysteron::interop {
 namespace {
@@ -131,27 +131,13 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], size_t cou
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  return with(c, [&](FmuInstance& i) {
-    interop::need(state, 1, "state");
-    auto copy = std::make_unique<FmuInstance::State>(i.saved());
-    if (*state != nullptr)
-      *static_cast<FmuInstance::State*>(*state) = std::move(*copy);
-    else
-      *state = copy.release();
-  });
+  return with(c, [&](FmuInstance& i) { interop::save_state(i, state); });
 }
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
-  return with(c, [&](FmuInstance& i) {
-    interop::need(state, 1, "state");
-    i.restore(*static_cast<const FmuInstance::State*>(state));
-  });
+  return with(c, [&](FmuInstance& i) { interop::restore_state(i, state); });
 }
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  return with(c, [&](FmuInstance&) {
-    if (state == nullptr) return;
-    delete static_cast<FmuInstance::State*>(*state);
-    *state = nullptr;
-  });
+  return with(c, [&](FmuInstance&) { interop::free_state(state); });
 }
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate, size_t*) {
   return interop::only_none(c, 1, "states as bytes");

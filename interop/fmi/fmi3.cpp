@@ -1,11 +1,10 @@
 // Decides how an instance is driven through the functions of FMI 3. Variables are of the type Float64 all.
 #include "blocks/fmi/fmi3.h"
 
-#include <memory>
-
 #include "interop/fmi/answered.h"
 #include "interop/fmi/fmu_instance.h"
 #include "interop/fmi/resource_folder.h"
+#include "interop/fmi/state_handle.h"
 
 namespace hysteron::interop {
 namespace {
@@ -126,27 +125,13 @@ fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t 
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState* state) {
-  return with(c, [&](FmuInstance& i) {
-    interop::need(state, "state");
-    auto copy = std::make_unique<FmuInstance::State>(i.saved());
-    if (*state != nullptr)
-      *static_cast<FmuInstance::State*>(*state) = std::move(*copy);
-    else
-      *state = copy.release();
-  });
+  return with(c, [&](FmuInstance& i) { interop::save_state(i, state); });
 }
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
-  return with(c, [&](FmuInstance& i) {
-    interop::need(state, "state");
-    i.restore(*static_cast<const FmuInstance::State*>(state));
-  });
+  return with(c, [&](FmuInstance& i) { interop::restore_state(i, state); });
 }
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState* state) {
-  return with(c, [&](FmuInstance&) {
-    if (state == nullptr) return;
-    delete static_cast<FmuInstance::State*>(*state);
-    *state = nullptr;
-  });
+  return with(c, [&](FmuInstance&) { interop::free_state(state); });
 }
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 from, fmi3Float64 size, bool, bool* event_needed, bool* terminate,
                       bool* early_return, fmi3Float64* last_time) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/diagram/error.h"
@@ -18,6 +19,8 @@ namespace hysteron {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int version_of_packing = 1;
 
 /// The members of a structure, once for both ways: `io(key, member)` writes or reads one.
 template <class Io, class T>
@@ -224,7 +227,7 @@ class Unpacker {
 
 std::string packed_diagram(const PackedDiagram& packed) {
   Packer pack;
-  Json json{{"packed", 1}};
+  Json json{{"packed", version_of_packing}};
   json["units"] = pack(packed.units);
   json["diagram"] = pack(packed.diagram);
   json["series"] = pack.take_series();
@@ -234,6 +237,10 @@ std::string packed_diagram(const PackedDiagram& packed) {
 PackedDiagram unpacked_diagram(std::string_view text) {
   try {
     const Json json = Json::parse(text);
+    const Json& version = json.at("packed");
+    if (version != version_of_packing)
+      throw std::runtime_error("its version is " + version.dump() + ", and version " +
+                               std::to_string(version_of_packing) + " is read here");
     PackedDiagram packed;
     Unpacker unpack(json.at("series"));
     unpack(json.at("units"), packed.units);

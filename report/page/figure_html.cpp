@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/diagram/percent_text.h"
 #include "io/data/csv.h"
 #include "report/page/figure_data.h"
 #include "report/page/figure_svg.h"
@@ -104,7 +105,7 @@ std::string caption_html(const PreparedFigure& f) {
   if (!sources.empty() && sources.size() <= 4) {
     out += out.empty() ? "Data: " : " Data: ";
     for (const auto& s : sources)
-      out += fmt::format("{}<a href=\"{}\">{}</a>", s == *sources.begin() ? "" : ", ", escape_path(s), escape(s));
+      out += fmt::format("{}<a href=\"{}\">{}</a>", s == *sources.begin() ? "" : ", ", percent_encoded(s), escape(s));
   } else if (!sources.empty()) {
     out += fmt::format("{}Data: {} files in traces/.", out.empty() ? "" : " ", sources.size());
   }
@@ -133,7 +134,7 @@ std::string bars_csv_html(const PreparedFigure& f) {
   for (const auto& bar : f.bars)
     csv += csv_cell(bar.label) + "," + (std::isfinite(bar.value) ? fmt::format("{}", bar.value) : "") + "\n";
   return fmt::format("<a class=\"csv\" download=\"{}\" href=\"data:text/csv;charset=utf-8,{}\">CSV</a>",
-                     escape(csv_name(f.title)), escape_path(csv));
+                     escape(csv_name(f.title)), percent_encoded(csv));
 }
 
 std::string figure_html(const PreparedFigure& f, const std::string& link, bool with_caption = true) {

@@ -1,9 +1,5 @@
 #include "report/page/html.h"
 
-#include <fmt/format.h>
-
-#include <cctype>
-
 namespace hysteron {
 
 std::string escape(std::string_view text) {
@@ -82,18 +78,6 @@ std::string escape_json(std::string_view json) {
       out += "\\u003c";
     else
       out += c;
-  }
-  return out;
-}
-
-std::string escape_path(std::string_view path) {
-  std::string out;
-  for (const char c : path) {
-    const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) || c == '/' || c == '.' || c == '_' || c == '-')
-      out += c;
-    else
-      out += fmt::format("%{:02X}", u);
   }
   return out;
 }

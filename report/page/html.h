@@ -16,7 +16,4 @@ std::string escape_prose(std::string_view text);
 /// JSON text for a <script type="application/json">: no "<" that could end the element. `json` must be valid JSON.
 std::string escape_json(std::string_view json);
 
-/// A relative path as a link: everything but letters, digits, / . _ - is percent-encoded.
-std::string escape_path(std::string_view path);
-
 }  // namespace hysteron

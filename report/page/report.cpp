@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/diagram/percent_text.h"
 #include "report/page/assets.h"
 #include "report/page/decimate.h"
 #include "report/page/figure_html.h"
@@ -228,7 +229,7 @@ std::string picture_html(const Document& d, const Figure& f) {
       "<figure class=\"figure wide\" data-kind=\"picture\">\n<header><h3>{}</h3></header>\n"
       "<div class=\"drawing\"><a href=\"{}\"><img alt=\"{}\" "
       "src=\"data:image/svg+xml;base64,{}\"></a></div>\n{}</figure>\n",
-      escape_prose(f.title), escape_path(f.picture), escape(f.title), base64(file->second),
+      escape_prose(f.title), percent_encoded(f.picture), escape(f.title), base64(file->second),
       f.caption.empty() ? "" : "<p class=\"caption\">" + escape_prose(f.caption) + "</p>\n");
 }
 

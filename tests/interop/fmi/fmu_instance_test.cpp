@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -218,6 +219,33 @@ TEST(Fmu, CheckLooksThroughItAndRunsItWhereItIsTrusted) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("lists 1 as an output, which is none"), std::string::npos) << wrong.err;
   EXPECT_NE(wrong.err.find("there is no binary in it"), std::string::npos) << wrong.err;
+}
+
+// The schemas of the standard are in no package of Debian. Who has them says where, in a folder with schema/fmi2 and
+// schema/fmi3 as in an archive of the standard, or flat.
+TEST(Fmu, DescriptionsAreValidUnderTheSchemasOfTheStandard) {
+  const char* const schemas = std::getenv("HYSTERON_FMI_SCHEMAS");
+  if (schemas == nullptr) GTEST_SKIP() << "HYSTERON_FMI_SCHEMAS=FOLDER says where fmi2ModelDescription.xsd lies";
+  const TemporaryFolder folder;
+  std::map<int, std::string> files;
+  int count = 0;
+  for (const auto& file : diagrams_that_run()) {
+    const auto program = compile(read_diagram(file), blocks_of_all());
+    for (const int version : {2, 3}) {
+      const std::string name = std::to_string(++count) + ".xml";
+      files[version] +=
+          " " + folder.write(name, fmi_description_text(exported_description(*program, version, "d", "{t}")));
+    }
+  }
+  for (const auto& [version, names] : files) {
+    const std::string schema = "fmi" + std::to_string(version) + "ModelDescription.xsd";
+    std::string path;
+    for (const auto& entry : fs::recursive_directory_iterator(schemas))
+      if (entry.path().filename() == schema) path = entry.path().string();
+    if (path.empty()) continue;
+    const auto checked = process::shell(folder.path(), "xmllint --noout --schema " + path + names);
+    EXPECT_EQ(checked.code, 0) << checked.err.substr(0, 4000);
+  }
 }
 
 TEST(Fmu, ItStandsOnTheLibraryOfCAlone) {

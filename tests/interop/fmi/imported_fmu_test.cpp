@@ -50,6 +50,7 @@ Diagram around(const Diagram& diagram, const Program& program, int version, doub
   Diagram host;
   Node& node = host.blocks["x"];
   node.type = "fmu";
+  node.parameters["file"].content = std::string("exported.fmu");
   node.parameters["interface"].content = foreign_interface_text(interface);
   node.parameters["period"] = Value(Number{period, "s"});
   for (const auto& v : interface.outputs) host.record.push_back("x." + v.port);
@@ -154,6 +155,41 @@ TEST_F(ImportedFile, ACopyOfARunGoesOnByItself) {
              again = simulate(*program, *first.end, rest).values[0];
   EXPECT_EQ(once, again);
   EXPECT_NEAR(once.back(), 2e-6 * (1 - std::exp(-0.95)), 2e-12);  // the last row is at 19.5 ms: 19 steps
+}
+
+// States of an FMU live in its process: of many runs those that nobody has asked for in a long while are forgotten.
+TEST_F(ImportedFile, RunsOfLongAgoAreForgottenAndMayBeBegunAgain) {
+  const auto begun = [&](int k) {
+    const auto program =
+        compile(read_diagram(host(R"(, "gain_gain": ")" + std::to_string(k) + R"( um/V")"), {folder_.path("lag.fmu")}),
+                known_blocks());
+    SimulateOptions options = simulate_options(*program);
+    options.method = Method::runge_kutta;  // whose traces have the run at their end
+    options.until = 4.9995;                // 5000 steps
+    options.every = options.until;
+    return std::pair(program, simulate(*program, start(*program), options));
+  };
+  const auto go_on = [](const auto& run) {
+    SimulateOptions options = simulate_options(*run.first);
+    options.method = Method::runge_kutta;
+    options.begin = 4.9995;
+    options.until = 5.01;
+    return simulate(*run.first, *run.second.end, options).values[0].back();
+  };
+  const auto first = begun(1);
+  EXPECT_NEAR(go_on(first), 2e-6, 1e-11);
+  auto last = begun(2);
+  for (int k = 3; k < 30; ++k) last = begun(k);
+  EXPECT_NEAR(go_on(last), 58e-6, 1e-10);
+  try {
+    go_on(first);
+    FAIL() << "30 runs of 5000 steps are more than are kept";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems.front().code, "fmu_forgotten");
+    EXPECT_NE(error.problems.front().cure.find("begin this run again"), std::string::npos);
+  }
+  const auto again = begun(1);
+  EXPECT_EQ(again.second.values, first.second.values);
 }
 
 TEST_F(ImportedFile, WhatIsWrongIsToldAtItsPlace) {

@@ -1,8 +1,9 @@
-// Walks an exported FMU through the phases of FMI 2, as a simulator in C does: two instances, reset, states, and calls
-// in the wrong order. The FMU is tests/interop/driven.json: y' = (1 um/V u - y) / 20 ms.
-// Arguments: the binary, the URI of its resources, its token, and the value references of u, y and gain.gain.
+// Walks an exported FMU through the phases of FMI 2, as a simulator in C does: two instances, reset, states, calls in
+// the wrong order, and instances in several threads at once. The FMU is tests/interop/driven.json: y' = (1 um/V u - y)
+// / 20 ms. Arguments: the binary, the URI of its resources, its token, and the value references of u, y and gain.gain.
 #include <dlfcn.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -153,6 +154,55 @@ static void walk_in_disorder(fmi2Component c) {
   CHECK(step(NULL, 0, 1, fmi2True) == fmi2Error);
 }
 
+/* What nobody listens to is not told: `said` is one for all. */
+static void hear_nothing(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                         fmi2String category, fmi2String message, ...) {
+  (void)environment, (void)instance, (void)status, (void)category, (void)message;
+}
+static const char *token, *resources;
+
+/* Made, stepped, saved, set back, reset and freed, while others are. */
+static void* alone(void* argument) {
+  const double input = *(const double*)argument;
+  const fmi2CallbackFunctions call = {hear_nothing, calloc, free, NULL, NULL};
+  double* reached = malloc(2 * sizeof *reached);
+  CHECK(reached != NULL);
+  for (int round = 0; round < 3; ++round) {
+    fmi2Component c = instantiate("alone", fmi2CoSimulation, token, resources, &call, fmi2False, fmi2False);
+    CHECK(c != NULL);
+    begin(c, input);
+    steps(c, 0, 1e-3, 20);
+    fmi2FMUstate state = NULL;
+    CHECK(save(c, &state) == fmi2OK);
+    reached[0] = value(c, y);
+    steps(c, 20e-3, 1e-3, 20);
+    CHECK(restore(c, state) == fmi2OK && value(c, y) == reached[0]);
+    steps(c, 20e-3, 1e-3, 20);
+    reached[1] = value(c, y);
+    CHECK(is_response(reached[0], input, 20e-3) && is_response(reached[1], input, 40e-3));
+    const double wrong = NAN;
+    CHECK(set(c, &u, 1, &wrong) == fmi2Error);
+    CHECK(free_state(c, &state) == fmi2OK && reset(c) == fmi2OK);
+    free_instance(c);
+  }
+  return reached;
+}
+
+static void walk_in_threads(void) {
+  enum { many = 4 };
+  const double inputs[many] = {1, -3, 0.5, 7};
+  double* once[many];
+  for (int i = 0; i < many; ++i) once[i] = alone((void*)&inputs[i]);
+  pthread_t threads[many];
+  for (int i = 0; i < many; ++i) CHECK(pthread_create(&threads[i], NULL, alone, (void*)&inputs[i]) == 0);
+  for (int i = 0; i < many; ++i) {
+    void* reached = NULL;
+    CHECK(pthread_join(threads[i], &reached) == 0);
+    CHECK(memcmp(reached, once[i], 2 * sizeof *once[i]) == 0); /* the same bits */
+    free(reached), free(once[i]);
+  }
+}
+
 int main(int argc, char** argv) {
   CHECK(argc == 7);
   load(argv[1]);
@@ -181,6 +231,8 @@ int main(int argc, char** argv) {
   CHECK(is_response(value(a, y), 2, 20e-3));
   CHECK(reset(a) == fmi2OK && value(a, gain) == 1);
   free_instance(a), free_instance(b), free_instance(NULL);
+  token = argv[3], resources = argv[2];
+  walk_in_threads();
   CHECK(dlclose(library) == 0);
   return 0;
 }

@@ -54,5 +54,20 @@ TEST(PackedDiagram, DamageIsRefused) {
   EXPECT_NE(packed_token("a"), packed_token("b"));
 }
 
+TEST(PackedDiagram, AnotherVersionIsRefusedByItsNumber) {
+  std::string text = packed_diagram({});
+  EXPECT_NO_THROW(unpacked_diagram(text));
+  const std::string mine = R"("packed":1)";
+  ASSERT_NE(text.find(mine), std::string::npos) << text;
+  text.replace(text.find(mine), mine.size(), R"("packed":2)");
+  try {
+    unpacked_diagram(text);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.problems.front().what.find("its version is 2"), std::string::npos) << error.problems.front().what;
+    EXPECT_NE(error.problems.front().cure.find("export it again"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -29,7 +29,5 @@ TEST(EscapeJson, NeverEndsTheScriptElementAndMeansTheSame) {
   EXPECT_EQ(escape_json(R"(["</script><!--", "a"])"), R"(["\u003c/script>\u003c!--", "a"])");
 }
 
-TEST(EscapePath, IsAlwaysARelativeLink) { EXPECT_EQ(escape_path("traces/a b\".csv"), "traces/a%20b%22.csv"); }
-
 }  // namespace
 }  // namespace hysteron
