@@ -1,8 +1,8 @@
 """Builds the wheel (PEP 517): the package and the library that it calls, for every Python 3 of this machine.
 
 libhysteron.so is taken from the environment variable HYSTERON_LIBRARY, else from the build folder of the sources, else
-from where pkg-config says that it is installed. It lies inside the wheel, so that package and library belong together
-whatever else is installed; the libraries that it stands on (SUNDIALS, KLU, udunits) are those of the system.
+from where pkg-config says that it is installed. It lies inside the wheel, with what exported FMUs run, so that package and
+library belong together whatever else is installed; the libraries that it stands on (SUNDIALS, KLU, udunits) are those of the system.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent.parent
 SONAME = "libhysteron.so.0"
+FMU = "libhysteron_fmu.so"
 CURE = "build it (cmake --build build --target libhysteron) or say where it is: HYSTERON_LIBRARY=/path/libhysteron.so"
 
 
@@ -36,6 +37,14 @@ def _library() -> Path:
         if place is not None and place.exists():
             return place.resolve()
     raise SystemExit(f"libhysteron.so was not found; {CURE}")
+
+
+def _fmu_runtime(library: Path) -> Path:
+    for place in (library.parent / FMU, library.parent / "hysteron" / FMU):
+        if place.exists():
+            return place
+    cure = "build it: cmake --build build --target hysteron_fmu"
+    raise SystemExit(f"{FMU}, which exported FMUs run, was not found beside {library}; {cure}")
 
 
 def _version(library: Path) -> str:
@@ -72,6 +81,7 @@ def build_wheel(wheel_directory: str, config_settings: object = None, metadata_d
     info = f"hysteron-{version}.dist-info"
     files = {f"hysteron/{path.name}": path.read_bytes() for path in sorted((HERE / "hysteron").iterdir()) if path.is_file()}
     files[f"hysteron/{SONAME}"] = library.read_bytes()
+    files[f"hysteron/{FMU}"] = _fmu_runtime(library).read_bytes()
     files[f"{info}/METADATA"] = _metadata(version).encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: hysteron\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = "".join(_record_line(name, content) for name, content in files.items()) + f"{info}/RECORD,,\n"

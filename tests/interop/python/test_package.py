@@ -11,6 +11,7 @@ import tempfile
 import threading
 import time
 import unittest
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +98,9 @@ class Errors(unittest.TestCase):
 
 
 class Interrupting(unittest.TestCase):
+    def setUp(self) -> None:
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what stands behind & without
+
     def test_ctrl_c_ends_the_work(self) -> None:
         timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
@@ -105,6 +109,37 @@ class Interrupting(unittest.TestCase):
         timer.join()
         self.assertIsInstance(caught.exception, hy.Interrupted)
         self.assertEqual(hy.load(STAGE).run().exit_code, 0)  # and the next one works
+
+    def test_ctrl_c_ends_an_advance_which_may_go_on(self) -> None:
+        s = hy.load(STAGE).stepper(until="1e6 s")
+        handler = signal.getsignal(signal.SIGINT)
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(hy.Interrupted):
+            s.advance(1e6)  # of hours
+        timer.join()
+        self.assertIs(signal.getsignal(signal.SIGINT), handler)
+        self.assertGreater(s.t, 0)
+        self.assertLess(s.t, 1e6)
+        until = s.t + 1
+        self.assertEqual(s.advance(until).t, until)
+
+    def test_what_a_handler_of_signals_raises_comes_through(self) -> None:
+        class Enough(Exception):
+            pass
+
+        def handler(number: int, frame: object) -> None:
+            raise Enough
+
+        before = signal.signal(signal.SIGINT, handler)
+        try:
+            timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(Enough):
+                hy.load(STAGE).stepper(until="1e6 s").advance(1e6)
+            timer.join()
+        finally:
+            signal.signal(signal.SIGINT, before)
 
     def test_others_go_on_meanwhile(self) -> None:
         counted = 0
@@ -201,6 +236,12 @@ class Distribution(unittest.TestCase):
             ).stdout.split()
             self.assertEqual(told[0], hy.__version__)
             self.assertTrue(told[1].startswith(folder), told)
+            # An FMU: what it runs lies in the wheel, and nothing beside the wheel is looked at.
+            code = f"import hysteron; hysteron.verb('export', 'fmu', {str(DRIVEN)!r}, '-o', 'driven.fmu')"
+            subprocess.run([sys.executable, "-c", code], check=True, cwd=folder, env={**env, "PYTHONPATH": folder})
+            with zipfile.ZipFile(Path(folder) / "driven.fmu") as fmu:
+                binary = fmu.read("binaries/linux64/driven.so")
+            self.assertEqual(binary, (Path(folder) / "hysteron" / "libhysteron_fmu.so").read_bytes())
             (wheel,) = Path(folder).glob("*.dist-info/WHEEL")
             self.assertIn("Tag: py3-none-linux_", wheel.read_text())
 
