@@ -18,6 +18,7 @@
 #include "export/c/cut.h"
 #include "export/c/inverse.h"
 #include "export/c/sampled_form.h"
+#include "io/data/dataset_bind.h"
 #include "io/diagram/diagram_file.h"
 #include "report/pages/numbers.h"
 
@@ -171,7 +172,7 @@ SignalRows signals_of_whole(const Program& whole, const Diagram& diagram, const 
 Given from_recording(const Arguments& arguments, const Diagram& diagram, const Program& whole, const CutDiagram& cut,
                      const CPlan& plan) {
   const DataSet data = read_dataset(arguments.text("--check"), arguments.list("--allow"));
-  check_binding(data, whole);
+  check_inputs(data, whole);
   const Recording& recording = data.recordings.front();
   const double begin = recording.t.front(), span = recording.t.back() - begin;
   SimulateOptions options = simulate_options(whole);

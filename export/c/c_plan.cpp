@@ -64,9 +64,15 @@ class Planning {
              "put a delay_line in its place, which delays by whole samples");
     else if (d.is_series || is_source(b))
       refuse(b, "is a signal of time, which the controller is to be given",
-             fmt::format("make it an input of the code: --from {}", b.path));
+             "make it an input of the code:" + as_inputs(b));
     else if (b.sizes.states > 0)
       refuse_continuous(b);
+  }
+  /// " --from move.position --from move.velocity"
+  std::string as_inputs(const BlockInstance& b) const {
+    std::string words;
+    for (int k = 0; k < b.sizes.outputs; ++k) words += " --from " + plan_.program->signals[at(b.y_begin + k)].path;
+    return words;
   }
   static bool is_source(const BlockInstance& b) {
     return is_source_of_time(b) && b.kernel->declaration.type != "constant";
@@ -78,7 +84,10 @@ class Planning {
       refuse(b, "has states that move continuously, and nothing says how often the code runs",
              "say it: --rate \"10 kHz\"");
     else
-      refuse(b, "has states that move continuously and no sampled form",
+      refuse(b,
+             b.kernel->declaration.is_linear
+                 ? "has states that move continuously, and is no linear block of one signal in and one out"
+                 : "has states that move continuously and no sampled form",
              "put a sampled block in its place (hysteron blocks, group sampled), or make what is behind it an input: "
              "--from SIGNAL");
   }

@@ -1,5 +1,7 @@
 // Decides whether the columns of a data set fit the inputs and outputs of a program, and at which instants they are
 // compared. Does not simulate.
+#include "io/data/dataset_bind.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/smooth_series.h"
-#include "io/data/dataset.h"
 #include "io/data/recording_file.h"
 
 namespace hysteron {
@@ -25,13 +26,13 @@ class Binder {
  public:
   Binder(const DataSet& data, const Program& program) : data_(data), program_(program) {}
 
-  void check() {
+  void check(bool with_outputs) {
     for (const auto& recording : data_.recordings) {
       // The parts of one file have the same columns: told once.
       if (std::find(seen_.begin(), seen_.end(), recording.file) != seen_.end()) continue;
       seen_.push_back(recording.file);
       inputs(recording);
-      outputs(recording);
+      if (with_outputs) outputs(recording);
     }
     for (const auto& recording : data_.recordings) initial_values(recording);
     if (!problems_.empty()) throw Error(Fault::input, problems_);
@@ -125,7 +126,9 @@ const std::vector<double>& column_of(const Recording& recording, const std::stri
 
 }  // namespace
 
-void check_binding(const DataSet& data, const Program& program) { Binder(data, program).check(); }
+void check_binding(const DataSet& data, const Program& program) { Binder(data, program).check(true); }
+
+void check_inputs(const DataSet& data, const Program& program) { Binder(data, program).check(false); }
 
 SeriesPointer input_series(const DataSet& data, const Recording& recording, const std::string& input) {
   const auto& values = column_of(recording, input);
