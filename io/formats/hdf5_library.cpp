@@ -33,10 +33,17 @@ Hdf5Library load() {
   // Its own locks would meet those of atomic_file.h, whatever the file properties say, if the user has asked for them.
   ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
   if (h.H5open() < 0) cannot_load("it does not start");
-  const auto number = [&](const char* name) { return *static_cast<hid_t*>(symbol(library, name)); };
+  // A program that is itself linked with HDF5 may hold these variables in place of the library (copy relocations),
+  // whose own are then never set.
+  const auto number = [&](const char* name) {
+    const hid_t of_library = *static_cast<hid_t*>(symbol(library, name));
+    const void* of_program = of_library > 0 ? nullptr : dlsym(RTLD_DEFAULT, name);
+    return of_program == nullptr ? of_library : *static_cast<const hid_t*>(of_program);
+  };
   h.real = number("H5T_IEEE_F64LE_g");
   h.whole = number("H5T_STD_I64LE_g");
   h.text = number("H5T_C_S1_g");
+  h.reference = number("H5T_STD_REF_OBJ_g");
   h.file_creation = number("H5P_CLS_FILE_CREATE_ID_g");
   h.file_access = number("H5P_CLS_FILE_ACCESS_ID_g");
   h.dataset_creation = number("H5P_CLS_DATASET_CREATE_ID_g");

@@ -10,19 +10,22 @@
 namespace hysteron {
 
 // Every function that is called, by its name in the library.
-#define HYSTERON_HDF5_FUNCTIONS(X)                                                                                    \
-  X(H5open)                                                                                                           \
-  X(H5dont_atexit)                                                                                                    \
-  X(H5Eset_auto2)                                                                                                     \
-  X(H5Fcreate)                                                                                                        \
-  X(H5Fopen) X(H5Fclose) X(H5Pcreate) X(H5Pclose) X(H5Pset_chunk) X(H5Pset_obj_track_times) X(H5Pset_file_locking)    \
-      X(H5Pset_fletcher32) X(H5Screate) X(H5Screate_simple) X(H5Sclose) X(H5Sselect_hyperslab)                        \
-          X(H5Sget_simple_extent_npoints) X(H5Dcreate2) X(H5Dopen2) X(H5Dclose) X(H5Dwrite) X(H5Dread)                \
-              X(H5Dset_extent) X(H5Dget_space) X(H5Acreate2) X(H5Aopen) X(H5Aexists) X(H5Awrite) X(H5Aread)           \
-                  X(H5Aclose) X(H5Aget_space) X(H5Aget_type) X(H5Tcopy) X(H5Tset_size) X(H5Tget_size) X(H5Tget_class) \
-                      X(H5Tclose) X(H5Gget_info) X(H5Gclose) X(H5Lget_name_by_idx) X(H5Oopen) X(H5Oclose)             \
-                          X(H5Iget_type) X(H5Sget_simple_extent_ndims) X(H5Sget_simple_extent_dims) X(H5Dget_type)    \
-                              X(H5Dget_storage_size) X(H5Tis_variable_str) X(H5free_memory)
+#define HYSTERON_HDF5_FUNCTIONS(X)                                                                                     \
+  X(H5open)                                                                                                            \
+  X(H5dont_atexit)                                                                                                     \
+  X(H5Eset_auto2)                                                                                                      \
+  X(H5Fcreate)                                                                                                         \
+  X(H5Fopen)                                                                                                           \
+  X(H5Fclose)                                                                                                          \
+  X(H5Pcreate)                                                                                                         \
+  X(H5Pclose) X(H5Pset_chunk) X(H5Pset_obj_track_times) X(H5Pset_file_locking) X(H5Pset_fletcher32) X(H5Screate)       \
+      X(H5Screate_simple) X(H5Sclose) X(H5Sselect_hyperslab) X(H5Sget_simple_extent_npoints) X(H5Dcreate2) X(H5Dopen2) \
+          X(H5Dclose) X(H5Dwrite) X(H5Dread) X(H5Dset_extent) X(H5Dget_space) X(H5Acreate2) X(H5Aopen) X(H5Aexists)    \
+              X(H5Awrite) X(H5Aread) X(H5Aclose) X(H5Aget_space) X(H5Aget_type) X(H5Tcopy) X(H5Tset_size)              \
+                  X(H5Tget_size) X(H5Tget_class) X(H5Tclose) X(H5Gget_info) X(H5Gclose) X(H5Lget_name_by_idx)          \
+                      X(H5Oopen) X(H5Oclose) X(H5Iget_type) X(H5Sget_simple_extent_ndims) X(H5Sget_simple_extent_dims) \
+                          X(H5Dget_type) X(H5Dget_storage_size) X(H5Tis_variable_str) X(H5free_memory)                 \
+                              X(H5Rdereference2) X(H5Oget_info2)
 
 /// An open thing of the library, closed with its function. The mutex is held by whoever has one.
 class Hdf5Id {
@@ -45,7 +48,7 @@ struct Hdf5Library {
 #define HYSTERON_DECLARE(name) decltype(&::name) name = nullptr;
   HYSTERON_HDF5_FUNCTIONS(HYSTERON_DECLARE)
 #undef HYSTERON_DECLARE
-  hid_t real = 0, whole = 0, text = 0;
+  hid_t real = 0, whole = 0, text = 0, reference = 0;
   hid_t file_creation = 0, file_access = 0, dataset_creation = 0;
 };
 

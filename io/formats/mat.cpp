@@ -1,27 +1,27 @@
-// Decides how a MAT file (v4, v5, v7, v7.3) is read: vectors and matrices by their names, structures of Simulink,
-// dSPACE and of one's own by their fields. The library matio is loaded when the first file needs it: with it comes
-// HDF5, whose loading would double the start of every verb.
+// Decides how a MAT file is read: levels 4, 5 and 7 by the library matio, 7.3 by ours over HDF5 (mat73.cpp); what its
+// variables mean stands in mat_value.cpp. The library is loaded when the first file needs it: with it comes HDF5, whose
+// loading would double the start of every verb.
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <matio.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "engine/diagram/error.h"
 #include "io/formats/file_format.h"
-#include "io/formats/named_vectors.h"
+#include "io/formats/mat_layout.h"
+#include "io/formats/mat_value.h"
 
 namespace hysteron {
 namespace {
 
 constexpr std::size_t most_numbers = 1ULL << 31;  // of one variable
-constexpr std::size_t densest = 1100;             // numbers for each byte of the file: more no compression gives
-constexpr int deepest = 8;                        // structures within structures
 
 struct MatLibrary {
   decltype(&::Mat_Open) open = nullptr;
@@ -110,151 +110,125 @@ std::vector<double> numbers_of(const matvar_t& v, std::size_t most) {
   }
 }
 
-std::string text_of(const matvar_t* v) {
-  if (v == nullptr || v->class_type != MAT_C_CHAR || v->data == nullptr) return "";
-  const std::size_t count = std::min<std::size_t>(count_of(*v), 256);
+std::string text_of(const matvar_t& v) {
+  if (v.data == nullptr) return "";
+  const std::size_t count = std::min<std::size_t>(count_of(v), 256);
   std::string text;
-  if (v->data_size == 1 && v->nbytes >= count) text.assign(static_cast<const char*>(v->data), count);
-  if (v->data_size == 2 && v->nbytes >= 2 * count)
+  if (v.data_size == 1 && v.nbytes >= count) text.assign(static_cast<const char*>(v.data), count);
+  if (v.data_size == 2 && v.nbytes >= 2 * count)
     for (std::size_t i = 0; i < count; ++i) {
-      const auto c = static_cast<const std::uint16_t*>(v->data)[i];
+      const auto c = static_cast<const std::uint16_t*>(v.data)[i];
       text += c < 128 ? static_cast<char>(c) : '?';
     }
   return text.substr(0, text.find('\0'));
 }
 
-class MatReader {
+/// Variables of MATLAB as matio gives them, which is asked for levels 4 and 5 alone.
+class MatioReader {
  public:
-  MatReader(const std::string& file, const ReadingChoices& choices)
-      : choices_(choices), most_(densest * std::filesystem::file_size(file)) {
-    table_.file = file;
-  }
+  explicit MatioReader(const std::string& file)
+      : file_(file), most_(densest_of_mat * std::filesystem::file_size(file)) {}
 
-  MeasuredTable read() {
-    static std::mutex mutex;  // HDF5, on which newer files rest, is not made for threads
+  MatVariables read() const {
+    static std::mutex mutex;  // the library says nothing of threads
     const std::lock_guard lock(mutex);
     const MatLibrary& m = matio();
-    const std::unique_ptr<mat_t, int (*)(mat_t*)> mat(m.open(table_.file.c_str(), MAT_ACC_RDONLY), m.close);
-    if (!mat) damaged();
-    while (const Variable v{m.read_next(mat.get())}) variable(*v, v->name == nullptr ? "" : v->name, 0);
-    if (vectors_.empty() && !objects_.empty()) refuse_objects();
-    if (vectors_.empty() && count_ == 0) damaged();
-    table_.assumed.insert(table_.assumed.begin(), "a MAT file");
-    if (!objects_.empty()) table_.assumed.push_back(fmt::format("left out: {}, an object of MATLAB", objects_.front()));
-    if (interval_ && *interval_ > 0) table_.clock = SampleClock{start_.value_or(0), *interval_};
-    return table_of_vectors(std::move(table_), std::move(vectors_), choices_);
+    MatVariables variables;
+    const std::unique_ptr<mat_t, int (*)(mat_t*)> mat(m.open(file_.c_str(), MAT_ACC_RDONLY), m.close);
+    if (!mat) return variables;
+    while (const Variable v{m.read_next(mat.get())})
+      variables.emplace_back(v->name == nullptr ? "" : v->name, value(*v, 0));
+    return variables;
   }
 
  private:
-  [[noreturn]] void damaged() const {
-    throw Error(Fault::input,
-                {{"damaged_file", table_.file, "this MAT file cannot be read: it is damaged, or not complete",
-                  "save it again", table_.file, 0}});
-  }
-
-  [[noreturn]] void refuse_objects() const {
-    const std::string& name = objects_.front();
-    throw Error(
-        Fault::input,
-        {{"unknown_file_type", name,
-          fmt::format("\"{}\" is an object of MATLAB (a timeseries, a table ...), which only MATLAB reads", name),
-          fmt::format(
-              "save plain vectors there: for a timeseries t = {0}.Time; y = {0}.Data; save('lab.mat', 't', 'y'); for a "
-              "table writetable({0}, 'lab.csv')",
-              name),
-          table_.file, 0}});
-  }
-
-  void variable(const matvar_t& v, const std::string& name, int depth) {
-    ++count_;
-    if (depth > deepest) return;
+  MatValue value(const matvar_t& v, int depth) const {
     switch (v.class_type) {
       case MAT_C_STRUCT:
-        return structure(v, name, depth);
+        return structure(v, depth);
       case MAT_C_OPAQUE:
       case MAT_C_OBJECT:
       case MAT_C_FUNCTION:
-        if (!name.empty()) objects_.push_back(name);
-        return;
+        return {MatValue::Kind::object};
+      case MAT_C_CHAR:
+        return {MatValue::Kind::text, {}, {}, text_of(v)};
       default:
-        return numbers(v, name, "");
+        return numbers(v);
     }
   }
 
-  void numbers(const matvar_t& v, const std::string& name, const std::string& unit) {
-    std::vector<double> values = numbers_of(v, most_);
-    if (values.empty()) return;
-    if (values.size() == 1) return setting(name, values.front());
-    // n x m samples of m channels; a row or a column is one. Simulink stands samples behind each other: m x 1 x n.
-    std::size_t rows = v.dims[0], columns = values.size() / std::max<std::size_t>(rows, 1);
-    if (rows == 1 || (v.rank == 3 && v.dims[1] == 1 && v.dims[0] == 1)) std::swap(rows, columns);
-    if (v.rank > 2 && columns > 1) return;
-    for (std::size_t c = 0; c < columns; ++c)
-      vectors_.push_back({columns == 1 ? name : fmt::format("{}_{}", name, c + 1),
-                          unit,
-                          {values.begin() + static_cast<std::ptrdiff_t>(c * rows),
-                           values.begin() + static_cast<std::ptrdiff_t>((c + 1) * rows)}});
+  MatValue numbers(const matvar_t& v) const {
+    MatValue of{MatValue::Kind::numbers, {}, numbers_of(v, most_)};
+    if (of.values.empty()) return {};
+    of.sizes.assign(v.dims, v.dims + v.rank);
+    return of;
   }
 
-  /// Scalars by which PicoScope and others say when the samples stand.
-  void setting(const std::string& name, double value) {
-    if (name == "Tinterval" || name == "dt" || name == "Ts") interval_ = value;
-    if (name == "Tstart" || name == "t0") start_ = value;
-    if ((name == "fs" || name == "Fs") && value > 0) interval_ = 1 / value;
-  }
-
-  static const matvar_t* field(const matvar_t& v, const char* name, std::size_t index = 0) {
-    return matio().field(const_cast<matvar_t*>(&v), name, index);
-  }
-
-  void structure(const matvar_t& v, const std::string& name, int depth) {
-    const std::size_t elements = std::min<std::size_t>(count_of(v), 1000);
-    const unsigned fields = matio().field_count(const_cast<matvar_t*>(&v));
-    char* const* names = matio().field_names(&v);
-    if (names == nullptr || v.data == nullptr) return;
-    for (std::size_t e = 0; e < elements; ++e) {
-      if (channel(v, name, e)) continue;
-      for (unsigned f = 0; f < fields; ++f) {
-        const matvar_t* inside = names[f] == nullptr ? nullptr : field(v, names[f], e);
-        if (inside == nullptr) continue;
-        const std::string full = fmt::format("{}{}/{}", name, elements > 1 ? fmt::format("_{}", e + 1) : "", names[f]);
-        variable(*inside, std::string_view(names[f]) == "signals" || is_axis(names[f]) ? name : full, depth + 1);
+  MatValue structure(const matvar_t& v, int depth) const {
+    MatValue of{MatValue::Kind::structure};
+    auto* const variable = const_cast<matvar_t*>(&v);
+    const unsigned fields = matio().field_count(variable);
+    char* const* names = matio().field_names(variable);
+    if (names == nullptr || v.data == nullptr || depth >= deepest_of_mat) return of;
+    of.elements = std::min(count_of(v), most_elements_of_mat);
+    for (unsigned f = 0; f < fields; ++f) {
+      if (names[f] == nullptr) continue;
+      MatValue::Field field{names[f], {}};
+      for (std::size_t e = 0; e < of.elements; ++e) {
+        const matvar_t* inside = matio().field(variable, names[f], e);
+        field.of_element.push_back(inside == nullptr ? MatValue{} : value(*inside, depth + 1));
       }
+      of.fields.push_back(std::move(field));
     }
+    return of;
   }
 
-  /// Fields that only group channels, by dSPACE: X, Y.
-  static bool is_axis(std::string_view name) { return name == "X" || name == "Y"; }
-
-  /// One channel: signals(k) of Simulink (values, label), X(k) and Y(k) of dSPACE (Data, Name, Unit).
-  bool channel(const matvar_t& v, const std::string& group, std::size_t element) {
-    const matvar_t *values = field(v, "values", element), *data = field(v, "Data", element);
-    const matvar_t* samples = values != nullptr ? values : data;
-    if (samples == nullptr || samples->class_type == MAT_C_STRUCT) return false;
-    std::string label = text_of(field(v, values != nullptr ? "label" : "Name", element));
-    std::replace(label.begin(), label.end(), '/', '.');
-    if (label.empty()) label = values == nullptr && element == 0 ? "time" : fmt::format("signal_{}", element + 1);
-    numbers(*samples, fmt::format("{}/{}", group, label), text_of(field(v, "Unit", element)));
-    return true;
-  }
-
-  const ReadingChoices& choices_;
+  const std::string& file_;
   std::size_t most_;  ///< numbers that the file can hold
-  MeasuredTable table_;
-  std::vector<MeasuredColumn> vectors_;
-  std::vector<std::string> objects_;
-  std::optional<double> interval_, start_;
-  std::size_t count_ = 0;
 };
+
+/// Level 4 has no words at its begin: a whole number of kinds, two sizes, whether it is complex, and the length of a
+/// name, which follows (MAT-File Format, MathWorks). Of either byte order.
+bool is_mat4(std::string_view bytes) {
+  constexpr std::size_t head = 20, longest_name = 63;
+  if (bytes.size() < head) return false;
+  const auto number = [&](std::size_t at, bool turned) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + (turned ? 3 - k : k)])) << 8 * k;
+    return value;
+  };
+  for (const bool turned : {false, true}) {
+    const std::uint32_t kind = number(0, turned), name = number(16, turned);
+    const bool known = kind / 1000 == (turned ? 1 : 0) && kind / 100 % 10 == 0 && kind / 10 % 10 <= 5 && kind % 10 <= 2;
+    if (!known || number(12, turned) > 1 || name < 2 || name > longest_name + 1 || bytes.size() < head + name) continue;
+    const std::string_view letters = bytes.substr(head, name - 1);
+    const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    if (bytes[head + name - 1] == '\0' && std::all_of(letters.begin(), letters.end(), is_of_name)) return true;
+  }
+  return false;
+}
+
+enum class Level { four, five, seven_point_three };
+
+/// By the version in the head, which decides how matio reads: 0x0200 stands for HDF5, in either byte order.
+Level level_of(const std::string& file) {
+  std::string head(128, '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (!head.starts_with("MATLAB")) return Level::four;
+  return head[124] == 2 || head[125] == 2 ? Level::seven_point_three : Level::five;
+}
 
 }  // namespace
 
 bool is_mat(std::string_view bytes) {
-  return bytes.starts_with("MATLAB 5.0 MAT-file") || bytes.starts_with("MATLAB 7.3 MAT-file");
+  return bytes.starts_with("MATLAB 5.0 MAT-file") || bytes.starts_with("MATLAB 7.3 MAT-file") || is_mat4(bytes);
 }
 
 MeasuredTable read_mat(const std::string& file, const ReadingChoices& choices) {
-  return MatReader(file, choices).read();
+  if (level_of(file) == Level::seven_point_three) return recording_of_mat(file, variables_of_mat73(file), choices);
+  const bool fits = level_of(file) == Level::four ? mat4_fits(file) : mat5_fits(file);
+  return recording_of_mat(file, fits ? MatioReader(file).read() : MatVariables{}, choices);
 }
 
 }  // namespace hysteron

@@ -18,13 +18,6 @@ std::string raw(T value) {
   return bytes;
 }
 
-std::vector<double> samples(double (*of)(int)) {
-  std::vector<double> list;
-  for (int k = 0; k < rows; ++k) list.push_back(of(k));
-  return list;
-}
-double time_of(int k) { return k * interval; }
-
 // ---- LVM ------------------------------------------------------------------------------------------------------------
 
 InstrumentFile lvm(const std::string& name, const std::string& x_columns, bool comma) {
@@ -231,6 +224,28 @@ std::string mat_compressed(const std::string& element) {
   return raw<std::uint32_t>(15) + raw(static_cast<std::uint32_t>(stream.size())) + stream;
 }
 
+/// Level 4: kind, rows, columns, whether complex, length of the name, the name, numbers; 1000 = big-endian doubles.
+InstrumentFile mat_4(const std::string& file, bool big_endian) {
+  const auto bytes_of = [&](auto value) {
+    std::string bytes = raw(value);
+    if (big_endian) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+  };
+  const auto vector = [&](const std::string& name, const std::vector<double>& values) {
+    std::string bytes;
+    for (const std::int32_t head : {big_endian ? 1000 : 0, rows, 1, 0, static_cast<std::int32_t>(name.size()) + 1})
+      bytes += bytes_of(head);
+    bytes += name + '\0';
+    for (const double value : values) bytes += bytes_of(value);
+    return bytes;
+  };
+  return {
+      file,    vector("t", samples(time_of)) + vector("drive", samples(drive)) + vector("response", samples(response)),
+      "drive", "response",
+      "",      0,
+      1e-15,   {"a MAT file"}};
+}
+
 InstrumentFile mat_5() {
   return {"vectors.mat",
           mat_head() + mat_vector("t", samples(time_of)) + mat_vector("gain", {2}) +
@@ -294,6 +309,8 @@ std::vector<InstrumentFile> binary_files() {
           workbook("dates.xlsx", true),
           tdms("blocks.tdms", false),
           tdms("rows.tdms", true),
+          mat_4("level4.mat", false),
+          mat_4("level4_big_endian.mat", true),
           mat_5(),
           mat_7(),
           simulink(),

@@ -311,6 +311,14 @@ InstrumentFile rate_in_settings() {
 
 }  // namespace
 
+double time_of(int row) { return row * interval; }
+
+std::vector<double> samples(double (*of)(int), double times) {
+  std::vector<double> list;
+  for (int k = 0; k < rows; ++k) list.push_back(times * of(k));
+  return list;
+}
+
 std::string with_comma(std::string text) {
   std::replace(text.begin(), text.end(), '.', ',');
   return text;
@@ -334,9 +342,13 @@ std::vector<InstrumentFile> text_files() {
 }
 
 std::vector<InstrumentFile> all_files() {
-  std::vector<InstrumentFile> files = text_files();
-  for (auto& file : binary_files()) files.push_back(std::move(file));
-  return files;
+  static const std::vector<InstrumentFile> all = [] {
+    std::vector<InstrumentFile> files = text_files();
+    for (auto& file : binary_files()) files.push_back(std::move(file));
+    for (auto& file : hdf5_files()) files.push_back(std::move(file));
+    return files;
+  }();
+  return all;
 }
 
 }  // namespace hysteron::instruments

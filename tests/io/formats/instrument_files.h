@@ -13,6 +13,10 @@ inline constexpr double interval = 1e-3;  // [s]
 /// Samples of all files: a sine, and twice the sine with an offset.
 double drive(int row);     ///< [V]
 double response(int row);  ///< [V]
+double time_of(int row);   ///< [s]
+
+/// One of these at every row, `times` as large.
+std::vector<double> samples(double (*of)(int), double times = 1);
 
 /// As spreadsheets of half of Europe write numbers.
 std::string with_comma(std::string text);
@@ -31,6 +35,9 @@ struct InstrumentFile {
 std::vector<InstrumentFile> text_files();
 
 std::vector<InstrumentFile> binary_files();
+
+/// HDF5, and MATLAB 7.3 over it.
+std::vector<InstrumentFile> hdf5_files();
 
 std::string tdms_of_daqmx();
 std::string tdms_of_scaling(const std::string& type);
