@@ -86,6 +86,23 @@ TEST(Instruments, EveryFormatHasAFileThatIsReadHere) {
   }
 }
 
+// The first variable of level 5 begins behind the head of 128 bytes: a tag, then the tags and contents of its flags
+// (16 bytes) and of its sizes, whose first number stands 32 bytes behind its begin.
+TEST(InstrumentSizes, AMatFileWhoseSizesDoNotFitIntoItIsRefusedBeforeAnybodyReadsIt) {
+  const auto files = instruments::binary_files();
+  const auto vectors =
+      std::find_if(files.begin(), files.end(), [](const auto& file) { return file.name == "vectors.mat"; });
+  ASSERT_NE(vectors, files.end());
+  for (const std::size_t at : {128 + 4, 128 + 32}) {
+    std::string bytes = vectors->bytes;
+    bytes.replace(at, 4, "\xff\xff\xff\x7f");
+    EXPECT_EQ(refused(bytes).code, "damaged_file") << at;
+  }
+  std::string cut = vectors->bytes;
+  cut.resize(cut.size() - 100);
+  EXPECT_EQ(refused(cut).code, "damaged_file");
+}
+
 TEST(InstrumentText, AnEmptyCellOrAMarkOfOverloadLeavesItsRowOutAndIsSaid) {
   const MeasuredFile read = read_text(
       "Time (s);u (V);y (mm)\n0,0;1,5;1\n0,1;;2\n0,2;1,25;OL\n0,3;1,5;4\n0,4;9,9E37;5\n0,5;2,5;-OVLD\n0,6;3,5;7\n0,7;NaN;8\n");
