@@ -7,6 +7,7 @@
 // The same formats, seed and number of executions try the same files. What ends the program is in F/FORMAT.input.
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ namespace {
 std::array<unsigned char, 1U << 16U> reached;
 std::size_t newly_reached = 0;
 
-constexpr unsigned longest_seconds = 20;  // of one file; sanitizers take ten times as long as the program
+constexpr int longest_seconds = 20;  // of the processor, for one file; sanitizers take ten times as long as the program
 
 char message_of_hang[512];
 
@@ -160,7 +161,8 @@ std::vector<Format> all_formats() {
 
 /// Returns whether the file was read.
 bool execute(const Format& format, const std::string& file) {
-  alarm(longest_seconds);
+  const itimerval most{{0, 0}, {longest_seconds, 0}}, none{};
+  setitimer(ITIMER_PROF, &most, nullptr);
   bool read = true;
   try {
     format.read(file);
@@ -173,7 +175,7 @@ bool execute(const Format& format, const std::string& file) {
   } catch (const std::exception& error) {
     found(std::string("an exception that is no Error: ") + error.what(), file);
   }
-  alarm(0);
+  setitimer(ITIMER_PROF, &none, nullptr);
   return read;
 }
 
@@ -263,7 +265,7 @@ int run(int count, char** words) {
   const TemporaryFolder own;
   if (options.folder.empty()) options.folder = own.path();
   std::filesystem::create_directories(options.folder);
-  signal(SIGALRM, [](int) {
+  signal(SIGPROF, [](int) {
     [[maybe_unused]] const auto ignored = write(2, message_of_hang, std::char_traits<char>::length(message_of_hang));
     abort();
   });
