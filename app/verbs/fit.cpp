@@ -133,7 +133,8 @@ void place_wanted_thresholds(const FitJob& job, const std::shared_ptr<const Data
     const auto found = fit_thresholds(diagram, registry(), data, wish.block.text, wish.count,
                                       wish.by_swing ? Placement::by_swing : Placement::even, options);
     if (!found.result.ok)
-      fail_numerics("fit_failed", wish.block.text, found.result.error, "begin with other thresholds and weights");
+      fail_numerics("fit_failed", wish.block.text, found.result.error,
+                    "write other thresholds and weights into the diagram to start from");
     diagram = found.diagram;
   } catch (Error& error) {
     for (auto& p : error.problems)

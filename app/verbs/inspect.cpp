@@ -2,13 +2,18 @@
 // Does not inspect itself (fit/inspect/inspection.h, discover/placement/visible.h).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
 #include "app/facts/fact_shapes.h"
 #include "app/verbs/starter.h"
 #include "engine/diagram/error.h"
+#include "report/pages/curves.h"
 #include "report/pages/inspection_page.h"
+#include "report/pages/loops.h"
+#include "report/pages/numbers.h"
 
 namespace hysteron {
 namespace {
@@ -27,8 +32,8 @@ constexpr char inspect_help[] =
     "an offset stand for it, inputs and outputs are told by the columns (u*, y*, x*, T*, what they measure), and it says\n"
     "so.\n"
     "Recordings with the role \"test\" are not looked at: discover reads them once, at its end.\n\n"
-    "Writes into the folder: result.json, report.html. With --json: prints the facts of result.json, writes nothing\n"
-    "unless a folder is named.\n"
+    "Writes into the folder: result.json, traces/ (the recording that is shown first), report.html. With --json: prints\n"
+    "the facts of result.json, writes nothing unless a folder is named.\n"
     "Exit codes: 0 done, whatever was found; 2 wrong input.";
 
 /// The columns of one recording as a table, as `new` takes it.
@@ -99,6 +104,55 @@ Subject with_diagram(Arguments arguments, const Watch& watch) {
   return subject;
 }
 
+/// The first screen: what was driven and what was measured in the recording that is driven furthest, and the loop.
+void show_recording(const DataModel& model, Document& document) {
+  const auto& inputs = model.program().input_names;
+  int furthest = -1;
+  double most = -1;
+  for (const int r : judged_recordings(model)) {
+    double span = 0;
+    if (!inputs.empty()) {
+      const auto u = model.input(r, 0);
+      const auto [low, high] = std::minmax_element(u.begin(), u.end());
+      if (low != u.end()) span = *high - *low;
+    }
+    if (span > most) most = span, furthest = r;
+  }
+  if (furthest < 0) return;
+  const Recording& recording = model.recording(furthest);
+  CsvTable table;
+  table.file = trace_file(recording.name, document.traces);
+  table.columns.push_back({"t", parse_unit("s"), recording.t});
+  const auto add = [&](const std::string& name) {
+    const auto found = recording.columns.find(name);
+    if (found == recording.columns.end()) return false;
+    const auto unit = recording.units.find(name);
+    CsvColumn column{name, unit == recording.units.end() ? Unit{} : unit->second, found->second};
+    for (double& v : column.values) v = column.unit.from_si(v);
+    table.columns.push_back(std::move(column));
+    return true;
+  };
+  std::vector<Figure> over_time;
+  const auto show = [&](const std::string& name, const char* role) {
+    if (!add(name)) return;
+    Figure figure;
+    figure.title = over_time.empty() ? fmt::format("{}, {}", name, recording.name) : name;
+    figure.x_label = "t [s]";
+    figure.y_label = axis_text(name, table.columns.back().unit);
+    figure.curves.push_back(trace_curve(table, "t", name, name, "line", role));
+    over_time.push_back(std::move(figure));
+  };
+  if (!inputs.empty()) show(inputs.front(), "");
+  if (!model.outputs().empty()) show(model.outputs().front(), "measured");
+  document.answer = std::move(over_time);
+  if (!inputs.empty() && !model.outputs().empty()) {
+    const auto &u = inputs.front(), &y = model.outputs().front();
+    Figure loop = loop_figure(table, {u, u, u}, {y, y, y});
+    if (!loop.curves.empty()) document.answer.push_back(std::move(loop));
+  }
+  document.traces.push_back(std::move(table));
+}
+
 Answer inspect_verb_acts(const Arguments& arguments, const Watch& watch) {
   const bool named = arguments.has("--diagram");
   if (named && (arguments.has("--input") || arguments.has("--output")))
@@ -125,6 +179,7 @@ Answer inspect_verb_acts(const Arguments& arguments, const Watch& watch) {
   document.warnings = seen.data.faults;
   document.warnings.insert(document.warnings.end(), subject.assumed.begin(), subject.assumed.end());
   document.warnings.insert(document.warnings.end(), subject.data.remarks.begin(), subject.data.remarks.end());
+  show_recording(model, document);
   document.sections.push_back(inspection_section(seen));
   document.facts = to_json(facts);
   answer.facts = std::move(facts);

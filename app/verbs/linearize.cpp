@@ -151,7 +151,8 @@ std::vector<AboutAmplitude> amplitudes(const Arguments& arguments, const Program
         if (has_describing_function(program, b)) blocks.push_back(b);
     }
     if (blocks.empty())
-      fail("bad_command_line", "--amplitude", "no block passes nothing on here, so none is meant",
+      fail("bad_command_line", "--amplitude",
+           "every block passes small motions on here: none needs a describing function",
            "name the block: --amplitude play=\"1 um\"");
     for (const int b : blocks) {
       if (b < 0) {

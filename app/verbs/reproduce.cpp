@@ -228,6 +228,9 @@ Answer reproduce(const Arguments& arguments, const Watch& watch) {
     for (auto& table : page.traces) document.traces.push_back(std::move(table));
     for (auto& file : page.files) document.files.push_back(std::move(file));
   }
+  for (const auto& section : document.sections)  // one figure or two show what came out
+    for (const auto& figure : section.figures)
+      if (document.answer.size() < 2) document.answer.push_back(figure);
   document.warnings = notes_on(wanted.jobs, "", pool);
   if (arguments.has("--baseline"))
     answer.exit_code =

@@ -250,7 +250,7 @@ Place place_for(const Effect& effect, const Diagram& diagram, const Registry& re
   if (!places.empty()) return places.front();
   if (effect.side != Side::none)
     fail("no_side_signal", effect.id,
-         effect.side == Side::use ? "it reads what the device had behind it, and no recording says that"
+         effect.side == Side::use ? "it needs the cycles or the age of the device, and no recording states them"
          : effect.side == Side::force
              ? "it reads a force, and neither an input of the diagram nor a column of the recordings is one"
          : effect.side == Side::temperature

@@ -35,12 +35,14 @@ int nearness(const Effect& effect, Excitation at) {
 
 std::string why_no_place(const Effect& e, const Registry& registry) {
   if (!e.variation.empty())
-    return fmt::format("it varies a block, and the diagram has none of: {}", offered_by(e.variation, registry));
+    return fmt::format("it changes the law of a block, and the diagram has none of: {}",
+                       offered_by(e.variation, registry));
   if (e.way == Way::vary)
     return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
   if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";
   if (e.side == Side::force) return "no force is recorded";
-  if (e.side == Side::use) return "no recording says what the device had behind it (cycles_before, start)";
+  if (e.side == Side::use)
+    return "no recording states the cycles or the age of the device at its start (cycles_before, start)";
   if (e.side == Side::other_axis) return "no other axis is recorded";
   if (e.least_outputs > 1)
     return fmt::format(

@@ -171,9 +171,7 @@ void tell_noise(SearchState& state) {
     const auto& n = state.evidence->noise().outputs[o];
     JudgedNoise told;
     told.output = state.base_model->outputs()[o];
-    told.unit = state.base_model->program()
-                    .signals[static_cast<std::size_t>(state.base_model->output_signal(static_cast<int>(o)))]
-                    .unit;
+    told.unit = state.base_model->output_unit(static_cast<int>(o));
     told.white = n.white;
     told.one_over_f = n.one_over_f;
     told.origin = to_text(n.source);

@@ -51,8 +51,7 @@ void ResidualParts::read_levels(const std::vector<int>& recordings, const Predic
     levels_.push_back(level);
     for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].levels.push_back(std::move(of_parts[i]));
   };
-  add(model_.outputs()[static_cast<std::size_t>(output_)],
-      program.signals[static_cast<std::size_t>(model_.output_signal(output_))].unit,
+  add(model_.outputs()[static_cast<std::size_t>(output_)], model_.output_unit(output_),
       [&](int r) { return with_zeros.y[static_cast<std::size_t>(r)][static_cast<std::size_t>(output_)]; });
   for (std::size_t k = 0; k < program.input_names.size(); ++k)
     add(program.input_names[k], program.input_units[k], [&](int r) { return model_.input(r, static_cast<int>(k)); });

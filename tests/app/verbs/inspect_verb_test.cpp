@@ -26,6 +26,11 @@ TEST_F(InspectVerb, InspectSaysWhatTheRecordingsCanAndCannotShow) {
   EXPECT_NE(outcome.out.find("They cannot show thermal_expansion: no column of the recordings is a temperature"),
             std::string::npos)
       << outcome.out;
+  // The first screen: what was driven, what was measured.
+  const json answer = result("dataset.inspect")["answer"];
+  ASSERT_GE(answer.size(), 2U);
+  EXPECT_EQ(answer[0]["y_label"], "u [V]");
+  EXPECT_EQ(answer[1]["y_label"], "y [um]");
   const json inspection = result("dataset.inspect")["facts"]["inspection"];
   EXPECT_EQ(inspection["recordings"].size(), 2U);
   EXPECT_EQ(inspection["columns"][0]["is"], "input");
