@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -109,8 +110,14 @@ Performed perform_silently(const Verb& verb, const Arguments& arguments, Watch w
     performed.notes.push_back(what);
     told(what);
   };
+  // A verb that has something to keep looks by itself whether it is to end, and is not ended while it tells.
+  std::atomic<bool> keeps{false};
+  watch.keep = [&, told = watch.keep] {
+    keeps = true;
+    told();
+  };
   {
-    const StopScope until_stopped(watch.stop);  // for the verbs that keep nothing of what they were at
+    const StopScope until_stopped([&] { return !keeps && watch.stop(); });
     performed.answer = verb.act(arguments, watch);
   }
   Answer& answer = performed.answer;

@@ -124,6 +124,17 @@ class Interrupting(unittest.TestCase):
         until = s.t + 1
         self.assertEqual(s.advance(until).t, until)
 
+    def test_what_was_found_before_ctrl_c_is_kept(self) -> None:
+        demo = ROOT / "diagrams" / "discover" / "demo"
+
+        def progress(fraction: float, what: str) -> None:
+            if what.startswith("intervals of"):  # something is found
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(hy.Interrupted) as caught:
+            hy.load(demo / "stage.json").verb("discover", "--search", "steps", data=demo / "dataset.json", progress=progress)
+        self.assertIsNotNone(caught.exception.result)
+
     def test_what_a_handler_of_signals_raises_comes_through(self) -> None:
         class Enough(Exception):
             pass
