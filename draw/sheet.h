@@ -81,7 +81,7 @@ struct Room {
 Room room_of(const Item& item);
 
 /// The name of a sum stands beside it, because a loop comes up below it: from the middle of the circle.
-inline constexpr double sum_name_offset = 16;
+inline constexpr double sum_name_offset = 20;
 
 /// Room for the name of an open diagram, above its blocks.
 inline constexpr double header_height = 22;

@@ -183,7 +183,7 @@ void draw_signs(xml_node group, const Item& item) {
     else if (item.side[i] == Side::left)
       text(group, at.x - 7, at.y - 6, "middle", sign, "sign");
     else
-      text(group, at.x + 9, item.side[i] == Side::top ? at.y - 4 : at.y + 12, "middle", sign, "sign");
+      text(group, at.x + 8, item.side[i] == Side::top ? at.y - 4 : at.y + 12, "middle", sign, "sign");
   }
 }
 

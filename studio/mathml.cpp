@@ -218,10 +218,31 @@ class Setter {
   bool is_callable_ = false;
 };
 
+/// The clauses of a law: apart at semicolons, and at commas behind which another equation begins; not within brackets.
+std::vector<std::string> clauses_of(const std::string& law) {
+  std::vector<std::string> clauses{""};
+  int depth = 0;
+  for (std::size_t i = 0; i < law.size(); ++i) {
+    const char c = law[i];
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    const std::string next = law.substr(std::min(i + 1, law.size()), law.find_first_of(",;", i + 1) - i - 1);
+    const bool is_apart = c == ';' || (c == ',' && next.find(" = ") != std::string::npos);
+    if (depth == 0 && is_apart)
+      clauses.emplace_back();
+    else if (!clauses.back().empty() || c != ' ' || clauses.size() == 1)
+      clauses.back() += c;
+  }
+  return clauses;
+}
+
 }  // namespace
 
 std::string mathml_of(const std::string& law, const std::set<std::string>& names) {
-  return "<math>" + Setter(tokens_of(law, names), names).all() + "</math>";
+  std::string set;
+  for (const auto& clause : clauses_of(law))
+    set += (set.empty() ? "<math>" : "<br/><math>") + Setter(tokens_of(clause, names), names).all() + "</math>";
+  return set;
 }
 
 }  // namespace hysteron::studio

@@ -7,7 +7,7 @@
 
 namespace hysteron::studio {
 
-/// "<math>...</math>". `names`: of parameters and ports, which are one symbol also where they have several letters or
+/// "<math>...</math>", one for each clause of the law with "<br/>" between. `names`: of parameters and ports, which are one symbol also where they have several letters or
 /// an underscore. Every text gives well-formed MathML; what does not read as a formula is set as it is written.
 std::string mathml_of(const std::string& law, const std::set<std::string>& names);
 

@@ -27,6 +27,15 @@ std::vector<Problem> located(const std::vector<Problem>& problems, const std::st
   return error.problems;
 }
 
+/// What is wrong with a file stands there for each block that holds it: it is told once.
+Json each_once(const Json& problems) {
+  Json list = Json::array();
+  std::set<std::string> told;
+  for (const auto& p : problems)
+    if (told.insert(p.dump(-1, ' ', false, Json::error_handler_t::replace)).second) list.push_back(p);
+  return list;
+}
+
 Json points_json(const draw::Curve& curve) {
   Json points = Json::array();
   for (const auto& [x, y] : curve) points.push_back({x, y});
@@ -108,6 +117,7 @@ Json view_of(const std::string& file, const Registry& registry, const ViewOption
     view["problems"] = problems;
     if (!view.contains("warnings")) view["warnings"] = Json::array();
   }
+  view["problems"] = each_once(view["problems"]);
   return view;
 }
 

@@ -43,6 +43,13 @@ TEST(MathMl, WordsStayWords) {
   EXPECT_EQ(set("2 pi"), "<mn>2</mn><mi>π</mi>");
 }
 
+TEST(MathMl, EachClauseOfALawIsALineOfItsOwn) {
+  EXPECT_EQ(mathml_of("y = u, x = 2; z = 3", {}),
+            mathml_of("y = u", {}) + "<br/>" + mathml_of("x = 2", {}) + "<br/>" + mathml_of("z = 3", {}));
+  EXPECT_EQ(mathml_of("y = max(u, v)", {}).find("<br/>"), std::string::npos) << "a comma within brackets parts nothing";
+  EXPECT_EQ(mathml_of("k = 0, 1", {}).find("<br/>"), std::string::npos) << "nor one in a list";
+}
+
 TEST(MathMl, WhateverStandsThereIsWellFormed) {
   for (const char* law :
        {"", ")", "((", "|u", "a^", "a_", "/", "a//b", "^_[", "x[", "...", "f(", "\"<&>", "+- <= !=", "a]b"}) {

@@ -8,6 +8,7 @@ import {chromium, type Browser, type Locator, type Page} from 'playwright-core';
 
 export const program = process.env.HYSTERON_PROGRAM!;
 const source = process.env.HYSTERON_SOURCE!;
+const patience = Number(process.env.HYSTERON_PATIENCE ?? 100);  // [s]: a busy machine is no failure
 
 export class Studio {
   readonly folder = mkdtempSync(join(tmpdir(), 'hysteron-studio-'));
@@ -33,6 +34,10 @@ export class Studio {
     return this.address.split('#token=')[1];
   }
 
+  get pid(): number {
+    return this.server.pid!;
+  }
+
   async serve(port = 0): Promise<void> {
     this.server = spawn(program, ['studio', this.folder, '--no-browser', ...(port ? ['--port', String(port)] : [])], {stdio: 'ignore'});
     while (!existsSync(join(this.folder, '.hysteron/studio.json'))) await new Promise((r) => setTimeout(r, 20));
@@ -47,15 +52,24 @@ export class Studio {
     if (!this.browser) this.browser = await chromium.launch({executablePath: process.env.HYSTERON_CHROMIUM, args: ['--no-sandbox', '--disable-gpu']});
     const context = await this.browser.newContext({viewport: {width: 1280, height: 800}, permissions: ['clipboard-read', 'clipboard-write']});
     this.page = await context.newPage();
-    this.page.setDefaultTimeout(100000);  // a busy machine is no failure
-    this.page.on('console', (m) => m.type() === 'error' && this.complaints.push(m.text()));
+    this.page.setDefaultTimeout(1000 * patience);
+    this.page.on('console', (m) => m.type() === 'error' && this.complaints.push(`${m.text()} ${m.location().url}`));
     this.page.on('pageerror', (e) => this.complaints.push(e.message));
     this.page.on('request', (r) => {
       if (!r.url().startsWith(`http://127.0.0.1:${this.port}/`) && !/^(data|blob):/.test(r.url())) this.complaints.push(`a request to ${r.url()}`);
     });
+    if (process.env.HYSTERON_PAGE) await this.servePage(process.env.HYSTERON_PAGE);
     await this.page.goto(this.address);
     await this.page.waitForSelector('.frame');
     return this.page;
+  }
+  /// The page as vite has just built it, in front of the one that is in the program: for work on the page.
+  private async servePage(folder: string): Promise<void> {
+    const types: Record<string, string> = {html: 'text/html', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml'};
+    await this.page.route(/^http:\/\/127\.0\.0\.1:\d+\/[a-z.]*$/, (route) => {
+      const name = new URL(route.request().url()).pathname.slice(1) || 'index.html';
+      return route.fulfill({body: readFileSync(join(folder, name)), contentType: types[name.split('.').pop()!]});
+    });
   }
   async close(): Promise<void> {
     await this.browser?.close();
@@ -65,7 +79,7 @@ export class Studio {
 
   async openDiagram(name: string): Promise<void> {
     await this.page.click('.sidebar button:text-is("Files")');
-    await this.page.click(`.entry.file:has-text("${name}") >> nth=0`);
+    await this.page.click(`.entry.file[data-path="${name}"]`);
     await this.page.waitForSelector(`.crumbs b:text-is("${name}")`);
     await this.page.waitForSelector('.react-flow__node');
     await this.page.waitForTimeout(300);  // the view is fitted in the next frame
@@ -94,11 +108,11 @@ export class Studio {
     await this.page.mouse.up();
   }
   async until(what: () => boolean | Promise<boolean>): Promise<void> {
-    for (let i = 0; i < 4000; ++i) {
+    for (let i = 0; i < 40 * patience; ++i) {
       if (await what()) return;
       await this.page.waitForTimeout(25);
     }
-    throw new Error('it did not come true in 100 s');
+    throw new Error(`it did not come true in ${patience} s`);
   }
   hysteron(...words: string[]): {code: number | null; out: string; err: string} {
     const done = spawnSync(program, words, {cwd: this.folder, encoding: 'utf8'});

@@ -8,7 +8,7 @@ import {Data, takeIn} from './panels/Data';
 import {Diff} from './panels/Diff';
 import {Effects} from './panels/Effects';
 import {Fails} from './panels/Fails';
-import {Files} from './panels/Files';
+import {byFolder, Files, nameIn} from './panels/Files';
 import {Inspector} from './panels/Inspector';
 import {JobsMenu} from './panels/JobsMenu';
 import {Palette} from './panels/Palette';
@@ -70,7 +70,9 @@ function TopBar() {
       </div>
       <label className="with-data">with <select aria-label="data" value={data} onChange={(e) => set({data: e.target.value})}>
         <option value="">no data</option>
-        {dataFiles.map((f) => <option key={f.path}>{f.path}</option>)}
+        {byFolder(dataFiles).map(({folder, files: some}) => folder === '' ? some.map((f) => <option key={f.path}>{f.path}</option>) : (
+          <optgroup key={folder} label={folder}>{some.map((f) => <option key={f.path} value={f.path}>{nameIn(f.path)}</option>)}</optgroup>
+        ))}
       </select></label>
       <span className="space" />
       <div className="group">
@@ -240,6 +242,19 @@ function useDrops(): boolean {
   return over;
 }
 
+/// A file that cannot be drawn at all: why, and where that is told.
+function Undrawn() {
+  const problems = useStudio((s) => s.view?.problems ?? []);
+  const set = useStudio((s) => s.set);
+  return (
+    <div className="cover">
+      <p>This file cannot be drawn yet: {problems[0]?.what ?? 'it is no diagram'}.</p>
+      {problems[0]?.cure && <p className="muted">{problems[0].cure}</p>}
+      <button onClick={() => set({tab: 'problems'})}>{problems.length === 1 ? 'Show where' : `Show all ${problems.length}`}</button>
+    </div>
+  );
+}
+
 export function App() {
   const ready = useStudio((s) => s.ready);
   const lost = useStudio((s) => s.lost);
@@ -256,16 +271,15 @@ export function App() {
     <div className="frame">
       <TopBar />
       <Left />
-      <main className="middle">
-        <div className="canvas" aria-label="diagram">
-          <Canvas />
-          {!view && <div className="cover"><p>No diagram lies in this folder.</p><p className="muted">Drop a recording here: it is looked at, and makes one.</p></div>}
-          {adding && <QuickAdd onClose={() => setAdding(false)} />}
-          <Banners />
-        </div>
-        <Bottom />
+      <main className="canvas" aria-label="diagram">
+        <Canvas />
+        {view && !view.sheet && <Undrawn />}
+        {!view && <div className="cover"><p>No diagram lies in this folder.</p><p className="muted">Drop a recording here: it is looked at, and makes one.</p></div>}
+        {adding && <QuickAdd onClose={() => setAdding(false)} />}
+        <Banners />
       </main>
       <Inspector />
+      <Bottom />
       {over && <div className="drop-here"><p>Drop recordings to look at them</p></div>}
     </div>
   );

@@ -10,6 +10,12 @@ export function short(value: number, digits = 4): string {
 
 export const withUnit = (value: number, unit: string, digits = 4) => (unit ? `${short(value, digits)} ${unit}` : short(value, digits));
 
+/// How far something is: nobody reads tenths of it.
+export const wholePercent = (share: number) => `${Math.floor(100 * share)} %`;
+
+/// A sentence of the program, as a page shows it: what a terminal writes as "->" is an arrow.
+export const sentence = (text: string) => text.replace(/ -> /g, ' → ');
+
 export const percent = (share: number) => (share > 0 && share < 1e-4 ? '< 0.01 %' : `${short(100 * share, 3)} %`);
 
 const prefixes: [number, string][] = [[1e-9, 'n'], [1e-6, 'u'], [1e-3, 'm'], [1, '']];
@@ -30,5 +36,5 @@ export function duration(seconds: number): string {
 }
 
 export function clock(milliseconds: number): string {
-  return new Date(milliseconds).toLocaleTimeString([], {hour: '2-digit', minute: '2-digit', second: '2-digit'});
+  return new Date(milliseconds).toLocaleTimeString([], {hour: '2-digit', minute: '2-digit', second: '2-digit', hour12: false});
 }

@@ -1,24 +1,27 @@
 // Decides what the canvas shows: the sheet as the server laid it out, what is selected, highlighted and wrong on it.
 
 import {
-  Background, BackgroundVariant, ControlButton, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
-  ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
+  Background, BackgroundVariant, ControlButton, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore, useStoreApi,
+  getViewportForBounds,  ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
 } from '@xyflow/react';
 import {memo, useCallback, useEffect, useMemo, useRef, useState} from 'react';
 import {api} from '../data/api';
 import {currentPath, useStudio} from '../data/store';
 import type {Item, Point, Problem, Sheet} from '../types';
 import {grid, looseWire, movesOf} from './moving';
-import {arrowHead, roundedPath} from './paths';
+import {extent} from './extent';
+import {arrowHead, ownWays, roundedPath} from './paths';
 import {SymbolView} from './SymbolView';
 import * as actions from '../edit/actions';
 
 const sides = {left: Position.Left, top: Position.Top, bottom: Position.Bottom} as const;
 const plainBelow = 0.35;  // zoom: symbols are no longer read
+const largestFit = 1.25;
+const buttonsHeight = 38;  // [px]
 
 type BlockData = {item: Item; problem: string; highlighted: boolean; fits: (string | null)[] | null; isNew: boolean};
 type BlockNode = Node<BlockData, 'block'>;
-type WireData = {path: Point[]; vector: boolean; tip: string};
+type WireData = {path: Point[]; own: Point[]; vector: boolean; tip: string};
 type WireEdge = Edge<WireData, 'wire'>;
 
 const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
@@ -47,13 +50,14 @@ const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
 
 const WireLine = memo(function WireLine({data, selected}: EdgeProps<WireEdge>) {
   if (!data) return null;
-  const {path} = data;
+  const {path, own} = data;
   const d = roundedPath(path);
   return (
     <g className={`wire ${data.vector ? 'vector' : ''} ${selected ? 'selected' : ''}`}>
       <title>{data.tip}</title>
       <path className="touch react-flow__edge-interaction" d={d} />
-      <path d={d} />
+      <path d={roundedPath(own)} />
+      <path className="whole" d={d} />
       <polygon points={arrowHead(path[path.length - 2], path[path.length - 1], 8)} />
     </g>
   );
@@ -97,7 +101,8 @@ function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: strin
 }
 
 function edgesOf(sheet: Sheet, last: Map<string, string>): WireEdge[] {
-  return sheet.wires.map((w) => {
+  const own = ownWays(sheet.wires);
+  return sheet.wires.map((w, index) => {
     const from = sheet.items[w.from];
     const to = sheet.items[w.to];
     return {
@@ -110,6 +115,7 @@ function edgesOf(sheet: Sheet, last: Map<string, string>): WireEdge[] {
       ariaLabel: `wire from ${w.signal} to ${to.name}`,
       data: {
         path: w.path,
+        own: own[index],
         vector: w.length > 1,
         tip: `${w.signal}${from.out[w.out].unit ? ` [${from.out[w.out].unit}]` : ''}${last.get(w.signal) ?? ''}`,
       },
@@ -125,7 +131,8 @@ function withLooseWires(edges: WireEdge[], sheet: Sheet, carried: Record<string,
     if (!carried[from.path] && !carried[to.path]) return edge;
     const [a, b] = [carried[from.path] ?? from, carried[to.path] ?? to];
     const [out, into] = [from.out[wire.out], to.in[wire.in]];
-    return {...edge, data: {...edge.data!, path: looseWire([a.x + out.x, a.y + out.y], [b.x + into.x, b.y + into.y])}};
+    const path = looseWire([a.x + out.x, a.y + out.y], [b.x + into.x, b.y + into.y]);
+    return {...edge, data: {...edge.data!, path, own: path}};
   });
 }
 
@@ -137,6 +144,8 @@ function Flow() {
   const selected = useStudio((s) => s.selected);
   const result = useStudio((s) => s.results[s.shownJob]);
   const flow = useReactFlow();
+  const pane = useStoreApi();
+  const whole = useRef('');  // the view that shows all of it
   const [nodes, setNodes] = useState<BlockNode[]>([]);
   const [wanting, setWanting] = useState<Wanting | null>(null);
   const fitted = useRef('');
@@ -157,16 +166,32 @@ function Flow() {
   }, [result]);
 
   useEffect(() => {
-    if (!sheet) return;
-    setNodes(nodesOf(sheet, problems, highlighted, fresh, wanting));
+    setNodes(sheet ? nodesOf(sheet, problems, highlighted, fresh, wanting) : []);
   }, [sheet, problems, highlighted, fresh, wanting]);
 
+  /// All of it in view, with what is written beside the blocks, above the buttons at the lower border.
+  const fit = useCallback(() => {
+    const {width, height} = pane.getState();
+    if (!sheet || !width || !height) return;
+    const seen = getViewportForBounds(extent(sheet), width, height - buttonsHeight, 0.05, largestFit, 0.06);
+    whole.current = `${seen.x},${seen.y},${seen.zoom}`;
+    void flow.setViewport(seen);
+  }, [sheet, pane, flow]);
+
+  // As long as nobody has moved the view, all of it stays in view when the canvas becomes larger or smaller.
+  const size = useStore((s) => `${s.width}x${s.height}`);
   useEffect(() => {
-    const key = `${path}${trial ? trial.file : ''}`;
+    if (pane.getState().transform.join() === whole.current) fit();
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [size]);
+
+  useEffect(() => {
+    // Where nested diagrams are opened in place, the sheet becomes another one as well.
+    const key = `${path}${trial ? trial.file : ''}${sheet?.items.some((i) => i.inside) ? ' opened' : ''}`;
     if (!sheet || fitted.current === key) return;
     fitted.current = key;
-    requestAnimationFrame(() => flow.fitView({padding: 0.12, maxZoom: 1.25}));
-  }, [sheet, path, trial, flow]);
+    requestAnimationFrame(fit);
+  }, [sheet, path, trial, fit]);
 
   const edges = useMemo(() => (sheet ? edgesOf(sheet, last) : []), [sheet, last]);
   const looseEdges = useMemo(() => (sheet && Object.keys(carried).length ? withLooseWires(edges, sheet, carried) : edges), [edges, sheet, carried]);
@@ -282,7 +307,10 @@ function Flow() {
           {sheet?.dots.map(([x, y], i) => <circle key={i} className="branch" cx={x} cy={y} r={2.6} />)}
         </svg>
       </ViewportPortal>
-      <Controls showInteractive={false} position="bottom-left">
+      <Controls showInteractive={false} showFitView={false} position="bottom-left" orientation="horizontal">
+        <ControlButton title="see all of it" aria-label="see all of it" className="fit-all" onClick={fit}>
+          <svg viewBox="0 0 16 16" aria-hidden><path d="M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4" fill="none" stroke="currentColor" strokeWidth="1.6" /></svg>
+        </ControlButton>
         {moved.length > 0 && !trial && (
           <ControlButton title="lay everything out anew: blocks that were moved by hand go back" aria-label="lay out anew" onClick={() => void useStudio.getState().move(Object.fromEntries(moved.map((name) => [name, null])))}>
             <svg viewBox="0 0 16 16" aria-hidden><path d="M1 3h5v4H1zM10 1h5v4h-5zM10 11h5v4h-5zM6 5h2M8 3v10M8 3h2M8 13h2" fill="none" stroke="currentColor" /></svg>

@@ -2,10 +2,11 @@
 
 import {memo} from 'react';
 import type {Item, Pictogram, Point, Sheet} from '../types';
-import {roundedPath, arrowHead} from './paths';
+import {arrowHead, ownWays, roundedPath} from './paths';
 
 const pictogramWidth = 48;
 const pictogramHeight = 30;
+const sumNameOffset = 20;  // as draw/sheet.h has it
 
 function Outline({item}: {item: Item}) {
   const {width: w, height: h, symbol} = item;
@@ -92,7 +93,7 @@ function Signs({item}: {item: Item}) {
       {item.in.map((port, i) => {
         const sign = item.symbol.signs[i] === '-' ? '−' : '+';
         if (item.symbol.outline !== 'circle') return <text key={i} className="formula" x={port.x + 9} y={port.y + 4}>{sign}</text>;
-        const at = port.side === 'left' ? [port.x - 7, port.y - 6] : [port.x + 9, port.side === 'top' ? port.y - 4 : port.y + 12];
+        const at = port.side === 'left' ? [port.x - 7, port.y - 6] : [port.x + 8, port.side === 'top' ? port.y - 4 : port.y + 12];
         return <text key={i} className="sign" x={at[0]} y={at[1]}>{sign}</text>;
       })}
     </g>
@@ -122,10 +123,16 @@ function Caption({item, chosen}: {item: Item; chosen: string}) {
   const y = item.height + 13;
   return (
     <g>
-      <text className={beside ? 'name start' : 'name'} x={beside ? item.width / 2 + 16 : item.width / 2} y={y}>{item.name}</text>
-      {lines.map((t, i) => <text key={i} className="line" x={item.width / 2} y={y + 12 * (i + 1)}>{t}</text>)}
+      <text className={beside ? 'name start' : 'name'} x={beside ? item.width / 2 + sumNameOffset : item.width / 2} y={y}>{item.name}</text>
+      {lines.map((t, i) => <text key={i} className="line" x={item.width / 2} y={y + 1 + 12 * (i + 1)}>{t}</text>)}
     </g>
   );
+}
+
+/// The name of an open diagram that is seen from afar, as large as its frame allows.
+function PlainName({item}: {item: Item}) {
+  const size = Math.min(item.height / 3, item.width / (0.7 * item.name.length));
+  return <text className="plain" x={item.width / 2} y={item.height / 2 + size / 3} style={{fontSize: size}}>{item.name}</text>;
 }
 
 export function choiceText(item: Item): string {
@@ -140,7 +147,7 @@ interface Props {
 }
 
 export const SymbolView = memo(function SymbolView({item, pictures, plain, bare}: Props) {
-  if (plain) return <Outline item={item} />;
+  if (plain) return item.inside ? <><Outline item={item} /><PlainName item={item} /></> : <Outline item={item} />;
   const picture = pictures[item.symbol.picture];
   return (
     <>
@@ -156,13 +163,14 @@ export const SymbolView = memo(function SymbolView({item, pictures, plain, bare}
         </>
       )}
       {!bare && item.symbol.outline !== 'port' && <Caption item={item} chosen={choiceText(item)} />}
-      {!bare && item.out.map((port, i) => port.unit && <text key={i} className="unit start" x={port.x + 5} y={port.y - 5}>{port.unit}</text>)}
+      {!bare && item.out.map((port, i) => port.unit && <text key={i} className="unit start" x={port.x + ((item.choice?.candidates ?? 0) > 1 ? 9 : 5)} y={port.y - 5}>{port.unit}</text>)}
     </>
   );
 });
 
 /// A whole sheet as it stands in an open diagram: to be looked at, not edited.
 export function SheetView({sheet, pictures}: {sheet: Sheet; pictures: Record<string, Pictogram>}) {
+  const ways = ownWays(sheet.wires);
   return (
     <g>
       {sheet.items.map((item, i) => {
@@ -173,7 +181,7 @@ export function SheetView({sheet, pictures}: {sheet: Sheet; pictures: Record<str
       })}
       {sheet.wires.map((wire, i) => (
         <g key={i} className={wire.length > 1 ? 'wire vector' : 'wire'}>
-          <path d={roundedPath(wire.path)} />
+          <path d={roundedPath(ways[i])} />
           <polygon points={arrowHead(wire.path[wire.path.length - 2], wire.path[wire.path.length - 1], 7)} />
         </g>
       ))}

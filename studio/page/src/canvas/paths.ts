@@ -1,6 +1,6 @@
 // Decides how the way of a wire becomes a path: horizontal and vertical pieces with rounded corners, an arrow head.
 
-import type {Point} from '../types';
+import type {Point, Wire} from '../types';
 
 const radius = 5;
 
@@ -34,4 +34,47 @@ export function arrowHead(from: Point, tip: Point, length: number): string {
   return [tip, [foot[0] - half * ay, foot[1] + half * ax], [foot[0] + half * ay, foot[1] - half * ax]]
     .map((p) => p.map((v) => v.toFixed(1)).join(','))
     .join(' ');
+}
+
+/// Where `path` leaves the way of `other`, which begins at the same point: the index of its next corner, and the point.
+function leaving(path: Point[], other: Point[]): {next: number; at: Point} {
+  let at = path[0];
+  for (let i = 1; i < Math.min(path.length, other.length); ++i) {
+    const [a, b] = [path[i], other[i]];
+    if (a[0] === b[0] && a[1] === b[1]) {
+      at = a;
+      continue;
+    }
+    const along = (p: Point): [number, number] => [Math.sign(p[0] - at[0]), Math.sign(p[1] - at[1])];
+    const [da, db] = [along(a), along(b)];
+    if (da[0] !== db[0] || da[1] !== db[1]) return {next: i, at};
+    const length = (p: Point) => Math.abs(p[0] - at[0]) + Math.abs(p[1] - at[1]);
+    return length(b) < length(a) ? {next: i, at: b} : {next: i + 1, at: a};
+  }
+  return {next: Math.min(path.length, other.length), at};
+}
+
+const reach = (path: Point[], {next, at}: {next: number; at: Point}) => {
+  let length = 0;
+  for (let i = 1; i < next && i < path.length; ++i) length += Math.abs(path[i][0] - path[i - 1][0]) + Math.abs(path[i][1] - path[i - 1][1]);
+  const last = path[Math.min(next, path.length) - 1];
+  return length + Math.abs(at[0] - last[0]) + Math.abs(at[1] - last[1]);
+};
+
+/// What each wire draws: wires of one output share their way as far as they go together, and lines that lie on one
+/// another look thicker than they are. The first draws all of it, the others from where they leave.
+export function ownWays(wires: Wire[]): Point[][] {
+  const before = new Map<string, Point[][]>();
+  return wires.map((wire) => {
+    const key = `${wire.from}/${wire.out}`;
+    const others = before.get(key) ?? [];
+    before.set(key, [...others, wire.path]);
+    let best = {next: 1, at: wire.path[0]};
+    for (const other of others) {
+      const found = leaving(wire.path, other);
+      if (reach(wire.path, found) > reach(wire.path, best)) best = found;
+    }
+    const rest = wire.path.slice(best.next);
+    return rest.length ? [best.at, ...rest] : wire.path;
+  });
 }

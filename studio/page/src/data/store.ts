@@ -118,6 +118,7 @@ export const useStudio = create<Studio>()((set, get) => {
     if (!now) return false;
     try {
       changed(await action(now), record);
+      if (record && get().notice?.kind === 'error') set({notice: null});  // what was refused before is past
       return true;
     } catch (error) {
       if (error instanceof Conflict) set({conflict: {text: error.text, hash: error.hash, mine}});
@@ -304,7 +305,8 @@ export const useStudio = create<Studio>()((set, get) => {
       if (path && state.files[path] && get().view && state.files[path] !== get().view!.hash && !get().conflict) await get().reload();
       const shown = state.jobs.find((j) => j.id === get().shownJob);
       const was = before.find((j) => j.id === get().shownJob);
-      if (shown && shown.state === 'done' && was?.state !== 'done') await get().show(shown.id);
+      // A quick job may be told as done before it is known to be the one that is shown.
+      if (shown && shown.state === 'done' && (was?.state !== 'done' || !get().results[shown.id])) await get().show(shown.id);
       if (shown && shown.state === 'failed' && was && was.state !== 'failed') set({tab: 'problems'});
     },
 

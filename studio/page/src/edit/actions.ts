@@ -41,6 +41,27 @@ export async function connect(from: Item, out: number, to: Item, port: number): 
   await edit(doc.setMember(document, to.name, 'in', into));
 }
 
+let wiring = false;  // a list that is typed into tells the same choice once per letter
+
+/// The same by names, as a list or the keyboard give them; refused, in the words of check, where the units do not fit.
+export async function connectSignal(signal: string, to: Item, port: number): Promise<void> {
+  const {view, say, tell} = now();
+  const items = view?.sheet?.items ?? [];
+  const from = items.find((i) => i.out.some((_, k) => doc.signalName(i, k) === signal));
+  if (!from || wiring) return;
+  wiring = true;
+  try {
+    const fits = await api.fits(currentPath(now()), signal);
+    const why = fits.find((f) => f.item === items.findIndex((i) => i.path === to.path) && f.in === port)?.why;
+    if (why) say(why, 'error');
+    else await connect(from, from.out.findIndex((_, k) => doc.signalName(from, k) === signal), to, port);
+  } catch (error) {
+    tell(error);
+  } finally {
+    wiring = false;
+  }
+}
+
 export async function disconnect(to: Item, port: number): Promise<void> {
   const {document, edit} = now();
   if (to.type === 'output') await edit([{kind: 'remove', pointer: doc.pointer('outputs', to.name)}]);

@@ -138,3 +138,18 @@ describe('changes between documents', () => {
     expect(doc.changesBetween({$schema: 'a', blocks: {d: {file: 'x.json'}}}, {$schema: '../a', blocks: {d: {file: '../x.json'}}})).toEqual([]);
   });
 });
+
+describe('a list with its unit', () => {
+  it('is shown as one writes it, and read back as the same value', () => {
+    const value = {value: [0, 0.6, 5.4], unit: 'V'};
+    expect(doc.shownValue(value)).toBe('[0, 0.6, 5.4] V');
+    expect(doc.typedValue('[0, 0.6, 5.4] V')).toEqual(value);
+    expect(doc.typedValue('["1 ms", "3 ms"]')).toEqual(['1 ms', '3 ms']);
+    expect(doc.typedValue('[[1, 2], [3, 4]]')).toEqual([[1, 2], [3, 4]]);
+    expect(doc.typedValue('[[1, 2], [3, 4]] N/m')).toEqual({value: [[1, 2], [3, 4]], unit: 'N/m'});
+    expect(doc.typedValue('[1, 2')).toBe('[1, 2');
+  });
+  it('stays JSON where more is told of it', () => {
+    expect(doc.shownValue({value: [1, 2], unit: 'V', free: true})).toBe('{"value": [1, 2], "unit": "V", "free": true}');
+  });
+});

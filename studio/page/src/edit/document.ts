@@ -15,9 +15,18 @@ export function jsonText(value: unknown): string {
   return JSON.stringify(value);
 }
 
-/// What was typed as a value: a number stays a number, JSON stays JSON, all else is text ("5 Hz", "$kp").
+/// What was typed as a value: a number stays a number, JSON stays JSON, a list may be followed by its unit ("[1, 2] ms"),
+/// all else is text ("5 Hz", "$kp").
 export function typedValue(text: string): unknown {
   const trimmed = text.trim();
+  const list = /^(\[.*\])\s*([^\s,[\]][^[\]]*)$/.exec(trimmed);
+  if (list) {
+    try {
+      return {value: JSON.parse(list[1]), unit: list[2]};
+    } catch {
+      return trimmed;
+    }
+  }
   if (/^[[{"]/.test(trimmed)) {
     try {
       return JSON.parse(trimmed);
@@ -34,7 +43,9 @@ export function shownValue(value: unknown): string {
   if (value === undefined) return '';
   if (value !== null && typeof value === 'object' && !Array.isArray(value)) {
     const v = value as {value?: unknown; unit?: string};
+    const isPlain = Object.keys(v).every((key) => key === 'value' || key === 'unit');
     if (typeof v.value === 'number') return v.unit ? `${v.value} ${v.unit}` : String(v.value);
+    if (Array.isArray(v.value) && v.unit && isPlain) return `${jsonText(v.value)} ${v.unit}`;
   }
   return typeof value === 'string' ? value : jsonText(value);
 }

@@ -99,9 +99,14 @@ function completion(known: Wishes['known']) {
     const from = inText ? node.from : context.pos;
     const closed = inText && /^"(?:[^"\\]|\\.)*"$/.test(context.state.doc.sliceString(node.from, node.to));
     const isWholeKey = node.name === 'PropertyName' && context.state.doc.sliceString(node.to, node.to + 20).trimStart().startsWith(':');
+    // What is typed is matched up to the cursor; what is taken replaces the rest of the word as well, with its quote.
+    const take = (text: string) => (view: EditorView, _: Completion, from: number, to: number) => {
+      const rest = closed ? /^[^"\n]*"/.exec(view.state.doc.sliceString(to, to + 200))?.[0].length ?? 0 : 0;
+      view.dispatch({changes: {from, to: to + rest, insert: text}, selection: {anchor: from + text.length}});
+    };
     return {
-      from, to: closed ? node.to : context.pos, filter: true,
-      options: offers.map((o): Completion => ({label: inText ? `"${o.label}` : o.label, displayLabel: o.label, detail: o.detail, apply: isWholeKey ? JSON.stringify(o.label) : o.apply, type: isKey ? 'property' : 'constant'})),
+      from, filter: true,
+      options: offers.map((o): Completion => ({label: inText ? `"${o.label}` : o.label, displayLabel: o.label, detail: o.detail, apply: take(isWholeKey ? JSON.stringify(o.label) : o.apply), type: isKey ? 'property' : 'constant'})),
     };
   };
 }

@@ -3,7 +3,7 @@
 
 import {useStudio} from '../data/store';
 import {accept, tryStep} from '../edit/actions';
-import {lengthText, withUnit} from '../numbers';
+import {lengthText, sentence, withUnit} from '../numbers';
 import type {Candidate, DiscoveryStep, Result} from '../types';
 import {StartHint} from './StartHint';
 
@@ -48,7 +48,7 @@ function Card({step, job, file}: {step: DiscoveryStep; job: string; file: string
         <strong>{step.effect.replace(/_/g, ' ')}</strong> <span className="muted">at {step.place}</span>
         <span className="fall"><s>{lengthText(step.before.rms_validate, step.before.unit)}</s> → <b>{lengthText(step.after.rms_validate, step.after.unit)}</b></span>
       </header>
-      <p>{step.sentence}</p>
+      <p>{sentence(step.sentence)}</p>
       {step.ties.length > 0 && (
         <p className="tie">Explains it as well: {step.ties.map((t) => `${t.effect} at ${t.place}`).join(', ')}.
           {step.experiment_would_tell ? ' The report says which experiment would tell them apart.' : ''}</p>
@@ -93,11 +93,11 @@ export function Effects() {
     <>
       <div className="panel-head">
         <span className={`verdict ${result.verdict}`}>{verdicts[result.verdict] ?? result.verdict}</span>
-        <span className="headline" title={result.headline}>{result.headline}</span>
+        <span className="headline" title={sentence(result.headline)}>{sentence(result.headline)}</span>
       </div>
       <div className="effects">
         <div className="cards">
-          {result.facts.steps.length === 0 && result.sentences.map((s, i) => <p key={i}>{s}</p>)}
+          {result.facts.steps.length === 0 && result.sentences.map((s, i) => <p key={i}>{sentence(s)}</p>)}
           {result.facts.steps.map((step) => (
             <Card key={step.step} step={step} job={job.id} file={files.find((f) => f.startsWith(`step${step.step}_`)) ?? 'final.json'} />
           ))}

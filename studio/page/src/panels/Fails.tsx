@@ -3,7 +3,7 @@
 
 import {useState} from 'react';
 import {useStudio} from '../data/store';
-import {lengthText, percent} from '../numbers';
+import {lengthText, percent, sentence} from '../numbers';
 import type {Metric, Split} from '../types';
 import {StartHint} from './StartHint';
 import {TraceView} from './Scopes';
@@ -48,7 +48,7 @@ export function Fails() {
   return (
     <>
       <div className="panel-head">
-        <span className="headline" title={result.headline}>{result.headline}</span>
+        <span className="headline" title={sentence(result.headline)}>{sentence(result.headline)}</span>
         <label className="muted">split by <select aria-label="split by" value={keyOf(split)} onChange={(e) => { setBy(e.target.value); set({spans: null}); }}>
           {sorted.map((s) => <option key={keyOf(s)} value={keyOf(s)}>{s.by.replace('_', ' ')}{several ? ` (${s.output})` : ''}</option>)}
         </select></label>

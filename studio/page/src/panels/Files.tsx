@@ -2,6 +2,18 @@
 
 import {useState} from 'react';
 import {currentPath, useStudio} from '../data/store';
+import type {ListedFile} from '../types';
+
+const folderOf = (path: string) => path.slice(0, Math.max(0, path.lastIndexOf('/')));
+
+/// The name of a file in its folder.
+export const nameIn = (path: string) => path.slice(path.lastIndexOf('/') + 1);
+
+/// Files by the folders in which they lie, the open folder's own first.
+export function byFolder(files: ListedFile[]): {folder: string; files: ListedFile[]}[] {
+  const folders = [...new Set(files.map((f) => folderOf(f.path)))].sort();
+  return folders.map((folder) => ({folder, files: files.filter((f) => folderOf(f.path) === folder)}));
+}
 
 export function Files() {
   const files = useStudio((s) => s.files);
@@ -17,15 +29,20 @@ export function Files() {
       <section>
         <h3>{title}</h3>
         {some.length === 0 && <p className="empty">{empty}</p>}
-        <ul>
-          {some.map((f) => (
-            <li key={f.path}>
-              <button className={`entry file ${f.path === current ? 'current' : ''}`} title={f.title} onClick={() => action(f.path)}>
-                <span className="label">{f.path}</span>
-              </button>
-            </li>
-          ))}
-        </ul>
+        {byFolder(some).map(({folder, files: here}) => (
+          <div key={folder}>
+            {folder && <h4 className="folder" title={folder}>{folder}</h4>}
+            <ul>
+              {here.map((f) => (
+                <li key={f.path}>
+                  <button className={`entry file ${folder ? 'inside' : ''} ${f.path === current ? 'current' : ''}`} data-path={f.path} title={`${f.path}\n${f.title}`} onClick={() => action(f.path)}>
+                    <span className="label">{nameIn(f.path)}</span>
+                  </button>
+                </li>
+              ))}
+            </ul>
+          </div>
+        ))}
       </section>
     );
   };

@@ -102,7 +102,12 @@ function OtherUnits({value, onPick}: {value: string; onPick: (text: string) => v
   );
 }
 
-function Parameter({block, p, value, problem}: {block: string; p: ParameterDeclaration; value: unknown; problem: string}) {
+/// What a number is where the block itself does not say it: as the file of parameters has it.
+function fromFile(item: Item, name: string): string {
+  return item.tip.split('\n').find((line) => line.startsWith(`${name} `))?.slice(name.length + 1) ?? '';
+}
+
+function Parameter({block, p, value, problem, elsewhere}: {block: string; p: ParameterDeclaration; value: unknown; problem: string; elsewhere: string}) {
   const shown = shownValue(value);
   const unit = p.unit && !p.unit.includes('$') ? p.unit : '';
   const commit = (text: string) => actions.setValue(block, p.name, text);
@@ -117,7 +122,7 @@ function Parameter({block, p, value, problem}: {block: string; p: ParameterDecla
         </select>
       ) : (
         <Field label={p.name} value={now || shown} wrong={problem !== ''} live={p.kind === 'number' ? live : undefined}
-               placeholder={p.default !== null ? `${p.default || 'none'} (default)` : unit ? `in ${unit}` : ''} onCommit={commit} />
+               placeholder={elsewhere ? `${elsewhere} (from file)` : p.default !== null ? `${p.default || 'none'} (default)` : unit ? `in ${unit}` : ''} onCommit={commit} />
       )}
       <div className="about">
         {problem ? <span className="problem">{problem}</span> : <span>{p.meaning}{bounds(p) && <span className="bounds">, {bounds(p)}</span>}</span>}
@@ -128,6 +133,8 @@ function Parameter({block, p, value, problem}: {block: string; p: ParameterDecla
 }
 
 function Ports({item, declaration}: {item: Item; declaration?: BlockDeclaration}) {
+  const items = useStudio((s) => (s.trial?.view ?? s.view)?.sheet?.items) ?? [];
+  const signals = items.flatMap((i) => i.out.map((_, k) => signalName(i, k)));
   return (
     <section>
       <h3>ports</h3>
@@ -136,7 +143,12 @@ function Ports({item, declaration}: {item: Item; declaration?: BlockDeclaration}
           {item.in.map((p, i) => (
             <tr key={`i${i}`} title={declaration?.inputs.find((d) => d.name === p.name)?.meaning}>
               <td className="muted">in</td><td>{p.name}</td>
-              <td>{p.reads ? <>{p.reads} <button className="quiet small" title="remove this wire" onClick={() => void actions.disconnect(item, i)}>×</button></> : <span className="open">not wired</span>}</td>
+              <td>
+                <select className={p.reads ? 'wire' : 'wire open'} aria-label={`wire of ${p.name}`} value={p.reads} onChange={(e) => void (e.target.value ? actions.connectSignal(e.target.value, item, i) : actions.disconnect(item, i))}>
+                  <option value="">not wired</option>
+                  {[...new Set([...signals, ...(p.reads ? [p.reads] : [])])].map((s) => <option key={s}>{s}</option>)}
+                </select>
+              </td>
             </tr>
           ))}
           {item.out.map((p, i) => (
@@ -157,7 +169,7 @@ function Recorded({signal}: {signal: string}) {
   const list: string[] = document?.record ?? [];
   return (
     <div className="row check">
-      <label><input type="checkbox" checked={list.includes(signal)} onChange={(e) => void actions.record(signal, e.target.checked)} /> record {signal}</label>
+      <label><input type="checkbox" aria-label={`record ${signal}`} checked={list.includes(signal)} onChange={(e) => void actions.record(signal, e.target.checked)} /> record {signal}</label>
       {last && <div className="about">last {withUnit(last.last, last.unit)}, between {withUnit(last.smallest, last.unit)} and {withUnit(last.largest, last.unit)}</div>}
     </div>
   );
@@ -196,7 +208,8 @@ function BlockPanel({item}: {item: Item}) {
       {(declared.length > 0 || others.length > 0) && (
         <section>
           <h3>values</h3>
-          {declared.map((p) => <Parameter key={p.name} block={item.name} p={p} value={body?.[p.name]} problem={ofParameter(p.name)} />)}
+          {declared.map((p) => <Parameter key={p.name} block={item.name} p={p} value={body?.[p.name]} problem={ofParameter(p.name)}
+                                             elsewhere={typeof body?.parameters === 'string' && body[p.name] === undefined ? fromFile(item, p.name) : ''} />)}
           {others.map((k) => (
             <div className="row" key={k}><label>{k}</label><Field label={k} value={shownValue(body[k])} wrong={ofParameter(k) !== ''} onCommit={(text) => void actions.setValue(item.name, k, text)} />
               {ofParameter(k) && <div className="about problem">{ofParameter(k)}</div>}</div>

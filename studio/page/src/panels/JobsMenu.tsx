@@ -3,7 +3,7 @@
 import {useState} from 'react';
 import {api} from '../data/api';
 import {useStudio} from '../data/store';
-import {clock, percent} from '../numbers';
+import {clock, sentence, wholePercent} from '../numbers';
 import type {Job} from '../types';
 
 const words: Record<string, string> = {waiting: 'waits', running: 'runs', done: 'done', failed: 'failed', cancelled: 'stopped', lost: 'ended, nobody knows how'};
@@ -35,9 +35,9 @@ function Row({job, onShow}: {job: Job; onShow: () => void}) {
       <button className="entry" disabled={job.state !== 'done' && job.state !== 'failed'} title={`hysteron ${job.words.join(' ')}`}
               onClick={() => { void show(job.id); onShow(); }}>
         <span><b>{job.verb}</b> {job.diagram}{job.data && <span className="muted"> with {job.data}</span>}</span>
-        <span className="muted">{clock(job.began)}, <span className={`state ${job.state}`}>{words[job.state]}</span>{job.stale && ' – of an earlier version'}{job.headline && ` – ${job.headline}`}
+        <span className="muted">{clock(job.began)}, <span className={`state ${job.state}`}>{words[job.state]}</span>{job.stale && ' – of an earlier version'}{job.headline && ` – ${sentence(job.headline)}`}
           {job.problems[0] && ` – ${job.problems[0].what}`}</span>
-        {runs && <progress max={1} {...(job.fraction >= 0 ? {value: job.fraction, title: percent(job.fraction)} : {})} />}
+        {runs && <progress max={1} {...(job.fraction >= 0 ? {value: job.fraction, title: wholePercent(job.fraction)} : {})} />}
       </button>
       <span className="acts">
         {job.state === 'done' && <button className="quiet small" onClick={() => void openReport(job)}>report</button>}
@@ -51,7 +51,7 @@ export function JobsMenu() {
   const jobs = useStudio((s) => s.jobs);
   const [open, setOpen] = useState(false);
   const running = jobs.filter((j) => j.state === 'running' || j.state === 'waiting');
-  const label = running.length ? `${running[0].verb} ${running[0].fraction >= 0 ? percent(running[0].fraction) : '…'}` : jobs.length === 1 ? '1 job' : `${jobs.length} jobs`;
+  const label = running.length ? `${running[0].verb} ${running[0].fraction >= 0 ? wholePercent(running[0].fraction) : '…'}` : jobs.length === 1 ? '1 job' : `${jobs.length} jobs`;
   return (
     <div className="menu">
       <button aria-expanded={open} onClick={() => setOpen(!open)}>{running.length > 0 && <span className="spinner" />}{label}</button>

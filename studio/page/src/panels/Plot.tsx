@@ -23,6 +23,8 @@ interface Props {
   range: Point | null;          // what is shown; null: all of it
   onZoom: (range: Point | null) => void;
   onPixels?: (pixels: number) => void;
+  marks?: (number | undefined)[];  // cursors that stand
+  onMark?: (at: number) => void;   // a click
   onCursor?: (at: number | null, values: Record<string, number>) => void;  // of the curves, by their labels
   sync: string;
   height: number;
@@ -63,17 +65,34 @@ function fillBand(u: uPlot, band: {x: Float64Array; low: Float64Array; high: Flo
   u.ctx.restore();
 }
 
-export function Plot({curves, unit, spans, bands, range, onZoom, onPixels, onCursor, sync, height, hasTimes}: Props) {
+/// A cursor that stands: a line with its letter.
+function drawMark(u: uPlot, at: number, letter: string, ink: string): void {
+  const x = Math.round(u.valToPos(at, 'x', true));
+  if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
+  u.ctx.save();
+  u.ctx.strokeStyle = u.ctx.fillStyle = ink;
+  u.ctx.lineWidth = devicePixelRatio;
+  u.ctx.beginPath();
+  u.ctx.moveTo(x + 0.5, u.bbox.top);
+  u.ctx.lineTo(x + 0.5, u.bbox.top + u.bbox.height);
+  u.ctx.stroke();
+  u.ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
+  u.ctx.fillText(letter, x + 4 * devicePixelRatio, u.bbox.top + 12 * devicePixelRatio);
+  u.ctx.restore();
+}
+
+export function Plot({curves, unit, spans, bands, range, marks, onMark, onZoom, onPixels, onCursor, sync, height, hasTimes}: Props) {
   const holder = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  const latest = useRef({spans, bands, range, onZoom, onPixels, onCursor, curves});
-  latest.current = {spans, bands, range, onZoom, onPixels, onCursor, curves};
+  const latest = useRef({spans, bands, range, marks, onMark, onZoom, onPixels, onCursor, curves});
+  latest.current = {spans, bands, range, marks, onMark, onZoom, onPixels, onCursor, curves};
   const shape = curves.map((c) => `${c.label}|${c.color}|${c.dash ?? ''}`).join();
 
   useEffect(() => {
     const element = holder.current!;
-    const axis = {stroke: colour('--muted'), grid: {stroke: colour('--grid'), width: 1}, ticks: {show: false}, font: '12px system-ui, sans-serif'};
-    const make = () => new uPlot({
+    const make = () => new uPlot(optionsNow(), dataOf(curves), element);
+    const axisNow = () => ({stroke: colour('--muted'), grid: {stroke: colour('--grid'), width: 1}, ticks: {show: false}, font: '12px system-ui, sans-serif'});
+    const optionsNow = (axis = axisNow()): uPlot.Options => ({
       width: Math.max(120, element.clientWidth), height,
       scales: {x: {time: false, range: (_, low, high) => latest.current.range ?? (low === high ? [low - 1, high + 1] : [low, high])}},
       cursor: {sync: {key: sync}, drag: {x: true, y: false, setScale: false}, points: {size: 6}, y: false},
@@ -95,6 +114,7 @@ export function Plot({curves, unit, spans, bands, range, onZoom, onPixels, onCur
           }
           u.ctx.restore();
         }],
+        draw: [(u) => (latest.current.marks ?? []).forEach((at, i) => at !== undefined && drawMark(u, at, 'AB'[i], colour('--text')))],
         setCursor: [(u) => {
           const row = u.cursor.idx;
           if (row === null || row === undefined) return latest.current.onCursor?.(null, {});
@@ -111,9 +131,12 @@ export function Plot({curves, unit, spans, bands, range, onZoom, onPixels, onCur
           u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
           latest.current.onZoom([a, b]);
         }],
-        ready: [(u) => u.over.addEventListener('dblclick', () => latest.current.onZoom(null))],
+        ready: [(u) => {
+          u.over.addEventListener('dblclick', () => latest.current.onZoom(null));
+          u.over.addEventListener('click', (e) => latest.current.onMark?.(u.posToVal(e.offsetX, 'x')));
+        }],
       },
-    }, dataOf(curves), element);
+    });
     plot.current = make();
     latest.current.onPixels?.(Math.round(plot.current.bbox.width / devicePixelRatio));
     const observer = new ResizeObserver(() => {
@@ -137,7 +160,7 @@ export function Plot({curves, unit, spans, bands, range, onZoom, onPixels, onCur
   }, [shape, unit, sync, height, hasTimes]);
 
   useEffect(() => plot.current?.setData(dataOf(curves)), [curves, range]);
-  useEffect(() => plot.current?.redraw(false), [spans, bands]);
+  useEffect(() => plot.current?.redraw(false), [spans, bands, marks?.[0], marks?.[1]]);
 
   return <div className="plot" ref={holder} />;
 }

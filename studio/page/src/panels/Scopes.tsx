@@ -1,12 +1,16 @@
 // Decides which curves the scopes show: those of the run that is looked at, one plot per unit, pinned runs behind it.
 
-import {useEffect, useMemo, useState} from 'react';
+import {useCallback, useEffect, useMemo, useState} from 'react';
 import {useStudio} from '../data/store';
 import type {Stretch} from '../data/api';
 import {looking} from '../data/live';
-import {clock, short} from '../numbers';
+import {clock, sentence} from '../numbers';
 import type {Job, Point} from '../types';
 import {Plot, type Curve} from './Plot';
+import {useCursors} from './cursors';
+import {LoopView, SpectrumView} from './OtherViews';
+import {Signals} from './Signals';
+import {useHeight} from './size';
 import {useHead, useStretch, useStretches} from './traces';
 import type {Tube} from './tolerance';
 import {useTubes} from './tube';
@@ -33,18 +37,6 @@ export function curvesOf(stretch: Stretch | null, names: string[], order: string
   });
 }
 
-function useSize(initial: number): [number, (element: HTMLDivElement | null) => void] {
-  const [height, setHeight] = useState(initial);
-  const [element, setElement] = useState<HTMLDivElement | null>(null);
-  useEffect(() => {
-    if (!element) return;
-    const observer = new ResizeObserver(() => setHeight(element.clientHeight));
-    observer.observe(element);
-    return () => observer.disconnect();
-  }, [element]);
-  return [height, setElement];
-}
-
 /// The rate of an input is told, and seldom looked at.
 const isAside = (name: string) => name.endsWith('_rate');
 /// What is left over is small: it has a scale of its own.
@@ -55,12 +47,23 @@ export interface Pinned {
   label: string;
 }
 
-export function TraceView({path, spans, pinned = [], tubes}: {path: string; spans?: Point[]; pinned?: Pinned[]; tubes?: Record<string, Tube>}) {
+export type Look = 'time' | 'loop' | 'spectrum';
+
+interface TraceViewProps {
+  path: string;
+  spans?: Point[];
+  pinned?: Pinned[];
+  tubes?: Record<string, Tube>;
+  look?: Look;
+  withCursors?: boolean;
+}
+
+export function TraceView({path, spans, pinned = [], tubes, look = 'time', withCursors = false}: TraceViewProps) {
   const head = useHead(path);
   const [hidden, setHidden] = useState<Set<string> | null>(null);
   const [range, setRange] = useState<Point | null>(null);
   const [pixels, setPixels] = useState(800);
-  const [height, holder] = useSize(220);
+  const [height, holder] = useHeight(220);
   useEffect(() => {
     setRange(null);
     setHidden(null);
@@ -76,49 +79,55 @@ export function TraceView({path, spans, pinned = [], tubes}: {path: string; span
   useEffect(() => {
     Object.assign(looking, {trace: path.slice(path.lastIndexOf('/') + 1), columns: shown, range, pixels});
   });
-  if (!head) return <div className="panel-body" ref={holder} />;
+  // Told at each move of the mouse, and whenever a curve gets other numbers: only what is new is drawn anew.
+  const onCursor = useCallback((at: number | null, values: Record<string, number>) => setCursor((now) => {
+    if (at === null) return now.at === null ? now : {at: null, values: {}};
+    if (now.at !== at) return {at, values};
+    return Object.entries(values).every(([name, v]) => now.values[name] === v) ? now : {at, values: {...now.values, ...values}};
+  }), []);
   const groupOf = (c: {name: string; unit: string}) => (isResidual(c.name) ? `residual ${c.unit}` : c.unit);
-  const groups = [...new Set(head.columns.slice(1).filter((c) => shown.includes(c.name)).map(groupOf))];
-  const each = Math.max(76, Math.floor((height - 28) / Math.max(1, groups.length)));
-  const time = head.columns[0];
-  const onCursor = (at: number | null, values: Record<string, number>) =>
-    setCursor((now) => (at === null ? (now.at === null ? now : {at: null, values: {}}) : {at, values: now.at === at ? {...now.values, ...values} : values}));
+  const plots = useMemo(() => {
+    const columns = head?.columns.slice(1).filter((c) => shown.includes(c.name)) ?? [];
+    return [...new Set(columns.map(groupOf))].map((group) => {
+      const here = columns.filter((c) => groupOf(c) === group);
+      const order = here.map((c) => c.name);
+      return {
+        group, unit: here[0].unit, bands: order.flatMap((name) => (tubes?.[name] ? [tubes[name]] : [])),
+        curves: [...curvesOf(live?.stretch ?? stretch, order, names),
+                 ...(live ? curvesOf(stretch, order, names, ' (before)', dashes[0]) : []),
+                 ...pinned.flatMap((p, i) => curvesOf(others[i] ?? null, order, names, ` (${p.label})`, dashes[i % dashes.length]))],
+      };
+    });
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [head, shown.join('\n'), live, stretch, others, tubes, pinned.map((p) => p.label).join('\n')]);
+  const whole: Point | null = useMemo(() => range ?? (head && head.from !== null && head.to !== null ? [head.from, head.to] : null), [range, head]);
+  const cursors = useCursors(withCursors && look === 'time', path, names, whole);
+  if (!head) return <div className="panel-body" ref={holder} />;
+  if (look === 'loop') return <div className="scopes"><LoopView path={path} head={head} range={range} colourOf={colourOf} /></div>;
+  const each = Math.max(76, Math.floor((height - 28) / Math.max(1, plots.length)));
   return (
     <div className="scopes">
-      <ul className="signals" aria-label="signals">
-        {names.map((name, i) => (
-          <li key={name}>
-            <label title={name}>
-              <input type="checkbox" checked={!off.has(name)}
-                     onChange={() => setHidden(new Set(off.has(name) ? [...off].filter((n) => n !== name) : [...off, name]))} />
-              <span className="swatch" style={{background: `var(${colourOf(name, i)})`}} />
-              <span className="label">{name}</span>
-              <span className="now">{cursor.values[name] !== undefined && short(cursor.values[name])} <span className="muted">{head.columns[i + 1].unit}</span></span>
-            </label>
-          </li>
-        ))}
-        <li className="time"><span className="label">{time.name}</span><span className="now">{cursor.at !== null && short(cursor.at, 6)} <span className="muted">{time.unit}</span></span></li>
+      <Signals head={head} off={off} onOff={setHidden} colourOf={colourOf} at={cursor} cursors={cursors}>
         {range && <li><button className="quiet small" onClick={() => setRange(null)}>show all</button></li>}
         {live && <li className="following" aria-live="off">{live.label}<br /><span className="muted">dashed: before</span></li>}
         {pinned.map((p, i) => <li key={p.path} className="pinned"><svg width={22} height={8} aria-hidden><line x1={0} x2={22} y1={4} y2={4} strokeDasharray={dashes[i % dashes.length].join(' ')} /></svg> {p.label}</li>)}
-      </ul>
-      <div className="plots" ref={holder}>
+      </Signals>
+      {look === 'spectrum' ? <SpectrumView path={path} head={head} range={range} shown={shown} colourOf={colourOf} /> : <div className="plots" ref={holder}>
         {shown.length === 0 && <p className="empty">Tick a signal to see it.</p>}
-        {groups.map((group, k) => {
-          const here = head.columns.slice(1).filter((c) => shown.includes(c.name) && groupOf(c) === group);
-          const order = here.map((c) => c.name);
-          return (
-            <Plot key={group} unit={here[0].unit} height={k === groups.length - 1 ? each + 22 : each} hasTimes={k === groups.length - 1} sync={path} range={range} spans={spans} onZoom={setRange} onPixels={setPixels} onCursor={onCursor}
-                  bands={order.flatMap((name) => (tubes?.[name] ? [tubes[name]] : []))}
-                  curves={[...curvesOf(live?.stretch ?? stretch, order, names),
-                           ...(live ? curvesOf(stretch, order, names, ' (before)', dashes[0]) : []),
-                           ...pinned.flatMap((p, i) => curvesOf(others[i] ?? null, order, names, ` (${p.label})`, dashes[i % dashes.length]))]} />
-          );
-        })}
-      </div>
+        {plots.map((p, k) => (
+          <Plot key={p.group} unit={p.unit} height={k === plots.length - 1 ? each + 22 : each} hasTimes={k === plots.length - 1} sync={path} range={range} spans={spans} bands={p.bands} curves={p.curves}
+                marks={cursors ? [cursors.first?.at, cursors.second?.at] : undefined} onMark={cursors?.put} onZoom={setRange} onPixels={setPixels} onCursor={onCursor} />
+        ))}
+      </div>}
     </div>
   );
 }
+
+const looks: {look: Look; label: string; tip: string}[] = [
+  {look: 'time', label: 'Over time', tip: 'curves over time'},
+  {look: 'loop', label: 'Loop', tip: 'one signal over another'},
+  {look: 'spectrum', label: 'Spectrum', tip: 'amplitudes over frequency of the signals that are ticked'},
+];
 
 /// What a pinned run was: what its command line has that the one that is looked at has not, else when it began.
 export function runLabel(job: Job, shown: Job): string {
@@ -139,6 +148,8 @@ export function Scopes() {
   const set = useStudio((s) => s.set);
   const [tolerance, setTolerance] = useState(() => localStorage.getItem(rememberedTolerance) ?? '');
   const [text, setText] = useState(tolerance);
+  const [look, setLook] = useState<Look>('time');
+  const [withCursors, setWithCursors] = useState(false);
   const file = result?.traces.includes(recording) ? recording : result?.traces[0] ?? '';
   const pinned = job ? pinnedIds.filter((id) => id !== job.id).flatMap((id) => {
     const other = jobs.find((j) => j.id === id);
@@ -154,7 +165,11 @@ export function Scopes() {
   return (
     <>
       <div className="panel-head">
-        <span className="headline" title={headline || job.headline}>{verdict || headline || job.headline}</span>
+        <span className="headline" title={sentence(headline || job.headline)}>{sentence(verdict || headline || job.headline)}</span>
+        {look === 'time' && <button className={withCursors ? 'on' : ''} aria-pressed={withCursors} title="two cursors, and what lies between: a click puts the nearer one there" onClick={() => setWithCursors(!withCursors)}>Cursors</button>}
+        <div className="group" role="radiogroup" aria-label="how curves are looked at">
+          {looks.map((l) => <button key={l.look} role="radio" aria-checked={l.look === look} className={l.look === look ? 'on' : ''} title={l.tip} onClick={() => setLook(l.look)}>{l.label}</button>)}
+        </div>
         {pinned.length > 0 && (
           <label className={wrong ? 'muted tolerance wrong' : 'muted tolerance'} title={wrong || 'how far the curves may be from the pinned ones: value, share, time beside it'}>within{' '}
             <input className="field" aria-label="tolerance" value={text} placeholder="2 nm + 0.1 %, 0.1 ms" spellCheck={false}
@@ -171,7 +186,7 @@ export function Scopes() {
         )}
       </div>
       {wrong && <p className="problem tolerance-problem">{wrong}</p>}
-      <TraceView path={path} pinned={pinned} tubes={tubes} />
+      <TraceView path={path} pinned={pinned} tubes={tubes} look={look} withCursors={withCursors} />
     </>
   );
 }

@@ -2,7 +2,7 @@
 
 import {currentPath, useStudio} from '../data/store';
 import {runOrder} from '../edit/orders';
-import {duration, percent} from '../numbers';
+import {duration, wholePercent} from '../numbers';
 import type {JobOrder} from '../types';
 
 const needsData = ['compare', 'diagnose', 'discover'];
@@ -38,7 +38,7 @@ export function Working() {
     <div className="start">
       <p>{job.state === 'waiting' ? 'Waits for the job before it.' : job.what || `${job.verb} has begun`}</p>
       <progress max={1} {...(job.fraction >= 0 ? {value: job.fraction} : {})} />
-      <p className="muted">{job.fraction >= 0 && percent(job.fraction)} {job.seconds_left > 0 && `, ${duration(job.seconds_left)} left`}</p>
+      <p className="muted">{[job.fraction >= 0 && wholePercent(job.fraction), job.seconds_left > 0 && `${duration(job.seconds_left)} left`].filter(Boolean).join(', ')}</p>
       <button onClick={() => void cancel(job.id)}>Stop</button>
     </div>
   );

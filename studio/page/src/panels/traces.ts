@@ -34,6 +34,8 @@ export function useStretch(path: string, columns: string[], range: Point | null,
   return stretch?.path === path ? stretch.stretch : null;
 }
 
+const none: Stretch[] = [];
+
 /// The same columns of several files, as they come in.
 export function useStretches(files: {path: string}[], columns: string[], range: Point | null, pixels: number): (Stretch | undefined)[] {
   const [found, setFound] = useState<{key: string; stretches: Stretch[]}>({key: '', stretches: []});
@@ -48,5 +50,5 @@ export function useStretches(files: {path: string}[], columns: string[], range: 
       wanted = false;
     };
   }, [paths, key, range, pixels]);
-  return found.key === paths ? found.stretches : [];
+  return found.key === paths ? found.stretches : none;
 }

@@ -1,0 +1,148 @@
+// Measures what the studio costs, and prints a line per figure: figures.ts FOLDER [MINUTES of random use, 5].
+// On a quiet machine: every time here is wall-clock time.
+
+import {readFileSync} from 'node:fs';
+import {axis, flat, nested} from './large';
+import {Studio} from './studio';
+
+const minutes = Number(process.argv[3] ?? 5);
+const tell = (what: string, value: string) => console.log(`${what.padEnd(58)} ${value}`);
+const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+const ms = (value: number) => `${value.toFixed(0)} ms`;
+const kB = (bytes: number) => `${(bytes / 1000).toFixed(1)} kB`;
+
+const studio = new Studio();
+studio.write('large/axis.json', axis);
+studio.write('large/machine.json', nested(20));
+studio.write('large/flat.json', flat(100));
+studio.copy('diagrams/discover/demo', 'demo');
+studio.copy('docs/loop.json', 'loop.json');
+await studio.serve();
+
+/// Bytes of answers by their addresses.
+const page = await studio.open();
+const taken: {url: string; bytes: number; asked: number}[] = [];
+page.on('response', async (r) => {
+  try {
+    taken.push({url: new URL(r.url()).pathname, bytes: (await r.body()).length, asked: r.request().postDataBuffer()?.length ?? 0});
+  } catch {
+    // an answer that goes on, or of a page that was left
+  }
+});
+await page.reload();
+await page.waitForSelector('.react-flow__node');
+const paint = await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 0);
+tell('page: studio.js, studio.css, index.html', kB(taken.filter((t) => /^\/$|\.(js|css|svg)$/.test(t.url)).reduce((sum, t) => sum + t.bytes, 0)));
+tell('first paint', ms(paint));
+
+/// Frames while `act` is going on: the median time of one.
+async function frames(act: () => Promise<void>): Promise<number> {
+  await page.evaluate(() => {
+    const seen: number[] = ((window as any).seen = []);
+    const next = (t: number) => {
+      seen.push(t);
+      (window as any).ticking = requestAnimationFrame(next);
+    };
+    requestAnimationFrame(next);
+  });
+  await act();
+  const times: number[] = await page.evaluate(() => (cancelAnimationFrame((window as any).ticking), (window as any).seen));
+  return median(times.slice(1).map((t, i) => t - times[i]));
+}
+
+async function edit(block: string, field: string, values: string[]): Promise<{wait: number; bytes: number; asked: number}> {
+  await page.evaluate((name) => (document.querySelector(`.react-flow__node[data-id="${name}"]`) as HTMLElement).dispatchEvent(new MouseEvent('click', {bubbles: true})), block);
+  const input = page.locator(`.inspector input[aria-label="${field}"]`);
+  await input.waitFor();
+  const waits: number[] = [];
+  for (const value of values) {
+    taken.length = 0;
+    await input.fill(value);
+    const begin = performance.now();
+    await Promise.all([page.waitForResponse((r) => r.url().includes('/api/edit')), input.press('Enter')]);
+    await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r))));  // it is drawn
+    waits.push(performance.now() - begin);
+  }
+  const last = taken.find((t) => t.url === '/api/edit')!;
+  return {wait: median(waits), bytes: last.bytes, asked: last.asked};
+}
+
+async function pan(): Promise<void> {
+  const box = (await page.locator('.react-flow__pane').boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  for (let i = 0; i < 40; ++i) await page.mouse.wheel(i % 20 < 10 ? 30 : -30, 8 * ((i % 2) * 2 - 1));
+}
+
+await studio.openDiagram('demo/stage.json');
+const small = await edit('capacitive_sensor', 'gain', ['1.1', '1.2', '1.3', '1.4', '1']);
+tell('an edit of the demonstration: sent, answered, drawn', `${small.asked} B, ${kB(small.bytes)}, ${ms(small.wait)}`);
+
+for (const [file, block] of [['large/machine.json', 'move'], ['large/flat.json', 'move']]) {
+  await page.click('.sidebar button:text-is("Files")');
+  const begin = performance.now();
+  await page.click(`.entry.file[data-path="${file}"]`);
+  await page.waitForSelector(`.react-flow__node[data-id="axis_1"], .react-flow__node[data-id="table_1"]`, {state: 'attached'});
+  tell(`${file}: opened`, ms(performance.now() - begin));
+  await page.waitForTimeout(500);
+  const large = await edit(block, 'amplitude', ['21 mm', '22 mm', '23 mm', '20 mm']);
+  tell(`${file}: an edit: sent, answered, drawn`, `${large.asked} B, ${kB(large.bytes)}, ${ms(large.wait)}`);
+  tell(`${file}: a frame while it is panned, all in view`, ms(await frames(pan)));
+  for (let i = 0; i < 5; ++i) await page.click('.react-flow__controls-zoomin');
+  await page.waitForTimeout(500);
+  const inView = await page.locator('.react-flow__node').count();
+  tell(`${file}: a frame while it is panned, ${inView} in view`, ms(await frames(pan)));
+  const node = page.locator('.react-flow__node:visible').first();
+  const box = (await node.boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  tell(`${file}: a frame while a block is dragged`, ms(await frames(async () => {
+    for (let i = 0; i < 40; ++i) await page.mouse.move(box.x + box.width / 2 + 2 * i, box.y + box.height / 2 + i);
+  })));
+  await page.mouse.up();
+  await page.waitForTimeout(500);
+}
+
+// Random use: edits, undos, runs, tabs, zoom; the same each time.
+const client = await page.context().newCDPSession(page);
+async function memory(): Promise<string> {
+  await client.send('HeapProfiler.collectGarbage');
+  const {metrics} = (await client.send('Performance.getMetrics')) as {metrics: {name: string; value: number}[]};
+  const of = (name: string) => metrics.find((m) => m.name === name)?.value ?? 0;
+  const server = Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${studio.pid}/status`, 'utf8'))![1]);
+  return `server ${(server / 1000).toFixed(0)} MB, page ${(of('JSHeapUsedSize') / 1e6).toFixed(1)} MB of scripts, ${of('Nodes')} nodes`;
+}
+await client.send('Performance.enable');
+let state = 7;
+const random = (below: number) => (state = (state * 1103515245 + 12345) % 2147483648) % below;
+const files = ['demo/stage.json', 'loop.json', 'large/machine.json'];
+await studio.openDiagram(files[0]);
+tell('memory before', await memory());
+let done = 0;
+for (const end = Date.now() + 60000 * minutes; Date.now() < end; ++done) {
+  const tabs = page.locator('.results .tabs button');
+  switch (random(8)) {
+    case 0: await studio.openDiagram(files[random(files.length)]); break;
+    case 1: await tabs.nth(random(8)).click(); break;
+    case 2: await page.keyboard.press('Escape'); await page.click('.topbar button:text-is("Run")'); break;
+    case 3: if (await page.isEnabled('[aria-label="undo"]')) await page.click('[aria-label="undo"]'); break;
+    case 4: if (await page.isEnabled('[aria-label="redo"]')) await page.click('[aria-label="redo"]'); break;
+    case 5: await page.click('.fit-all'); await page.mouse.wheel(0, 40); break;
+    case 6: await page.click('[aria-label="dark or light"]'); break;
+    default: {
+      const nodes = page.locator('.react-flow__node');
+      await nodes.nth(random(await nodes.count())).focus();
+      await page.keyboard.press('Enter');
+      const input = page.locator('.inspector .row input.field').first();
+      if (await input.count()) await input.press('ArrowUp'), await input.press('Enter');
+    }
+  }
+}
+await page.waitForTimeout(2000);
+tell(`memory after ${minutes} min of random use, ${done} actions`, await memory());
+tell('complaints of the page', String(studio.complaints.length));
+for (const complaint of studio.complaints.slice(0, 5)) console.log(`  ${complaint}`);
+const ticks = () => readFileSync(`/proc/${studio.pid}/stat`, 'utf8').split(' ').slice(13, 15).reduce((a, b) => a + Number(b), 0);
+const before = ticks();
+await page.waitForTimeout(10000);
+tell('server while nobody does anything, one page open', `${(ticks() - before) / 10} % of a core`);
+await studio.close();
