@@ -151,4 +151,12 @@ std::string result_folder(const Arguments& arguments, const std::string& verb) {
   return arguments.text("-o", stem_of(arguments.text("diagram")) + "." + verb);
 }
 
+std::string trace_type(const Arguments& arguments) {
+  const std::string form = arguments.text("--traces", "csv");
+  if (form != "csv" && form != "f64")
+    fail("bad_command_line", "--traces", fmt::format("traces cannot be written as \"{}\"", form),
+         "write csv (text), or f64 (numbers as memory holds them, for millions of rows)");
+  return "." + form;
+}
+
 }  // namespace hysteron

@@ -44,6 +44,9 @@ Run start_recording(const Program& program, const DataSet& data, const Recording
 /// "stage" of "diagrams/stage.json".
 std::string stem_of(const std::string& file);
 
+/// The type of the files in traces/ that options::traces() asks for: ".csv" or ".f64". Throws Error "bad_command_line".
+std::string trace_type(const Arguments& arguments);
+
 /// "-o", or "stage.compare" for stage.json and compare.
 std::string result_folder(const Arguments& arguments, const std::string& verb);
 

@@ -24,6 +24,7 @@ OptionSpec allow() {
 OptionSpec threads(const std::string& things) {
   return {"--threads", "N", things + " at once; default: one per core", false, false};
 }
+OptionSpec traces() { return {"--traces", "FORM", "csv (default) or f64, for millions of rows", false, false}; }
 OptionSpec effects() {
   return {"--effects", "FILE", "effects of your own: an effect file (docs/adding-an-effect.md), or a folder of them",
           false, true};

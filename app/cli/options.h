@@ -25,6 +25,7 @@ OptionSpec set();
 OptionSpec choose();
 OptionSpec allow();
 OptionSpec effects();
+OptionSpec traces();
 OptionSpec threads(const std::string& things);  ///< so many of these at once
 }  // namespace options
 

@@ -132,7 +132,8 @@ std::string headline(const DataModel& model, const Comparison& comparison) {
                      fmt::join(parts, ", "));
 }
 
-Document document_of(const Diagram& diagram, const DataModel& model, const Comparison& comparison) {
+Document document_of(const Diagram& diagram, const DataModel& model, const Comparison& comparison,
+                     const std::string& type) {
   Document document;
   document.verb = "compare";
   document.title = diagram.title;
@@ -162,7 +163,7 @@ Document document_of(const Diagram& diagram, const DataModel& model, const Compa
   for (const int r : recordings) {
     Section section;
     section.title = fmt::format("{} ({})", model.recording(r).name, to_text(model.recording(r).role));
-    document.traces.push_back(recording_table(view, r, trace_file(model.recording(r).name, document.traces)));
+    document.traces.push_back(recording_table(view, r, trace_file(model.recording(r).name, document.traces, type)));
     add_time_figures(section, view, document.traces.back());
     add_loop_figures(section, view, document.traces.back());
     document.sections.push_back(std::move(section));
@@ -193,6 +194,7 @@ bool names_two_files(const Arguments& arguments) {
 Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
   if (names_two_files(arguments)) return compare_traces(arguments);
   const auto tolerances = read_tolerances(arguments);
+  const std::string type = trace_type(arguments);
   const Diagram diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(diagram);
   const auto data = std::make_shared<const DataSet>(load_data(arguments, *program));
@@ -211,7 +213,7 @@ Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
 
   Answer answer;
   answer.folder = result_folder(arguments, "compare");
-  answer.document = document_of(diagram, model, comparison);
+  answer.document = document_of(diagram, model, comparison, type);
   Document& document = answer.document;
   bool within = true;
   document.sentences = judge_tolerances(tolerances, model, comparison, within);
@@ -289,6 +291,7 @@ Verb compare_verb() {
        {"--over", "COLUMN", "traces: compare over this column in place of the time, as of a loop", false, false},
        {"--pair", "A=B", "traces: compare column A of the first file with column B of the second, and no others", false,
         true},
+       options::traces(),
        options::output_folder(),
        options::set(),
        options::choose(),

@@ -40,15 +40,6 @@ std::vector<int> signals_to_record(const Program& program) {
   return all;
 }
 
-/// The form of the files in traces/.
-std::string trace_type(const Arguments& arguments) {
-  const std::string form = arguments.text("--traces", "csv");
-  if (form != "csv" && form != "f64")
-    fail("bad_command_line", "--traces", fmt::format("traces cannot be written as \"{}\"", form),
-         "write csv (text), or f64 (numbers as memory holds them, for millions of rows)");
-  return "." + form;
-}
-
 /// A time of the command line, above zero; `otherwise` where it is not given.
 double positive_seconds(const Arguments& arguments, const std::string& name, double otherwise) {
   const double value = arguments.seconds(name, otherwise);
@@ -169,7 +160,7 @@ Verb run_verb() {
           {options::diagram(),
            options::data(false),
            {"--until", "TIME", "until when, e.g. \"1 s\"; default: as the diagram says", false, false},
-           {"--traces", "FORM", "csv (default) or f64, for millions of rows", false, false},
+           options::traces(),
            {"--every", "TIME", "record every so often, e.g. \"0.1 ms\"", false, false},
            options::output_folder(),
            options::set(),

@@ -208,6 +208,21 @@ TEST_F(Verbs, TracesAsNumbersAreReadWhereverTextIs) {
   }
 }
 
+TEST_F(Verbs, CompareWritesTracesAsNumbersThatAreThoseOfTheText) {
+  for (const char* form : {"csv", "f64"})
+    ASSERT_EQ(
+        hysteron(folder_.path(), {"compare", "diagram.json", "--data", "dataset.json", "--traces", form, "-o", form})
+            .code,
+        0);
+  const auto text = read_result(folder_.path() + "/csv").traces, numbers = read_result(folder_.path() + "/f64").traces;
+  ASSERT_EQ(text.size(), numbers.size());
+  ASSERT_FALSE(text.empty());
+  EXPECT_EQ(numbers[0].file, "a.f64");
+  for (std::size_t k = 0; k < text.size(); ++k)
+    for (std::size_t c = 0; c < text[k].columns.size(); ++c)
+      EXPECT_EQ(numbers[k].columns[c].values, text[k].columns[c].values) << text[k].columns[c].name;
+}
+
 TEST_F(Verbs, RunRefusesAFormOfTracesThatThereIsNot) {
   const Outcome outcome = hysteron(folder_.path(), {"run", "diagram.json", "--data", "a.csv", "--traces", "float"});
   EXPECT_EQ(outcome.code, 2);
