@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 
 #include "engine/diagram/error.h"
@@ -51,14 +52,15 @@ enum class Side { low, high };
 double outer(Side side, double a, double b) { return side == Side::low ? std::fmin(a, b) : std::fmax(a, b); }
 
 /// The smallest (largest) of every `stride` numbers.
-std::vector<double> thinned(const std::vector<double>& numbers, std::uint64_t stride, Side side) {
+std::vector<double> thinned(std::span<const double> numbers, std::uint64_t stride, Side side) {
   std::vector<double> outermost;
   outermost.reserve(ceil_divide(numbers.size(), stride));
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i % stride == 0)
-      outermost.push_back(numbers[i]);
-    else
-      outermost.back() = outer(side, outermost.back(), numbers[i]);
+  while (!numbers.empty()) {
+    const auto together = numbers.first(std::min<std::size_t>(stride, numbers.size()));
+    double found = together.front();
+    for (const double x : together.subspan(1)) found = outer(side, found, x);
+    outermost.push_back(found);
+    numbers = numbers.subspan(together.size());
   }
   return outermost;
 }
@@ -138,10 +140,11 @@ void write_binary_table(const std::string& file, const CsvTable& table) {
   unfinished.append(head_line(table));
   for (const auto& column : table.columns) unfinished.append(bytes_of(column.values));
   for (const auto& column : table.columns) {
-    std::vector<double> low = column.values, high = column.values;
-    while (low.size() > pyramid_factor) {
-      low = thinned(low, pyramid_factor, Side::low);
-      high = thinned(high, pyramid_factor, Side::high);
+    std::vector<double> low, high;
+    std::span<const double> lows(column.values), highs(column.values);
+    while (lows.size() > pyramid_factor) {
+      lows = low = thinned(lows, pyramid_factor, Side::low);
+      highs = high = thinned(highs, pyramid_factor, Side::high);
       unfinished.append(bytes_of(low));
       unfinished.append(bytes_of(high));
     }
