@@ -132,7 +132,7 @@ class Search {
     for (const auto& p : pairs_) menu.pairs.push_back(p.names());
     if (words().empty())
       for (const auto& word : drive_words())
-        menu.items.push_back(not_simulated(word, "leaves what they read to itself"));
+        menu.items.push_back(not_simulated(word, "does not excite the signal that they need"));
     if (best_) menu.items[best_->at].chosen = true;
     give_reasons(menu);
     return menu;
@@ -247,7 +247,7 @@ class Search {
   std::string why_it_says_nothing(const Protocol& protocol) const {
     const auto told = [&](const Pair& p) { return p.can_be_told_by(protocol); };
     return std::any_of(pairs_.begin(), pairs_.end(), told) ? "the models cannot follow it"
-                                                           : "leaves what they read to itself";
+                                                           : "does not excite the signal that they need";
   }
 
   /// Whom it tells from whom; false if it says nothing.

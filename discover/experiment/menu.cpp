@@ -33,9 +33,9 @@ std::string why_chosen(const MenuItem& chosen, std::size_t pairs) {
 std::string why_not(const MenuItem& item, const MenuItem& chosen) {
   const bool one_menu = item.faster_rows == chosen.faster_rows;
   if (item.rivals_told < chosen.rivals_told)
-    return item.rivals_told == 0 ? "tells nobody from the winner by more than the noise"
+    return item.rivals_told == 0 ? "separates no other effect from the best one by more than the noise"
                                  : "tells fewer from the winner";
-  if (one_menu && item.pairs_told < chosen.pairs_told) return "tells fewer of the others from each other";
+  if (one_menu && item.pairs_told < chosen.pairs_told) return "separates fewer of the others from each other";
   if (one_menu && chosen.asked && !item.asked) return "the one chosen is what these effects name for each other";
   if (item.separation < chosen.separation) return "separates less";
   return one_menu ? "separates no more than the one chosen, which came before"

@@ -308,10 +308,10 @@ void tell_numbers(Discovery& d) {
                                       shown(n.written)));
   }
   d.sentences.push_back(
-      "These are the fewest that explain as much as all together, each near what is written (one that "
-      "does the same, as a spring does for a force, would do as well). As they are written an effect might be named "
-      "that only makes up for them. Leave free in the diagram (\"free\": true) those that are not sure; where all are "
-      "exact, say so with --exact.");
+      "No smaller set of numbers explains as much as all of them together (another number of the same influence, such "
+      "as a spring for a force, would do as well). With the numbers as written, an effect might be named that only makes "
+      "up for them. Mark in the diagram those that are uncertain (\"free\": true); where all are exact, say so with "
+      "--exact.");
 }
 
 /// What was found and what is left of it; of what nothing explains all that is known.

@@ -21,9 +21,9 @@ void check_block(const Graph& graph, const GraphBlock& b, Problems& problems) {
   };
   const std::string& diagram = graph.enablings[at(b.enabling)].path;
   if (b.sizes.history)
-    refuse(fmt::format("hands on what was earlier, and \"{}\" does not always run: nothing says what its past is then",
-                       diagram),
-           "put it outside, before or behind the nested diagram; or take a delay_line, which is sampled");
+    refuse(
+        fmt::format("delays its input, and \"{}\" does not always run: the past of the input is unknown then", diagram),
+        "put it outside, before or behind the nested diagram; or take a delay_line, which is sampled");
   if (b.kernel->derivative_wants_rate || b.kernel->guard_wants_rate)
     refuse(fmt::format("is driven by the rate of its input, and \"{}\" does not always run: the way of its input "
                        "meanwhile would be lost",

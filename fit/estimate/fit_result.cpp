@@ -213,8 +213,8 @@ void Fitting::bend_intervals() {
   std::vector<std::string> paths;
   for (const int i : curved) paths.push_back(result_.estimates[static_cast<std::size_t>(i)].path);
   if (!model_.why_not_exact().empty() || !(steps_of_profiles(curved.size()) <= options_.profile_steps)) {
-    result_.remarks.push_back(
-        fmt::format("the model bends over the intervals of {}: ask for their profiles", fmt::join(paths, ", ")));
+    result_.remarks.push_back(fmt::format(
+        "the model is not linear over the intervals of {}: follow them with --profile", fmt::join(paths, ", ")));
     return;
   }
   for (std::size_t n = 0; n < curved.size(); ++n) {
@@ -222,8 +222,8 @@ void Fitting::bend_intervals() {
     if (!go_on("profile", fraction)) return;
     take_interval(curved[n], profile(curved[n], fraction));
   }
-  result_.remarks.push_back(
-      fmt::format("the model bends over the intervals of {}: they are taken from profiles", fmt::join(paths, ", ")));
+  result_.remarks.push_back(fmt::format(
+      "the model is not linear over the intervals of {}: they are taken from profiles", fmt::join(paths, ", ")));
 }
 
 /// An open end reaches to the bound; what is open on both sides, or without a bound there, has no value.

@@ -113,7 +113,7 @@ std::string samples_text(double samples) {
 
 std::string sentence_of(const DelayFinding& f, const std::string& name) {
   const char* late = f.samples > 0 ? "late" : "early";
-  const std::string fall = fmt::format("this takes {:.0f} % of the squared error away", 100 * f.fall);
+  const std::string fall = fmt::format("this removes {:.0f} % of the squared error", 100 * f.fall);
   switch (f.kind) {
     case DelayKind::none:
       return "";
@@ -139,7 +139,7 @@ std::string sentence_of(const DelayFinding& f, const std::string& name) {
               "points to hysteresis or a lag",
               name, std::abs(r.samples), fall);
       return fmt::format(
-          "shifting {} in time would take error away ({}), but by different amounts in different recordings: no delay",
+          "shifting {} in time would lower the error ({}), but by different amounts in different recordings: no delay",
           name, fall);
   }
   return "";

@@ -99,7 +99,7 @@ BetweenWords words_of(const InspectedBetween& seen) {
   const char* moves = seen.better == Between::linear ? "linearly" : "smoothly";
   if (seen.better == Between::hold)
     return {false,
-            fmt::format("Held between samples, {} would take {:.0f} % of the squared error away; so may a lag or a "
+            fmt::format("Held between samples, {} would explain {:.0f} % of the squared error; so may a lag or a "
                         "delay of half a sample. If the drive is known to be held, write \"between_samples\": \"hold\" "
                         "at its column.",
                         seen.input, 100 * seen.fall)};
@@ -108,11 +108,10 @@ BetweenWords words_of(const InspectedBetween& seen) {
                               "diagram leaves {2:.0f} % less of the squared error (an output that is early by half a "
                               "sample looks the same). At its column write \"between_samples\": \"{3}\".",
                               seen.input, moves, 100 * seen.fall, to_text(seen.better))};
-  return {false,
-          fmt::format("Moving {1} between samples, {0} would take {2:.0f} % of the squared error away. If it does "
-                      "(a generator behind a filter moves smoothly), write \"between_samples\": \"{3}\" at its "
-                      "column.",
-                      seen.input, moves, 100 * seen.fall, to_text(seen.better))};
+  return {false, fmt::format("Moving {1} between samples, {0} would explain {2:.0f} % of the squared error. If it does "
+                             "(a generator behind a filter moves smoothly), write \"between_samples\": \"{3}\" at its "
+                             "column.",
+                             seen.input, moves, 100 * seen.fall, to_text(seen.better))};
 }
 
 }  // namespace hysteron

@@ -340,7 +340,7 @@ TEST_F(Experiments, WhatLeavesTheTemperatureToItselfIsNotAdmissibleForWhoReadsOn
       std::find_if(menu.items.begin(), menu.items.end(), [](const MenuItem& i) { return i.word == "triangle"; });
   ASSERT_NE(triangle, menu.items.end());
   EXPECT_FALSE(triangle->simulated());
-  EXPECT_EQ(triangle->reason, "leaves what they read to itself");
+  EXPECT_EQ(triangle->reason, "does not excite the signal that they need");
   EXPECT_TRUE(std::any_of(menu.items.begin(), menu.items.end(),
                           [](const MenuItem& i) { return i.word == "temperature_staircase" && i.simulated(); }));
 }

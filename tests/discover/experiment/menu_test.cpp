@@ -34,7 +34,7 @@ TEST(Menus, EachIsToldByTheFirstRuleByWhichItIsBehindTheOneChosen) {
   menu.items.push_back(item("precycle", -1, 0));
   menu.items.back().reason = "the models cannot follow it";
   give_reasons(menu);
-  EXPECT_EQ(reason_of(menu, "zero_run"), "tells nobody from the winner by more than the noise");
+  EXPECT_EQ(reason_of(menu, "zero_run"), "separates no other effect from the best one by more than the noise");
   EXPECT_EQ(reason_of(menu, "triangle"), "separates less");
   EXPECT_EQ(reason_of(menu, "multisine"), "tells them apart, and separates most");
   EXPECT_EQ(reason_of(menu, "step_hold"), "separates no more than the one chosen, which came before");

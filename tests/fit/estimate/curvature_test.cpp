@@ -53,7 +53,7 @@ TEST(Curvature, WithMuchNoiseTheIntervalIsThatOfTheProfile) {
   ASSERT_TRUE(r.ok) << r.error;
   ASSERT_EQ(r.profiles.size(), 1U);
   const auto& e = r.estimates[0];
-  ASSERT_TRUE(says(r, "bends over the intervals of amplifier.times[0]"));
+  ASSERT_TRUE(says(r, "is not linear over the intervals of amplifier.times[0]"));
   if (!e.determined) {
     EXPECT_FALSE(r.profiles[0].low95 && r.profiles[0].high95);
   } else {
