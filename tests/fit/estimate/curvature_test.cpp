@@ -67,7 +67,7 @@ TEST(Curvature, AProfileThatWouldTakeTooLongIsOfferedAndNotMade) {
   options.profile_steps = 1;
   const auto r = fitted_lag_and_gain(15e-6, options);
   ASSERT_TRUE(r.ok) << r.error;
-  EXPECT_TRUE(says(r, "ask for their profiles"));
+  EXPECT_TRUE(says(r, "follow them with --profile"));
   const auto& e = r.estimates[0];
   const double middle = e.log_scale ? std::sqrt(*e.low95 * *e.high95) : 0.5 * (*e.low95 + *e.high95);
   EXPECT_NEAR(middle / *e.value, 1, 1e-9) << "the interval of the linearization";
