@@ -94,7 +94,9 @@ describe('editing', () => {
       await studio.block(block).click();
       const input = page.locator(`.inspector input[aria-label="${field}"]`);
       await input.waitFor();
-      const value = values[(values.indexOf(await input.inputValue()) + 1 + random(3)) % 4];
+      const written = JSON.parse(before).blocks[block][field];
+      await studio.until(async () => (await input.inputValue()) === written);  // the file is written a moment before it is shown
+      const value = values[(values.indexOf(written) + 1 + random(3)) % 4];
       await input.fill(value);
       await input.press('Enter');
       await studio.until(() => text() !== before);
