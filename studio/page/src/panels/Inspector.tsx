@@ -16,8 +16,12 @@ import type {BlockDeclaration, Item, ParameterDeclaration} from '../types';
 export function Field({value, placeholder, label, onCommit, wrong, live}: {value: string; placeholder?: string; label: string; wrong?: boolean; live?: string; onCommit: (text: string) => unknown}) {
   const [text, setText] = useState(value);
   const moved = useRef(false);
-  useEffect(() => setText(value), [value]);
+  const typing = useRef(false);  // the answer to an edit before does not take away what is being typed
+  useEffect(() => {
+    if (!typing.current) setText(value);
+  }, [value]);
   const commit = () => {
+    typing.current = false;
     if (moved.current) {
       moved.current = false;
       return void letGo(async () => text !== value && (await onCommit(text)));
@@ -25,13 +29,17 @@ export function Field({value, placeholder, label, onCommit, wrong, live}: {value
     if (text !== value) void onCommit(text);
   };
   const forget = () => {
+    typing.current = false;
     setText(value);
     if (moved.current) giveUp();
     moved.current = false;
   };
   return (
     <input className={wrong ? 'field wrong' : 'field'} value={text} placeholder={placeholder} aria-label={label} spellCheck={false}
-           onChange={(e) => setText(e.target.value)} onBlur={commit}
+           onChange={(e) => {
+             typing.current = true;
+             setText(e.target.value);
+           }} onBlur={commit}
            onKeyDown={(e) => {
              const way = e.key === 'ArrowUp' ? 1 : e.key === 'ArrowDown' ? -1 : 0;
              if (e.key === 'Enter') e.currentTarget.blur();  // which commits; the keys are the canvas's again
