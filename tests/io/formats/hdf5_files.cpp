@@ -21,6 +21,9 @@ using Sizes = std::vector<hsize_t>;
 
 /// The bytes of a file of HDF5 that `write` fills; behind 512 bytes for others where `for_matlab`.
 std::string hdf5_bytes(bool for_matlab, const std::function<void(hid_t)>& write) {
+  // As the program before its first file (hdf5_library.cpp), which this may come before: one whose disk was full
+  // cannot be closed at the end.
+  H5dont_atexit();
   const TemporaryFolder folder;
   const std::string name = folder.path("x");
   const hid_t made = H5Pcreate(H5P_FILE_CREATE);
