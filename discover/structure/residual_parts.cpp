@@ -165,6 +165,11 @@ void ResidualParts::take_off_gain_and_offset() {
   }));
   for (auto& p : parts_) {
     for (std::size_t k = 0; k < p.e.size(); ++k) p.e[k] -= c[0] + c[1] * p.levels.front()[k];
+    if (model_.zero_per_recording(
+            output_)) {  // the part of a gain in its zero (far from it: all of that) is the zero's
+      const double zero = filters_[index(p)].zero_of(p.e);
+      for (double& e : p.e) e -= zero;
+    }
     p.w = whitened(p, p.e);
     beyond_.of(p.train) += p.w.squaredNorm();
   }

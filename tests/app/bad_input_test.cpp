@@ -232,7 +232,7 @@ std::vector<Case> cases() {
        "/dev/full",
        ""},
       {"AFolderWhereNothingCanBeMade",
-       {"run", "diagram.json", "-o", "/proc/x"},
+       {"run", "diagram.json", "--data", "dataset.json", "-o", "/proc/x"},
        "",
        "",
        "cannot_write",
