@@ -21,9 +21,6 @@ using Sizes = std::vector<hsize_t>;
 
 /// The bytes of a file of HDF5 that `write` fills; behind 512 bytes for others where `for_matlab`.
 std::string hdf5_bytes(bool for_matlab, const std::function<void(hid_t)>& write) {
-  // As the program before its first file (hdf5_library.cpp), which this may come before: one whose disk was full
-  // cannot be closed at the end.
-  H5dont_atexit();
   const TemporaryFolder folder;
   const std::string name = folder.path("x");
   const hid_t made = H5Pcreate(H5P_FILE_CREATE);
@@ -189,6 +186,9 @@ InstrumentFile simulink_73() {
 }  // namespace
 
 std::vector<InstrumentFile> hdf5_files() {
+  // As the program before its first file (hdf5_library.cpp), which this may come before: one whose disk was full
+  // cannot be closed at the end.
+  H5dont_atexit();
   return {recorder("little_endian.h5", {H5T_IEEE_F64LE, H5T_IEEE_F32LE, "V"}, 4.8e-7),
           recorder("big_endian.h5", {H5T_IEEE_F64BE, H5T_IEEE_F32BE, "V"}, 4.8e-7),
           recorder("integers.h5", {H5T_STD_I32BE, H5T_STD_I16LE, "mV", 1000}, 1.0001e-3),
