@@ -337,4 +337,10 @@ std::string mat_of_two_groups() {
   return mat_head() + group("monday", 1) + group("tuesday", 2);
 }
 
+std::string mat_of_lost_numbers(int depth) {
+  std::string inside = mat_matrix("", 6, 1 << 28, 1, mat_element(9, raw(1.0)));
+  for (int k = 0; k < depth; ++k) inside = mat_struct(k + 1 < depth ? "" : "deep", 1, {"a"}, inside);
+  return mat_5().bytes + inside;
+}
+
 }  // namespace hysteron::instruments

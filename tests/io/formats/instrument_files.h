@@ -43,6 +43,10 @@ std::string tdms_of_daqmx();
 std::string tdms_of_scaling(const std::string& type);
 std::string mat_of_two_groups();
 
+/// Good vectors, and structures within each other, `depth` of them; the last holds a matrix of 2^28 numbers, of which
+/// one is in the file.
+std::string mat_of_lost_numbers(int depth);
+
 /// Of every format.
 std::vector<InstrumentFile> all_files();
 

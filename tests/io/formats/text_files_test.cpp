@@ -87,20 +87,28 @@ TEST(Instruments, EveryFormatHasAFileThatIsReadHere) {
 }
 
 // The first variable of level 5 begins behind the head of 128 bytes: a tag, then the tags and contents of its flags
-// (16 bytes) and of its sizes, whose first number stands 32 bytes behind its begin.
+// (16 bytes) and of its sizes, whose first number stands 32 bytes behind its begin. Where it is compressed, in a block
+// that is stored, there is a tag of 8 bytes more, and 2 + 5 bytes that zlib begins a stream and a block with.
 TEST(InstrumentSizes, AMatFileWhoseSizesDoNotFitIntoItIsRefusedBeforeAnybodyReadsIt) {
   const auto files = instruments::binary_files();
-  const auto vectors =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return file.name == "vectors.mat"; });
-  ASSERT_NE(vectors, files.end());
-  for (const std::size_t at : {128 + 4, 128 + 32}) {
-    std::string bytes = vectors->bytes;
-    bytes.replace(at, 4, "\xff\xff\xff\x7f");
-    EXPECT_EQ(refused(bytes).code, "damaged_file") << at;
+  const auto named = [&](const char* name) {
+    return std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; })->bytes;
+  };
+  for (const auto& [whole, begin] : {std::pair{named("vectors.mat"), 128U}, {named("compressed.mat"), 128U + 8 + 7}}) {
+    for (const std::size_t at : {begin + 4, begin + 32}) {
+      std::string bytes = whole;
+      bytes.replace(at, 4, "\xff\xff\xff\x7f");
+      EXPECT_EQ(refused(bytes).code, "damaged_file") << at;
+    }
+    EXPECT_EQ(refused(whole.substr(0, whole.size() - 100)).code, "damaged_file");
   }
-  std::string cut = vectors->bytes;
-  cut.resize(cut.size() - 100);
-  EXPECT_EQ(refused(cut).code, "damaged_file");
+  // A variable that is to go on behind the end of what its stream unpacks to.
+  std::string longer = named("compressed.mat");
+  longer[128 + 8 + 7 + 4] += 8;
+  EXPECT_EQ(refused(longer).code, "damaged_file");
+  // Deeper than structures are taken (8), where the library goes all the same, and than anybody is asked to go (200).
+  for (const int depth : {2, 20, 1000})
+    EXPECT_EQ(refused(instruments::mat_of_lost_numbers(depth)).code, "damaged_file") << depth;
 }
 
 TEST(InstrumentText, AnEmptyCellOrAMarkOfOverloadLeavesItsRowOutAndIsSaid) {
