@@ -1,28 +1,12 @@
 // People's ways through the second part: place, wire, set, undo, copy, and edits that come from elsewhere.
 
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
-import {Studio} from './studio';
-
-const small = `{
-  "format": 1,
-  "title": "Small",
-  "blocks": {
-    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"},
-    "force": {"type": "constant", "value": "1 N"},
-    "limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}
-  },
-  "record": ["drive", "force", "limit"],
-  "simulate": {"until": "1 s", "every": "1 ms"}
-}
-`;
+import {unwired as small, Studio} from './studio';
 
 describe('editing', () => {
   const studio = new Studio();
   beforeAll(async () => {
-    studio.write('small.json', small);
-    await studio.serve();
-    await studio.open();
-    await studio.openDiagram('small.json');
+    await studio.openOn({'small.json': small});
   });
   afterAll(() => studio.close());
   const text = () => studio.read('small.json');
@@ -51,6 +35,57 @@ describe('editing', () => {
     const check = studio.hysteron('check', 'wrong.json', '--json');
     expect(told).toContain(JSON.parse(check.err).problems[0].what);
     await page.click('.banner.error button');
+  });
+
+  const view = () => studio.page.locator('.react-flow__viewport').evaluate((e) => (e as HTMLElement).style.transform);
+  const placed = (name: string) => studio.block(name).evaluate((e) => (e as HTMLElement).style.transform.match(/-?[\d.]+/g)!.map(Number));
+  const layout = 'small.layout.json';
+  const layoutOf = (x: number, y: number) => `{\n  "format": 1,\n  "blocks": {\n    "force": [${Math.round(x / 4)}, ${Math.round(y / 4)}]\n  }\n}\n`;
+
+  it('moves a block by a drag: it stays at the mouse also where the hand rests, and is put in one step', async () => {
+    const {page} = studio;
+    const [seen, before] = [await view(), await placed('force')];
+    const zoom = Number(/scale\(([\d.]+)\)/.exec(seen)![1]);
+    const box = (await studio.block('force').boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (const far of [10, 60]) {
+      await page.mouse.move(x + far, y + far / 2, {steps: 4});
+      await page.waitForTimeout(700);  // longer than arrow keys rest before what they moved is put
+      expect(studio.has(layout)).toBe(false);
+      const now = await placed('force');
+      // The grid is 4 px; the hand is at the mouse but for the 3 px before a press becomes a drag.
+      for (const i of [0, 1]) expect(Math.abs(now[i] - before[i] - far / (i + 1) / zoom)).toBeLessThan(4 + 3 / zoom);
+    }
+    const there = await placed('force');
+    await page.mouse.up();
+    await studio.until(() => studio.has(layout));
+    expect(studio.read(layout)).toBe(layoutOf(there[0], there[1]));
+    await page.waitForSelector('[aria-label="lay out anew"]');
+    expect(await placed('force')).toEqual(there);
+    expect(await view()).toBe(seen);
+    expect(text()).toBe(small);
+    await page.click('[aria-label="undo"]');
+    await page.waitForSelector('[aria-label="lay out anew"]', {state: 'detached'});
+    expect(await placed('force')).toEqual(before);
+  });
+
+  it('moves a block by the arrow keys, in one step when they rest', async () => {
+    const {page} = studio;
+    const [seen, before] = [await view(), await placed('force')];
+    await studio.block('force').click();
+    await studio.block('force').focus();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowRight');
+    const there = await placed('force');
+    expect(there[0]).toBeGreaterThan(before[0] + 16);  // five steps of the grid of 4 px, the first of them onto it
+    await page.waitForSelector('[aria-label="lay out anew"]');
+    expect(studio.read(layout)).toBe(layoutOf(there[0], there[1]));
+    expect(await placed('force')).toEqual(there.map((v) => 4 * Math.round(v / 4)));
+    await page.click('[aria-label="undo"]');
+    await page.waitForSelector('[aria-label="lay out anew"]', {state: 'detached'});
+    expect(await placed('force')).toEqual(before);
+    expect(await view()).toBe(seen);
   });
 
   it('wires by a drag: one line of the file changes', async () => {

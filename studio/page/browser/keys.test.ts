@@ -1,29 +1,12 @@
 // The keyboard alone, and eyes: every button is reached and seen to be, a block is placed, wired and set; contrast.
 
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
-import {Studio} from './studio';
-
-const small = `{
-  "format": 1,
-  "title": "Small",
-  "blocks": {
-    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"},
-    "force": {"type": "constant", "value": "1 N"},
-    "limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}
-  },
-  "record": ["drive", "force", "limit"],
-  "simulate": {"until": "1 s", "every": "1 ms"}
-}
-`;
+import {unwired as small, Studio} from './studio';
 
 describe('keys and eyes', () => {
   const studio = new Studio();
   beforeAll(async () => {
-    studio.write('small.json', small);
-    studio.write('broken.json', small.replace('"5 Hz"', '"5 mm"').replace('"saturation"', '"no_such_block"'));
-    await studio.serve();
-    await studio.open();
-    await studio.openDiagram('small.json');
+    await studio.openOn({'small.json': small, 'broken.json': small.replace('"5 Hz"', '"5 mm"').replace('"saturation"', '"no_such_block"')});
   });
   afterAll(() => studio.close());
   const text = () => studio.read('small.json');

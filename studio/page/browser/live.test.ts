@@ -2,28 +2,16 @@
 // tolerance; candidates and diagrams are compared.
 
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
-import {Studio} from './studio';
+import {diagramOf, drive, Studio} from './studio';
 
-const small = `{
-  "format": 1,
-  "title": "Small",
-  "blocks": {
-    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"},
-    "stage": {"choose": "one", "from": {"one": {"type": "gain", "gain": "1 um/V"}, "two": {"type": "gain", "gain": "2 um/V"}}, "in": "drive"}
-  },
-  "record": ["drive", "stage"],
-  "simulate": {"until": "1 s", "every": "1 ms"}
-}
-`;
+const small = diagramOf(
+  [drive, '"stage": {"choose": "one", "from": {"one": {"type": "gain", "gain": "1 um/V"}, "two": {"type": "gain", "gain": "2 um/V"}}, "in": "drive"}'],
+  ['drive', 'stage']);
 
 describe('live', () => {
   const studio = new Studio();
   beforeAll(async () => {
-    studio.write('small.json', small);
-    studio.write('other.json', small.replace('"5 Hz"', '"6 Hz"'));
-    await studio.serve();
-    await studio.open();
-    await studio.openDiagram('small.json');
+    await studio.openOn({'small.json': small, 'other.json': small.replace('"5 Hz"', '"6 Hz"')});
   });
   afterAll(() => studio.close());
   const text = () => studio.read('small.json');

@@ -5,27 +5,17 @@ import {mkdirSync} from 'node:fs';
 import {join, resolve} from 'node:path';
 import type {Page} from 'playwright-core';
 import {axis, nested} from './large';
-import {Studio} from './studio';
+import {diagramOf, drive, Studio} from './studio';
 
 const folder = resolve(process.argv[2] ?? 'pictures');
 const wanted = process.argv[3] ?? '';
 const screens = [{width: 1280, height: 800}, {width: 1920, height: 1080}];
 mkdirSync(folder, {recursive: true});
 
-const broken = `{
-  "format": 1,
-  "title": "Broken",
-  "blocks": {
-    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 mm"},
-    "force": {"type": "constant", "value": "1 N"},
-    "wrong": {"type": "no_such_block", "in": "drive"},
-    "total": {"type": "sum", "in": ["drive", "force"]},
-    "limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}
-  },
-  "record": ["drive", "nowhere"],
-  "simulate": {"until": "1 s", "every": "1 ms"}
-}
-`;
+const broken = diagramOf(
+  [drive.replace('5 Hz', '5 mm'), '"force": {"type": "constant", "value": "1 N"}', '"wrong": {"type": "no_such_block", "in": "drive"}',
+   '"total": {"type": "sum", "in": ["drive", "force"]}', '"limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}'],
+  ['drive', 'nowhere']);
 
 const studio = new Studio();
 studio.copy('diagrams/discover/demo', 'demo');

@@ -1,27 +1,14 @@
 // People's ways through the scopes: two cursors with what lies between, one signal over another, spectra, the theme.
 
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
-import {Studio} from './studio';
+import {diagramOf, drive, Studio} from './studio';
 
-const small = `{
-  "format": 1,
-  "title": "Small",
-  "blocks": {
-    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"},
-    "stage": {"type": "gain", "gain": "3 um/V", "in": "drive"}
-  },
-  "record": ["drive", "stage"],
-  "simulate": {"until": "1 s", "every": "1 ms"}
-}
-`;
+const small = diagramOf([drive, '"stage": {"type": "gain", "gain": "3 um/V", "in": "drive"}'], ['drive', 'stage']);
 
 describe('scopes', () => {
   const studio = new Studio();
   beforeAll(async () => {
-    studio.write('small.json', small);
-    await studio.serve();
-    await studio.open();
-    await studio.openDiagram('small.json');
+    await studio.openOn({'small.json': small});
     await studio.page.click('.topbar button:text-is("Run")');
     await studio.page.waitForSelector('.plot canvas');
   });

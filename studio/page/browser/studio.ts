@@ -10,6 +10,23 @@ export const program = process.env.HYSTERON_PROGRAM!;
 const source = process.env.HYSTERON_SOURCE!;
 const patience = Number(process.env.HYSTERON_PATIENCE ?? 100);  // [s]: a busy machine is no failure
 
+/// A diagram of few blocks, as a person writes it. `blocks`: the lines of its blocks, `record`: what it records.
+export const diagramOf = (blocks: string[], record: string[]) => `{
+  "format": 1,
+  "title": "Small",
+  "blocks": {
+${blocks.map((line) => `    ${line}`).join(',\n')}
+  },
+  "record": ${JSON.stringify(record).replaceAll(',', ', ')},
+  "simulate": {"until": "1 s", "every": "1 ms"}
+}
+`;
+
+export const drive = '"drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 Hz"}';
+/// Sources of two units and a block that one of them fits; nothing is wired.
+export const unwired = diagramOf([drive, '"force": {"type": "constant", "value": "1 N"}', '"limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}'],
+                                 ['drive', 'force', 'limit']);
+
 export class Studio {
   readonly folder = mkdtempSync(join(tmpdir(), 'hysteron-studio-'));
   readonly complaints: string[] = [];
@@ -70,6 +87,13 @@ export class Studio {
       const name = new URL(route.request().url()).pathname.slice(1) || 'index.html';
       return route.fulfill({body: readFileSync(join(folder, name)), contentType: types[name.split('.').pop()!]});
     });
+  }
+  /// The studio on a folder with these files; the first of them is open.
+  async openOn(files: Record<string, string>): Promise<void> {
+    for (const [name, text] of Object.entries(files)) this.write(name, text);
+    await this.serve();
+    await this.open();
+    await this.openDiagram(Object.keys(files)[0]);
   }
   async close(): Promise<void> {
     await this.browser?.close();

@@ -2,7 +2,7 @@
 
 import {
   Background, BackgroundVariant, ControlButton, Controls, Handle, MiniMap, Position, ReactFlow, ReactFlowProvider, useReactFlow, useStore, useStoreApi,
-  getViewportForBounds,  ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
+  getViewportForBounds, ViewportPortal, type Connection, type Edge, type EdgeChange, type EdgeProps, type Node, type NodeChange, type NodeProps, applyNodeChanges,
 } from '@xyflow/react';
 import {memo, useCallback, useEffect, useMemo, useRef, useState} from 'react';
 import {api} from '../data/api';
@@ -196,7 +196,11 @@ function Flow() {
   const edges = useMemo(() => (sheet ? edgesOf(sheet, last) : []), [sheet, last]);
   const looseEdges = useMemo(() => (sheet && Object.keys(carried).length ? withLooseWires(edges, sheet, carried) : edges), [edges, sheet, carried]);
   const selectedWire = useStudio((s) => s.selectedWire);
-  const shownNodes = useMemo(() => nodes.map((n) => (selected.includes(n.id) ? {...n, selected: true} : n)), [nodes, selected]);
+  // What is carried is drawn where it is carried, whatever the server tells of the sheet meanwhile.
+  const shownNodes = useMemo(() => nodes.map((n) => {
+    const held = carried[n.id] && {position: carried[n.id], dragging: true};
+    return held || selected.includes(n.id) ? {...n, ...held, selected: selected.includes(n.id)} : n;
+  }), [nodes, selected, carried]);
   const shownEdges = useMemo(() => looseEdges.map((e) => (e.id === selectedWire ? {...e, selected: true} : e)), [looseEdges, selectedWire]);
 
   // What is selected stands in the store; nodes and edges are drawn from there, so that nothing is told in circles.
@@ -205,7 +209,7 @@ function Flow() {
     const after = new Set(before);
     for (const c of changes) if (c.type === 'select') c.selected ? after.add(c.id) : after.delete(c.id);
     if (after.size !== before.length || before.some((id) => !after.has(id))) set({selected: [...after]});
-    setNodes((now) => applyNodeChanges(changes.filter((c) => c.type !== 'select'), now));
+    setNodes((now) => applyNodeChanges(changes.filter((c) => c.type !== 'select' && c.type !== 'position'), now));
     // Arrow keys move what is selected: one gesture until they rest.
     const keyed = byKeys.current;
     for (const c of changes) if (c.type === 'position' && c.position && !dragging.current) keyed.places[c.id] = c.position;
@@ -226,16 +230,15 @@ function Flow() {
       const item = sheet?.items.find((i) => i.path === id);
       return item && (Math.abs(item.x - p.x) >= 1 || Math.abs(item.y - p.y) >= 1) ? [[item.name, p]] : [];
     }));
-    if (Object.keys(named).length === 0 || !(await useStudio.getState().move(movesOf(named)))) {
-      if (sheet) setNodes(nodesOf(sheet, problems, [], fresh, null));
-    }
-    setCarried({});
-  }, [sheet, problems, fresh]);
+    if (Object.keys(named).length > 0) await useStudio.getState().move(movesOf(named));
+    if (!dragging.current) setCarried({...byKeys.current.places});  // the next gesture may have begun
+  }, [sheet]);
 
-  const onDrag = useCallback((_: unknown, __: unknown, all: BlockNode[]) => {
+  // Before the first place is told: what is dragged is not moved by keys as well.
+  const onDragStart = useCallback(() => {
     dragging.current = true;
-    setCarried(Object.fromEntries(all.map((n) => [n.id, n.position])));
   }, []);
+  const onDrag = useCallback((_: unknown, __: unknown, all: BlockNode[]) => setCarried(Object.fromEntries(all.map((n) => [n.id, n.position]))), []);
   const onDragStop = useCallback((_: unknown, __: unknown, all: BlockNode[]) => {
     dragging.current = false;
     void put(Object.fromEntries(all.map((n) => [n.id, n.position])));
@@ -289,8 +292,8 @@ function Flow() {
       onEdgesChange={onEdgesChange}
       onNodeDoubleClick={open}
       onConnectStart={onConnectStart} onConnect={onConnect} onConnectEnd={() => setWanting(null)}
-      onNodeDrag={onDrag} onNodeDragStop={onDragStop}
-      onSelectionDrag={(e, all) => onDrag(e, null, all)} onSelectionDragStop={(e, all) => onDragStop(e, null, all)}
+      onNodeDragStart={onDragStart} onNodeDrag={onDrag} onNodeDragStop={onDragStop}
+      onSelectionDragStart={onDragStart} onSelectionDrag={(e, all) => onDrag(e, null, all)} onSelectionDragStop={(e, all) => onDragStop(e, null, all)}
       nodesDraggable={!trial && depth === 0} snapToGrid snapGrid={[grid, grid]} nodeDragThreshold={3} nodesConnectable={!trial} elementsSelectable
       onlyRenderVisibleElements minZoom={0.05} maxZoom={4}
       selectionOnDrag panOnDrag={[1, 2]} panOnScroll zoomOnDoubleClick={false}
