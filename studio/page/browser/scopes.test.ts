@@ -36,6 +36,13 @@ describe('scopes', () => {
     await page.mouse.click(box.x + 0.9 * box.width, box.y + 20);
     await studio.until(async () => Math.abs(Number(await page.inputValue('[aria-label="cursor B"]')) - 0.9) < 0.01);  // a pixel is 2 ms
     expect(Number(await page.inputValue('[aria-label="cursor A"]'))).toBeCloseTo(0.05, 9);
+    await page.fill('[aria-label="cursor A"]', '0,05');
+    await page.press('[aria-label="cursor A"]', 'Enter');
+    await page.waitForSelector('.banner.error:has-text("with a decimal point")');
+    await page.click('.banner.error button');
+    await page.fill('[aria-label="cursor A"]', '0.07 s');
+    await page.press('[aria-label="cursor A"]', 'Enter');
+    await studio.until(async () => (await page.inputValue('[aria-label="cursor A"]')) === '0.07');
     await page.click('button:text-is("Cursors")');
     await page.waitForSelector('[aria-label="cursor A"]', {state: 'detached'});
   });
@@ -76,20 +83,49 @@ describe('scopes', () => {
   it('are drawn in the colours of the theme, also when it is changed', async () => {
     const {page} = studio;
     const before = await page.evaluate(() => document.documentElement.dataset.theme);
-    // The most frequent colour among the points that are drawn faintly is that of the grid: dark lines on light are no grid.
-    const darkest = () => page.locator('.plot canvas').first().evaluate((element) => {
+    // Greys in a row of pixels are those of the grid: dark lines on light are none.
+    const greys = () => page.locator('.plot canvas').first().evaluate((element) => {
       const canvas = element as HTMLCanvasElement;
       const {data} = canvas.getContext('2d')!.getImageData(0, Math.round(canvas.height / 2), canvas.width, 1);
-      const seen = new Map<string, number>();
-      for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) < 16) seen.set(String(data[i]), (seen.get(String(data[i])) ?? 0) + 1);
-      return [...seen.keys()].map(Number);
+      const seen = new Set<number>();
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) < 16) seen.add(data[i]);
+      return [...seen];
     });
     for (const theme of ['light', 'dark', 'light']) {
       while ((await page.evaluate(() => document.documentElement.dataset.theme)) !== theme) await page.click('[aria-label="dark or light"]');
       await page.waitForTimeout(300);
-      for (const grey of await darkest()) theme === 'light' ? expect(grey).toBeGreaterThan(128) : expect(grey).toBeLessThan(128);
+      const seen = await greys();
+      expect(seen.length).toBeGreaterThan(0);
+      for (const grey of seen) theme === 'light' ? expect(grey).toBeGreaterThan(128) : expect(grey).toBeLessThan(128);
     }
     if (before === 'dark') await page.click('[aria-label="dark or light"]');
+  });
+
+  it('keep what is zoomed in when the theme is changed and changed back, to the pixel', async () => {
+    const {page} = studio;
+    const canvas = page.locator('.plot canvas').first();
+    const picture = () => canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
+    const resting = async () => {
+      for (let last = '';;) {
+        const now = await picture();
+        if (now === last) return now;
+        last = now;
+        await page.waitForTimeout(300);
+      }
+    };
+    const whole = await resting();
+    const box = (await page.locator('.plot .u-over').first().boundingBox())!;
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.52 * box.width, box.y + 20, {steps: 4});
+    await page.mouse.up();
+    await page.waitForSelector('.signals button:text-is("show all")');
+    const zoomed = await resting();
+    expect(zoomed).not.toBe(whole);
+    for (let i = 0; i < 2; ++i) await page.click('[aria-label="dark or light"]');
+    expect(await resting()).toBe(zoomed);
+    await page.click('.signals button:text-is("show all")');
+    await studio.until(async () => (await resting()) === whole);
   });
 
   it('leave no complaint', () => expect(studio.complaints).toEqual([]));

@@ -27,6 +27,7 @@ export const drive = '"drive": {"type": "sine", "amplitude": "2 V", "frequency":
 export const unwired = diagramOf([drive, '"force": {"type": "constant", "value": "1 N"}', '"limit": {"type": "saturation", "lower": "0 V", "upper": "10 V"}'],
                                  ['drive', 'force', 'limit']);
 
+/// Waits by locators where much is done: a handle that waitForSelector gives keeps what the page has removed.
 export class Studio {
   readonly folder = mkdtempSync(join(tmpdir(), 'hysteron-studio-'));
   readonly complaints: string[] = [];
@@ -77,7 +78,7 @@ export class Studio {
     });
     if (process.env.HYSTERON_PAGE) await this.servePage(process.env.HYSTERON_PAGE);
     await this.page.goto(this.address);
-    await this.page.waitForSelector('.frame');
+    await this.page.locator('.frame').first().waitFor();
     return this.page;
   }
   /// The page as vite has just built it, in front of the one that is in the program: for work on the page.
@@ -104,8 +105,8 @@ export class Studio {
   async openDiagram(name: string): Promise<void> {
     await this.page.click('.sidebar button:text-is("Files")');
     await this.page.click(`.entry.file[data-path="${name}"]`);
-    await this.page.waitForSelector(`.crumbs b:text-is("${name}")`);
-    await this.page.waitForSelector('.react-flow__node');
+    await this.page.locator(`.crumbs b:text-is("${name}")`).first().waitFor();
+    await this.page.locator('.react-flow__node').first().waitFor();
     await this.page.waitForTimeout(300);  // the view is fitted in the next frame
   }
   block = (name: string) => this.page.locator(`.react-flow__node[data-id="${name}"]`);
@@ -127,7 +128,7 @@ export class Studio {
     await this.page.mouse.move(a.x + a.width / 2, a.y + a.height / 2);
     await this.page.mouse.down();
     await this.page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2, {steps: 4});
-    await this.page.waitForSelector('.react-flow__handle.fits, .react-flow__handle.misfit', {state: 'attached'});
+    await this.page.locator('.react-flow__handle.fits, .react-flow__handle.misfit').first().waitFor({state: 'attached'});
     await this.page.mouse.move(b.x + b.width / 2, b.y + b.height / 2, {steps: 4});
     await this.page.mouse.up();
   }

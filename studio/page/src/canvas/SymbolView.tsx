@@ -2,11 +2,11 @@
 
 import {memo} from 'react';
 import type {Item, Pictogram, Point, Sheet} from '../types';
+import {choiceText, sumNameOffset} from './extent';
 import {arrowHead, ownWays, roundedPath} from './paths';
 
 const pictogramWidth = 48;
 const pictogramHeight = 30;
-const sumNameOffset = 20;  // as draw/sheet.h has it
 
 function Outline({item}: {item: Item}) {
   const {width: w, height: h, symbol} = item;
@@ -133,10 +133,6 @@ function Caption({item, chosen}: {item: Item; chosen: string}) {
 function PlainName({item}: {item: Item}) {
   const size = Math.min(item.height / 3, item.width / (0.7 * item.name.length));
   return <text className="plain" x={item.width / 2} y={item.height / 2 + size / 3} style={{fontSize: size}}>{item.name}</text>;
-}
-
-export function choiceText(item: Item): string {
-  return item.choice && item.choice.candidates > 1 ? `${item.choice.chosen} (1 of ${item.choice.candidates})` : '';
 }
 
 interface Props {

@@ -41,24 +41,23 @@ export async function connect(from: Item, out: number, to: Item, port: number): 
   await edit(doc.setMember(document, to.name, 'in', into));
 }
 
-let wiring = false;  // a list that is typed into tells the same choice once per letter
+let choices = 0;  // a list that is typed into tells a choice per letter: the last of them counts
 
 /// The same by names, as a list or the keyboard give them; refused, in the words of check, where the units do not fit.
 export async function connectSignal(signal: string, to: Item, port: number): Promise<void> {
   const {view, say, tell} = now();
   const items = view?.sheet?.items ?? [];
   const from = items.find((i) => i.out.some((_, k) => doc.signalName(i, k) === signal));
-  if (!from || wiring) return;
-  wiring = true;
+  if (!from) return;
+  const choice = ++choices;
   try {
     const fits = await api.fits(currentPath(now()), signal);
+    if (choice !== choices) return;
     const why = fits.find((f) => f.item === items.findIndex((i) => i.path === to.path) && f.in === port)?.why;
     if (why) say(why, 'error');
     else await connect(from, from.out.findIndex((_, k) => doc.signalName(from, k) === signal), to, port);
   } catch (error) {
     tell(error);
-  } finally {
-    wiring = false;
   }
 }
 

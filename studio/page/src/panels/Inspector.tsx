@@ -16,10 +16,14 @@ import type {BlockDeclaration, Item, ParameterDeclaration} from '../types';
 export function Field({value, placeholder, label, onCommit, wrong, live}: {value: string; placeholder?: string; label: string; wrong?: boolean; live?: string; onCommit: (text: string) => unknown}) {
   const [text, setText] = useState(value);
   const moved = useRef(false);
-  const typing = useRef(false);  // the answer to an edit before does not take away what is being typed
+  const typing = useRef(false);  // the answer to an edit before does not take away what is being typed, by letters or arrows
   useEffect(() => {
     if (!typing.current) setText(value);
   }, [value]);
+  const type = (next: string) => {
+    typing.current = true;
+    setText(next);
+  };
   const commit = () => {
     typing.current = false;
     if (moved.current) {
@@ -36,10 +40,7 @@ export function Field({value, placeholder, label, onCommit, wrong, live}: {value
   };
   return (
     <input className={wrong ? 'field wrong' : 'field'} value={text} placeholder={placeholder} aria-label={label} spellCheck={false}
-           onChange={(e) => {
-             typing.current = true;
-             setText(e.target.value);
-           }} onBlur={commit}
+           onChange={(e) => type(e.target.value)} onBlur={commit}
            onKeyDown={(e) => {
              const way = e.key === 'ArrowUp' ? 1 : e.key === 'ArrowDown' ? -1 : 0;
              if (e.key === 'Enter') e.currentTarget.blur();  // which commits; the keys are the canvas's again
@@ -48,7 +49,7 @@ export function Field({value, placeholder, label, onCommit, wrong, live}: {value
                e.preventDefault();
                moved.current = true;
                const next = dragged(text, way, e.shiftKey, true);
-               setText(next);
+               type(next);
                void follow(`${live}=${next}`, `${live} = ${next}`);
              }
              if (!(e.ctrlKey && e.key === 'Enter')) e.stopPropagation();

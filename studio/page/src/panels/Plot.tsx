@@ -90,7 +90,7 @@ export function Plot({curves, unit, spans, bands, range, marks, onMark, onZoom, 
 
   useEffect(() => {
     const element = holder.current!;
-    const make = () => new uPlot(optionsNow(), dataOf(curves), element);
+    const make = () => new uPlot(optionsNow(), dataOf(latest.current.curves), element);
     const axisNow = () => ({stroke: colour('--muted'), grid: {stroke: colour('--grid'), width: 1}, ticks: {show: false}, font: '12px system-ui, sans-serif'});
     const optionsNow = (axis = axisNow()): uPlot.Options => ({
       width: Math.max(120, element.clientWidth), height,

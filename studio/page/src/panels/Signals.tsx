@@ -1,6 +1,7 @@
 // Decides how the signals beside the curves are listed: which are shown, and their values at the mouse, or at two cursors
 // with what lies between.
 
+import {useStudio} from '../data/store';
 import {short} from '../numbers';
 import type {TraceHead} from '../types';
 import {Field} from './Inspector';
@@ -28,9 +29,15 @@ function Between({cursors, unit}: {cursors: AtCursors; unit: string}) {
 export function Signals({head, off, onOff, colourOf, at, cursors, children}: Props) {
   const names = head.columns.slice(1).map((c) => c.name);
   const time = head.columns[0];
-  const cursorField = (label: string, value: number | undefined, put: (at: number) => void) => (
-    <span className="cell"><Field label={`cursor ${label}`} value={value === undefined ? '' : short(value, 7)} onCommit={(text) => Number.isFinite(Number(text)) && text.trim() !== '' && put(Number(text))} /></span>
-  );
+  const cursorField = (label: string, value: number | undefined, put: (at: number) => void) => {
+    const commit = (text: string) => {
+      const typed = text.trim();
+      const number = time.unit && typed.endsWith(time.unit) ? typed.slice(0, -time.unit.length).trim() : typed;
+      if (number !== '' && Number.isFinite(Number(number))) return put(Number(number));
+      useStudio.getState().say(`"${typed}" is no place for cursor ${label}: give a number${time.unit && ` in ${time.unit}`} with a decimal point, as 0.05`, 'error');
+    };
+    return <span className="cell"><Field label={`cursor ${label}`} value={value === undefined ? '' : short(value, 7)} onCommit={commit} /></span>;
+  };
   return (
     <ul className={cursors ? 'signals wide' : 'signals'} aria-label="signals">
       {cursors && <li className="cells"><span className="label muted">{time.name} [{time.unit}]</span>{cursorField('A', cursors.first?.at, cursors.putFirst)}{cursorField('B', cursors.second?.at, cursors.putSecond)}
