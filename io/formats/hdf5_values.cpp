@@ -4,11 +4,11 @@
 #include <cstdint>
 
 #include "io/formats/hdf5_library.h"
+#include "io/formats/named_vectors.h"
 
 namespace hysteron {
 namespace {
 
-constexpr std::uint64_t densest_hdf5 = 1100;  // samples for each byte of the file: more no compression gives
 constexpr std::uint64_t most_hdf5_numbers = 1ULL << 31U;
 constexpr std::size_t longest_hdf5_text = 4096;
 
@@ -35,7 +35,7 @@ std::optional<Hdf5Numbers> numbers_of_hdf5(Hdf5Handle dataset, int most_sizes,
   }
   const std::uint64_t stored = h.H5Dget_storage_size(dataset);
   if (stored == 0) return std::nullopt;
-  if (count > densest_hdf5 * stored) damaged("it has more samples than bytes");
+  if (count > most_numbers_per_byte * stored) damaged("it has more samples than bytes");
   numbers.values.resize(count);
   if (h.H5Dread(dataset, h.real, 0, 0, 0, numbers.values.data()) < 0)
     damaged("its samples are damaged, or packed by a filter that is not installed here");

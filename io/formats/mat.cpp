@@ -17,6 +17,7 @@
 #include "io/formats/file_format.h"
 #include "io/formats/mat_layout.h"
 #include "io/formats/mat_value.h"
+#include "io/formats/named_vectors.h"
 
 namespace hysteron {
 namespace {
@@ -127,7 +128,7 @@ std::string text_of(const matvar_t& v) {
 class MatioReader {
  public:
   explicit MatioReader(const std::string& file)
-      : file_(file), most_(densest_of_mat * std::filesystem::file_size(file)) {}
+      : file_(file), most_(most_numbers_per_byte * std::filesystem::file_size(file)) {}
 
   MatVariables read() const {
     static std::mutex mutex;  // the library says nothing of threads

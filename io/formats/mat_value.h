@@ -29,7 +29,6 @@ using MatVariables = std::vector<std::pair<std::string, MatValue>>;
 
 inline constexpr int deepest_of_mat = 8;                   // structures within structures
 inline constexpr std::size_t most_elements_of_mat = 1000;  // of an array of structures
-inline constexpr std::size_t densest_of_mat = 1100;  // numbers for each byte of the file: more no compression gives
 
 /// Vectors and matrices by their names; structures of Simulink (time, signals), of dSPACE (X, Y) and of one's own by
 /// their fields. Throws Error "unknown_file_type" where there are objects of MATLAB alone, "damaged_file" where there

@@ -9,6 +9,10 @@
 
 namespace hysteron {
 
+/// What a compressed file can hold at most, for each of its bytes: deflate makes no more than 1032 bytes of one (zlib,
+/// "Technical Details"), and a number has one at least.
+inline constexpr std::size_t most_numbers_per_byte = 1100;
+
 /// Vectors by their full names ("run1/force"), of any lengths; a name without "/" lies in no group. Keeps the order.
 /// `table` has its file, clock and what was assumed already. Throws Error "no_table", "ambiguous_group" (the choices,
 /// and --group), "missing_column" where --group names none.
