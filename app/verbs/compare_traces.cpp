@@ -143,11 +143,11 @@ Figure differences(const TraceComparison& c, const TracePair& pair, const CsvTab
   return figure;
 }
 
-void add_pair(Document& document, const TraceComparison& c, const TracePair& pair) {
+void add_pair(Document& document, const TraceComparison& c, const TracePair& pair, const std::string& type) {
   const auto add = [&](CsvTable table) { document.traces.push_back(std::move(table)); };
-  add(line_table(c, pair, pair.first_line, trace_file(pair.first + " first", document.traces)));
-  add(line_table(c, pair, pair.second_line, trace_file(pair.first + " second", document.traces)));
-  add(difference_table(c, pair, trace_file(pair.first + " difference", document.traces)));
+  add(line_table(c, pair, pair.first_line, trace_file(pair.first + " first", document.traces, type)));
+  add(line_table(c, pair, pair.second_line, trace_file(pair.first + " second", document.traces, type)));
+  add(difference_table(c, pair, trace_file(pair.first + " difference", document.traces, type)));
   const std::size_t n = document.traces.size();
   Section section;
   section.title = name_of(pair);
@@ -212,7 +212,8 @@ Document document_of(const Arguments& arguments, const TraceComparison& c) {
   figures.title = "Overall error";
   figures.tables.push_back(distances_table(c));
   document.sections.push_back(std::move(figures));
-  for (const auto& pair : c.pairs) add_pair(document, c, pair);
+  const std::string type = trace_type(arguments);
+  for (const auto& pair : c.pairs) add_pair(document, c, pair, type);
   Facts facts = Facts::object(
       {{"first", first}, {"second", second}, {"over", c.axis}, {"over_unit", c.axis_unit.text}, {"signals", pairs}});
   if (judged > 0) facts.set("within_tolerance", c.within());

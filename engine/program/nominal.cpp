@@ -54,12 +54,14 @@ class Sizer {
   std::vector<double> called(int b, Kernel::Call function, const std::vector<double>& u,
                              const std::vector<double>& rates, int results);
   void source(int b);
-  /// What a block's states and outputs would be for the inputs known so far, and the largest output that has no size.
+  /// What a block's states and outputs are for inputs of these sizes.
   struct Reached {
     std::vector<double> states, outputs;
-    double largest = 0;
   };
-  Reached reached(int b);
+  Reached reached(int b, const std::vector<double>& u);
+  void add_alone(int b, const Reached& r, std::vector<double> u, int signal, std::vector<double>& sum);
+  double largest_without_size(int b, const Reached& r, const std::vector<double>& sum);
+  void give_sizes(int b, const Reached& r, const std::vector<double>& sum);
   std::vector<double> state_sizes(int b, const std::vector<double>& u);
   void follow_wires();
   void fill_unknown_states();
@@ -150,60 +152,90 @@ void Sizer::source(int b) {
   }
 }
 
-Sizer::Reached Sizer::reached(int b) {
+Sizer::Reached Sizer::reached(int b, const std::vector<double>& u) {
   const auto& info = block(b);
-  const auto u = input_sizes(info);
-  Reached r;
-  if (std::all_of(u.begin(), u.end(), [](double size) { return size == 0; })) return r;
-  r.states.assign(states(info), states(info) + info.sizes.states);
-  if (info.history_index >= 0) {
-    r.outputs = {u.front()};
-  } else {
-    if (info.sizes.states > 0 && r.states.front() == 0) r.states = state_sizes(b, u);
-    const auto all = output_at(b, r.states, u, run_.t, run_.branch);
-    // A difference of equals is as large as they are: add up what each input does alone.
-    std::vector<double> sum(all.size());
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      auto without = u;
-      without[i] = 0;
-      const auto y = output_at(b, r.states, without, run_.t, run_.branch);
-      for (std::size_t k = 0; k < y.size(); ++k) sum[k] += std::abs(all[k] - y[k]);
-    }
-    for (std::size_t k = 0; k < all.size(); ++k) r.outputs.push_back(std::max(std::abs(all[k]), sum[k]));
-  }
-  for (std::size_t k = 0; k < r.outputs.size(); ++k)
-    if (signal(info, static_cast<int>(k)) == 0 && std::isfinite(r.outputs[k]))
-      r.largest = std::max(r.largest, r.outputs[k]);
+  if (info.history_index >= 0) return {{}, {u.front()}};
+  Reached r{{states(info), states(info) + info.sizes.states}, {}};
+  if (info.sizes.states > 0 && r.states.front() == 0) r.states = state_sizes(b, u);
+  r.outputs = output_at(b, r.states, u, run_.t, run_.branch);
   return r;
 }
 
+/// Adds to `sum` what this input signal does alone: a difference of equals is as large as they are.
+void Sizer::add_alone(int b, const Reached& r, std::vector<double> u, int signal, std::vector<double>& sum) {
+  const auto& info = block(b);
+  if (info.history_index >= 0) return;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    if (info.source[i] == signal) u[i] = 0;
+  const auto without = output_at(b, r.states, u, run_.t, run_.branch);
+  for (std::size_t k = 0; k < without.size(); ++k) sum[k] += std::abs(r.outputs[k] - without[k]);
+}
+
+double Sizer::largest_without_size(int b, const Reached& r, const std::vector<double>& sum) {
+  double largest = 0;
+  for (std::size_t k = 0; k < r.outputs.size(); ++k)
+    if (const double size = std::max(std::abs(r.outputs[k]), sum[k]);
+        signal(block(b), static_cast<int>(k)) == 0 && std::isfinite(size))
+      largest = std::max(largest, size);
+  return largest;
+}
+
+void Sizer::give_sizes(int b, const Reached& r, const std::vector<double>& sum) {
+  const auto& info = block(b);
+  std::copy(r.states.begin(), r.states.end(), states(info));
+  for (std::size_t k = 0; k < r.outputs.size(); ++k) {
+    double& size = signal(info, static_cast<int>(k));
+    const double found = std::max(std::abs(r.outputs[k]), sum[k]);
+    if (size == 0 && std::isfinite(found)) size = found;
+  }
+}
+
 /// Along the wires, the largest first: what comes to a block by several ways has the size of the largest of them, and
-/// what has a size keeps it, so that a loop neither grows nor vanishes with its gain.
+/// what has a size keeps it, so that a loop neither grows nor vanishes with its gain. In which order, is told by what
+/// each input did alone when its size became known: a block with many inputs is asked twice for each.
 void Sizer::follow_wires() {
   std::vector<std::vector<int>> readers(program_.signals.size());
   for (int b = 0; b < count(); ++b)
-    for (const int s : block(b).source) readers[static_cast<std::size_t>(s)].push_back(b);
-  using Next = std::pair<double, int>;  // the size that a block would give, and minus its place
-  std::priority_queue<Next> next;
-  const auto offer = [&](int b) {
-    if (block(b).n_u == 0) return;
-    if (const double size = reached(b).largest; size > 0) next.emplace(size, -b);
+    for (const int s : block(b).source)
+      if (auto& list = readers[static_cast<std::size_t>(s)]; list.empty() || list.back() != b) list.push_back(b);
+  const auto blocks = static_cast<std::size_t>(count());
+  std::vector<std::vector<double>> sums(blocks);        // per output of each block that waits
+  std::vector<double> would_give(blocks);               // the size by which a block waits
+  std::priority_queue<std::pair<double, int>> waiting;  // ... and minus its place
+  const auto offer = [&](int s) {
+    for (const int b : readers[static_cast<std::size_t>(s)]) {
+      const auto i = static_cast<std::size_t>(b);
+      const auto u = input_sizes(block(b));
+      const Reached r = reached(b, u);
+      if (sums[i].empty()) sums[i].resize(r.outputs.size());
+      add_alone(b, r, u, s, sums[i]);
+      would_give[i] = largest_without_size(b, r, sums[i]);
+      if (would_give[i] > 0) waiting.emplace(would_give[i], -b);
+    }
   };
-  for (int b = 0; b < count(); ++b) offer(b);
-  while (!next.empty()) {
-    const auto [size, place] = next.top();
-    next.pop();
+  for (std::size_t s = 0; s < sizes_.signals.size(); ++s)
+    if (sizes_.signals[s] > 0) offer(static_cast<int>(s));
+  while (!waiting.empty()) {
+    const auto [size, place] = waiting.top();
+    waiting.pop();
     const int b = -place;
     const auto& info = block(b);
-    const Reached r = reached(b);
-    if (r.largest != size) continue;  // what it gives was offered anew when its inputs grew
-    std::copy(r.states.begin(), r.states.end(), states(info));
-    for (int i = 0; i < info.sizes.outputs; ++i) {
-      const double y = r.outputs[static_cast<std::size_t>(i)];
-      if (signal(info, i) > 0 || !(y > 0) || !std::isfinite(y)) continue;
-      signal(info, i) = y;
-      for (const int reader : readers[static_cast<std::size_t>(info.y_begin + i)]) offer(reader);
-    }
+    if (would_give[static_cast<std::size_t>(b)] != size) continue;  // it waits by another one since
+    const auto u = input_sizes(info);
+    const Reached r = reached(b, u);
+    std::vector<int> known(info.source.begin(), info.source.end());
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    std::vector<double> sum(r.outputs.size());
+    for (const int s : known)
+      if (sizes_.signals[static_cast<std::size_t>(s)] > 0) add_alone(b, r, u, s, sum);
+    std::vector<int> had_none;
+    for (int k = 0; k < info.sizes.outputs; ++k)
+      if (signal(info, k) == 0) had_none.push_back(info.y_begin + k);
+    give_sizes(b, r, sum);
+    would_give[static_cast<std::size_t>(b)] = 0;
+    for (const int s : had_none)
+      if (sizes_.signals[static_cast<std::size_t>(s)] > 0) offer(s);
   }
 }
 

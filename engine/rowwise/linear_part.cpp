@@ -220,15 +220,23 @@ void LinearPart::write_outputs(std::vector<double>& y) const {
 
 namespace {
 
+/// A d = rate, row by row, for states have units of their own. What solving leaves is rounding; a state that cannot
+/// rest leaves a share of its rate.
+bool solves(const Eigen::MatrixXd& a, const Eigen::VectorXd& d, const Eigen::VectorXd& rate) {
+  constexpr double rounding = 1e-9;  // of the terms of a row
+  const Eigen::VectorXd terms = a.cwiseAbs() * d.cwiseAbs() + rate.cwiseAbs();
+  return ((rate - a * d).array().abs() <= rounding * terms.array()).all();
+}
+
 /// An integrator whose input is not zero cannot rest; where everything else can, it moves on with one velocity, which
-/// lies in the kernel of A: A (x - d) + B w = K c. What is left where that has no solution either (a free mass that is
-/// pushed) is nothing.
+/// lies in the kernel of A: A (x - d) + B w = K c. Nothing where that has no solution either (a free mass that is
+/// pushed).
 std::optional<Eigen::VectorXd> to_steady_motion(const Eigen::MatrixXd& a, const Eigen::VectorXd& rate) {
   const Eigen::MatrixXd kernel = a.fullPivLu().kernel();
   Eigen::MatrixXd both(a.rows(), a.cols() + kernel.cols());
   both << a, kernel;
   const Eigen::VectorXd solution = both.completeOrthogonalDecomposition().solve(rate);
-  if ((rate - both * solution).norm() > 1e-9 * rate.norm()) return std::nullopt;
+  if (!solves(both, solution, rate)) return std::nullopt;
   return solution.head(a.cols());
 }
 
@@ -245,8 +253,7 @@ void LinearPart::start(const Program& program, const Run& run, std::vector<doubl
     if (!has_to_rest_) to_rest_.compute(a_);
     has_to_rest_ = true;
     const Eigen::VectorXd to_rest = to_rest_.solve(rate);
-    const double still = (rate - a_ * to_rest).norm();
-    x_ -= still > 1e-9 * rate.norm() ? to_steady_motion(a_, rate).value_or(to_rest) : to_rest;
+    x_ -= solves(a_, to_rest, rate) ? to_rest : to_steady_motion(a_, rate).value_or(to_rest);
   }
   w_before_ = w_;
   write_outputs(y);

@@ -38,6 +38,15 @@ TEST(CompareTraces, WithinTheToleranceExitsWithZeroAndOutsideWithOneAndAPlot) {
   EXPECT_EQ(hysteron(folder.path(), {"compare", "a.csv", "b.csv"}).code, 0) << "nothing was asked";
 }
 
+TEST(CompareTraces, WritesWhatItComparedAsNumbersWhereAsked) {
+  const Folder folder;
+  folder.write("a.csv", reference);
+  folder.write("b.csv", near);
+  ASSERT_EQ(hysteron(folder.path(), {"compare", "a.csv", "b.csv", "--traces", "f64", "-o", "out"}).code, 0);
+  EXPECT_TRUE(folder.has("out/traces/y-difference.f64"));
+  EXPECT_FALSE(folder.has("out/traces/y-difference.csv"));
+}
+
 TEST(CompareTraces, ALoopIsComparedOverItsDrive) {
   const Folder folder;
   std::string loop = "t [s],u [V],y [um]\n";  // up on y = 0, down on y = 1
