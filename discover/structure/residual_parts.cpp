@@ -165,8 +165,8 @@ void ResidualParts::take_off_gain_and_offset() {
   }));
   for (auto& p : parts_) {
     for (std::size_t k = 0; k < p.e.size(); ++k) p.e[k] -= c[0] + c[1] * p.levels.front()[k];
-    if (model_.zero_per_recording(
-            output_)) {  // the part of a gain in its zero (far from it: all of that) is the zero's
+    if (model_.zero_per_recording(output_)) {
+      // What a gain that is off makes of a zero, and far from zero that is most of it, the zero takes.
       const double zero = filters_[index(p)].zero_of(p.e);
       for (double& e : p.e) e -= zero;
     }
