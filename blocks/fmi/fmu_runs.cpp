@@ -115,7 +115,10 @@ void FmuRuns::keep(Instance instance) {
 long FmuRuns::root(double start, const std::vector<std::pair<int, double>>& parameters) {
   const std::lock_guard lock(mutex_);
   const auto known = roots_.find({start, parameters});
-  if (known != roots_.end()) return known->second;
+  if (known != roots_.end()) {
+    tree_of(known->second);  // used now: who begins it again goes on from it, whatever other threads begin meanwhile
+    return known->second;
+  }
   forget();
   Node root;
   root.from = start;

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include "blocks/fmi/fmu_runs.h"
 #include "blocks/register_all.h"
 #include "engine/diagram/error.h"
 #include "engine/simulate/simulate.h"
@@ -190,6 +191,28 @@ TEST_F(ImportedFile, RunsOfLongAgoAreForgottenAndMayBeBegunAgain) {
   }
   const auto again = begun(1);
   EXPECT_EQ(again.second.values, first.second.values);
+}
+
+// What one thread begins again is used, too, before another one begins something new.
+TEST_F(ImportedFile, ARunThatIsBegunAgainIsNotForgottenBeforeItsFirstStep) {
+  const Diagram diagram = read_diagram(host(), {folder_.path("lag.fmu")});
+  const Node& block = *diagram.blocks.find("x");
+  auto& runs = blocks::FmuRuns::at_number(
+      blocks::FmuRuns::number_of(std::get<std::string>(block.parameters.find("interface")->content)));
+  const double held[] = {2.0};
+  const auto begun = [&](int k) {  // each start is a run of its own, of 5000 steps; 20 of them are kept
+    long node = runs.root(k, {});
+    for (int step = 0; step < 5000; ++step) node = runs.advanced(node, held, k + step * 1e-3, 1e-3);
+    return node;
+  };
+  std::vector<long> last;
+  for (int k = 0; k < 21; ++k) last.push_back(begun(k));
+  EXPECT_THROW(runs.outputs(last[0]), Error);
+  const long again = runs.root(1, {});  // that of longest ago
+  runs.root(100, {});
+  EXPECT_NO_THROW(runs.advanced(again, held, 1, 1e-3));
+  EXPECT_NO_THROW(runs.outputs(last[1]));
+  EXPECT_THROW(runs.outputs(last[2]), Error);
 }
 
 TEST_F(ImportedFile, WhatIsWrongIsToldAtItsPlace) {
