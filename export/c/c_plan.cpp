@@ -29,6 +29,8 @@ class Planning {
     plan_.program = std::move(program);
     plan_.period = period > 0 ? period : shortest_period(*plan_.program);
     jump_.resize(plan_.program->signals.size());
+    moves_.resize(plan_.program->signals.size());
+    for (const int input : plan_.program->input_signals) moves_[at(input)] = true;
   }
 
   CPlan operator()() {
@@ -42,6 +44,7 @@ class Planning {
     for (const Step& step : program.hit_values)
       if (step.order == Order::value && needed[at(step.block)]) add(step.block);
     problems_.throw_if_any();
+    mark_before_jumps();
     return std::move(plan_);
   }
 
@@ -162,7 +165,29 @@ class Planning {
         jump.turned = block;
       }
     }
-    for (int k = 0; k < b.sizes.outputs; ++k) jump_[at(b.y_begin + k)] = jump;
+    const bool moves = !b.kernel->is_sampled() &&
+                       std::any_of(b.source.begin(), b.source.end(), [&](int signal) { return moves_[at(signal)]; });
+    if (b.sizes.memory > 0 && moves && jump.way != Way::stands) turning_.push_back(block);
+    for (int k = 0; k < b.sizes.outputs; ++k) {
+      jump_[at(b.y_begin + k)] = jump;
+      moves_[at(b.y_begin + k)] = moves;
+    }
+  }
+  /// From the memory that may turn before a jump back to what is sampled or comes in.
+  void mark_before_jumps() {
+    std::vector<int> next = turning_;
+    plan_.before_jumps = !next.empty();
+    while (!next.empty()) {
+      const int block = next.back();
+      next.pop_back();
+      const auto planned = std::find_if(plan_.blocks.begin(), plan_.blocks.end(),
+                                        [&](const PlannedBlock& p) { return p.block == block; });
+      if (planned == plan_.blocks.end() || planned->before_jumps) continue;
+      planned->before_jumps = true;
+      const BlockInstance& b = plan_.program->blocks[at(block)];
+      if (b.kernel->is_sampled()) continue;
+      for (const int signal : b.source) next.push_back(plan_.program->signals[at(signal)].block);
+    }
   }
   void refuse_jump(const BlockInstance& b, const Jump& jump) {
     const BlockInstance& turned = plan_.program->blocks[at(jump.turned)];
@@ -188,7 +213,9 @@ class Planning {
 
   double period_;
   CPlan plan_;
-  std::vector<Jump> jump_;  // per signal
+  std::vector<Jump> jump_;    // per signal
+  std::vector<bool> moves_;   // per signal: with the inputs, from step to step
+  std::vector<int> turning_;  // memory that may turn where a movement ends and a jump begins
   Problems problems_;
 };
 

@@ -16,6 +16,8 @@ struct PlannedBlock {
   CCode code;
   long every = 1;  ///< steps from one of its instants to the next
   long first = 0;  ///< step of the first
+  /// It takes part in what stands before a jump: see CPlan::before_jumps.
+  bool before_jumps = false;
 };
 
 struct CPlan {
@@ -23,6 +25,10 @@ struct CPlan {
   Run begin;                         ///< as the code begins
   double period = 0;                 ///< [s] from step to step; 0: nothing in the code depends on it
   std::vector<PlannedBlock> blocks;  ///< in the order of the outputs
+  /// Memory reads what both moves from step to step and jumps with what is sampled. In the engine it first follows the
+  /// one, while what is sampled stands still, and then the other, and may turn between: so must the code. This concerns
+  /// the blocks marked so: memory, what leads to it, and what is sampled in front of that, whose last outputs are read.
+  bool before_jumps = false;
   std::vector<int> inputs, outputs;  ///< signals
 };
 

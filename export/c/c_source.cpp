@@ -37,6 +37,7 @@ class Writing {
       for (const auto& f : planned.code.functions) reserve_function(f);
     for (const auto& planned : plan_.blocks)
       for (const std::string* text : {&planned.code.output, &planned.code.update}) reserve_locals(*text);
+    if (plan_.before_jumps) members_.reserve("begun");
     ports();
     for (const auto& planned : plan_.blocks) name_outputs(planned);
     for (const auto& planned : plan_.blocks) write_block(planned);
@@ -235,20 +236,29 @@ class Writing {
     w.block = planned.block;
     const std::string& text = planned.code.output;
     w.single = b.sizes.outputs == 1 && text.starts_with("$out.") && text.find('\n') == std::string::npos &&
-               planned.every == 1 && planned.first == 0;
+               planned.every == 1 && planned.first == 0 && !is_held(planned);
     w.output = filled(text, planned);
     w.update = filled(planned.code.update, planned);
-    if (planned.every != 1 || planned.first != 0) hold(b, planned, w);
+    if (is_held(planned)) hold(b, planned, w);
     for (const auto& f : planned.code.functions)
       if (std::find(functions_.begin(), functions_.end(), f) == functions_.end()) functions_.push_back(f);
     written_.push_back(std::move(w));
   }
-  /// A block that does not run at every step holds its outputs between.
+  bool is_sampled(const PlannedBlock& planned) const { return program_.blocks[at(planned.block)].kernel->is_sampled(); }
+  static bool runs_always(const PlannedBlock& planned) { return planned.every == 1 && planned.first == 0; }
+  bool is_held(const PlannedBlock& planned) const {
+    return !runs_always(planned) || (planned.before_jumps && is_sampled(planned));
+  }
+  /// A block that does not run at every step holds its outputs between; what memory sees before a jump are the last
+  /// ones.
   void hold(const BlockInstance& b, const PlannedBlock& planned, Statements& w) {
     const std::string& block = block_name_.at(planned.block);
     Members& m = members_of_[block];
-    m.declared += "        unsigned long wait; /* steps until it runs again */\n";
-    m.begun += fmt::format("    s->{}.wait = {};\n", block, planned.first);
+    const bool waits = !runs_always(planned);
+    if (waits) {
+      m.declared += "        unsigned long wait; /* steps until it runs again */\n";
+      m.begun += fmt::format("    s->{}.wait = {};\n", block, planned.first);
+    }
     const std::span<const double> held{plan_.begin.m.data() + b.held_begin(), at(b.sizes.outputs)};
     member(b, block, "held", held, true, "outputs until it runs again");
     std::string keep, take;
@@ -256,6 +266,10 @@ class Writing {
       const std::string& y = variable_.at(b.y_begin + k);
       keep += fmt::format("\ns->{}.held[{}] = {};", block, k, y);
       take += fmt::format("\n{} = s->{}.held[{}];", y, block, k);
+    }
+    if (!waits) {
+      w.output += keep;
+      return;
     }
     w.output = fmt::format("if (s->{}.wait == 0) {{\n{}\n}} else {{{}\n}}", block, indented(w.output + keep, 4),
                            indented(take, 4));
@@ -294,6 +308,7 @@ class Writing {
     text += struct_of_ports(n + "_input", made_.inputs) + struct_of_ports(n + "_output", made_.outputs);
     text += "/* What is remembered from step to step; it belongs to the caller. */\ntypedef struct {\n";
     for (const auto& [block, m] : members_of_) text += "    struct {\n" + m.declared + "    } " + block + ";\n";
+    if (plan_.before_jumps) text += "    int begun; /* 0 before the first step */\n";
     if (members_of_.empty()) text += "    char none;\n";
     text += "} " + n + "_state;\n\n";
     text += fmt::format(
@@ -310,6 +325,7 @@ class Writing {
       if (used_.contains(plan_.inputs[i]))
         text += fmt::format("    const double {} = in->{}; /* {} */\n", variable_.at(plan_.inputs[i]),
                             made_.inputs[i].name, bracketed(made_.inputs[i].si_unit));
+    if (plan_.before_jumps) text += before_jumps();
     for (const auto& w : written_) {
       const BlockInstance& b = program_.blocks[at(w.block)];
       text += fmt::format("\n    /* {}: {}: {} */\n", in_comment(b.path), b.kernel->declaration.type,
@@ -329,6 +345,32 @@ class Writing {
       text += braced(w.update);
     }
     return text;
+  }
+  /// What memory sees where the inputs have moved and what is sampled has not jumped yet.
+  std::string before_jumps() const {
+    std::set<int> read;
+    for (const auto& planned : plan_.blocks)
+      if (planned.before_jumps && !is_sampled(planned))
+        read.insert(program_.blocks[at(planned.block)].source.begin(), program_.blocks[at(planned.block)].source.end());
+    std::string inside;
+    for (std::size_t i = 0; i < plan_.blocks.size(); ++i) {
+      if (!plan_.blocks[i].before_jumps) continue;
+      const BlockInstance& b = program_.blocks[at(plan_.blocks[i].block)];
+      const Statements& w = written_[i];
+      if (is_sampled(plan_.blocks[i])) {
+        for (int k = 0; k < b.sizes.outputs; ++k)
+          if (read.contains(b.y_begin + k))
+            inside += fmt::format("    const double {} = s->{}.held[{}];\n", variable_.at(b.y_begin + k),
+                                  block_name_.at(w.block), k);
+        continue;
+      }
+      inside += w.single ? "    const double " + w.output + "\n" : declared(b) + braced(w.output);
+      for (int k = 0; k < b.sizes.outputs; ++k)
+        if (!read.contains(b.y_begin + k)) inside += fmt::format("    (void){};\n", variable_.at(b.y_begin + k));
+    }
+    return "\n    /* The inputs have moved, and what is sampled has not jumped yet: memory follows up to here. */\n"
+           "    if (s->begun) {\n" +
+           indented(inside, 4) + (inside.ends_with('\n') ? "" : "\n") + "    }\n    s->begun = 1;\n";
   }
   std::string unit_behind(int signal) const {
     return fmt::format(" /* {} */\n", bracketed(si_name(program_.signals[at(signal)].dimension)));
@@ -351,6 +393,7 @@ class Writing {
     std::string functions, starts;
     for (const auto& f : functions_) functions += f + "\n";
     for (const auto& [block, m] : members_of_) starts += m.begun;
+    if (plan_.before_jumps) starts += "    s->begun = 0;\n";
     std::string text = opening(n + ".c") + "#include \"" + n + ".h\"\n\n";
     text += "#include <float.h>\n#include <math.h>\n\n";
     if (!constants_.empty()) text += "/* Numbers of the blocks [SI]. */\n" + constants_ + "\n";
