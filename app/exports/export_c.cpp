@@ -87,6 +87,11 @@ struct Coded {
   std::vector<std::string> replaced;
 };
 
+bool is_loop(const Error& error) {
+  return std::all_of(error.problems.begin(), error.problems.end(),
+                     [](const Problem& problem) { return problem.code == "algebraic_loop"; });
+}
+
 /// With straight inputs between the steps, or, where that makes a loop at one instant, with held ones.
 Coded coded(const CutDiagram& cut, double rate) {
   Coded made{cut.diagram, compile_file(cut.diagram), nullptr, {}};
@@ -95,7 +100,12 @@ Coded coded(const CutDiagram& cut, double rate) {
   if (period <= 0 || made.continuous->n_x == 0) return made;
   for (const auto between : {BetweenSteps::straight, BetweenSteps::held}) {
     SampledForm form = sampled_form(cut.diagram, *made.continuous, registry(), period, between);
-    made.program = compile_file(form.diagram);
+    try {
+      made.program = compile_file(form.diagram);
+    } catch (const Error& error) {
+      if (between == BetweenSteps::held || !is_loop(error)) throw;
+      continue;
+    }
     made.diagram = std::move(form.diagram);
     made.replaced = std::move(form.replaced);
     const auto& loops = made.program->loops;

@@ -34,6 +34,17 @@ Stepped sampled(const LinearBlock& l, double period, BetweenSteps between) {
   return {f, whole - g1 + f * g1, l.c, l.d + l.c * g1};
 }
 
+/// Both, neither of which sees anything of the other.
+Stepped side_by_side(const Stepped& one, const Stepped& other) {
+  const auto joined = [](const Matrix& p, const Matrix& q) {
+    Matrix all = Matrix::Zero(p.rows() + q.rows(), p.cols() + q.cols());
+    all.topLeftCorner(p.rows(), p.cols()) = p;
+    all.bottomRightCorner(q.rows(), q.cols()) = q;
+    return all;
+  };
+  return {joined(one.a, other.a), joined(one.b, other.b), joined(one.c, other.c), joined(one.d, other.d)};
+}
+
 class Replacing {
  public:
   Replacing(const Program& program, const Registry& registry, double period, BetweenSteps between)
@@ -60,16 +71,25 @@ class Replacing {
       return;
     }
     const Kernel* kernel = registry_.find(node.type);
-    int block = program_.block_index(path);
-    if (block < 0) block = program_.block_index(path + "[0]");  // one per element, all alike
-    if (kernel == nullptr || block < 0) return;
-    const BlockInstance& b = program_.blocks[static_cast<std::size_t>(block)];
+    const std::vector<int> elements = elements_of(path);
+    if (kernel == nullptr || elements.empty()) return;
+    const BlockInstance& b = program_.blocks[static_cast<std::size_t>(elements.front())];
     if (b.sizes.states == 0) return;
     const CLaw* law = find_c_law(node.type);
     if (law != nullptr && !law->sampled_type.empty())
       to_type(node, law->sampled_type, path);
-    else if (b.path == path && is_linear_block(b) && wires.size() == 1 && has_one_output(b))
-      to_matrices(node, wires, b, block, path);
+    else if (is_linear_block(b) && wires.size() == 1 && has_one_output(b))
+      to_matrices(node, wires, elements, path);
+  }
+  /// The blocks of the program that a node is: one, or one per element of the vector on which it works.
+  std::vector<int> elements_of(const std::string& path) const {
+    if (const int block = program_.block_index(path); block >= 0) return {block};
+    std::vector<int> blocks;
+    for (int block = 0; block >= 0;) {
+      block = program_.block_index(fmt::format("{}[{}]", path, blocks.size()));
+      if (block >= 0) blocks.push_back(block);
+    }
+    return blocks;
   }
   void to_type(Node& node, const std::string& type, const std::string& path) {
     replaced.push_back(fmt::format("{}: {} as {}", path, node.type, type));
@@ -89,14 +109,22 @@ class Replacing {
     }
     return text;
   }
-  void to_matrices(Node& node, std::vector<Wire>& wires, const BlockInstance& b, int block, const std::string& path) {
-    const LinearBlock linear = linear_block(program_, run_, block);
-    if (!linear.rests || !linear.y0.isZero(0)) return;  // something besides its input moves it
+  /// Elements stand side by side in the matrices: what is outside of their squares is zero.
+  void to_matrices(Node& node, std::vector<Wire>& wires, const std::vector<int>& elements, const std::string& path) {
+    Stepped l;
+    std::vector<int> inputs, outputs;
+    NumberList initial;
+    for (const int block : elements) {
+      const LinearBlock linear = linear_block(program_, run_, block);
+      if (!linear.rests || !linear.y0.isZero(0)) return;  // something besides its input moves it
+      l = side_by_side(l, sampled(linear, period_, between_));
+      const BlockInstance& b = program_.blocks[static_cast<std::size_t>(block)];
+      inputs.insert(inputs.end(), b.source.begin(), b.source.end());
+      for (int k = 0; k < b.sizes.outputs; ++k) outputs.push_back(b.y_begin + k);
+      for (int k = 0; k < b.sizes.states; ++k) initial.push_back({run_.x[static_cast<std::size_t>(b.x_begin + k)], {}});
+    }
     replaced.push_back(fmt::format("{}: {} as matrices from step to step, its input {} between them", path, node.type,
                                    between_ == BetweenSteps::straight ? "straight" : "held"));
-    const Stepped l = sampled(linear, period_, between_);
-    std::vector<int> outputs;
-    for (int k = 0; k < b.sizes.outputs; ++k) outputs.push_back(b.y_begin + k);
     node.type = "discrete_state_space";
     node.parameters = {};
     node.parameters_from_file = {};
@@ -105,10 +133,8 @@ class Replacing {
     node.parameters["b"] = written_matrix(l.b);
     node.parameters["c"] = written_matrix(l.c);
     if (!l.d.isZero(0)) node.parameters["d"] = written_matrix(l.d);
-    NumberList initial;
-    for (int k = 0; k < b.sizes.states; ++k) initial.push_back({run_.x[static_cast<std::size_t>(b.x_begin + k)], {}});
     node.parameters["initial"] = initial;
-    node.parameters["input_unit"] = units(b.source);
+    node.parameters["input_unit"] = units(inputs);
     node.parameters["output_unit"] = units(outputs);
     node.parameters["period"] = Number{period_, "s"};
     wires.front().port.clear();

@@ -101,6 +101,60 @@ TEST(ExportC, LinearPartsAreMatricesFromStepToStep) {
   EXPECT_TRUE(holds(page, "pi: pi_controller as matrices from step to step, its input straight")) << page;
 }
 
+// Each element has states of its own, and for a ramp comes out where the closed form does.
+TEST(ExportC, LinearPartsOnVectorsAreMatricesOfTheirElements) {
+  const Folder folder;
+  folder.write("d.json",
+               R"({"format": 1, "title": "two axes", "inputs": {"e": {"unit": "mrad", "length": 2}}, "blocks": {
+    "filter": {"type": "lag", "times": ["2 ms", "5 ms"], "in": "e"},
+    "pi": {"type": "pi_controller", "kp": "3 V/mrad", "ki": "40 V/mrad/s", "in": "e"},
+    "only": {"type": "lag", "times": ["2 ms", "5 ms"], "in": "e[1]"}},
+    "outputs": {"filter": "filter", "pi": "pi", "only": "only"}})");
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "10 kHz"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_TRUE(run.code == 0 && holds(run.out, in_c::same_bits)) << run.out << run.err;
+  folder.write("out/two.c", R"(#include "comp.h"
+#include <stdio.h>
+int main(void)
+{
+    comp_state s;
+    comp_input in = {0.0, 0.0};
+    comp_output out;
+    int k, same = 1;
+    comp_start(&s);
+    for (k = 0; k < 50; ++k) {
+        in.e_0 = 1e-3 * k;
+        in.e_1 = -2e-3 * (k % 7);
+        comp_step(&s, &in, &out);
+        same = same && out.filter_1 == out.only;
+    }
+    printf("%d %.9f %.6f\n", same, out.filter_0, out.pi_0);
+    return 0;
+}
+)");
+  const Outcome two = process::shell(folder.path(), "cd out && cc -std=c99 -o two two.c comp.c -lm && ./two");
+  // A ramp r t [rad] behind two lags is r (t - T1 - T2 + (T1^2 e^(-t/T1) - T2^2 e^(-t/T2)) / (T1 - T2)).
+  const double r = 10, t = 4.9e-3, t1 = 2e-3, t2 = 5e-3;
+  const double lagged = r * (t - t1 - t2 + (t1 * t1 * std::exp(-t / t1) - t2 * t2 * std::exp(-t / t2)) / (t1 - t2));
+  EXPECT_EQ(two.out, fmt::format("1 {:.9f} {:.6f}\n", lagged, 3e3 * r * t + 40e3 * r * t * t / 2)) << two.err;
+}
+
+// Straight inputs would make a loop at one instant of it: a controller and its plant, each with matrices of its own.
+TEST(ExportC, ALoopOfLinearPartsIsWrittenWithHeldInputs) {
+  const Folder folder;
+  folder.write("d.json", R"({"format": 1, "title": "loop", "inputs": {"w": {"unit": "um"}}, "blocks": {
+    "error": {"type": "sum", "signs": "+-", "in": ["w", "stage"]},
+    "pi": {"type": "pi_controller", "kp": "0.2 V/um", "ki": "300 V/um/s", "in": "error"},
+    "amplifier": {"type": "lag", "times": ["2 ms"], "in": "pi"},
+    "stage": {"type": "gain", "gain": "1.2 um/V", "in": "amplifier"}}, "outputs": {"y": "stage"}})");
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "10 kHz"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(holds(outcome.out, "amplifier: lag as matrices from step to step, its input held")) << outcome.out;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_TRUE(run.code == 0 && holds(run.out, in_c::same_bits)) << run.out << run.err;
+}
+
 TEST(ExportC, SumsOfSamplesHaveTheBitsOfTheEngine) {
   const Folder folder;
   folder.write("d.json", R"({"format": 1, "title": "sums", "inputs": {"v": {"unit": "um/s"}}, "blocks": {
@@ -159,6 +213,43 @@ TEST(ExportC, MemoryBehindAJumpThatTurnsIsRefusedWithTheSampledSignalAsItsCure) 
   has_the_bits({"d.json", "--from", "held", "--rate", "1 kHz"});
   write(R"("type": "saturation", "lower": 0.2, "upper": 0.7)");  // rises only
   has_the_bits({"d.json", "--rate", "1 kHz"});
+}
+// What a sampled block gives is held while u moves on, and then jumps: memory of u - y turns there if the jump goes
+// back. Play of radius r, by hand: z = max(u - r, min(u + r, z)), first at the last sample, then at the new one.
+TEST(ExportC, MemoryTurnsWhereAMovementEndsAndAJumpBegins) {
+  const Folder folder;
+  folder.write("d.json", R"({"format": 1, "title": "t", "inputs": {"u": {}}, "blocks": {
+    "held": {"type": "sample_hold", "period": "1 ms", "in": "u"},
+    "left": {"type": "sum", "signs": "+-", "in": ["u", "held"]},
+    "slack": {"type": "play", "radius": 0.1, "in": "left"},
+    "core": {"type": "preisach", "levels": [-0.3, -0.1, 0.1, 0.3], "weights": [0.1, 0.2, 0.1, 0.3, 0.05, 0.2],
+             "gain": 0.5, "in": "left"}},
+    "outputs": {"slack": "slack", "core": "core"}})");
+  const Outcome outcome = in_c::exported(folder, {"d.json", "--rate", "1 kHz"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome run = in_c::tried(folder);
+  EXPECT_TRUE(run.code == 0 && holds(run.out, in_c::same_bits)) << run.out << run.err;
+  folder.write("out/four.c", R"(#include "comp.h"
+#include <stdio.h>
+int main(void)
+{
+    static const double u[4] = {0.5, 1.0, 0.75, 0.7};
+    comp_state s;
+    comp_input in;
+    comp_output out;
+    int k;
+    comp_start(&s);
+    for (k = 0; k < 4; ++k) {
+        in.u = u[k];
+        comp_step(&s, &in, &out);
+        printf("%.2f ", out.slack);
+    }
+    return 0;
+}
+)");
+  const Outcome four = process::shell(folder.path(), "cd out && cc -std=c99 -o four four.c comp.c -lm && ./four");
+  // u - held goes 0; 0.5 and back to 0; -0.25 and back; -0.05 and back.
+  EXPECT_EQ(four.out, "0.00 0.10 -0.10 -0.10 ") << four.err;
 }
 TEST(LongExportC, ManyRandomDiagramsHaveTheBitsOfTheEngine) {
   for (unsigned seed = 1000; seed < 1400; ++seed) expect_the_bits_of_the_engine(seed);
