@@ -10,6 +10,9 @@ export function short(value: number, digits = 4): string {
 
 export const withUnit = (value: number, unit: string, digits = 4) => (unit ? `${short(value, digits)} ${unit}` : short(value, digits));
 
+/// The unit of 1/time, where times are in `unit`.
+export const frequencyUnit = (unit: string) => (unit === 's' ? 'Hz' : unit && `1/${unit}`);
+
 /// How far something is: nobody reads tenths of it.
 export const wholePercent = (share: number) => `${Math.floor(100 * share)} %`;
 

@@ -3,6 +3,7 @@
 
 import {useMemo, useState} from 'react';
 import type {Stretch} from '../data/api';
+import {frequencyUnit} from '../numbers';
 import type {Point, TraceHead} from '../types';
 import {useHeight} from './size';
 import {spectrumOf, thinned} from './spectrum';
@@ -51,7 +52,7 @@ export function LoopView({path, head, range, colourOf}: Props) {
       <div className="signals axes">{select('y', y)}{select('x', x)}</div>
       <div className="plots" ref={holder}>
         <XyPlot curves={[...curveOf(stretch, y), ...curveOf(both, other)]} x={{name: x, unit: unitOf(x)}} y={{name: y, unit: unitOf(y)}} height={Math.max(160, height - 32)}
-                note={isEachRow(stretch) ? `${stretch?.x.length ?? 0} rows${range ? ' of the stretch that is zoomed in' : ''}` : `means of ${Math.ceil(head.rows / most)} rows: zoom in over time for each row`} />
+                note={isEachRow(stretch) ? `${stretch?.x.length ?? 0} rows${range ? ' of the stretch that is zoomed in' : ''}` : 'each point is the middle between the smallest and the largest of several rows: zoom in over time for each row'} />
       </div>
     </div>
   );
@@ -59,22 +60,25 @@ export function LoopView({path, head, range, colourOf}: Props) {
 
 export function SpectrumView({path, head, range, shown, colourOf}: Props & {shown: string[]}) {
   const names = useMemo(() => head.columns.slice(1).map((c) => c.name), [head]);
-  const units = [...new Set(shown.map((n) => head.columns.find((c) => c.name === n)?.unit ?? ''))];
+  const unitOf = (name: string) => head.columns.find((c) => c.name === name)?.unit ?? '';
+  const units = [...new Set(shown.map(unitOf))];
   const stretch = useStretch(path, shown, range, most);
   const [height, holder] = useHeight(220);
   const eachRow = isEachRow(stretch);
   const curves = useMemo(() => (stretch && eachRow ? stretch.columns : []).map((c): XyCurve & {name: string} =>
     ({name: c.name, label: c.name, color: colourOf(c.name, names.indexOf(c.name)), ...thinned(spectrumOf(stretch!.x, c.low), drawn)})), [stretch, eachRow, names, colourOf]);
-  const timeUnit = head.columns[0].unit;
   if (shown.length === 0) return <p className="empty">Tick a signal over time to see its spectrum.</p>;
   if (!eachRow) return <p className="empty">A spectrum takes each row, and here are more than {most}: zoom in over time.</p>;
   return (
     <div className="plots" ref={holder}>
-      {units.map((unit) => (
-        <XyPlot key={unit} curves={curves.filter((c) => (head.columns.find((h) => h.name === c.name)?.unit ?? '') === unit)} height={Math.max(160, Math.floor(height / units.length) - 32)}
-                x={{name: 'frequency', unit: timeUnit === 's' ? 'Hz' : timeUnit && `1/${timeUnit}`, logarithmic: true}} y={{name: 'amplitude', unit, logarithmic: true}}
-                note={`${curves.filter((c) => (head.columns.find((h) => h.name === c.name)?.unit ?? '') === unit).map((c) => c.name).join(', ')}: a sine of amplitude a is a peak of height a (window of Hann)`} />
-      ))}
+      {units.map((unit) => {
+        const here = curves.filter((c) => unitOf(c.name) === unit);
+        return (
+          <XyPlot key={unit} curves={here} height={Math.max(160, Math.floor(height / units.length) - 32)}
+                  x={{name: 'frequency', unit: frequencyUnit(head.columns[0].unit), logarithmic: true}} y={{name: 'amplitude', unit, logarithmic: true}}
+                  note={`${here.map((c) => c.name).join(', ')}: a sine of amplitude a is a peak of height a (Hann window)`} />
+        );
+      })}
     </div>
   );
 }

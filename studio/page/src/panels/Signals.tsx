@@ -2,7 +2,7 @@
 // with what lies between.
 
 import {useStudio} from '../data/store';
-import {short} from '../numbers';
+import {frequencyUnit, short} from '../numbers';
 import type {TraceHead} from '../types';
 import {Field} from './Inspector';
 import type {AtCursors} from './cursors';
@@ -23,7 +23,7 @@ const told = (value: number | undefined, digits = 5) => (value === undefined ? '
 function Between({cursors, unit}: {cursors: AtCursors; unit: string}) {
   const [a, b] = [cursors.first?.at, cursors.second?.at];
   if (a === undefined || b === undefined || a === b) return null;
-  return <li className="between">1/(B − A) <span className="now">{short(1 / Math.abs(b - a), 5)} <span className="muted">{unit === 's' ? 'Hz' : unit && `1/${unit}`}</span></span></li>;
+  return <li className="between">1/(B − A) <span className="now">{short(1 / Math.abs(b - a), 5)} <span className="muted">{frequencyUnit(unit)}</span></span></li>;
 }
 
 export function Signals({head, off, onOff, colourOf, at, cursors, children}: Props) {

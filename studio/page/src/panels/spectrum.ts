@@ -1,4 +1,4 @@
-// Decides how the spectrum of a stretch of rows is made: amplitudes of its sines, with Hann's window. Plain functions.
+// Decides how the spectrum of a stretch of rows is made: amplitudes of its sines, with a Hann window. Plain functions.
 
 /// Rows on an even grid between the first and the last time: as they are, or interpolated where steps differ.
 export function evenly(times: ArrayLike<number>, values: ArrayLike<number>): {step: number; values: Float64Array} {
@@ -49,7 +49,7 @@ export interface Spectrum {
   amplitude: Float64Array;  // in the unit of the signal: a sine of amplitude a is a peak of height a
 }
 
-/// One-sided amplitudes of what is left without the mean. Hann's window: a sine between two lines loses at most 15 %
+/// One-sided amplitudes of what is left without the mean. Hann window: a sine between two lines loses at most 15 %
 /// without, and 1 % with the zeros that are put behind (four times the rows at least).
 export function spectrumOf(times: ArrayLike<number>, values: ArrayLike<number>): Spectrum {
   const {step, values: even} = evenly(times, values);
