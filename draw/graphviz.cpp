@@ -8,8 +8,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <list>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "engine/diagram/error.h"
 
@@ -71,6 +75,40 @@ std::string ask_dot(const std::string& graph) {
   return content(out.get());
 }
 
+/// What dot answered, by what it was asked: most edits of a diagram ask the same as the one before, and so do nested
+/// diagrams of one file. The answer follows from the question alone.
+class Answers {
+ public:
+  std::optional<std::vector<double>> find(const std::string& graph) {
+    const std::lock_guard lock(mutex_);
+    for (auto i = list_.begin(); i != list_.end(); ++i)
+      if (i->graph == graph) {
+        list_.splice(list_.begin(), list_, i);
+        return i->heights;
+      }
+    return {};
+  }
+  void add(const std::string& graph, const std::vector<double>& heights) {
+    const std::lock_guard lock(mutex_);
+    list_.push_front({graph, heights});
+    if (list_.size() > most_) list_.pop_back();
+  }
+
+ private:
+  struct Answer {
+    std::string graph;
+    std::vector<double> heights;
+  };
+  static constexpr std::size_t most_ = 32;  // a graph of 1000 blocks is 0.1 MB
+  std::mutex mutex_;
+  std::list<Answer> list_;  // the last one asked for first
+};
+
+Answers& answers() {
+  static Answers all;
+  return all;
+}
+
 }  // namespace
 
 std::vector<double> heights_by_dot(const std::vector<double>& cell_heights, const std::vector<DotEdge>& edges) {
@@ -81,6 +119,8 @@ std::vector<double> heights_by_dot(const std::vector<double>& cell_heights, cons
     graph += fmt::format("c{} [height={:.4f}];\n", i, cell_heights[i] / per_inch);
   for (const auto& edge : edges) graph += fmt::format("c{} -> c{} [weight={}];\n", edge.from, edge.to, edge.weight);
   graph += "}\n";
+
+  if (auto known = answers().find(graph)) return std::move(*known);
 
   // "node c3 x y width height ...", y upwards in inches.
   std::vector<double> heights(cell_heights.size(), 0);
@@ -96,6 +136,7 @@ std::vector<double> heights_by_dot(const std::vector<double>& cell_heights, cons
   if (found != heights.size())
     fail("graphviz_failed", "dot", fmt::format("dot of Graphviz placed {} of {} blocks", found, heights.size()),
          "check it with \"dot -V\"; any version from 2.30 will do");
+  answers().add(graph, heights);
   return heights;
 }
 

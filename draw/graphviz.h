@@ -14,7 +14,8 @@ struct DotEdge {
 };
 
 /// Heights [px, downwards, middle of each cell] for cells of these heights in a layered drawing from left to right.
-/// Throws Error "no_graphviz" if dot cannot be run, "graphviz_failed" if it refuses.
+/// What was asked before is answered without dot. Throws Error "no_graphviz" if dot cannot be run, "graphviz_failed" if
+/// it refuses.
 std::vector<double> heights_by_dot(const std::vector<double>& cell_heights, const std::vector<DotEdge>& edges);
 
 }  // namespace hysteron::draw

@@ -50,7 +50,15 @@ struct Entry {
 class Router {
  public:
   Router(Sheet& sheet, const std::vector<Net>& nets, const std::vector<std::vector<Cell>>& columns)
-      : sheet_(sheet), nets_(nets), columns_(columns), channels_(columns.size() + 1), entry_(sheet.wires.size()) {}
+      : sheet_(sheet),
+        nets_(nets),
+        columns_(columns),
+        net_of_(sheet.wires.size(), -1),
+        channels_(columns.size() + 1),
+        entry_(sheet.wires.size()) {
+    for (std::size_t n = 0; n < nets.size(); ++n)
+      for (const int w : nets[n].wires) net_of_[static_cast<std::size_t>(w)] = static_cast<int>(n);
+  }
 
   void run() {
     find_heights();
@@ -88,12 +96,7 @@ class Router {
     return passage_.at({net, column});
   }
 
-  int net_of(int wire) const {
-    for (std::size_t n = 0; n < nets_.size(); ++n)
-      for (const int w : nets_[n].wires)
-        if (w == wire) return static_cast<int>(n);
-    return -1;
-  }
+  int net_of(int wire) const { return net_of_[static_cast<std::size_t>(wire)]; }
 
   // --- how wires enter sums ------------------------------------------------------------------------------------------
 
@@ -399,6 +402,7 @@ class Router {
   Sheet& sheet_;
   const std::vector<Net>& nets_;
   const std::vector<std::vector<Cell>>& columns_;
+  std::vector<int> net_of_;                        ///< per wire
   std::vector<std::vector<Trunk>> channels_;       ///< channel c lies left of column c
   std::vector<Entry> entry_;                       ///< per wire
   std::vector<Cell> cells_;                        ///< per item

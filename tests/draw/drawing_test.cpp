@@ -408,11 +408,26 @@ TEST(Drawing, TheLawsSeeWhatIsWrong) {
   EXPECT_NE(faults(moved).find("lie on each other"), std::string::npos);
 }
 
+/// Nothing is found on its path while it lives, dot of Graphviz neither.
+class EmptyPath {
+ public:
+  EmptyPath() { setenv("PATH", "/nowhere", 1); }
+  ~EmptyPath() { setenv("PATH", path_.c_str(), 1); }
+  EmptyPath(const EmptyPath&) = delete;
+  EmptyPath& operator=(const EmptyPath&) = delete;
+
+ private:
+  const std::string path_ = std::getenv("PATH");
+};
+
 TEST(Drawing, WithoutGraphvizSaysHowToGetIt) {
-  const Diagram d = loop();
+  Diagram d = loop();
+  for (const char* more : {"one", "two", "three"}) {  // no other test draws it
+    d.blocks[more] = lag("plant");
+    d.record.push_back(more);
+  }
   const ProgramPointer program = compile(d, registry());
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", "/nowhere", 1);
+  const EmptyPath nothing;
   try {
     diagram_svg(d, *program, registry());
     ADD_FAILURE() << "drawn without dot";
@@ -420,7 +435,17 @@ TEST(Drawing, WithoutGraphvizSaysHowToGetIt) {
     EXPECT_EQ(error.problems.at(0).code, "no_graphviz");
     EXPECT_NE(error.problems.at(0).cure.find("apt install graphviz"), std::string::npos);
   }
-  setenv("PATH", path.c_str(), 1);
+}
+
+TEST(Drawing, GraphvizIsNotAskedAgainWhereOnlyNumbersDiffer) {
+  Diagram d = loop();
+  const std::string before = diagram_svg(d, *compile(d, registry()), registry());
+  d.blocks["reference"].parameters["amplitude"] = Value("4 um");
+  const ProgramPointer program = compile(d, registry());
+  const EmptyPath nothing;
+  const std::string after = diagram_svg(d, *program, registry());
+  EXPECT_NE(after, before);
+  EXPECT_NE(after.find("4 um"), std::string::npos);
 }
 
 }  // namespace
