@@ -206,14 +206,13 @@ HttpReply Api::live(const HttpRequest& request) {
   return {200, "application/octet-stream", live_.answer(asked_of(request)), {}, {}};
 }
 
-HttpReply Api::viewed(const std::string& name, int depth) {
-  return reply_of(view_of(folder_.file(name), *settings_.registry, {settings_.jobs.allowed, depth}));
+HttpReply Api::viewed(const json& asked) {
+  Json view = view_of(folder_.file(asked.value("path", "")), *settings_.registry,
+                      {settings_.jobs.allowed, asked.value("depth", 0)});
+  return {200, "application/json", told_.tell(std::move(view), asked.value("had", "")), {}, {}};
 }
 
-HttpReply Api::view(const HttpRequest& request) {
-  const json asked = asked_of(request);
-  return viewed(asked.value("path", ""), asked.value("depth", 0));
-}
+HttpReply Api::view(const HttpRequest& request) { return viewed(asked_of(request)); }
 
 HttpReply Api::fits(const HttpRequest& request) {
   const json asked = asked_of(request);
@@ -228,17 +227,17 @@ HttpReply Api::read(const HttpRequest& request) {
 
 HttpReply Api::write(const HttpRequest& request) {
   const json asked = asked_of(request);
-  const std::string name = asked.value("path", ""), file = folder_.file(name);
+  const std::string file = folder_.file(asked.value("path", ""));
   const std::lock_guard lock(writing_);
   if (const std::string now = digest_of(file); now != asked.value("hash", ""))
     return reply_of({{"hash", now}, {"text", now.empty() ? "" : read_file(file)}}, conflict);
   write_file(file, asked.at("text").get<std::string>());
-  return viewed(name, asked.value("depth", 0));
+  return viewed(asked);
 }
 
 HttpReply Api::edit(const HttpRequest& request) {
   const json asked = asked_of(request);
-  const std::string name = asked.value("path", ""), file = folder_.file(name);
+  const std::string file = folder_.file(asked.value("path", ""));
   const std::lock_guard lock(writing_);
   const std::string text = read_file(file);
   if (const std::string now = digest_of(file); now != asked.value("hash", ""))
@@ -247,12 +246,12 @@ HttpReply Api::edit(const HttpRequest& request) {
   for (const auto& one : asked.at("edits")) edits.push_back(edit_of(one));
   write_file(file, edited_json(text, edits));
   follow_names(file, edits);
-  return viewed(name, asked.value("depth", 0));
+  return viewed(asked);
 }
 
 HttpReply Api::layout(const HttpRequest& request) {
   const json asked = asked_of(request);
-  const std::string name = asked.value("path", ""), file = folder_.file(name);
+  const std::string file = folder_.file(asked.value("path", ""));
   const std::lock_guard lock(writing_);
   BlockPlaces places = read_layout(file);
   for (const auto& [block, place] : asked.at("moves").items()) {
@@ -262,7 +261,7 @@ HttpReply Api::layout(const HttpRequest& request) {
       places[block] = place.get<std::array<int, 2>>();
   }
   write_places(file, places);
-  return viewed(name, asked.value("depth", 0));
+  return viewed(asked);
 }
 
 HttpReply Api::begin_job(const HttpRequest& request) { return reply_of({{"id", jobs_.begin(asked_of(request))}}); }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "studio/import.h"
 #include "studio/jobs.h"
 #include "studio/live.h"
+#include "studio/told_views.h"
 #include "studio/trace_file.h"
 
 namespace hysteron::studio {
@@ -60,7 +62,7 @@ class Api {
   HttpReply import_start(const HttpRequest& request);
   HttpReply import_join(const HttpRequest& request);
   HttpReply live(const HttpRequest& request);
-  HttpReply viewed(const std::string& name, int depth);
+  HttpReply viewed(const nlohmann::json& asked);
 
   const OpenFolder& folder_;
   ApiSettings settings_;
@@ -68,6 +70,7 @@ class Api {
   TraceFiles traces_;
   Import import_;
   Live live_;
+  ToldViews told_;
   std::map<std::string, Handler> handlers_;  ///< "GET /api/hello"
   std::mutex writing_;
   std::mutex tickets_mutex_;

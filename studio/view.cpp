@@ -36,6 +36,16 @@ Json each_once(const Json& problems) {
   return list;
 }
 
+/// A text as its lines, which "\n" joins again: where one line is changed, only that one has to be told.
+Json lines_of(const std::string& text) {
+  Json lines = Json::array();
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    lines.push_back(text.substr(begin, end - begin));
+  lines.push_back(text.substr(begin));
+  return lines;
+}
+
 Json points_json(const draw::Curve& curve) {
   Json points = Json::array();
   for (const auto& [x, y] : curve) points.push_back({x, y});
@@ -98,7 +108,7 @@ Json view_of(const std::string& file, const Registry& registry, const ViewOption
   const std::string text = read_file(file);
   Digest digest;
   digest.add(text);
-  view["text"] = text;
+  view["lines"] = lines_of(text);
   view["hash"] = digest.text();
   view["sheet"] = nullptr;
   view["places"] = Json::object();

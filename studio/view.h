@@ -15,9 +15,9 @@ struct ViewOptions {
   int depth = 0;                       ///< levels of nested diagrams that are opened
 };
 
-/// {"text", "hash", "problems", "warnings", "sheet", "places"} of a diagram file; "sheet" is null where the file cannot
-/// be read as a diagram, which "problems" tells; "places": where blocks were moved to by hand (layout_file.h). Throws
-/// Error where there is no such file.
+/// {"lines", "hash", "problems", "warnings", "sheet", "places"} of a diagram file; "lines": its text, which "\n" joins
+/// again; "sheet" is null where the file cannot be read as a diagram, which "problems" tells; "places": where blocks
+/// were moved to by hand (layout_file.h). Throws Error where there is no such file.
 nlohmann::ordered_json view_of(const std::string& file, const Registry& registry, const ViewOptions& options);
 
 /// For each input port of the diagram whether a wire from `signal` may end there: [{"item", "in", "why"}], "why" empty

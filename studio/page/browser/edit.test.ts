@@ -119,6 +119,26 @@ describe('editing', () => {
     await back();
   });
 
+  it('is told of an edit what differs, and draws nothing but that', async () => {
+    const {page} = studio;
+    await studio.block('drive').click();
+    const input = page.locator('.inspector input[aria-label="amplitude"]');
+    await input.fill('3 V');
+    await page.evaluate(() => {
+      const changed: string[] = ((window as any).changed = []);
+      const see = (list: MutationRecord[]) => list.forEach((m) => changed.push((m.target.parentElement?.closest('.react-flow__node, .react-flow__edge') as HTMLElement)?.dataset.id ?? 'the canvas'));
+      new MutationObserver(see).observe(document.querySelector('.react-flow__viewport')!, {subtree: true, childList: true, characterData: true, attributes: true});
+    });
+    const [reply] = await Promise.all([page.waitForResponse((r) => r.url().includes('/api/edit')), input.press('Enter')]);
+    await page.locator('.react-flow__node[data-id="drive"] .line:has-text("3 V")').waitFor();
+    const {view, patch} = await reply.json();
+    expect(view).toBeUndefined();
+    // The line of the text and the hash of it; what stands below the block, and what the mouse is told there.
+    expect(patch.map((p: {path: string}) => p.path.replace(/\d+/g, 'N')).sort()).toEqual(['/hash', '/lines/N', '/sheet/items/N/caption/N', '/sheet/items/N/tip']);
+    expect([...new Set(await page.evaluate(() => (window as any).changed))]).toEqual(['drive']);
+    await back();
+  });
+
   it('takes back 50 random edits to the byte, also after a reload', async () => {
     const {page} = studio;
     let state = 11;

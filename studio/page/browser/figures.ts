@@ -3,7 +3,7 @@
 
 import {readFileSync} from 'node:fs';
 import {axis, flat, nested} from './large';
-import {Studio} from './studio';
+import {diagramOf, drive, Studio} from './studio';
 
 const minutes = Number(process.argv[3] ?? 5);
 const tell = (what: string, value: string) => console.log(`${what.padEnd(58)} ${value}`);
@@ -15,6 +15,7 @@ const studio = new Studio();
 studio.write('large/axis.json', axis);
 studio.write('large/machine.json', nested(20));
 studio.write('large/flat.json', flat(100));
+studio.write('long.json', diagramOf([drive, '"behind": {"type": "lag", "times": ["10 ms"], "in": "drive"}'], ['drive', 'behind']).replace('"1 s", "every": "1 ms"', '"10 s", "every": "1 us"'));
 studio.copy('diagrams/discover/demo', 'demo');
 studio.copy('docs/loop.json', 'loop.json');
 await studio.serve();
@@ -50,18 +51,26 @@ async function frames(act: () => Promise<void>): Promise<number> {
   return median(times.slice(1).map((t, i) => t - times[i]));
 }
 
+const select = (block: string) => page.evaluate((name) => (document.querySelector(`.react-flow__node[data-id="${name}"]`) as HTMLElement).dispatchEvent(new MouseEvent('click', {bubbles: true})), block);
+const drawn = () => page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r))));
+
+/// From what is done until the answer to it is drawn.
+async function answered(request: string, act: () => Promise<void>): Promise<number> {
+  const begin = performance.now();
+  await Promise.all([page.waitForResponse((r) => r.url().includes(request)), act()]);
+  await drawn();
+  return performance.now() - begin;
+}
+
 async function edit(block: string, field: string, values: string[]): Promise<{wait: number; bytes: number; asked: number}> {
-  await page.evaluate((name) => (document.querySelector(`.react-flow__node[data-id="${name}"]`) as HTMLElement).dispatchEvent(new MouseEvent('click', {bubbles: true})), block);
+  await select(block);
   const input = page.locator(`.inspector input[aria-label="${field}"]`);
   await input.waitFor();
   const waits: number[] = [];
   for (const value of values) {
     taken.length = 0;
     await input.fill(value);
-    const begin = performance.now();
-    await Promise.all([page.waitForResponse((r) => r.url().includes('/api/edit')), input.press('Enter')]);
-    await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r))));  // it is drawn
-    waits.push(performance.now() - begin);
+    waits.push(await answered('/api/edit', () => input.press('Enter')));
   }
   await studio.until(() => taken.some((t) => t.url === '/api/edit'));
   const last = taken.find((t) => t.url === '/api/edit')!;
@@ -87,6 +96,9 @@ for (const [file, block, one] of [['large/machine.json', 'move', 'axis_1'], ['la
   await page.waitForTimeout(500);
   const large = await edit(block, 'amplitude', ['21 mm', '22 mm', '23 mm', '20 mm']);
   tell(`${file}: an edit: sent, answered, drawn`, `${large.asked} B, ${kB(large.bytes)}, ${ms(large.wait)}`);
+  await select(one);
+  await page.locator('.canvas').focus();
+  tell(`${file}: a block removed, and brought back`, `${ms(await answered('/api/edit', () => page.keyboard.press('Delete')))}, ${ms(await answered('/api/file', () => page.click('[aria-label="undo"]')))}`);
   tell(`${file}: a frame while it is panned, all in view`, ms(await frames(pan)));
   for (let i = 0; i < 5; ++i) await page.click('.react-flow__controls-zoomin');
   await page.waitForTimeout(500);
@@ -103,10 +115,28 @@ for (const [file, block, one] of [['large/machine.json', 'move', 'axis_1'], ['la
   await page.waitForTimeout(500);
 }
 
+await studio.openDiagram('long.json');
+await page.click('.topbar button:text-is("Run")');
+await page.locator('.plot canvas').first().waitFor();
+const plot = (await page.locator('.plot .u-over').first().boundingBox())!;
+const zooms: number[] = [];
+for (let i = 0; i < 7; ++i) {
+  await page.mouse.move(plot.x + 0.2 * plot.width, plot.y + plot.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(plot.x + 0.7 * plot.width, plot.y + plot.height / 2, {steps: 3});
+  zooms.push(await answered('/api/trace', () => page.mouse.up()));
+}
+const out = await answered('/api/trace', () => page.mouse.dblclick(plot.x + plot.width / 2, plot.y + plot.height / 2));
+tell('10^7 rows: zoomed in, seven times by two; all of it again', `median ${ms(median(zooms))}, largest ${ms(Math.max(...zooms))}; ${ms(out)}`);
+
 // Random use: edits, undos, runs, tabs, zoom; the same each time.
+const files = ['demo/stage.json', 'loop.json', 'large/machine.json'];
 const client = await page.context().newCDPSession(page);
 async function memory(): Promise<string> {
-  await client.send('HeapProfiler.collectGarbage');
+  await studio.openDiagram(files[0]);  // each time the same is looked at: what is more is kept by somebody
+  await page.locator('.results .tabs button').first().click();
+  await page.waitForTimeout(1000);
+  for (let i = 0; i < 3; ++i) await client.send('HeapProfiler.collectGarbage');
   const {metrics} = (await client.send('Performance.getMetrics')) as {metrics: {name: string; value: number}[]};
   const of = (name: string) => metrics.find((m) => m.name === name)?.value ?? 0;
   const server = Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${studio.pid}/status`, 'utf8'))![1]);
@@ -115,11 +145,14 @@ async function memory(): Promise<string> {
 await client.send('Performance.enable');
 let state = 7;
 const random = (below: number) => (state = (state * 1103515245 + 12345) % 2147483648) % below;
-const files = ['demo/stage.json', 'loop.json', 'large/machine.json'];
-await studio.openDiagram(files[0]);
 tell('memory before', await memory());
 let done = 0;
+let half = Date.now() + 30000 * minutes;
 for (const end = Date.now() + 60000 * minutes; Date.now() < end; ++done) {
+  if (Date.now() > half) {
+    half = end;
+    tell(`memory after ${done} actions`, await memory());
+  }
   const tabs = page.locator('.results .tabs button');
   switch (random(8)) {
     case 0: await studio.openDiagram(files[random(files.length)]); break;
@@ -138,7 +171,6 @@ for (const end = Date.now() + 60000 * minutes; Date.now() < end; ++done) {
     }
   }
 }
-await page.waitForTimeout(2000);
 tell(`memory after ${minutes} min of random use, ${done} actions`, await memory());
 tell('complaints of the page', String(studio.complaints.length));
 for (const complaint of studio.complaints.slice(0, 5)) console.log(`  ${complaint}`);

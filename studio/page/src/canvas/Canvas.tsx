@@ -10,6 +10,7 @@ import {currentPath, useStudio} from '../data/store';
 import type {Item, Point, Problem, Sheet} from '../types';
 import {grid, looseWire, movesOf} from './moving';
 import {extent} from './extent';
+import {same, withKept} from './kept';
 import {arrowHead, ownWays, roundedPath} from './paths';
 import {SymbolView} from './SymbolView';
 import * as actions from '../edit/actions';
@@ -65,6 +66,8 @@ const WireLine = memo(function WireLine({data, selected}: EdgeProps<WireEdge>) {
 
 const nodeTypes = {block: Block};
 const edgeTypes = {wire: WireLine};
+const steps: [number, number] = [grid, grid];
+const panButtons = [1, 2];
 
 /// What is wrong at each block, by the JSON pointers and block paths of the problems.
 export function problemsByBlock(problems: Problem[]): Map<string, string> {
@@ -99,6 +102,12 @@ function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: strin
     },
   }));
 }
+
+/// A block whose ports stay where they were need not be measured again.
+const measuredAgain = (before: BlockNode, now: BlockNode): BlockNode => {
+  const {item: a} = before.data, {item: b} = now.data;
+  return before.measured && same([a.width, a.height, a.in, a.out], [b.width, b.height, b.in, b.out]) ? {...now, measured: before.measured} : now;
+};
 
 function edgesOf(sheet: Sheet, last: Map<string, string>): WireEdge[] {
   const own = ownWays(sheet.wires);
@@ -154,9 +163,12 @@ function Flow() {
   const byKeys = useRef<{places: Record<string, {x: number; y: number}>; timer: number}>({places: {}, timer: 0});
   const sheet = view?.sheet ?? null;
   const depth = useStudio((s) => s.depth);
-  const moved = useMemo(() => Object.keys(view?.places ?? {}), [view]);
+  // What the answers to gestures read. They stay the same functions: each that is another one is told to all that is drawn.
+  const latest = useRef({sheet, path, wanting});
+  latest.current = {sheet, path, wanting};
+  const moved = useMemo(() => Object.keys(view?.places ?? {}), [view?.places]);
 
-  const problems = useMemo(() => problemsByBlock(view?.problems ?? []), [view]);
+  const problems = useMemo(() => problemsByBlock(view?.problems ?? []), [view?.problems]);
   const fresh = useMemo(() => (trial ? trial.fresh : []), [trial]);
   const last = useMemo(() => {
     const found = new Map<string, string>();
@@ -166,7 +178,7 @@ function Flow() {
   }, [result]);
 
   useEffect(() => {
-    setNodes(sheet ? nodesOf(sheet, problems, highlighted, fresh, wanting) : []);
+    setNodes((now) => (sheet ? withKept(now, nodesOf(sheet, problems, highlighted, fresh, wanting), measuredAgain) : []));
   }, [sheet, problems, highlighted, fresh, wanting]);
 
   /// All of it in view, with what is written beside the blocks, above the buttons at the lower border.
@@ -193,7 +205,8 @@ function Flow() {
     requestAnimationFrame(fit);
   }, [sheet, path, trial, fit]);
 
-  const edges = useMemo(() => (sheet ? edgesOf(sheet, last) : []), [sheet, last]);
+  const drawnEdges = useRef<WireEdge[]>([]);
+  const edges = useMemo(() => (drawnEdges.current = sheet ? withKept(drawnEdges.current, edgesOf(sheet, last)) : []), [sheet, last]);
   const looseEdges = useMemo(() => (sheet && Object.keys(carried).length ? withLooseWires(edges, sheet, carried) : edges), [edges, sheet, carried]);
   const selectedWire = useStudio((s) => s.selectedWire);
   // What is carried is drawn where it is carried, whatever the server tells of the sheet meanwhile.
@@ -209,7 +222,8 @@ function Flow() {
     const after = new Set(before);
     for (const c of changes) if (c.type === 'select') c.selected ? after.add(c.id) : after.delete(c.id);
     if (after.size !== before.length || before.some((id) => !after.has(id))) set({selected: [...after]});
-    setNodes((now) => applyNodeChanges(changes.filter((c) => c.type !== 'select' && c.type !== 'position'), now));
+    const others = changes.filter((c) => c.type !== 'select' && c.type !== 'position');
+    if (others.length) setNodes((now) => applyNodeChanges(others, now));
     // Arrow keys move what is selected: one gesture until they rest.
     const keyed = byKeys.current;
     for (const c of changes) if (c.type === 'position' && c.position && !dragging.current) keyed.places[c.id] = c.position;
@@ -222,17 +236,17 @@ function Flow() {
       void put(places);
     }, 400);
     // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [sheet]);
+  }, []);
 
   /// Blocks are put where they were carried: beside the file, and wires find their ways.
   const put = useCallback(async (places: Record<string, {x: number; y: number}>) => {
     const named = Object.fromEntries(Object.entries(places).flatMap(([id, p]) => {
-      const item = sheet?.items.find((i) => i.path === id);
+      const item = latest.current.sheet?.items.find((i) => i.path === id);
       return item && (Math.abs(item.x - p.x) >= 1 || Math.abs(item.y - p.y) >= 1) ? [[item.name, p]] : [];
     }));
     if (Object.keys(named).length > 0) await useStudio.getState().move(movesOf(named));
     if (!dragging.current) setCarried({...byKeys.current.places});  // the next gesture may have begun
-  }, [sheet]);
+  }, []);
 
   // Before the first place is told: what is dragged is not moved by keys as well.
   const onDragStart = useCallback(() => {
@@ -244,6 +258,9 @@ function Flow() {
     void put(Object.fromEntries(all.map((n) => [n.id, n.position])));
   }, [put]);
 
+  const onManyDragged = useCallback((e: unknown, all: BlockNode[]) => onDrag(e, null, all), [onDrag]);
+  const onManyPut = useCallback((e: unknown, all: BlockNode[]) => onDragStop(e, null, all), [onDragStop]);
+
   const onEdgesChange = useCallback((changes: EdgeChange<WireEdge>[]) => {
     for (const c of changes) {
       if (c.type !== 'select') continue;
@@ -254,6 +271,7 @@ function Flow() {
   }, []);
 
   const onConnectStart = useCallback(async (_: unknown, from: {nodeId: string | null; handleId: string | null; handleType: string | null}) => {
+    const {sheet, path} = latest.current;
     if (!sheet || from.handleType !== 'source') return;
     const item = sheet.items.find((i) => i.path === from.nodeId);
     const out = Number(from.handleId?.slice(1) ?? 0);
@@ -266,9 +284,10 @@ function Flow() {
     } catch {
       // the file cannot be read at the moment: every port stays as it is
     }
-  }, [sheet, path]);
+  }, []);
 
   const onConnect = useCallback((c: Connection) => {
+    const {sheet, wanting} = latest.current;
     if (!sheet) return;
     const from = sheet.items.find((i) => i.path === c.source);
     const index = sheet.items.findIndex((i) => i.path === c.target);
@@ -277,7 +296,8 @@ function Flow() {
     const why = wanting?.fits?.get(`${index}/${to}`);
     if (why) useStudio.getState().say(why, 'error');
     else void actions.connect(from, Number(c.sourceHandle?.slice(1) ?? 0), sheet.items[index], to);
-  }, [sheet, wanting]);
+  }, []);
+  const onConnectEnd = useCallback(() => setWanting(null), []);
 
   const open = useCallback((_: unknown, node: BlockNode) => {
     const {item} = node.data;
@@ -291,12 +311,12 @@ function Flow() {
       onNodesChange={onNodesChange}
       onEdgesChange={onEdgesChange}
       onNodeDoubleClick={open}
-      onConnectStart={onConnectStart} onConnect={onConnect} onConnectEnd={() => setWanting(null)}
+      onConnectStart={onConnectStart} onConnect={onConnect} onConnectEnd={onConnectEnd}
       onNodeDragStart={onDragStart} onNodeDrag={onDrag} onNodeDragStop={onDragStop}
-      onSelectionDragStart={onDragStart} onSelectionDrag={(e, all) => onDrag(e, null, all)} onSelectionDragStop={(e, all) => onDragStop(e, null, all)}
-      nodesDraggable={!trial && depth === 0} snapToGrid snapGrid={[grid, grid]} nodeDragThreshold={3} nodesConnectable={!trial} elementsSelectable
+      onSelectionDragStart={onDragStart} onSelectionDrag={onManyDragged} onSelectionDragStop={onManyPut}
+      nodesDraggable={!trial && depth === 0} snapToGrid snapGrid={steps} nodeDragThreshold={3} nodesConnectable={!trial} elementsSelectable
       onlyRenderVisibleElements minZoom={0.05} maxZoom={4}
-      selectionOnDrag panOnDrag={[1, 2]} panOnScroll zoomOnDoubleClick={false}
+      selectionOnDrag panOnDrag={panButtons} panOnScroll zoomOnDoubleClick={false}
       deleteKeyCode={null} proOptions={{hideAttribution: true}} connectionRadius={24}
       onDragOver={(e) => e.preventDefault()}
       onDrop={(e) => {

@@ -2,6 +2,7 @@
 // nobody; it is taken out of the address bar and kept for reloads of this tab.
 
 import type {Edit, Job, JobOrder, Library, ListedFile, Moves, Options, Problem, RecordingPreview, TraceHead, View} from '../types';
+import {toldOf, viewOf, type Told, type ToldReply} from './told';
 
 const tokenKey = 'hysteron.token';
 
@@ -51,6 +52,15 @@ const query = (values: Record<string, string | number | string[]>) => {
     for (const one of Array.isArray(value) ? value : [value]) words.append(name, String(one));
   return words.toString();
 };
+
+let told: Told | null = null;
+
+/// A view of a diagram; of what the server told before only the difference is sent.
+async function view(method: string, path: string, body: object): Promise<View> {
+  const had = told;
+  told = toldOf(had, await json<ToldReply>(method, path, {...body, had: had?.id ?? ''}));
+  return viewOf(told);
+}
 
 /// Smallest and largest value of each column per pixel.
 export interface Stretch {
@@ -108,7 +118,7 @@ export const api = {
       for (const line of lines) if (line) told(JSON.parse(line));
     }
   },
-  layout: (path: string, moves: Moves, depth: number) => json<View>('POST', '/api/layout', {path, moves, depth}),
+  layout: (path: string, moves: Moves, depth: number) => view('POST', '/api/layout', {path, moves, depth}),
   upload: async (file: File) => (await json<{file: string}>('POST', `/api/upload?${query({name: file.name})}`, file)).file,
   preview: (file: string, options: Options) => json<RecordingPreview>('POST', '/api/import/preview', {file, options}),
   startFrom: (files: string[], options: Options, folder: string) =>
@@ -122,14 +132,14 @@ export const api = {
     const columns = head.columns.map((c: {name: string}) => c.name);
     return {headline: head.headline, facts: head.facts, trace: head.trace, traces: head.traces, rows: head.rows, stretch: stretchOf(new Float64Array(bytes, 8 + length), columns)};
   },
-  view: (path: string, depth: number) => json<View>('POST', '/api/view', {path, depth}),
+  view: (path: string, depth: number) => view('POST', '/api/view', {path, depth}),
   fits: (path: string, signal: string) =>
     json<{item: number; in: number; why: string}[]>('POST', '/api/fits', {path, signal}),
   read: async (path: string) => (await ask('GET', `/api/file?${query({path})}`)).text(),
   write: (path: string, text: string, hash: string, depth: number) =>
-    json<View>('PUT', '/api/file', {path, text, hash, depth}),
+    view('PUT', '/api/file', {path, text, hash, depth}),
   edit: (path: string, edits: Edit[], hash: string, depth: number) =>
-    json<View>('POST', '/api/edit', {path, edits, hash, depth}),
+    view('POST', '/api/edit', {path, edits, hash, depth}),
   begin: async (order: JobOrder) => (await json<{id: string}>('POST', '/api/jobs', order)).id,
   cancel: (id: string) => json('POST', '/api/cancel', {id}),
   remove: (id: string) => json('DELETE', `/api/jobs?${query({id})}`),

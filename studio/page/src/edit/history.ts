@@ -67,17 +67,31 @@ export function redoStep(history: History): {step: Step; history: History} | nul
 
 const key = (path: string) => `hysteron.history.${path}`;
 
-export function saveHistory(path: string, history: History, text: string): void {
-  try {
-    sessionStorage.setItem(key(path), JSON.stringify({history, text}));
-  } catch {
-    sessionStorage.removeItem(key(path));  // full: undo then begins anew after a reload
+const restsFor = 300;  // [ms]: what is written is as long as the diagram, and nobody waits for it
+const unsaved = new Map<string, {history: History; text: string}>();
+
+function saveAll(): void {
+  for (const [path, kept] of unsaved) {
+    try {
+      sessionStorage.setItem(key(path), JSON.stringify(kept));
+    } catch {
+      sessionStorage.removeItem(key(path));  // full: undo then begins anew after a reload
+    }
   }
+  unsaved.clear();
+}
+
+/// For a reload: soon, and at the latest when the page is left.
+export function saveHistory(path: string, history: History, text: string): void {
+  if (!unsaved.size) setTimeout(saveAll, restsFor);
+  unsaved.set(path, {history, text});
+  window.addEventListener('pagehide', saveAll, {once: true});  // the same function: it is heard once
 }
 
 /// What was kept over a reload. What has changed since is one more edit: that of somebody else, or one whose answer
 /// came too late.
 export function loadHistory(path: string, text: string): History {
+  saveAll();
   try {
     return resumed(JSON.parse(sessionStorage.getItem(key(path)) ?? 'null'), text);
   } catch {
