@@ -264,7 +264,9 @@ class Router {
 
   /// How often wires cross if `a` is left of `b`.
   static int crossings(const Trunk& a, const Trunk& b) {
-    const auto inside = [](const Trunk& t) { return [&t](double y) { return y > t.low() && y < t.high(); }; };
+    const auto inside = [](const Trunk& t) {
+      return [low = t.low(), high = t.high()](double y) { return y > low && y < high; };
+    };
     // What joins b from the left passes the vertical piece of a; what leaves a to the right passes that of b.
     return static_cast<int>(std::count_if(b.left.begin(), b.left.end(), inside(a)) +
                             std::count_if(a.right.begin(), a.right.end(), inside(b)));
@@ -290,20 +292,21 @@ class Router {
     // that no remaining one must precede.
     std::vector<std::size_t> left(n), order;
     std::iota(left.begin(), left.end(), std::size_t{0});
-    while (!left.empty()) {
-      std::size_t best = 0;
-      int least = std::numeric_limits<int>::max();
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        int cost = 0;
-        for (const std::size_t other : left) {
-          if (other == left[i]) continue;
-          cost += crossings(channel[left[i]], channel[other]) - crossings(channel[other], channel[left[i]]);
-          if (must_be_left(channel[other], channel[left[i]])) cost += 1000;
-        }
-        if (cost < least) least = cost, best = i;
+    std::vector<int> of_pair(n * n, 0), cost(n, 0);  // of standing left of another one, and of all that remain
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        if (i == k) continue;
+        of_pair[i * n + k] = crossings(channel[i], channel[k]) - crossings(channel[k], channel[i]) +
+                             (must_be_left(channel[k], channel[i]) ? 1000 : 0);
+        cost[i] += of_pair[i * n + k];
       }
-      order.push_back(left[best]);
-      left.erase(left.begin() + static_cast<long>(best));
+    while (!left.empty()) {
+      const auto best =
+          std::min_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return cost[a] < cost[b]; });
+      const std::size_t taken = *best;
+      order.push_back(taken);
+      left.erase(best);
+      for (const std::size_t i : left) cost[i] -= of_pair[i * n + taken];
     }
     std::vector<Trunk> sorted;
     for (const std::size_t i : order) sorted.push_back(channel[i]);

@@ -62,6 +62,21 @@ async function answered(request: string, act: () => Promise<void>): Promise<numb
   return performance.now() - begin;
 }
 
+/// From a key until what it changed on the canvas is drawn, on the clock of the page: without the way of tests to it.
+async function drawnAfter(press: () => Promise<void>): Promise<number> {
+  await page.evaluate(() => {
+    (window as any).drawn = new Promise((tell) => addEventListener('keydown', (key) => {
+      const changed = new MutationObserver(() => {
+        changed.disconnect();
+        requestAnimationFrame(() => requestAnimationFrame(() => tell(performance.now() - key.timeStamp)));
+      });
+      changed.observe(document.querySelector('.react-flow__viewport')!, {subtree: true, childList: true, characterData: true, attributes: true});
+    }, {capture: true, once: true}));
+  });
+  await press();
+  return page.evaluate(() => (window as any).drawn);
+}
+
 async function edit(block: string, field: string, values: string[]): Promise<{wait: number; bytes: number; asked: number}> {
   await select(block);
   const input = page.locator(`.inspector input[aria-label="${field}"]`);
@@ -70,7 +85,8 @@ async function edit(block: string, field: string, values: string[]): Promise<{wa
   for (const value of values) {
     taken.length = 0;
     await input.fill(value);
-    waits.push(await answered('/api/edit', () => input.press('Enter')));
+    waits.push(await drawnAfter(() => input.press('Enter')));
+    await page.waitForTimeout(500);
   }
   await studio.until(() => taken.some((t) => t.url === '/api/edit'));
   const last = taken.find((t) => t.url === '/api/edit')!;
@@ -98,7 +114,9 @@ for (const [file, block, one] of [['large/machine.json', 'move', 'axis_1'], ['la
   tell(`${file}: an edit: sent, answered, drawn`, `${large.asked} B, ${kB(large.bytes)}, ${ms(large.wait)}`);
   await select(one);
   await page.locator('.canvas').focus();
-  tell(`${file}: a block removed, and brought back`, `${ms(await answered('/api/edit', () => page.keyboard.press('Delete')))}, ${ms(await answered('/api/file', () => page.click('[aria-label="undo"]')))}`);
+  const removed = await drawnAfter(() => page.keyboard.press('Delete'));
+  await page.waitForTimeout(500);
+  tell(`${file}: a block removed, and brought back`, `${ms(removed)}, ${ms(await drawnAfter(() => page.keyboard.press('Control+z')))}`);
   tell(`${file}: a frame while it is panned, all in view`, ms(await frames(pan)));
   for (let i = 0; i < 5; ++i) await page.click('.react-flow__controls-zoomin');
   await page.waitForTimeout(500);
