@@ -90,6 +90,17 @@ std::string first_new(const DraftProgram& draft, const Told& before) {
   return "";
 }
 
+/// The unit behind a block that is wrong is not known: what the others would want there is not what it gives.
+void leave_out_units(draw::Sheet& sheet, const std::vector<Problem>& problems) {
+  const std::string blocks = "/blocks/";
+  std::set<std::string> wrong;
+  for (const auto& p : problems)
+    if (p.path.starts_with(blocks))
+      wrong.insert(p.path.substr(blocks.size(), p.path.find('/', blocks.size()) - blocks.size()));
+  for (auto& item : sheet.items)
+    if (wrong.contains(item.name)) item.out_units.clear();
+}
+
 /// Blocks that were moved by hand. A layout file that is wrong moves none, and is told.
 void place(draw::Sheet& sheet, const std::string& file, Json& view) {
   try {
@@ -118,6 +129,7 @@ Json view_of(const std::string& file, const Registry& registry, const ViewOption
     view["problems"] = problem_list(located(draft.problems, file));
     view["warnings"] = problem_list(located(draft.warnings, file));
     draw::Sheet sheet = draw::draft_sheet(diagram, draft.program.get(), registry, options.depth);
+    leave_out_units(sheet, draft.problems);
     draw::lay_out(sheet);
     place(sheet, file, view);
     view["sheet"] = sheet_json(sheet);

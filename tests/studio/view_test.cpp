@@ -68,6 +68,15 @@ TEST_F(StudioView, AnUnfinishedDiagramIsDrawnWithOpenPorts) {
   EXPECT_FALSE(v["warnings"].empty()) << "a reads nothing yet";
 }
 
+TEST_F(StudioView, AUnitThatIsWantedIsNotGivenByABlockThatIsWrong) {
+  const Json v = view(R"({"format": 1, "blocks": {
+    "drive": {"type": "sine", "amplitude": "2 V", "frequency": "5 mm"},
+    "force": {"type": "constant", "value": "1 N"},
+    "total": {"type": "sum", "in": ["drive", "force"]}}, "record": ["total"]})");
+  EXPECT_EQ(item(v, "drive")["out"][0]["unit"], "");
+  EXPECT_EQ(item(v, "force")["out"][0]["unit"], "N");
+}
+
 TEST_F(StudioView, BlocksStandWhereTheyWereMovedTo) {
   (void)folder_.write("d.layout.json", R"({"format": 1, "blocks": {"stage": [100, 50]}})");
   const Json v = view(good);

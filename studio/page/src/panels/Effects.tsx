@@ -73,7 +73,7 @@ function Tried({result}: {result: Result}) {
   const rejected = (result.facts.candidates ?? []).filter((c) => !c.claimed);
   const unseen = result.facts.inspection?.cannot_show ?? [];
   return (
-    <div className="tried">
+    <div className="looked-for">
       <h3>looked for and not found</h3>
       <table className="numbers">
         <tbody>{rejected.slice(0, 40).map((c, i) => <tr key={i}><td>{c.effect}</td><td className="muted">{c.place}</td><td>{c.failed ? 'could not be fitted' : c.reason}</td></tr>)}</tbody>

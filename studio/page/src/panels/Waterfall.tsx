@@ -2,7 +2,7 @@
 
 import {useStudio} from '../data/store';
 import {tryStep} from '../edit/actions';
-import {lengthText} from '../numbers';
+import {lengthText, sentence} from '../numbers';
 import {StartHint} from './StartHint';
 
 interface Bar {
@@ -31,7 +31,7 @@ export function Waterfall() {
   const step = Math.min(150, (width - left - 120) / bars.length);
   return (
     <>
-      <div className="panel-head"><span className="headline">{result.headline}</span></div>
+      <div className="panel-head"><span className="headline" title={sentence(result.headline)}>{sentence(result.headline)}</span></div>
       <div className="waterfall">
         <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label="the error, step by step, logarithmic">
           <line className="axis" x1={left} x2={width - 8} y1={base} y2={base} />
