@@ -64,6 +64,8 @@ interface Studio {
   tell(error: unknown): void;
 }
 
+const mostResults = 16;  // that are kept: one that is looked at again is read again
+
 const dataKey = (path: string) => `hysteron.data.${path}`;
 
 function parsed(text: string): any {
@@ -277,7 +279,8 @@ export const useStudio = create<Studio>()((set, get) => {
       if (job.state === 'done' && !get().results[id]) {
         try {
           const result = JSON.parse(await api.read(`${job.folder}/result.json`)) as Result;
-          set({results: {...get().results, [id]: result}});
+          const others = Object.entries(get().results).slice(1 - mostResults);
+          set({results: {...Object.fromEntries(others), [id]: result}});
         } catch (error) {
           get().tell(error);
         }
