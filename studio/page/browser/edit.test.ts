@@ -1,12 +1,14 @@
 // People's ways through the second part: place, wire, set, undo, copy, and edits that come from elsewhere.
 
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
-import {unwired as small, Studio} from './studio';
+import {diagramOf, drive, unwired as small, Studio} from './studio';
+
+const withEffect = diagramOf([drive, '"soft": {"in": "drive", "effect": "soft_limit", "choose": "on", "from": {"on": {"type": "gain", "gain": 2}, "off": {"type": "gain", "gain": 1}}}'], ['soft']);
 
 describe('editing', () => {
   const studio = new Studio();
   beforeAll(async () => {
-    await studio.openOn({'small.json': small});
+    await studio.openOn({'small.json': small, 'effect.json': withEffect});
   });
   afterAll(() => studio.close());
   const text = () => studio.read('small.json');
@@ -210,6 +212,24 @@ describe('editing', () => {
     await studio.until(() => text() === small);
   });
 
+  it('shows both texts where both have changed it in the same moment, and writes the one that is chosen', async () => {
+    const {page} = studio;
+    await shown();
+    const mine = small.replace('"Small"', '"Mine"');
+    await page.fill(textField, mine);
+    await page.route('**/api/file', async (route) => {
+      studio.write('small.json', small.replace('"Small"', '"Theirs"'));
+      await route.continue();
+    }, {times: 1});
+    await page.click('.panel-head button:text-is("Save")');
+    await page.waitForSelector('.banner.error pre');
+    expect(await page.locator('.banner.error pre').allTextContents()).toEqual(['  "title": "Theirs",', '  "title": "Mine",']);
+    expect(text()).toContain('"Theirs"');
+    await page.click('.banner.error button:text-is("Write mine over it")');
+    await studio.until(() => text() === mine);
+    await back();
+  });
+
   it('draws on while the text is no JSON, and tells the line', async () => {
     const {page} = studio;
     await shown();
@@ -233,5 +253,16 @@ describe('editing', () => {
     expect(text()).toBe(small);
   });
 
-  it('leaves no complaint', () => expect(studio.complaints).toEqual([]));
+  it('switches an effect off and on again at its block', async () => {
+    const {page} = studio;
+    await studio.openDiagram('effect.json');
+    const badge = page.locator('[role="switch"][aria-label="effect of soft"]');
+    for (const [before, now] of [['true', 'off'], ['false', 'on']]) {
+      await studio.until(async () => (await badge.getAttribute('aria-checked')) === before);
+      await badge.click();
+      await studio.until(() => studio.read('effect.json') === withEffect.replace('"choose": "on"', `"choose": "${now}"`));
+    }
+  });
+
+  it('leaves no complaint but that of the conflict', () => expect(studio.complaints.filter((c) => !c.includes('409'))).toEqual([]));
 });

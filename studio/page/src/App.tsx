@@ -4,6 +4,7 @@ import {useEffect, useState} from 'react';
 import {Canvas} from './canvas/Canvas';
 import {currentPath, keepListening, useStudio, type BottomTab} from './data/store';
 import * as actions from './edit/actions';
+import {differingLines} from './edit/changes';
 import {Data, takeIn} from './panels/Data';
 import {Diff} from './panels/Diff';
 import {Effects} from './panels/Effects';
@@ -160,6 +161,7 @@ function Banners() {
       {conflict && (
         <div className="banner error">
           The file was changed by somebody else while you edited.
+          {conflict.mine && differingLines(conflict.text, conflict.mine).map((lines, i) => <div key={i} className="side"><span>{i === 0 ? 'theirs' : 'mine'}</span><pre>{lines}</pre></div>)}
           <button onClick={() => { set({conflict: null}); void reload(); }}>Take theirs</button>
           {conflict.mine && <button onClick={() => { set({conflict: null, view: {...view!, hash: conflict.hash}}); void useStudio.getState().write(conflict.mine); }}>Write mine over it</button>}
         </div>

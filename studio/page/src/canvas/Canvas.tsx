@@ -20,13 +20,19 @@ const plainBelow = 0.35;  // zoom: symbols are no longer read
 const largestFit = 1.25;
 const buttonsHeight = 38;  // [px]
 
-type BlockData = {item: Item; problem: string; highlighted: boolean; fits: (string | null)[] | null; isNew: boolean};
+/// That a block is there for an effect, and which candidate is taken when it is switched.
+interface EffectSwitch {
+  effect: string;
+  isOn: boolean;
+  other: string;
+}
+type BlockData = {item: Item; problem: string; highlighted: boolean; fits: (string | null)[] | null; isNew: boolean; effect: EffectSwitch | null};
 type BlockNode = Node<BlockData, 'block'>;
 type WireData = {path: Point[]; own: Point[]; vector: boolean; tip: string};
 type WireEdge = Edge<WireData, 'wire'>;
 
 const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
-  const {item, problem, highlighted, fits, isNew} = data;
+  const {item, problem, highlighted, fits, isNew, effect} = data;
   const plain = useStore((s) => s.transform[2] < plainBelow);
   const pictures = useStudio((s) => s.catalogue?.pictures) ?? {};
   const css = ['block', selected && 'selected', problem && 'wrong', highlighted && 'highlighted', isNew && 'new'].filter(Boolean).join(' ');
@@ -36,6 +42,10 @@ const Block = memo(function Block({data, selected}: NodeProps<BlockNode>) {
         <SymbolView item={item} pictures={pictures} plain={plain} />
         {problem && <circle className="alarm" cx={item.width} cy={0} r={5} />}
       </svg>
+      {effect && !plain && (
+        <button className={`effect-switch nodrag ${effect.isOn ? 'on' : ''}`} role="switch" aria-checked={effect.isOn} tabIndex={-1} aria-label={`effect of ${item.name}`}
+                title={`effect: ${effect.effect}, ${effect.isOn ? 'on' : 'off'}; a click switches it`} onClick={(e) => { e.stopPropagation(); void actions.choose(item.name, effect.other); }} />
+      )}
       {item.in.map((port, i) => (
         <Handle key={`i${i}`} id={`i${i}`} type="target" position={sides[port.side]} title={fits?.[i] || port.name}
                 className={`port-in ${port.side} ${port.reads ? 'wired' : 'free'} ${fits ? (fits[i] === '' ? 'fits' : 'misfit') : ''}`}
@@ -79,13 +89,24 @@ export function problemsByBlock(problems: Problem[]): Map<string, string> {
   return found;
 }
 
+/// Blocks that stand for an effect and can be switched: those of two candidates, one of them "off".
+export function effectsOf(document: any): Map<string, EffectSwitch> {
+  const found = new Map<string, EffectSwitch>();
+  for (const [name, block] of Object.entries<any>(document?.blocks ?? {})) {
+    const candidates = Object.keys(block?.from ?? {});
+    const other = candidates.find((c) => c !== block.choose);
+    if (block?.effect && candidates.length === 2 && candidates.includes('off') && other) found.set(name, {effect: String(block.effect), isOn: block.choose !== 'off', other});
+  }
+  return found;
+}
+
 interface Wanting {
   node: string;
   out: number;
   fits: Map<string, string> | null;
 }
 
-function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: string[], fresh: string[], wanting: Wanting | null): BlockNode[] {
+function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: string[], fresh: string[], wanting: Wanting | null, effects: Map<string, EffectSwitch>): BlockNode[] {
   return sheet.items.map((item, index) => ({
     id: item.path,
     type: 'block' as const,
@@ -98,6 +119,7 @@ function nodesOf(sheet: Sheet, problems: Map<string, string>, highlighted: strin
       problem: problems.get(item.name) ?? '',
       highlighted: highlighted.includes(item.name),
       isNew: fresh.includes(item.name),
+      effect: effects.get(item.name) ?? null,
       fits: wanting?.fits ? item.in.map((_, i) => wanting.fits!.get(`${index}/${i}`) ?? null) : null,
     },
   }));
@@ -169,6 +191,8 @@ function Flow() {
   const moved = useMemo(() => Object.keys(view?.places ?? {}), [view?.places]);
 
   const problems = useMemo(() => problemsByBlock(view?.problems ?? []), [view?.problems]);
+  const document = useStudio((s) => s.document);
+  const effects = useMemo(() => effectsOf(trial ? null : document), [trial, document]);
   const fresh = useMemo(() => (trial ? trial.fresh : []), [trial]);
   const last = useMemo(() => {
     const found = new Map<string, string>();
@@ -178,8 +202,8 @@ function Flow() {
   }, [result]);
 
   useEffect(() => {
-    setNodes((now) => (sheet ? withKept(now, nodesOf(sheet, problems, highlighted, fresh, wanting), measuredAgain) : []));
-  }, [sheet, problems, highlighted, fresh, wanting]);
+    setNodes((now) => (sheet ? withKept(now, nodesOf(sheet, problems, highlighted, fresh, wanting, effects), measuredAgain) : []));
+  }, [sheet, problems, highlighted, fresh, wanting, effects]);
 
   /// All of it in view, with what is written beside the blocks, above the buttons at the lower border.
   const fit = useCallback(() => {

@@ -1,5 +1,5 @@
 import {describe, expect, it} from 'vitest';
-import {changesOf} from './changes';
+import {changesOf, differingLines} from './changes';
 
 const before = {
   format: 1, title: 'Stage',
@@ -29,4 +29,10 @@ describe('in what two diagrams differ', () => {
       ['changed', 'record', '', '', '["a"]', '["a", "c"]'],
     ]);
   });
+});
+
+it('of two texts the lines are told in which they differ', () => {
+  expect(differingLines('a\nb\nc', 'a\nx\ny\nc')).toEqual(['b', 'x\ny']);
+  expect(differingLines('a\nb', 'a\nb')).toEqual(['', '']);
+  expect(differingLines('a\na', 'a\na\na')).toEqual(['', 'a']);
 });

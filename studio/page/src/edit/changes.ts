@@ -45,3 +45,14 @@ export function changesOf(before: any, after: any): Change[] {
   }
   return list;
 }
+
+/// The lines in which two texts differ: what stands between those that both begin and end with.
+export function differingLines(a: string, b: string): [string, string] {
+  const [left, right] = [a.split('\n'), b.split('\n')];
+  const shorter = Math.min(left.length, right.length);
+  let head = 0;
+  while (head < shorter && left[head] === right[head]) ++head;
+  let tail = 0;
+  while (tail < shorter - head && left[left.length - 1 - tail] === right[right.length - 1 - tail]) ++tail;
+  return [left.slice(head, left.length - tail).join('\n'), right.slice(head, right.length - tail).join('\n')];
+}
