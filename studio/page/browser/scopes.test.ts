@@ -1,5 +1,6 @@
 // People's ways through the scopes: two cursors with what lies between, one signal over another, spectra, the theme.
 
+import {readFileSync} from 'node:fs';
 import {afterAll, beforeAll, describe, expect, it} from 'vitest';
 import {diagramOf, drive, Studio} from './studio';
 
@@ -45,6 +46,15 @@ describe('scopes', () => {
     await studio.until(async () => (await page.inputValue('[aria-label="cursor A"]')) === '0.07');
     await page.click('button:text-is("Cursors")');
     await page.waitForSelector('[aria-label="cursor A"]', {state: 'detached'});
+  });
+
+  it('are saved as CSV, row by row what run writes', async () => {
+    const {page} = studio;
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('.signals button:text-is("save as CSV")')]);
+    expect(download.suggestedFilename()).toBe('signals.csv');
+    expect(studio.hysteron('run', 'small.json', '-o', 'out').code).toBe(0);
+    const rows = (text: string) => text.trimEnd().split('\n').map((line, i) => (i === 0 ? line : line.split(',').map(Number)));
+    expect(rows(readFileSync(await download.path(), 'utf8'))).toEqual(rows(studio.read('out/traces/signals.csv')));
   });
 
   it('draw one signal over another', async () => {

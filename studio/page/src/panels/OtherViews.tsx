@@ -5,13 +5,13 @@ import {useMemo, useState} from 'react';
 import type {Stretch} from '../data/api';
 import {frequencyUnit} from '../numbers';
 import type {Point, TraceHead} from '../types';
+import {isEachRow, mostRows} from './csv';
 import {useHeight} from './size';
 import {spectrumOf, thinned} from './spectrum';
 import {useStretch} from './traces';
 import {XyPlot, type XyCurve} from './XyPlot';
 
-const most = 20000;        // rows: as many as the server gives at once
-const drawn = 1200;        // points of a spectrum
+const drawn = 1200;  // points of a spectrum
 
 interface Props {
   path: string;
@@ -21,7 +21,6 @@ interface Props {
 }
 
 const middle = (c: {low: Float64Array; high: Float64Array}) => c.low.map((v, i) => (v + c.high[i]) / 2);
-const isEachRow = (s: Stretch | null) => !s || s.columns.every((c) => c.low.every((v, i) => v === c.high[i] || Number.isNaN(v)));
 
 /// What was driven and what followed: the first input or source, and the last signal that is no residual.
 export function firstLoop(names: string[]): [string, string] {
@@ -34,12 +33,12 @@ export function LoopView({path, head, range, colourOf}: Props) {
   const all = head.columns.map((c) => c.name);
   const [chosen, setChosen] = useState<Partial<Record<'x' | 'y', string>>>({});
   const [x, y] = [all.includes(chosen.x ?? '') ? chosen.x! : firstLoop(names)[0], all.includes(chosen.y ?? '') ? chosen.y! : firstLoop(names)[1]];
-  const stretch = useStretch(path, [x, y], range, most);
+  const stretch = useStretch(path, [x, y], range, mostRows);
   const [height, holder] = useHeight(220);
   const unitOf = (name: string) => head.columns.find((c) => c.name === name)?.unit ?? '';
   // Of a measured output the simulated one is drawn as well: both loops tell where they part.
   const other = y.replace(/_measured$/, '_simulated');
-  const both = useStretch(path, other !== y && names.includes(other) ? [x, other] : [], range, most);
+  const both = useStretch(path, other !== y && names.includes(other) ? [x, other] : [], range, mostRows);
   const curveOf = (s: Stretch | null, name: string): XyCurve[] => {
     const [cx, cy] = [s?.columns.find((c) => c.name === x), s?.columns.find((c) => c.name === name)];
     return cx && cy ? [{label: `${name} over ${x}`, color: colourOf(name, names.indexOf(name)), x: middle(cx), y: middle(cy)}] : [];
@@ -62,13 +61,13 @@ export function SpectrumView({path, head, range, shown, colourOf}: Props & {show
   const names = useMemo(() => head.columns.slice(1).map((c) => c.name), [head]);
   const unitOf = (name: string) => head.columns.find((c) => c.name === name)?.unit ?? '';
   const units = [...new Set(shown.map(unitOf))];
-  const stretch = useStretch(path, shown, range, most);
+  const stretch = useStretch(path, shown, range, mostRows);
   const [height, holder] = useHeight(220);
   const eachRow = isEachRow(stretch);
   const curves = useMemo(() => (stretch && eachRow ? stretch.columns : []).map((c): XyCurve & {name: string} =>
     ({name: c.name, label: c.name, color: colourOf(c.name, names.indexOf(c.name)), ...thinned(spectrumOf(stretch!.x, c.low), drawn)})), [stretch, eachRow, names, colourOf]);
   if (shown.length === 0) return <p className="empty">Tick a signal over time to see its spectrum.</p>;
-  if (!eachRow) return <p className="empty">A spectrum takes each row, and here are more than {most}: zoom in over time.</p>;
+  if (!eachRow) return <p className="empty">A spectrum takes each row, and here are more than {mostRows}: zoom in over time.</p>;
   return (
     <div className="plots" ref={holder}>
       {units.map((unit) => {

@@ -11,7 +11,7 @@ import {useCursors} from './cursors';
 import {LoopView, SpectrumView} from './OtherViews';
 import {Signals} from './Signals';
 import {useHeight} from './size';
-import {useHead, useStretch, useStretches} from './traces';
+import {saveCsv, useHead, useStretch, useStretches} from './traces';
 import type {Tube} from './tolerance';
 import {useTubes} from './tube';
 import {StartHint} from './StartHint';
@@ -109,6 +109,7 @@ export function TraceView({path, spans, pinned = [], tubes, look = 'time', withC
     <div className="scopes">
       <Signals head={head} off={off} onOff={setHidden} colourOf={colourOf} at={cursor} cursors={cursors}>
         {range && <li><button className="quiet small" onClick={() => setRange(null)}>show all</button></li>}
+        {shown.length > 0 && <li><button className="quiet small" title="the rows of the signals that are ticked, as far as they are in sight" onClick={() => void saveCsv(path, head, shown, range)}>save as CSV</button></li>}
         {live && <li className="following" aria-live="off">{live.label}<br /><span className="muted">dashed: before</span></li>}
         {pinned.map((p, i) => <li key={p.path} className="pinned"><svg width={22} height={8} aria-hidden><line x1={0} x2={22} y1={4} y2={4} strokeDasharray={dashes[i % dashes.length].join(' ')} /></svg> {p.label}</li>)}
       </Signals>

@@ -1,9 +1,11 @@
-// Decides how panels get curves of a file of traces: the head once, stretches as they are looked at.
+// Decides how panels get curves of a file of traces: the head once, stretches as they are looked at, and
+// what is in sight as a file.
 
 import {useEffect, useState} from 'react';
 import {api, Stretch} from '../data/api';
 import {useStudio} from '../data/store';
 import type {Point, TraceHead} from '../types';
+import {csvOf, isEachRow, mostRows} from './csv';
 
 export function useHead(path: string): TraceHead | null {
   const [head, setHead] = useState<{path: string; head: TraceHead} | null>(null);
@@ -51,4 +53,20 @@ export function useStretches(files: {path: string}[], columns: string[], range: 
     };
   }, [paths, key, range, pixels]);
   return found.key === paths ? found.stretches : none;
+}
+
+/// What is ticked and in sight, into the folder of downloads.
+export async function saveCsv(path: string, head: TraceHead, columns: string[], range: Point | null): Promise<void> {
+  const {say, tell} = useStudio.getState();
+  try {
+    const stretch = await api.trace(path, columns, range?.[0] ?? 0, range?.[1] ?? 0, mostRows);
+    if (!isEachRow(stretch)) return say(`these are more than ${mostRows} rows: zoom in over time, or run with --traces csv in a terminal`, 'error');
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([csvOf(head, stretch, range)], {type: 'text/csv'}));
+    link.download = `${path.slice(path.lastIndexOf('/') + 1).replace(/\.\w+$/, '')}.csv`;
+    link.click();
+    URL.revokeObjectURL(link.href);
+  } catch (error) {
+    tell(error);
+  }
 }
