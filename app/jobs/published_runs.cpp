@@ -50,6 +50,7 @@ struct Task {
   std::size_t job = 0;
   const RunWish* run = nullptr;
   double seconds = 0;
+  std::exception_ptr stopped{};  ///< of the run; other threads may be at the other tasks of its job
 };
 
 /// The runs of each job, then what is made of them.
@@ -57,8 +58,8 @@ std::vector<Task> tasks_of(const std::vector<PublishedJob>& jobs, JobPool& pool)
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     for (const auto& run : pool.job(jobs[i].file).job().runs)
-      if (run.kind != RunKind::elsewhere) tasks.push_back({i, &run});
-    tasks.push_back({i, nullptr});
+      if (run.kind != RunKind::elsewhere) tasks.push_back({.job = i, .run = &run});
+    tasks.push_back({.job = i});
   }
   return tasks;
 }
@@ -73,7 +74,7 @@ void do_task(Task& task, const std::vector<PublishedJob>& jobs, JobPool& pool, s
     } catch (const std::exception&) {
       // Told by the task that needs the run, with what it was needed for.
     } catch (const Stopped&) {
-      results[task.job].error = std::current_exception();
+      task.stopped = std::current_exception();
     }
   }
   task.seconds = seconds_since(begin);
@@ -105,6 +106,8 @@ std::vector<JobDone> run_all(const std::vector<PublishedJob>& jobs, JobPool& poo
   for (const auto& task : tasks) results[task.job].seconds += task.seconds;
   for (const auto& d : results)
     if (d.error) std::rethrow_exception(d.error);
+  for (const auto& task : tasks)
+    if (task.stopped) std::rethrow_exception(task.stopped);
   return results;
 }
 

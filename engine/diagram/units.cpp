@@ -67,6 +67,14 @@ class Table {
       ut_map_name_to_unit("deg", UT_ASCII, degree.get());
   }
 
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+  /// Not left to the end of the process: the library of an FMU may be unloaded before.
+  ~Table() {
+    cycle_.reset();
+    ut_free_system(system_);
+  }
+
   void learn(const Unit& unit) { cache_.emplace(unit.text, unit); }
 
   /// nullptr if the text is no unit of this table.
