@@ -249,13 +249,14 @@ TEST(Fmu, DescriptionsAreValidUnderTheSchemasOfTheStandard) {
 }
 
 TEST(Fmu, ItStandsOnTheLibraryOfCAlone) {
+  if (std::string(HYSTERON_SANITIZER_FLAGS) != "") GTEST_SKIP() << "a sanitizer brings libraries of its own";
   const auto needs = process::shell(".", "objdump -p " HYSTERON_FMU " | grep NEEDED");
   EXPECT_NE(needs.out.find("libc.so"), std::string::npos) << "objdump is not there? " << needs.err;
   std::istringstream lines(needs.out);
   for (std::string line; std::getline(lines, line);) {
     const bool own = line.find("libc.so") == std::string::npos && line.find("libm.so") == std::string::npos &&
                      line.find("ld-linux") == std::string::npos;
-    EXPECT_FALSE(own) << line << ": only with a sanitizer may there be more";
+    EXPECT_FALSE(own) << line;
   }
 }
 
