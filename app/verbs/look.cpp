@@ -8,6 +8,7 @@
 #include <chrono>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "app/cli/interrupt.h"
 #include "app/cli/load.h"
@@ -174,7 +175,9 @@ void tell_end(Document& document, const Arguments& arguments, bool stopped, bool
 
 Answer look(const std::string& verb, const Arguments& arguments, const Watch& watch) {
   Wish wish = read_wish(arguments, watch);
-  DataSet data = wish.is_check ? with_both_roles(wish.given) : wish.given;
+  auto same_rows = warnings_of_same_rows(wish.given);
+  DataSet data = std::exchange(wish.given, {});
+  if (wish.is_check) data = with_both_roles(std::move(data));
   watch.keep();
   auto [found, check] = search(verb, wish, data, watch);
   if (!wish.is_check) tell_held_effects(wish.diagram, wish.settings.free_paths, found.warnings);
@@ -192,7 +195,7 @@ Answer look(const std::string& verb, const Arguments& arguments, const Watch& wa
   if (!inspected)
     document.warnings.emplace_back(
         "There was no time to inspect the data themselves: run \"hysteron inspect\" on them.");
-  for (auto& warning : warnings_of_same_rows(wish.given)) document.warnings.push_back(std::move(warning));
+  for (auto& warning : same_rows) document.warnings.push_back(std::move(warning));
   tell_end(document, arguments, stopped, found.broken_off);
   answer.facts = short_answer(found, check);
   answer.exit_code = check && !check->explained ? exit_code::no : exit_code::done;

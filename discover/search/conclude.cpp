@@ -258,8 +258,9 @@ void conclude(SearchState& state) {
     unless_it_fails(state, [&] { return leave_out_idle(state), true; });
   }
   const double floor = state.current.error_of.over_floor();
-  const Left left = left_by_base(state);
-  const OfBase of_base = state.by_score && !state.d.steps.empty() ? OfBase{} : structure_of_base(state, left);
+  const bool is_settled = state.by_score && !state.d.steps.empty();  // no structure outdoes what a score has claimed
+  const Left left = is_settled ? Left{} : left_by_base(state);
+  const OfBase of_base = is_settled ? OfBase{} : structure_of_base(state, left);
   state.d.structure = of_base.told;
   if (of_base.in_place_of_effects) {
     state.d.verdict = Verdict::unexplained;
@@ -284,7 +285,7 @@ void conclude(SearchState& state) {
   state.d.final_prediction = state.current.prediction;
   add_zeros(*state.base_model, state.evidence->judge(), state.d.final_prediction);
   state.unless_stopped([&] { test_recordings(state); });
-  state.unless_stopped([&] { tell_other_ways(state); });
+  if (!state.by_score) state.unless_stopped([&] { tell_other_ways(state); });
   if (!state.by_score) tell_other_numbers(state);
   tell_noise(state);
   tell_wandering(state);

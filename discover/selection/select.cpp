@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "discover/search/between_samples.h"
+#include "discover/selection/first_part.h"
 #include "discover/selection/selection.h"
 #include "engine/diagram/stop.h"
 
@@ -14,6 +19,13 @@ namespace {
 
 /// A number found within this part of what it is known to is as the user wrote it, however sure the difference is.
 constexpr double as_written = 0.1;
+
+struct Asked {
+  const Diagram& diagram;
+  const Registry& registry;
+  const Effects& effects;
+  const DiscoverOptions& options;
+};
 
 /// The model that is told: with the fewest of the user's numbers let go, with intervals, and what it is without its
 /// last terms.
@@ -24,26 +36,49 @@ struct Told {
   std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
 };
 
-Told to_be_told(SearchState& state, const Selection& selection) {
+/// Recordings with a model of them. Stays where it is: what was found refers to it.
+struct Search {
+  Search(const Asked& asked, const DataSet& data, std::vector<std::string> begin_in_motion)
+      : moving(std::move(begin_in_motion)),
+        state(asked.diagram, as_found(data, facts_of(moving)), asked.registry, asked.effects, asked.options) {
+    state.by_score = true;
+    state.d.asked_for = asked.options.only;
+    fit_base(state);
+  }
+  static Discovery facts_of(const std::vector<std::string>& moving) {
+    Discovery facts;
+    facts.found_starts = moving;
+    return facts;
+  }
+
+  const std::vector<std::string> moving;
+  SearchState state;
+  std::optional<Selection> selection{};  ///< where effects were searched in these recordings
+};
+
+/// In the recordings of `state`, from what was found in those that were searched in.
+Told to_be_told(SearchState& state, Search& searched) {
   Told told;
+  const Selection& selection = *searched.selection;
   const FitSetting& setting = selection.setting();
   TableModel best = selection.best();
   if (best.numbers == Numbers::let_go)
     state.unless_stopped(
-        [&] { best = with_fewest_numbers(setting, state.context, selection.score(), best, told.kept); });
+        [&] { best = with_fewest_numbers(setting, searched.state.context, selection.score(), best, told.kept); });
   const FitSetting few = setting.with(told.kept);
   told.context =
       context_for(few, state.context, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
   told.context.data = state.data;  // others judge
   const auto of_all = std::exchange(told.context.derivatives, std::make_shared<DerivativeStore>());
+  const bool elsewhere = &state != &searched.state;
   CandidateModel whole = best.model;
-  state.unless_stopped([&] {
-    CandidateModel final = refit(told.context, whole, Effort::final);
-    if (final.ok) whole = std::move(final);
-  });
+  if (elsewhere) whole.cuts.clear();  // rows of others
+  CandidateModel final;
+  state.unless_stopped([&] { final = refit(told.context, whole, Effort::final); });
+  if (final.ok || elsewhere) whole = std::move(final);
   told.terms = terms_of(whole);
   told.chain.assign(told.terms.size() + 1, whole);
-  for (std::size_t k = told.terms.size(); k-- > 0;) {
+  for (std::size_t k = told.terms.size(); k-- > 0 && whole.ok;) {
     CandidateModel before = told.chain[k + 1];
     // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
     for (std::size_t i = before.placed.size(); i-- > 0 && before.ok;)
@@ -98,7 +133,9 @@ std::string how_much_more(const Selection& selection, const TableModel& f, const
                      more < 0 ? "below" : "above", rules::by_score);
 }
 
-void tell_step(SearchState& state, Selection& selection, const Told& told, std::size_t k) {
+void tell_step(SearchState& state, Search& searched, const Told& told, std::size_t k) {
+  Selection& selection = *searched.selection;
+  const bool elsewhere = &state != &searched.state;
   FoundStep found;
   const auto& term = told.terms[k];
   const CandidateModel& whole = told.chain.back();
@@ -120,21 +157,22 @@ void tell_step(SearchState& state, Selection& selection, const Told& told, std::
     auto rivals = alone ? selection.rounds().front().rivals : selection.in_place_of(term);
     if (alone)
       for (auto& hidden : selection.hidden_in_place_of(effect)) rivals.push_back(std::move(hidden));
-    // Where others stand, too, it is compared as the last of them, as its rivals are.
+    // Where others stand, too, it is compared as the last of them, as its rivals are; in the recordings of these.
     TriedEffect last = w;
     TableModel winner = selection.best();
+    if (elsewhere) last.candidate = winner.model;
     if (!alone && !rivals.empty() && rivals.front().tried.effect == &effect && rivals.front().fitted.ok()) {
       winner = rivals.front().fitted;
       last = rivals.front().tried;
       last.candidate = winner.model;
     }
-    for (const auto& r : tied(state, selection, winner, effect, rivals)) {
+    for (const auto& r : tied(searched.state, selection, winner, effect, rivals)) {
       TriedEffect rival = r.tried;
       rival.candidate = r.fitted.model;
-      rival.candidate.error_of = state.evidence->error(rival.candidate.prediction);
+      rival.candidate.error_of = searched.state.evidence->error(rival.candidate.prediction);
       rival.admitted = true;
       rival.reason = "explains the recordings as well as the one that was taken";
-      add_tie(state, step, found, last, rival);
+      add_tie(searched.state, step, found, last, rival);
     }
     return true;
   });
@@ -148,7 +186,8 @@ void tell_step(SearchState& state, Selection& selection, const Told& told, std::
   state.d.steps.push_back(std::move(found));
 }
 
-void tell_candidates(SearchState& state, const Selection& selection, const Told& told) {
+void tell_candidates(SearchState& state, const Search& searched, const Told& told) {
+  const Selection& selection = *searched.selection;
   int step = 0;
   for (const auto& round : selection.rounds()) {
     ++step;
@@ -156,7 +195,7 @@ void tell_candidates(SearchState& state, const Selection& selection, const Told&
     for (const auto& r : round.rivals) {
       TriedEffect t = r.tried;
       t.candidate = r.fitted.model;
-      if (t.candidate.ok) t.candidate.error_of = state.evidence->error(t.candidate.prediction);
+      if (t.candidate.ok) t.candidate.error_of = searched.state.evidence->error(t.candidate.prediction);
       t.reason =
           !r.fitted.ok() ? "could not be fitted: " + r.fitted.model.error : how_much_more(selection, r.fitted, before);
       Candidate c = candidate_of(t, step);
@@ -187,37 +226,106 @@ void tell_starts(SearchState& state, const std::vector<std::string>& moving) {
       fmt::join(moving, ", "), moving.size() == 1 ? "does" : "do", moving.size() == 1 ? "it begins" : "they begin"));
 }
 
+std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
+  auto search = std::make_unique<Search>(
+      asked, data, begin_in_motion(asked.diagram, data, asked.registry, asked.effects, asked.options));
+  search->selection.emplace(search->state, numbers_not_exact(search->state));
+  search->state.unless_stopped([&] { search->selection->run(); });
+  search->state.d.broken_off = search->state.stopped();
+  search->state.closing = true;  // what was found is told in full
+  return search;
+}
+
+/// What was found in a part is claimed in all rows as well, and nothing more is left in these.
+bool holds(const SearchState& all, const Search& part, const Told& told) {
+  const Selection& selection = *part.selection;
+  if (!told.chain.back().ok) return false;
+  const FitSetting setting(all, told.kept);
+  std::vector<TableModel> models;
+  std::vector<LeftSums> left;
+  for (std::size_t k = 0; k < told.chain.size(); ++k) {
+    const Numbers numbers = told.kept.empty() ? Numbers::written : Numbers::let_go;
+    models.push_back(measured(setting, told.chain[k], numbers, *told.context.weights, selection.best().tried));
+    left.push_back(models.back().left);
+  }
+  const BlockScore score(*all.evidence, left);
+  for (std::size_t k = 0; k + 1 < models.size(); ++k)
+    if (score_of(score, models[k + 1]) < score_of(score, models[k]) + rules::by_score) return false;
+  const double left_in_part = selection.score().over_noise(selection.best().left);
+  return score.over_noise(left.back()) <= rules::near_noise * std::max(1.0, left_in_part);
+}
+
+std::string parts_of(const DataSet& part) {
+  std::vector<std::string> list;
+  for (const auto& r : part.recordings)
+    if (r.role != Role::test) list.push_back(fmt::format("{} rows of {}", r.last - r.first, r.name));
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+/// Whether inputs are held between their samples, in the recordings that were searched in.
+void tell_ways_between(SearchState& state, Search& searched) {
+  SearchState& part = searched.state;
+  const std::size_t before = part.d.warnings.size();
+  part.unless_stopped([&] { tell_other_ways(part); });
+  if (&part == &state) return;
+  const auto first = part.d.warnings.begin() + static_cast<std::ptrdiff_t>(before);
+  state.d.warnings.insert(state.d.warnings.end(), first, part.d.warnings.end());
+}
+
+/// `elsewhere`: the state that judges what was found, where that is not the one that was searched in.
+Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhere, std::optional<Told> told) {
+  SearchState& state = elsewhere ? elsewhere->state : searched->state;
+  if (told) {
+    state.base = told->chain.front();
+    state.current = told->chain.back();
+    state.settle(state.current);
+    if (elsewhere) searched->state.settle(searched->state.current = searched->selection->best().model);
+    for (std::size_t k = 0; k + 1 < told->chain.size(); ++k) tell_step(state, *searched, *told, k);
+    state.current = told->chain.back();
+    state.settle(state.current);
+    state.d.base_diagram = state.base.diagram;
+    tell_candidates(state, *searched, *told);
+    tell_numbers(state, *told);
+  }
+  tell_ways_between(state, *searched);
+  tell_starts(state, searched->moving);
+  state.d.model_runs = searched->state.context.derivatives->runs();
+  if (elsewhere) {  // long recordings: what is not needed any more goes
+    state.d.model_runs += state.context.derivatives->runs();
+    told.reset();
+    searched.reset();
+  }
+  conclude(state);
+  return std::move(state.d);
+}
+
 }  // namespace
 
 Discovery select_model(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
                        const DiscoverOptions& options) {
-  const std::vector<std::string> moving = begin_in_motion(diagram, data, registry, effects, options);
-  Discovery facts;
-  facts.found_starts = moving;
-  SearchState state(diagram, as_found(data, facts), registry, effects, options);
-  state.by_score = true;
-  state.d.asked_for = options.only;
-  fit_base(state);
-  Selection selection(state, numbers_not_exact(state));
-  state.unless_stopped([&] { selection.run(); });
-  state.d.broken_off = state.stopped();
-  state.closing = true;  // what was found is told in full
-  if (selection.best().ok()) {
-    const Told told = to_be_told(state, selection);
-    state.base = told.chain.front();
-    state.current = told.chain.back();
-    state.settle(state.current);
-    for (std::size_t k = 0; k + 1 < told.chain.size(); ++k) tell_step(state, selection, told, k);
-    state.current = told.chain.back();
-    state.settle(state.current);
-    state.d.base_diagram = state.base.diagram;
-    tell_candidates(state, selection, told);
-    tell_numbers(state, told);
+  const Asked asked{diagram, registry, effects, options};
+  const auto part = first_part(data);
+  auto searched = search_in(asked, part ? *part : data);
+  if (part && searched->selection->best().ok()) {
+    auto all = std::make_unique<Search>(asked, data, searched->moving);
+    all->state.d.broken_off = searched->state.d.broken_off;
+    all->state.closing = true;
+    Told told = to_be_told(all->state, *searched);
+    if (holds(all->state, *searched, told)) {
+      all->state.d.warnings.push_back(
+          fmt::format("Effects were searched for in the first {}: what was found is fitted to all rows and leaves no "
+                      "more in them.",
+                      parts_of(*part)));
+      return tell(std::move(searched), std::move(all), std::move(told));
+    }
+    all.reset();
+    searched = search_in(asked, data);
+    searched->state.d.warnings.push_back(
+        fmt::format("The first {} do not show all that acts: effects were searched for in all rows.", parts_of(*part)));
   }
-  tell_starts(state, moving);
-  conclude(state);
-  state.d.model_runs = state.context.derivatives->runs();
-  return std::move(state.d);
+  std::optional<Told> told;
+  if (searched->selection->best().ok()) told = to_be_told(searched->state, *searched);
+  return tell(std::move(searched), nullptr, std::move(told));
 }
 
 }  // namespace hysteron

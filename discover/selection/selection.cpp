@@ -18,7 +18,6 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
-constexpr double near_noise = 1.1;  // rms over the noise: nothing is left that another effect could take away
 constexpr int slowest = 2;          // see slowness()
 constexpr int few_renewals = 3;     // of weights, for rivals that may not win
 constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
@@ -240,7 +239,7 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
     double least = score().over_noise(best_.left);
     for (std::size_t i = 0; i < n; ++i)
       if (const TableModel& f = rivals[first + i].fitted; f.ok()) least = std::min(least, score().over_noise(f.left));
-    if (least < near_noise) break;
+    if (least < rules::near_noise) break;
   }
   sort(rivals);
 }
@@ -325,7 +324,7 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
     for (auto& r : rivals)
       if (r.slowness == slow) some.push_back(std::move(r));
     const bool only_noise =
-        !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < near_noise;
+        !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < rules::near_noise;
     if (!some.empty() && !only_noise && !state_.stopped()) {
       fit_first_laws(some, step);
       std::vector<TableModel> begun;
@@ -357,7 +356,7 @@ bool Selection::add_one(int step) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
     // Where more than noise is left, who was not asked might have been the one.
-    if (broken_off && score().over_noise(r.fitted.left) > near_noise) break;
+    if (broken_off && score().over_noise(r.fitted.left) > rules::near_noise) break;
     best_ = r.fitted;
     return true;
   }

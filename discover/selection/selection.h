@@ -14,6 +14,8 @@ namespace hysteron {
 
 namespace rules {
 constexpr double by_score = 10;  ///< a model claims what it adds where its score is so much higher
+/// rms over the noise below which nothing is left that another effect could take away.
+constexpr double near_noise = 1.1;
 }  // namespace rules
 
 /// A rival: one effect more than the model it stands on.
