@@ -31,6 +31,7 @@ Law logarithmic(const Excitation& at, bool free_first) {
   if (!by_hours(at) && at.range() > 0) give(law.block, "swing", with_unit(0.02 * at.range(), at.unit));
   LawParameter a;
   a.path = "per_decade";
+  a.is_size = true;
   a.start = 0.01;
   a.lower = at.from_data && decades_of_use(at) < 1 ? 0 : -0.2;  // one age alone: a gain that rose has not aged
   a.upper = 0.3;

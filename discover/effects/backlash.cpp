@@ -35,6 +35,7 @@ Law in_a_transmission(const Excitation& at) {
   law.block.type = at.by;
   LawParameter gap;
   gap.path = "gap";
+  gap.is_size = true;
   gap.lower = 0;
   gap.upper = 0.8 * moved;
   gap.scan = per_decade(0.002 * moved, 0.2 * moved, 2);
@@ -84,6 +85,7 @@ Effect backlash() {
     give(law.block, "gap", with_unit(0.006 * range, at.unit));
     LawParameter gap;
     gap.path = "gap";
+    gap.is_size = true;
     gap.start = 0.006 * range;
     gap.lower = 0;
     gap.upper = 0.8 * range;

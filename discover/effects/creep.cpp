@@ -73,6 +73,7 @@ Law by_the_logarithm(const Excitation& at) {
   law.block.type = "logarithmic_creep";
   LawParameter amount;
   amount.path = "per_decade";
+  amount.is_size = true;
   amount.start = 0.01;
   amount.lower = 0;
   amount.upper = 0.4;  // twenty times what is reported: what moves on by more is no creep but another plant

@@ -63,6 +63,7 @@ Effect cross_coupling() {
          Number{rounded(0.01 * own * scale), "(" + unit_text(at.unit) + ")/(" + unit_text(at.side_unit) + ")"});
     LawParameter c;
     c.path = "coefficient";
+    c.is_size = true;
     c.start = 0.01 * own;
     c.plausible_lower = -own;  // what does more than its own drive is a second input, not a coupling
     c.plausible_upper = own;

@@ -40,6 +40,7 @@ Effect dead_time() {
     give(law.block, "delay", with_unit(at.shortest_step, parse_unit("s")));
     LawParameter delay;
     delay.path = "delay";
+    delay.is_size = true;
     delay.start = at.shortest_step;
     delay.lower = 0;
     delay.upper = at.longest_recording / 5;

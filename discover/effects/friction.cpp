@@ -33,6 +33,7 @@ Law on_a_speed(const Excitation& at, bool flows) {
   const double fast = fastest(at);
   LawParameter level;
   level.path = "level";
+  level.is_size = true;
   level.start = 0.1 * fast;
   level.lower = 0;  // it takes energy
   give(law.block, "level", with_unit(level.start, at.unit));

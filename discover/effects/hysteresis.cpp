@@ -28,6 +28,7 @@ Law plays(const Excitation& at, const char* name, int n, double from, double to,
     own.path = element("weights", 0);
     own.start = 1;
     own.lower = 0;
+    own.beside_size = true;
     law.free.push_back(own);
   }
   for (int i = 0; i < n; ++i) {
@@ -36,6 +37,7 @@ Law plays(const Excitation& at, const char* name, int n, double from, double to,
     w.path = element("weights", i + 1);
     w.start = 0.02;
     w.lower = 0;  // domains switch with the field, never against it
+    w.is_size = true;
     law.free.push_back(w);
   }
   give(law.block, "weights", std::move(weights));
@@ -122,6 +124,7 @@ Law slip_elements(const Excitation& at) {
     distance.push_back(with_unit(part * range, parse_unit("um")));
     LawParameter k;
     k.path = element("contact_stiffness", i);
+    k.is_size = true;
     k.start = 0.02 * force / range;
     k.lower = 0;
     k.upper = 100 * force / range;

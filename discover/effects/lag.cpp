@@ -30,6 +30,7 @@ std::vector<Law> lag_laws(const Excitation& at) {
   one.block.type = "lag";
   give(one.block, "times", NumberList{with_unit(at.shortest_step, parse_unit("s"))});
   one.free = {time_constant(at, 0)};
+  one.free.front().is_size = true;
 
   Law two = one;
   two.name = "two poles";

@@ -44,6 +44,7 @@ Effect load_dependence() {
     give(law.block, "softening", Number{0, "1/N"});
     LawParameter compliance;
     compliance.path = "compliance";
+    compliance.is_size = true;
     compliance.start = 0.01 * range / force;
     law.free = {compliance};
     Law more = law;

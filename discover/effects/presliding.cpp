@@ -68,6 +68,7 @@ Law dry(const Excitation& at) {
   const double force = driving_range(at) > 0 ? driving_range(at) : 1;
   LawParameter level;
   level.path = "coulomb";
+  level.is_size = true;
   level.start = 0.05 * force;
   level.lower = 0;  // it takes energy
   level.upper = force;
@@ -102,6 +103,7 @@ Law presliding(const Excitation& at) {
   give(law.block, "slip_distance", NumberList{with_unit(0.02 * range, parse_unit(turns(at) ? "mrad" : "um"))});
   LawParameter k;
   k.path = element("contact_stiffness", 0);
+  k.is_size = true;
   k.start = 0.5 * force / range;
   k.lower = 1e-5 * force / range;
   k.upper = 1e4 * force / range;
@@ -134,6 +136,7 @@ Law guided(const Excitation& at) {
   const double range = at.range() > 0 ? at.range() : 1;
   LawParameter level;
   level.path = "level";
+  level.is_size = true;
   level.start = 0.01 * range;
   level.lower = 0;                  // it takes energy
   level.upper = short_way * range;  // see the slip distance: it slides once the pull is above this
@@ -181,6 +184,7 @@ Law beside_damping(const Excitation& at) {
   const double fast = fastest(at);
   LawParameter level;
   level.path = "level";
+  level.is_size = true;
   level.start = 0.3 * fast;
   level.lower = 0;  // it takes energy
   // Bearings of small machines brake more by dry friction than by their damping at any speed that they reach, guides

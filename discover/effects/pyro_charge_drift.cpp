@@ -45,6 +45,7 @@ Effect pyro_charge_drift() {
     give(law.block, "time", with_unit(at.longest_recording / 30, parse_unit("s")));
     LawParameter coefficient;
     coefficient.path = "coefficient";
+    coefficient.is_size = true;
     coefficient.start = per_kelvin;
     if (at.unit.dimension == parse_unit("V").dimension) {
       coefficient.plausible_lower = -3;

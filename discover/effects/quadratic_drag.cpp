@@ -35,6 +35,7 @@ Effect quadratic_drag() {
     give(law.block, "drag", with_unit(0.01 * unit, parse_unit(turns(at) ? "N*m*s^2/rad^2" : "N*s^2/m^2")));
     LawParameter c;
     c.path = "drag";
+    c.is_size = true;
     c.start = 0.01 * unit;
     c.lower = 1e-9 * unit;
     c.upper = 1e9 * unit;

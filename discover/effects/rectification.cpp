@@ -31,6 +31,7 @@ Effect rectification() {
     give(law.block, "mix", 0.0);
     LawParameter mix;
     mix.path = "mix";
+    mix.is_size = true;
     mix.start = 0.1;
     mix.lower = -0.1;
     mix.upper = 1.1;

@@ -41,6 +41,7 @@ Effect stiffening() {
     give(law.block, "stiffening", with_unit(0.01 * unit, parse_unit("N/m^3")));
     LawParameter k3;
     k3.path = "stiffening";
+    k3.is_size = true;
     k3.start = 0.01 * unit;
     k3.lower = -0.3 * unit;
     k3.upper = 10 * unit;

@@ -31,6 +31,7 @@ Law law(const Excitation& at, bool bent) {
                                  : level(one_temperature(at) ? usual_room(middle) : middle, at.side_unit));
   LawParameter sensitivity;
   sensitivity.path = "sensitivity";
+  sensitivity.is_size = true;
   sensitivity.start = 0.001;
   sensitivity.lower = -0.05;
   sensitivity.upper = 0.05;
@@ -41,6 +42,7 @@ Law law(const Excitation& at, bool bent) {
       !one_temperature(at)) {  // else the gain of the model is that at the reference, wherever that is
     LawParameter reference;
     reference.path = "reference";
+    reference.beside_size = true;
     reference.start = middle;
     // Sensitivity and reference multiply each other: from a wrong reference the first steps go astray. The user's gain
     // was found at a temperature of these recordings, most often the coldest, that of the room.

@@ -32,6 +32,7 @@ Law parts(const Excitation& at, int n) {
     LawParameter c;
     c.path = element("coefficients", k);
     c.start = per_kelvin;
+    c.is_size = true;
     law.free.push_back(c);
   }
   for (int k = 0; k < n; ++k) {
@@ -53,6 +54,7 @@ Law parts(const Excitation& at, int n) {
   if (!at.side_unit.text.empty()) give(law.block, "reference", level(middle, at.side_unit));
   LawParameter reference;
   reference.path = "reference";
+  reference.beside_size = true;
   reference.start = middle;
   reference.lower = middle - 200;
   reference.upper = middle + 200;

@@ -115,6 +115,11 @@ struct LawParameter {
   bool period_of_wire = false;
   /// Its value is another one in each recording and found on that recording alone, validation included; linear.
   bool per_recording = false;
+  /// 0 is no effect, and what the effect does grows with this number, in proportion while it is small (and with others
+  /// of the law that are marked so). Of first laws: see EffectLimit.
+  bool is_size = false;
+  /// It makes up for what the size does besides: the wire's own gain beside plays, which add to it.
+  bool beside_size = false;
   /// It changes places with others of the law that are: where two have one value, no slope leads a search apart again.
   bool interchangeable = false;
   double plausible_lower = -std::numeric_limits<double>::infinity();  ///< outside: possible, but said to be unusual

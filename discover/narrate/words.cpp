@@ -335,12 +335,29 @@ void tell_what_is_left(Discovery& d) {
     for (auto& sentence : structure_sentences(*d.structure)) say.push_back(std::move(sentence));
 }
 
+/// Of what was looked for and not found, the largest that may be there all the same.
+void tell_limits(Discovery& d) {
+  constexpr std::size_t named = 3;
+  if (d.limits.empty()) return;
+  std::vector<const EffectLimit*> largest;
+  for (const auto& l : d.limits) largest.push_back(&l);
+  std::stable_sort(largest.begin(), largest.end(), [](const auto* a, const auto* b) { return a->sizes > b->sizes; });
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(named, largest.size()); ++i)
+    list.push_back(fmt::format("{} at {}: {}", largest[i]->effect, largest[i]->place,
+                               largest[i]->at_most.substr(0, largest[i]->at_most.find(';'))));
+  d.sentences.push_back(
+      fmt::format("Looked for and not found, and at most so large (95 %): {}{}.", fmt::join(list, "; "),
+                  largest.size() > named ? fmt::format("; {} more stand in the report", largest.size() - named) : ""));
+}
+
 }  // namespace
 
 void put_into_words(Discovery& d, const DataSet& data) {
   d.headline = (d.other_numbers.empty() ? "" : other_numbers(d)) + headline_of(d);
   tell_numbers(d);
   tell_what_is_left(d);
+  tell_limits(d);
   if (d.final_error.nrmse_test) d.sentences.push_back(test_sentence(d.final_error));
   if (d.experiment)
     d.sentences.push_back(

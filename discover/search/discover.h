@@ -126,6 +126,17 @@ struct OtherNumber {
   double written = 0, found = 0, sigma = 0;  ///< [SI]
 };
 
+/// How large an effect can be that was looked for and not found, at the place where the recordings allow most of it.
+struct EffectLimit {
+  std::string effect, title, place, law;
+  std::string parameter;  ///< of that law: "gap"; of several the first
+  Unit unit;
+  bool difference = false;
+  double value = 0;     ///< of the parameter: at most so much, in 95 of 100 cases [SI]
+  std::string at_most;  ///< what the law says there
+  double sizes = 0;     ///< the same, in sizes with which the law begins
+};
+
 /// Everything that was found.
 struct Discovery {
   Verdict verdict = Verdict::adequate;
@@ -150,6 +161,7 @@ struct Discovery {
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   std::vector<OtherNumber> other_numbers;  ///< the furthest from what is written first; all figures are with these
   std::vector<std::string> found_starts;  ///< recordings that do not begin at rest, by name; all figures are with these
+  std::vector<EffectLimit> limits;        ///< of what was not found, where only noise is left
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each

@@ -11,6 +11,7 @@
 
 #include "discover/search/between_samples.h"
 #include "discover/selection/first_part.h"
+#include "discover/selection/limits.h"
 #include "discover/selection/selection.h"
 #include "engine/diagram/stop.h"
 
@@ -288,6 +289,7 @@ Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhe
     tell_numbers(state, *told);
   }
   tell_ways_between(state, *searched);
+  tell_limits(searched->state, *searched->selection, state.d);
   tell_starts(state, searched->moving);
   state.d.model_runs = searched->state.context.derivatives->runs();
   if (elsewhere) {  // long recordings: what is not needed any more goes

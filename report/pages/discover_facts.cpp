@@ -270,6 +270,19 @@ Facts discovery_facts(const Discovery& found, const std::string& diagram_file, c
     }
     facts.set("other_numbers", numbers);
   }
+  if (!found.limits.empty()) {
+    Facts::List limits;
+    for (const auto& l : found.limits)
+      limits.push_back(
+          Facts::object({{"effect", l.effect},
+                         {"place", l.place},
+                         {"law", l.law},
+                         {"parameter", l.parameter},
+                         {"value", l.difference ? l.unit.difference_from_si(l.value) : l.unit.from_si(l.value)},
+                         {"unit", l.unit.text},
+                         {"at_most", l.at_most}}));
+    facts.set("limits", limits);
+  }
   if (found.structure) facts.set("structure", facts_of(*found.structure));
   if (found.experiment) facts.set("next_experiment", facts_of(*found.experiment));
   return facts;

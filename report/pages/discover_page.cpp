@@ -122,6 +122,13 @@ Section candidates_section(const Seen& seen) {
   }
   section.tables.push_back(std::move(table));
   if (!seen.found.structures.empty()) section.tables.push_back(structures_table(seen.found));
+  if (!seen.found.limits.empty()) {
+    Table limits;
+    limits.title = "What was looked for and not found";
+    limits.columns = {"effect", "place", "law", "at most (95 %)"};
+    for (const auto& l : seen.found.limits) limits.rows.push_back({l.effect, l.place, l.law, l.at_most});
+    section.tables.push_back(std::move(limits));
+  }
   if (!seen.found.refused.empty()) {
     Table refused;
     refused.title = "What these data cannot show";
