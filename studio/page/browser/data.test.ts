@@ -48,7 +48,7 @@ describe('data', () => {
     expect(studio.hysteron('new', '--from', 'elsewhere/lab.csv', '-o', 'terminal').code).toBe(0);
     for (const file of ['diagram.json', 'dataset.json', 'lab.csv']) expect(studio.read(`lab/${file}`).replace(/"\$schema": "[^"]*"/, '')).toBe(studio.read(`terminal/${file}`).replace(/"\$schema": "[^"]*"/, ''));
     expect(await page.locator('.topbar [aria-label="data"]').inputValue()).toBe('lab/dataset.json');
-    await page.click('.topbar button:text-is("Compare")');
+    await studio.verb('Compare');
     await page.waitForSelector('.bar-row');
   });
 

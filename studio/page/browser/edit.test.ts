@@ -197,7 +197,7 @@ describe('editing', () => {
 
   it('asks whose text counts where both have changed it', async () => {
     const {page} = studio;
-    await page.click('.tabs button:text-is("Text")');
+    await studio.tab('Text');
     const mine = small.replace('"Small"', '"Mine"');
     await shown();
     await page.fill(textField, mine);
@@ -246,8 +246,8 @@ describe('editing', () => {
     const {page} = studio;
     const mine = small.replace('"Small"', '"Draft"');
     await page.fill(textField, mine);
-    await page.click('.tabs button:text-is("Scopes")');
-    await page.click('.tabs button:text-is("Text")');
+    await studio.tab('Scopes');
+    await studio.tab('Text');
     await studio.until(async () => (await typed()) === mine);
     await page.click('.panel-head button:text-is("Revert")');
     expect(text()).toBe(small);

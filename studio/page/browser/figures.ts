@@ -134,7 +134,7 @@ for (const [file, block, one] of [['large/machine.json', 'move', 'axis_1'], ['la
 }
 
 await studio.openDiagram('long.json');
-await page.click('.topbar button:text-is("Run")');
+await studio.verb('Run');
 await page.locator('.plot canvas').first().waitFor();
 const plot = (await page.locator('.plot .u-over').first().boundingBox())!;
 const zooms: number[] = [];
@@ -175,7 +175,7 @@ for (const end = Date.now() + 60000 * minutes; Date.now() < end; ++done) {
   switch (random(8)) {
     case 0: await studio.openDiagram(files[random(files.length)]); break;
     case 1: await tabs.nth(random(8)).click(); break;
-    case 2: await page.keyboard.press('Escape'); await page.click('.topbar button:text-is("Run")'); break;
+    case 2: await page.keyboard.press('Escape'); await studio.verb('Run'); break;
     case 3: if (await page.isEnabled('[aria-label="undo"]')) await page.click('[aria-label="undo"]'); break;
     case 4: if (await page.isEnabled('[aria-label="redo"]')) await page.click('[aria-label="redo"]'); break;
     case 5: await page.click('.fit-all'); await page.mouse.wheel(0, 40); break;

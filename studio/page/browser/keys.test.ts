@@ -80,7 +80,7 @@ describe('keys and eyes', () => {
 
   it('complete words and signals in the text', async () => {
     const {page} = studio;
-    await page.click('.tabs button:text-is("Text")');
+    await studio.tab('Text');
     const field = page.locator('.text-view .cm-content');
     await field.waitFor();
     await page.locator('.text-view .cm-line:has-text("10 V")').click();

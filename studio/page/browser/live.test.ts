@@ -18,7 +18,7 @@ describe('live', () => {
 
   it('follows a number that is dragged, and writes it when it is let go', async () => {
     const {page} = studio;
-    await page.click('.topbar button:text-is("Run")');
+    await studio.verb('Run');
     await page.waitForSelector('.signals label:has-text("stage")');
     await studio.block('drive').click();
     const handle = page.locator('.inspector .handle:text-is("amplitude")');
@@ -76,7 +76,7 @@ describe('live', () => {
 
   it('tells in what another diagram differs, and runs both', async () => {
     const {page} = studio;
-    await page.click('.tabs button:text-is("Diff")');
+    await studio.tab('Diff');
     await page.selectOption('[aria-label="other diagram"]', 'other.json');
     await page.waitForSelector('.diff tbody tr');
     expect(await page.locator('.diff tbody tr').allTextContents()).toEqual(['drive frequency5 Hz6 Hz']);

@@ -21,7 +21,7 @@ describe('looking', () => {
     expect(await page.locator('.react-flow__node').count()).toBe(11);  // ten blocks and the output
     expect(await page.locator('.react-flow__edge').count()).toBe(12);
     expect(await studio.block('controller').locator('text.unit').allTextContents()).toEqual(['V']);
-    await page.click('.topbar button:text-is("Run")');
+    await studio.verb('Run');
     await page.waitForSelector('.plot canvas');
     const job = JSON.parse(await page.evaluate(async (token) =>
       (await fetch('/api/state', {headers: {Authorization: `Bearer ${token}`}})).text(), studio.token)).jobs[0];
@@ -41,7 +41,7 @@ describe('looking', () => {
   it('compares, and shades the spans of a bar over the curves', async () => {
     const {page} = studio;
     await studio.openDiagram('demo/stage.json');
-    await page.click('.topbar button:text-is("Compare")');
+    await studio.verb('Compare');
     await page.waitForSelector('.bar-row');
     await page.selectOption('[aria-label="split by"]', 'hold_time of y');
     await page.selectOption('.panel-head [aria-label="recording"]', '05.csv');
@@ -56,7 +56,7 @@ describe('looking', () => {
   it('finds creep, shows it, writes it when it is accepted, and takes it back', async () => {
     const {page} = studio;
     const original = studio.read('demo/stage.json');
-    await page.click('.topbar button:text-is("Discover")');
+    await studio.verb('Discover');
     await page.waitForSelector('.card', {timeout: 300000});
     expect(await page.textContent('.card header')).toMatch(/creep at stack61\.22 nm → 0\.23\d* nm/);  // the noise is 0.238 nm
     await page.click('.card button:text-is("Try")');
@@ -65,9 +65,9 @@ describe('looking', () => {
     await page.click('.card button:text-is("Accept")');
     await studio.until(() => studio.read('demo/stage.json') !== original);
     expect(JSON.parse(studio.read('demo/stage.json')).blocks.stack_creep.effect).toBe('creep');
-    await page.click('.tabs button:text-is("Waterfall")');
+    await studio.tab('Waterfall');
     expect(await page.locator('.waterfall text.value').allTextContents()).toEqual(['61.22 nm', expect.stringMatching(/^0\.23\d* nm$/)]);
-    await page.click('.topbar button:text-is("Compare")');
+    await studio.verb('Compare');
     await page.waitForSelector('.panel-head .headline:has-text("misses y by 0.00023")');
     await page.click('[aria-label="undo"]');
     await studio.until(() => studio.read('demo/stage.json') === original);
@@ -98,9 +98,9 @@ describe('looking', () => {
     };
     const round = async () => {
       for (const file of ['loop.json', 'demo/stage.json']) await studio.openDiagram(file);
-      await page.click('.results .tabs button:text-is("Text")');
+      await studio.tab('Text');
       await page.locator('.text-view .cm-content').waitFor();
-      await page.click('.results .tabs button:text-is("Scopes")');
+      await studio.tab('Scopes');
       await page.locator('.text-view').waitFor({state: 'detached'});
     };
     for (let i = 0; i < 3; ++i) await round();

@@ -47,8 +47,7 @@ async function picture(name: string): Promise<void> {
   await page.setViewportSize(screens[0]);
   console.log(name);
 }
-const verb = (label: string) => page.click(`.topbar button:text-is("${label}")`);
-const tab = (label: string) => page.click(`.results .tabs button:text-is("${label}")`);
+const {verb, tab} = studio;
 
 await studio.openDiagram('chapter2/feedback_continuous.json');
 await picture('1-chapter2-opened');
@@ -64,10 +63,10 @@ await picture('1-motion-run');
 
 await studio.openDiagram('large/machine.json');
 await picture('1-large-opened');
-await page.click('.topbar button:text-is("Nested")');
+await studio.verb('Nested');
 await page.waitForTimeout(1500);
 await picture('1-large-nested');
-await page.click('.topbar button:text-is("Nested")');
+await studio.verb('Nested');
 
 await studio.openDiagram('broken.json');
 await studio.block('total').click();

@@ -10,7 +10,7 @@ describe('scopes', () => {
   const studio = new Studio();
   beforeAll(async () => {
     await studio.openOn({'small.json': small});
-    await studio.page.click('.topbar button:text-is("Run")');
+    await studio.verb('Run');
     await studio.page.waitForSelector('.plot canvas');
   });
   afterAll(() => studio.close());

@@ -109,6 +109,9 @@ export class Studio {
     await this.page.locator('.react-flow__node').first().waitFor();
     await this.page.waitForTimeout(300);  // the view is fitted in the next frame
   }
+  /// A verb of the bar, and a tab of the results.
+  verb = (label: string) => this.page.click(`.topbar button:text-is("${label}")`);
+  tab = (label: string) => this.page.click(`.results .tabs button:text-is("${label}")`);
   block = (name: string) => this.page.locator(`.react-flow__node[data-id="${name}"]`);
 
   /// Where something is once it stays there: the edit before may still be on its way to the canvas.
