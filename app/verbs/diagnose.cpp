@@ -11,7 +11,8 @@ constexpr char diagnose_help[] =
     "it.\n\n"
     "Examples:\n"
     "  hysteron diagnose stage.json --data dataset.json\n"
-    "  hysteron diagnose stage.json --data lab.csv --free gain --only creep\n\n"
+    "  hysteron diagnose stage.json --data lab.csv --free gain --only creep\n"
+    "  hysteron diagnose stage.json --data lab.csv --experiment drive.csv\n\n"
     "Writes into the folder: result.json, traces/*.csv, report.html, and the diagram with the effect named.\n"
     "Exit codes: 0 done, whatever was found; 2 wrong input, 3 numerics failed, 130 interrupted.";
 

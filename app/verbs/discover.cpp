@@ -19,6 +19,7 @@ constexpr char discover_help[] =
     "  hysteron discover stage.json --data lab.csv -o out --steps 1\n"
     "  hysteron discover stage.json --data dataset.json --only creep --only hysteresis\n"
     "  hysteron discover stage.json --data dataset.json --effects own/    with effects of your own\n"
+    "  hysteron discover stage.json --data lab.csv --experiment drive.csv    what to record next, as a file to play\n"
     "  hysteron discover model.json --data new.csv --check      a test for machines: is it still explained?\n\n"
     "A number of the diagram that is a few per cent off is told as that, and all begins anew with such numbers free; "
     "with\n"

@@ -3,24 +3,29 @@
 #include "app/verbs/look.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <utility>
 
 #include "app/cli/interrupt.h"
 #include "app/cli/load.h"
+#include "app/cli/target.h"
 #include "discover/placement/add.h"
 #include "discover/search/check.h"
 #include "discover/selection/select.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "io/data/same_rows.h"
+#include "io/files/atomic_file.h"
 #include "io/json/value_text.h"
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_page.h"
+#include "report/pages/drive_file.h"
 
 namespace hysteron {
 namespace {
@@ -84,6 +89,56 @@ std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet
   } catch (const Stopped&) {
     return std::nullopt;
   }
+}
+
+/// Where the experiment that is asked for goes, "" = nowhere. A recording, or any other file, is never written over;
+/// what cannot be written is told before hours of search.
+std::string experiment_file(const Arguments& arguments) {
+  const std::string option = "--experiment";
+  if (!arguments.has(option)) return "";
+  const std::string file = arguments.text(option);
+  need_ending(option, file, {".csv"}, "a CSV, e.g. --experiment drive.csv");
+  std::error_code none;
+  const auto status = std::filesystem::status(file, none);
+  if (std::filesystem::is_directory(status))
+    fail("cannot_write", option, file + " is a folder", "name a file in it, e.g. " + file + "/drive.csv");
+  const auto folder = std::filesystem::path(file).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+    fail("cannot_write", option, fmt::format("there is no folder {}", folder.string()),
+         "make it, or name a file in another one");
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    fail("cannot_write", option,
+         fmt::format("nothing can be written into {}", folder.empty() ? "this folder" : folder.string()),
+         "name a file in a folder of yours");
+  if (std::filesystem::is_regular_file(status) && !read_file(file).starts_with(drive_file_head))
+    fail("file_in_use", option, fmt::format("{} is there and holds no experiment, so it is not written over", file),
+         "name another file, e.g. drive.csv, or remove this one");
+  return file;
+}
+
+/// The experiment that is asked for, as a file; or that there is none.
+void give_experiment(Answer& answer, const Discovery& found, const std::string& file) {
+  if (file.empty()) return;
+  const auto& e = found.experiment;
+  if (!e || !e->drive) {
+    answer.closing = fmt::format("No experiment is asked for: {} was not written.\n", file);
+    return;
+  }
+  answer.files.push_back({file, drive_file_text(*e)});
+  answer.closing = fmt::format("wrote {}: the experiment \"{}\". Measure {}\n", file, e->word, what_to_measure(*e));
+  const auto faster = faster_than_recorded(*e);
+  for (const auto& word : faster)
+    answer.closing += fmt::format("note: {}. See that drive and machine bear it.\n", word);
+  answer.facts.set("experiment", Facts::object({{"file", file},
+                                                {"word", e->word},
+                                                {"what_to_do", e->text},
+                                                {"tells", e->between},
+                                                {"separation", e->separation},
+                                                {"measure", e->drive->outputs},
+                                                {"rows", e->drive->t.size()},
+                                                {"duration", e->drive->t.back() - e->drive->t.front()},
+                                                {"shortest_step", e->drive->shortest_step},
+                                                {"faster_than_recorded", faster}}));
 }
 
 /// What is looked for, in what, and for how long.
@@ -174,6 +229,7 @@ void tell_end(Document& document, const Arguments& arguments, bool stopped, bool
 }  // namespace
 
 Answer look(const std::string& verb, const Arguments& arguments, const Watch& watch) {
+  const std::string drive = experiment_file(arguments);
   Wish wish = read_wish(arguments, watch);
   auto same_rows = warnings_of_same_rows(wish.given);
   DataSet data = std::exchange(wish.given, {});
@@ -198,12 +254,32 @@ Answer look(const std::string& verb, const Arguments& arguments, const Watch& wa
   for (auto& warning : same_rows) document.warnings.push_back(std::move(warning));
   tell_end(document, arguments, stopped, found.broken_off);
   answer.facts = short_answer(found, check);
+  give_experiment(answer, found, drive);
   answer.exit_code = check && !check->explained ? exit_code::no : exit_code::done;
   if (!stopped) return answer;
   answer.exit_code = exit_code::interrupted;
   answer.interrupted = "interrupted; what was found so far is in " + answer.folder;
   return answer;
 }
+
+namespace {
+
+Facts experiment_shape() {
+  return shape::object(
+      "what --experiment wrote",
+      {{"file", shape::text("the CSV: t, and a column for each input")},
+       {"word", shape::text("which experiment of the menu it is")},
+       {"what_to_do", shape::text("in words")},
+       {"tells", shape::text("which effects it tells apart")},
+       {"separation", shape::number("rms difference of their models over the noise")},
+       {"measure", shape::texts("outputs to be measured")},
+       {"rows", shape::whole("of the file")},
+       {"duration", shape::number("[s]")},
+       {"shortest_step", shape::number("[s] between rows that are to be measured")},
+       {"faster_than_recorded", shape::texts("inputs for which nothing slower tells, and by how much")}});
+}
+
+}  // namespace
 
 std::vector<shape::Member> look_shape() {
   const Facts check =
@@ -212,7 +288,8 @@ std::vector<shape::Member> look_shape() {
                                               {"named", shape::texts("what is new")}});
   return shape::published({{"effects", shape::texts("found, in their order")},
                            {"ties", shape::list("of each step", shape::texts("effects that explain it as well"))},
-                           {"check", check, shape::sometimes}});
+                           {"check", check, shape::sometimes},
+                           {"experiment", experiment_shape(), shape::sometimes}});
 }
 std::vector<OptionSpec> look_options() {
   return {options::diagram(),
@@ -227,6 +304,8 @@ std::vector<OptionSpec> look_options() {
           options::effects(),
           options::threads("candidates"),
           {"--within", "TIME", "end after so long with what was found by then, e.g. \"2 min\"", false, false},
+          {"--experiment", "FILE.csv",
+           "write the experiment that is asked for, if any, as rows for a generator or controller", false, false},
           options::output_folder(),
           options::set(),
           options::choose(),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "discover/experiment/experiment_menu.h"
@@ -31,7 +32,8 @@ class Maker {
         variant_(variant),
         middle_((drive.lowest + drive.highest) / 2),
         half_(variant.part * (drive.highest - drive.lowest) / 2),
-        step_(device.shortest_step) {
+        step_(device.shortest_step),
+        speed_(variant.as_recorded ? fastest_of(device, drive.name) : std::numeric_limits<double>::infinity()) {
     fastest_ = 0.1 / step_;  // ten rows per period still show its shape
     slowest_ = std::min(2 / device.longest_recording, fastest_ / 10);
   }
@@ -73,7 +75,27 @@ class Maker {
     v_.push_back(v);
   }
   void tell(const std::string& text, double duration) {
-    p_.text = fmt::format("{}{}; {} in all", which_moves(device_, drive_), text, time_text(rounded(duration)));
+    const std::string slowed =
+        slowed_ ? fmt::format(", smaller or later where it would move faster than recorded ({}/s)", size(speed_)) : "";
+    p_.text =
+        fmt::format("{}{}{}; {} in all", which_moves(device_, drive_), text, slowed, time_text(rounded(duration)));
+  }
+  /// A time that leaves as much to a way [SI] at the speed allowed.
+  double time_for(double way) const { return way / speed_; }
+  /// A period that is long enough for what it needs.
+  double period_for(double usual, double needed) {
+    double period = rounded(usual);
+    if (period < needed) slowed_ = true;
+    while (period < needed) period = rounded(1.005 * std::max(period, needed));
+    return period;
+  }
+  /// When it can be at a value that comes next: at `begin`, or later.
+  double when_at(double value, double begin) {
+    if (v_.empty()) return begin;
+    const double later = p_.t.back() + time_for(std::abs(value - v_.back()));
+    if (later <= begin + 1e-6 * step_) return begin;  // but for rounding of the times that were recorded
+    slowed_ = true;
+    return later;
   }
   /// Rows in so much time: no more than asked, and none nearer to each other than they can be recorded.
   int rows_in(double duration, int most) const {
@@ -82,7 +104,8 @@ class Maker {
 
   void triangle() {
     // Slow against everything that was recorded: one period takes a tenth of the longest recording.
-    const double period = rounded(std::max(variant_.slower * device_.longest_recording / 10, 200 * step_));
+    const double period =
+        period_for(std::max(variant_.slower * device_.longest_recording / 10, 200 * step_), time_for(4 * half_));
     const int rows = rows_in(period, 100);
     double begin = 0;
     for (const double a : {1.0, 0.8, 0.6, 0.4, 0.2}) {
@@ -102,6 +125,11 @@ class Maker {
   /// Sines from `begin` on; the answer: where they end.
   double sines_from(double begin, double f, double amplitude, double about) {
     const int rows = rows_in(1 / f, 40);
+    begin = when_at(about, begin);
+    if (const double most = speed_ / (2 * pi * f); amplitude > most) {
+      amplitude = most;
+      slowed_ = true;
+    }
     for (int k = 0; k < periods * rows; ++k)
       row(begin + k / (rows * f), about + amplitude * std::sin(2 * pi * k / rows));
     return begin + periods / f;
@@ -156,19 +184,33 @@ class Maker {
     return sum;
   }
 
+  /// From row to row, once around.
+  static double largest_change(const std::vector<double>& wave) {
+    double largest = 0;
+    for (std::size_t k = 0; k < wave.size(); ++k)
+      largest = std::max(largest, std::abs(wave[(k + 1) % wave.size()] - wave[k]));
+    return largest;
+  }
+
   void multisine() {
     const int rows = 300;
     const double every = variant_.slower * step_, period = rows * every;
+    double peak = 0.9 * half_, late = 0;
+    for (int realisation = 0; realisation < 3; ++realisation)
+      peak = std::min(peak, speed_ * every / largest_change(odd_lines(rows, realisation)));
+    slowed_ = peak < 0.9 * half_;
     for (int realisation = 0; realisation < 3; ++realisation) {
       const auto wave = odd_lines(rows, realisation);
+      const double begin = realisation * 2 * rows * every + late;
+      late += when_at(middle_ + peak * wave[0], begin) - begin;
       for (int k = 0; k < 2 * rows; ++k)
-        row((realisation * 2 * rows + k) * every, middle_ + 0.9 * half_ * wave[static_cast<std::size_t>(k % rows)]);
+        row((realisation * 2 * rows + k) * every + late, middle_ + peak * wave[static_cast<std::size_t>(k % rows)]);
     }
     tell(fmt::format("random-phase multisine around {}, peak {}, odd lines of {} up to {} with one of four left out, "
                      "row every {}, three realisations of two periods of {}",
-                     value(middle_), size(0.9 * half_), frequency_text(1 / period), frequency_text(0.1 / every),
+                     value(middle_), size(peak), frequency_text(1 / period), frequency_text(0.1 / every),
                      time_text(every), time_text(period)),
-         6 * period);
+         6 * period + late);
   }
 
   void steps(const std::vector<double>& levels, double exact_hold) {
@@ -179,6 +221,7 @@ class Maker {
     row(0, level(levels.front()));
     for (const double part : levels) {
       told.push_back(value(level(part)));
+      begin += ramp_to(level(part), begin);
       // Rows spaced by the logarithm of the time since the step: that is where the motion is.
       for (double t = step_; t < hold - step_; t = std::max(t + step_, t * ratio)) row(begin + t, level(part));
       row(begin + hold * (1 - 1e-9), level(part));
@@ -187,6 +230,18 @@ class Maker {
     tell(fmt::format("levels {}, {} each, rows every {} at first, later spaced by log time", fmt::join(told, ", "),
                      time_text(hold), time_text(step_)),
          begin);
+  }
+
+  static constexpr int rows_of_ramp = 10;
+
+  /// So much later than one row behind `begin` a step can be at its level: rows on the way there.
+  double ramp_to(double level, double begin) {
+    const double from = v_.back(), t = p_.t.back();
+    const double late = when_at(level, begin + step_) - (begin + step_);
+    const double way = late > 0 ? begin + step_ + late - t : 0;
+    const int rows = std::min(rows_of_ramp, static_cast<int>(way / step_));
+    for (int k = 1; k < rows; ++k) row(t + way * k / rows, from + (level - from) * k / rows);
+    return late;
   }
 
   /// Nothing moves: what the output does is noise, drift or picked up.
@@ -203,10 +258,12 @@ class Maker {
   /// What the device remembers is wiped out before it is recorded.
   void precycle() {
     const int count = 20, rows = 40;
-    const double period = rounded(std::max(rows * step_, device_.longest_recording / 40));
+    // The envelope adds 1 % to the speed.
+    const double period = period_for(std::max(rows * step_, device_.longest_recording / 40), time_for(6.4 * half_));
     for (int k = 0; k < count * rows; ++k)
       row(k * period / rows, middle_ + half_ * (1 - k / (1.0 * count * rows)) * std::sin(2 * pi * k / rows));
-    const double begin = count * period, first = device_.recorded_times.front();
+    const Series& recorded = device_.recorded.at(drive_.name);
+    const double begin = when_at(recorded.v.front(), count * period), first = device_.recorded_times.front();
     // The others too begin as they are recorded.
     for (const auto& [name, series] : device_.recorded) {
       if (name == drive_.name) continue;
@@ -214,7 +271,6 @@ class Maker {
       for (double& t : later.t) t += begin - first;
       p_.moves[name] = std::move(later);
     }
-    const Series& recorded = device_.recorded.at(drive_.name);
     for (std::size_t k = 0; k < recorded.t.size(); ++k) row(begin + recorded.t[k] - first, recorded.v[k]);
     tell(fmt::format("a sine around {} that decays from {} to nothing in {} periods of {}, then the longest recording "
                      "again",
@@ -225,7 +281,8 @@ class Maker {
   const Device& device_;
   const Drive& drive_;
   Variant variant_;
-  double middle_, half_, step_, fastest_ = 1, slowest_ = 1;
+  double middle_, half_, step_, speed_, fastest_ = 1, slowest_ = 1;
+  bool slowed_ = false;  ///< the speed of the recordings bound it
   Protocol p_;
   std::vector<double> v_;
 };

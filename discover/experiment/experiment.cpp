@@ -29,8 +29,16 @@ double rms_difference(std::vector<double> a, const std::vector<double>& b, bool 
 
 using Outputs = std::vector<std::vector<double>>;
 
-/// What the outputs of a program do in an experiment; what it does not move stays where recordings start. Empty where
-/// the model cannot follow: then it says nothing about it.
+/// What an input does in an experiment; what it does not move stays where recordings start.
+Series moved(const Protocol& protocol, const Device& device, const std::string& input) {
+  const auto moves = protocol.moves.find(input);
+  if (moves != protocol.moves.end()) return moves->second;
+  const auto level = device.levels.find(input);
+  return {{0.0}, {level == device.levels.end() ? 0.0 : level->second}, Between::hold};
+}
+
+/// What the outputs of a program do in an experiment. Empty where the model cannot follow: then it says nothing about
+/// it.
 Outputs answer(const ProgramPointer& program, const Protocol& protocol, const Device& device,
                const std::vector<std::string>& outputs) {
   std::vector<int> signals;
@@ -38,19 +46,40 @@ Outputs answer(const ProgramPointer& program, const Protocol& protocol, const De
     for (std::size_t o = 0; o < program->output_names.size(); ++o)
       if (program->output_names[o] == name) signals.push_back(program->output_signals[o]);
   std::vector<SeriesPointer> inputs;
-  for (const auto& name : program->input_names) {
-    const auto moves = protocol.moves.find(name);
-    const auto level = device.levels.find(name);
-    inputs.push_back(std::make_shared<const Series>(
-        moves != protocol.moves.end()
-            ? moves->second
-            : Series{{0.0}, {level == device.levels.end() ? 0.0 : level->second}, Between::hold}));
-  }
+  for (const auto& name : program->input_names)
+    inputs.push_back(std::make_shared<const Series>(moved(protocol, device, name)));
   try {
     return simulate_rows(program, inputs, protocol.t, signals, true);
   } catch (const Error&) {
     return {};
   }
+}
+
+double fastest_in(const Series& s) {
+  double fastest = 0;
+  for (std::size_t k = 1; k < s.v.size(); ++k)
+    fastest = std::max(fastest, std::abs(s.v[k] - s.v[k - 1]) / (s.t[k] - s.t[k - 1]));
+  return fastest;
+}
+
+/// What all inputs of the user's diagram do in it, row by row.
+DriveRows rows_of(const Protocol& protocol, const Device& device, const Program& program) {
+  DriveRows rows;
+  rows.t = protocol.t;
+  rows.shortest_step = device.shortest_step;
+  for (const auto& name : device.inputs) {
+    const auto at = std::find(program.input_names.begin(), program.input_names.end(), name);
+    if (at == program.input_names.end()) continue;
+    DrivenInput input{name, program.input_units[static_cast<std::size_t>(at - program.input_names.begin())]};
+    const Series series = moved(protocol, device, name);
+    for (const double t : rows.t) input.values.push_back(series.value(t, t));
+    const auto [low, high] = std::minmax_element(input.values.begin(), input.values.end());
+    input.moves = low != input.values.end() && *low < *high;
+    input.fastest = fastest_in({rows.t, input.values});
+    input.recorded = fastest_of(device, name);
+    rows.inputs.push_back(std::move(input));
+  }
+  return rows;
 }
 
 /// Two of the models.
@@ -76,6 +105,7 @@ struct Outcome {
   Experiment experiment;
   MenuItem item;
   std::size_t at = 0;  ///< of the menu
+  std::shared_ptr<const Protocol> protocol{};
 };
 
 bool better(const Outcome& a, const Outcome& b) {
@@ -110,16 +140,42 @@ class Search {
           take(best_of(word));
       }
     }
+    keep_to_recorded_speed();
     Separation found;
     if (best_) {
       found.best = best_->experiment;
       found.best->rivals = std::make_shared<const Rivals>(rivals_);
+      found.best->drive = std::make_shared<const DriveRows>(drive_of(*best_->protocol));
     }
     found.menu = told_menu();
     return found;
   }
 
  private:
+  DriveRows drive_of(const Protocol& protocol) const {
+    DriveRows rows = rows_of(protocol, device_, *rivals_.models.front().program);
+    rows.outputs = sight_.outputs;
+    for (const auto& side : sides())
+      if (std::find(device_.inputs.begin(), device_.inputs.end(), side.name) == device_.inputs.end())
+        rows.besides.push_back(side.name);
+    return rows;
+  }
+
+  bool is_faster_than_recorded(const Protocol& protocol) const {
+    return std::any_of(protocol.moves.begin(), protocol.moves.end(),
+                       [&](const auto& m) { return fastest_in(m.second) > (1 + 1e-6) * fastest_of(device_, m.first); });
+  }
+
+  /// What tells as much and moves nothing faster than it was recorded takes the place of the best.
+  void keep_to_recorded_speed() {
+    if (!best_ || !is_faster_than_recorded(*best_->protocol)) return;
+    auto slower = best_of(best_->item.word, true);
+    if (!slower || slower->item.rivals_told < best_->item.rivals_told ||
+        slower->item.pairs_told < best_->item.pairs_told || slower->item.separation < clearly)
+      return;
+    best_ = std::move(slower);
+  }
+
   static MenuItem not_simulated(const std::string& word, const std::string& why) {
     MenuItem item;
     item.word = word;
@@ -180,7 +236,7 @@ class Search {
 
   /// The drive on which the usual protocol tells most; there faster or slower, then with less amplitude while that
   /// tells more.
-  std::optional<Outcome> best_of(const std::string& word) {
+  std::optional<Outcome> best_of(const std::string& word, bool as_recorded = false) {
     std::optional<Outcome> best;
     const Drive* drive = nullptr;
     Variant variant;
@@ -192,11 +248,11 @@ class Search {
       variant = c;
       return true;
     };
-    for (const Drive* with : drives_) betters(with, {});
+    for (const Drive* with : drives_) betters(with, {1, 1, as_recorded});
     if (drive == nullptr) return best;
     for (const double slower : paces(word))
-      if (slower != 1) betters(drive, {slower, 1});
-    for (double part = 0.5; part > 0.2 && betters(drive, {variant.slower, part}); part /= 2) continue;
+      if (slower != 1) betters(drive, {slower, 1, as_recorded});
+    for (double part = 0.5; part > 0.2 && betters(drive, {variant.slower, part, as_recorded}); part /= 2) continue;
     return best;
   }
 
@@ -235,12 +291,14 @@ class Search {
   }
 
   /// Goes into the menu whether or not it says anything.
-  std::optional<Outcome> tried(const Protocol& protocol, const Drive& drive, const Variant& variant = {}) {
-    Outcome outcome{{}, {protocol.word, drive.name, variant.slower, variant.part}, menu_.items.size()};
+  std::optional<Outcome> tried(Protocol protocol, const Drive& drive, const Variant& variant = {}) {
+    Outcome outcome{{}, {protocol.word, drive.name, variant.slower, variant.part}, menu_.items.size(), {}};
+    outcome.item.as_recorded = variant.as_recorded;
     outcome.item.separations = separations(protocol);
     const auto said = weighed(protocol, outcome);
     menu_.items.push_back(outcome.item);
     if (!said) menu_.items.back().reason = why_it_says_nothing(protocol);
+    outcome.protocol = std::make_shared<const Protocol>(std::move(protocol));
     return said ? std::optional(std::move(outcome)) : std::nullopt;
   }
 

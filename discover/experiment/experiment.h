@@ -16,6 +16,24 @@ namespace hysteron {
 
 struct Rivals;
 
+/// What one input of the diagram does in an experiment.
+struct DrivenInput {
+  std::string name;
+  Unit unit;
+  std::vector<double> values{};      ///< [SI], in each row
+  bool moves = false;                ///< else it holds the level at which the recordings start
+  double fastest = 0, recorded = 0;  ///< [SI/s] from row to row: here, and at most in the recordings
+};
+
+/// The rows in which an experiment was simulated, between which what moves goes along straight lines.
+struct DriveRows {
+  std::vector<double> t;  ///< [s], rising
+  std::vector<DrivenInput> inputs;
+  double shortest_step = 0;          ///< [s] rows are to be recorded so near to each other
+  std::vector<std::string> outputs;  ///< to be measured
+  std::vector<std::string> besides;  ///< what else moves, or is to be recorded: temperatures, cycles, other axes
+};
+
 /// An experiment with its numbers for the device at hand.
 struct Experiment {
   std::string word;       ///< of the menu: "multisine", "step_hold" ...
@@ -26,6 +44,7 @@ struct Experiment {
   int rivals_told = 0;    ///< so many are told from the first
   bool another_instrument = false;  ///< a second sensor tells them, and whatever the drives of this bench do does not
   std::shared_ptr<const Rivals> rivals{};  ///< among whom it was chosen
+  std::shared_ptr<const DriveRows> drive{};
 };
 
 /// A fitted model of the device, to be told from others.
@@ -65,7 +84,8 @@ struct Separation {
 /// Simulates all models on the menu: rms difference of each output over its noise, the largest output counts. Each
 /// protocol that moves a drive is tried with each drive on the way to the rivals, then faster or slower, then with less
 /// amplitude. The best tells most rivals from the first, then most from each other; of these a word of
-/// Rival::look_alikes goes first if it separates by at least 2, then who separates most where it separates least.
+/// Rival::look_alikes goes first if it separates by at least 2, then who separates most where it separates least. In
+/// its place goes the same within the speed of the recordings, where that tells as many, by at least 2.
 Separation separate(const Rivals& rivals, const Device& device, const Sight& sight);
 
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fit/numerics/median.h"
@@ -16,6 +17,12 @@ void note_range(Device& d, const std::string& name, const std::vector<double>& v
   const auto [at, is_new] = d.ranges.try_emplace(name, *a, *b);
   at->second = {std::min(at->second.first, *a), std::max(at->second.second, *b)};
   d.levels[name] = v.front();
+}
+
+void note_speed(Device& d, const std::string& name, const Series& s) {
+  double& fastest = d.fastest[name];
+  for (std::size_t k = 1; k < s.v.size(); ++k)
+    fastest = std::max(fastest, std::abs(s.v[k] - s.v[k - 1]) / (s.t[k] - s.t[k - 1]));
 }
 
 /// Columns that a program may read: its inputs, and what it does not measure.
@@ -55,7 +62,10 @@ Device device_of(const Program& program, const DataSet& data) {
     if (r.role == Role::test || r.last < 2) continue;
     d.shortest_step = std::min(d.shortest_step, median_step({r.t.begin(), r.t.begin() + static_cast<long>(r.last)}));
     auto moved = moved_in(d, program, data, r);
-    for (const auto& [name, series] : moved) note_range(d, name, series.v);
+    for (const auto& [name, series] : moved) {
+      note_range(d, name, series.v);
+      note_speed(d, name, series);
+    }
     const double duration = r.t[r.last - 1] - r.t.front();
     if (duration <= d.longest_recording) continue;
     d.longest_recording = duration;
@@ -64,6 +74,12 @@ Device device_of(const Program& program, const DataSet& data) {
   }
   d.drives = drives_of(d, program);
   return d;
+}
+
+double fastest_of(const Device& device, const std::string& signal) {
+  const auto found = device.fastest.find(signal);
+  return found == device.fastest.end() || !(found->second > 0) ? std::numeric_limits<double>::infinity()
+                                                               : found->second;
 }
 
 std::string which_moves(const Device& device, const Drive& drive) {

@@ -35,10 +35,14 @@ struct Device {
   double shortest_step = 1e-3, longest_recording = 10;      ///< [s]
   std::map<std::string, double> levels;                     ///< of every input and column where recordings start [SI]
   std::map<std::string, std::pair<double, double>> ranges;  ///< lowest and highest [SI]
-  std::vector<double> recorded_times;                       ///< rows of the longest recording ...
-  std::map<std::string, Series> recorded;                   ///< ... and what moved in it
+  /// Of every input and column: how fast it moved at most from row to row [SI/s].
+  std::map<std::string, double> fastest{};
+  std::vector<double> recorded_times;      ///< rows of the longest recording ...
+  std::map<std::string, Series> recorded;  ///< ... and what moved in it
 };
 Device device_of(const Program& program, const DataSet& data);
+/// [SI/s] that a signal may move; infinite where nobody knows.
+double fastest_of(const Device& device, const std::string& signal);
 /// "move u2, hold the other inputs: ", where there are others.
 std::string which_moves(const Device& device, const Drive& drive);
 
@@ -55,6 +59,9 @@ struct Protocol {
 struct Variant {
   double slower = 1;  ///< times the time that it takes otherwise
   double part = 1;    ///< of the range
+  /// Nowhere faster than the recordings were, which all of the bench was shown to bear: where that binds, triangles
+  /// take longer, sines are smaller, and from level to level there is a ramp.
+  bool as_recorded = false;
 };
 
 /// Experiments that move one drive, the others held: triangle, sine_amplitudes, low_frequencies, high_frequencies,

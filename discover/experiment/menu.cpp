@@ -12,7 +12,7 @@ namespace {
 
 bool same_item(const MenuItem& a, const MenuItem& b) {
   return a.word == b.word && a.drive == b.drive && a.slower == b.slower && a.part == b.part &&
-         a.faster_rows == b.faster_rows && a.simulated() == b.simulated();
+         a.faster_rows == b.faster_rows && a.as_recorded == b.as_recorded && a.simulated() == b.simulated();
 }
 
 bool simulates(const Menu& menu, const std::string& word) {
@@ -25,6 +25,7 @@ std::string why_chosen(const MenuItem& chosen, std::size_t pairs) {
   const bool all = chosen.pairs_told == static_cast<int>(pairs);
   const std::string whom = all ? (pairs == 1 ? "tells them apart" : "tells all apart")
                                : fmt::format("tells most apart, {} of {} pairs", chosen.pairs_told, pairs);
+  if (chosen.as_recorded) return whom + ", and moves nothing faster than was recorded";
   return whom + (chosen.asked ? ", and is what these effects name for each other" : ", and separates most");
 }
 
@@ -38,6 +39,8 @@ std::string why_not(const MenuItem& item, const MenuItem& chosen) {
   if (one_menu && item.pairs_told < chosen.pairs_told) return "separates fewer of the others from each other";
   if (one_menu && chosen.asked && !item.asked) return "the one chosen is what these effects name for each other";
   if (item.separation < chosen.separation) return "separates less";
+  if (one_menu && chosen.as_recorded && !item.as_recorded)
+    return "may move faster than was recorded, and the one chosen tells as much";
   return one_menu ? "separates no more than the one chosen, which came before"
                   : "sampled otherwise than the one chosen";
 }

@@ -19,7 +19,8 @@ struct MenuItem {
   int rivals_told = 0, pairs_told = 0;  ///< told from the first; of all pairs
   bool asked = false;                   ///< a pair that it clearly tells names its word
   bool chosen = false;
-  std::string reason{};  ///< why it was chosen, or why not
+  bool as_recorded = false;  ///< as Variant: moves nothing faster than the recordings did
+  std::string reason{};      ///< why it was chosen, or why not
 
   bool simulated() const { return !separations.empty(); }
 };

@@ -53,7 +53,10 @@ Protocol temperature_staircase(const Device& d, const Drive& drive, const std::s
   const double to_room = effects::usual_room(from) - from;
   const double up = std::max(10.0, 2 * (warmest - coldest));
   const double rise = std::abs(to_room) >= up / 3 ? to_room : up;
-  const double plateau = rounded(d.longest_recording / 2);
+  const double whole = drive.highest - drive.lowest;
+  // Two sines in half of it are nowhere faster than the recordings were.
+  const double plateau =
+      rounded(std::max(d.longest_recording / 2, 1.01 * 4 * std::numbers::pi * whole / fastest_of(d, drive.name)));
   Protocol p;
   p.word = "temperature_staircase";
   p.controls_sides = true;
@@ -64,7 +67,7 @@ Protocol temperature_staircase(const Device& d, const Drive& drive, const std::s
     const double part = static_cast<double>(k % rows) / rows;
     const double wave = part < 0.5 ? (1 - std::cos(8 * std::numbers::pi * part)) / 2 : 0;
     p.t.push_back((step + part) * plateau);
-    moved.v.push_back(drive.lowest + wave * (drive.highest - drive.lowest));
+    moved.v.push_back(drive.lowest + wave * whole);
     warm.v.push_back(from + rise * step / 2);
   }
   moved.t = warm.t = p.t;
@@ -92,7 +95,10 @@ Protocol temperature_constant(const Device& d, const std::string& temperature) {
 /// Each drive stands still while the others move.
 Protocol axes_independent(const Device& d) {
   const int rows = 200;
-  const double period = rounded(std::max(d.longest_recording / 10, rows * d.shortest_step));
+  double needed = 0;  // nowhere faster than recorded
+  for (const auto& drive : d.drives)
+    needed = std::max(needed, 2.02 * (drive.highest - drive.lowest) / fastest_of(d, drive.name));
+  const double period = rounded(std::max({d.longest_recording / 10, rows * d.shortest_step, needed}));
   Protocol p;
   p.word = "axes_independent";
   std::vector<std::string> names;

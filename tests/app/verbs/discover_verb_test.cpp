@@ -1,6 +1,8 @@
 // `hysteron discover`: the test for machines, and what its errors are held against.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -85,6 +87,114 @@ TEST_F(DiscoverVerb, ATieHasTheMenuAmongWhichItsExperimentWasChosen) {
   }
   EXPECT_EQ(chosen, 1);
   EXPECT_GT(menu["experiments"].size(), 3u);
+}
+
+/// Columns of a CSV without its comments, by the name in front of the unit.
+std::map<std::string, std::vector<double>> columns_of(const std::string& text) {
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> names;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream cells(line);
+    std::size_t i = 0;
+    const bool head = names.empty();
+    for (std::string cell; std::getline(cells, cell, ','); ++i)
+      if (head)
+        names.push_back(cell.substr(0, cell.find(' ')));
+      else
+        columns[names.at(i)].push_back(std::stod(cell));
+  }
+  return columns;
+}
+
+double fastest(const std::vector<double>& t, const std::vector<double>& v) {
+  double most = 0;
+  for (std::size_t k = 1; k < t.size(); ++k) most = std::max(most, std::abs(v[k] - v[k - 1]) / (t[k] - t[k - 1]));
+  return most;
+}
+
+TEST_F(DiscoverVerb, TheExperimentIsAFileThatDrivesTheRivalsAsFarApartAsIsTold) {
+  record(3, 0.0005);  // a tenth of a row: a delay does the same
+  const auto found = [&](const char* only, const std::string& folder) {
+    const Outcome out = hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only", only,
+                                                  "--experiment", folder + ".csv", "--json", "-o", folder});
+    EXPECT_EQ(out.code, 0) << out.err;
+    return json::parse(out.out);
+  };
+  const json e = found("amplifier_lag,dead_time", "both").at("experiment");
+  EXPECT_EQ(e["file"], "both.csv");
+  EXPECT_EQ(e["measure"], json({"y"}));
+  const auto drive = columns_of(folder_.read("both.csv"));
+  EXPECT_EQ(drive.at("t").size(), e["rows"]);
+
+  // Within what was recorded: how far, how fast, how often.
+  double low = 0, high = 0, speed = 0;
+  for (const char* file : {"a.csv", "b.csv"}) {
+    const auto recorded = columns_of(folder_.read(file));
+    for (const double u : recorded.at("u")) low = std::min(low, u), high = std::max(high, u);
+    speed = std::max(speed, fastest(recorded.at("t"), recorded.at("u")));
+  }
+  for (const double u : drive.at("u")) {
+    ASSERT_GE(u, low - 1e-9);
+    ASSERT_LE(u, high + 1e-9);
+  }
+  // On straight lines a lag and a delay of the same size do the same: what is no faster than the triangle that was
+  // recorded tells them at corners only, by less than the noise. So it is faster, and says so.
+  const double faster = fastest(drive.at("t"), drive.at("u"));
+  EXPECT_GT(faster, speed);
+  ASSERT_EQ(e["faster_than_recorded"].size(), 1U);
+  std::ostringstream told;
+  told << std::setprecision(3) << "u moves by up to " << faster << " V/s, in the recordings by " << speed;
+  EXPECT_EQ(e["faster_than_recorded"][0], told.str());
+  EXPECT_NE(folder_.read("both.csv").find("# Faster than recorded: " + told.str()), std::string::npos);
+  EXPECT_LE(e["shortest_step"], 0.005 * (1 + 1e-9));  // rows of a and b are 5 ms apart
+
+  // Each rival alone, fitted once more: a lag of 0.5 ms is 6 nm of a triangle of 12 um/s, known from 600 rows of 5 nm
+  // to 3 %, and so is how far the two are apart. (To the digits: TheRowsOfAnExperimentAreThoseThatWereSimulated.)
+  for (const char* effect : {"amplifier_lag", "dead_time"}) {
+    const json alone = found(effect, effect);
+    EXPECT_FALSE(alone.contains("experiment")) << "nothing to be told apart";
+    EXPECT_FALSE(folder_.has(std::string(effect) + ".csv"));
+    const Outcome out = hysteron(folder_.path(), {"run", std::string(effect) + "/final.json", "--data", "both.csv",
+                                                  "-o", std::string(effect) + ".run"});
+    EXPECT_EQ(out.code, 0) << out.err;
+  }
+  const auto trace = [&](const char* effect) {
+    return columns_of(folder_.read(std::string(effect) + ".run/traces/both.csv")).at("sensor");
+  };
+  const auto lag = trace("amplifier_lag"), delay = trace("dead_time");
+  ASSERT_EQ(lag.size(), delay.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < lag.size(); ++k) sum += std::pow(lag[k] - delay[k], 2);
+  const double noise = result("both")["facts"]["noise"].at(0)["white_rms"].get<double>();  // [um]
+  EXPECT_NEAR(noise, 0.005, 5e-4);
+  const double apart = std::sqrt(sum / static_cast<double>(lag.size())) / noise;
+  EXPECT_NEAR(apart / e["separation"].get<double>(), 1, 0.1);
+}
+
+TEST_F(DiscoverVerb, AnExperimentThatCannotBeWrittenIsToldBeforeTheSearch) {
+  const auto refused = [&](const std::string& file) {
+    const Outcome out = hysteron(
+        folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--experiment", file, "-o", "out"});
+    EXPECT_EQ(out.code, 2) << out.out;
+    EXPECT_FALSE(folder_.has("out")) << file;
+    return out.err;
+  };
+  EXPECT_NE(refused("nowhere/drive.csv").find("there is no folder nowhere"), std::string::npos);
+  EXPECT_NE(refused("drive.txt").find("does not end in .csv"), std::string::npos);
+  const std::string recording = folder_.read("a.csv");
+  EXPECT_NE(refused("a.csv").find("holds no experiment"), std::string::npos);
+  EXPECT_EQ(folder_.read("a.csv"), recording);
+}
+
+TEST_F(DiscoverVerb, WhereNoExperimentIsAskedForNoneIsWritten) {
+  record(1);
+  const Outcome out = hysteron(folder_.path(), {"diagnose", "diagram.json", "--data", "dataset.json", "--only",
+                                                "amplifier_lag", "--experiment", "drive.csv", "-o", "out"});
+  EXPECT_EQ(out.code, 0) << out.err;
+  EXPECT_NE(out.out.find("No experiment is asked for: drive.csv was not written."), std::string::npos) << out.out;
+  EXPECT_FALSE(folder_.has("drive.csv"));
 }
 
 TEST_F(DiscoverVerb, StructuresThatCompetedSayWhatTheyTakeAwayAndWhyTheyDoNotCount) {

@@ -126,6 +126,102 @@ TEST_F(Experiments, WhatIsSlowStaysSlowInShortRecordings) {
   }
 }
 
+/// Values and times carry rounding of some parts in 10^16, of steps as small as a thousandth of the whole.
+double fastest_in(const Series& s) {
+  double fastest = 0;
+  for (std::size_t k = 1; k < s.v.size(); ++k)
+    fastest = std::max(fastest, std::abs(s.v[k] - s.v[k - 1]) / (s.t[k] - s.t[k - 1]));
+  return fastest;
+}
+
+TEST_F(Experiments, NothingMovesFasterThanItWasRecorded) {
+  // 20 V/s: the usual sines of 100 Hz would have 628 V/s, and a step of a row 2000 V/s.
+  for (const double most : {20.0, 0.5}) {
+    Device d = driven(1e-3, 10);
+    d.drives.push_back({"u2", parse_unit("V"), -1, 1});
+    d.inputs = {"u", "u2"};
+    d.fastest = {{"u", most}, {"u2", most}};
+    d.recorded_times = {0, 1, 2};
+    for (const char* u : {"u", "u2"}) d.recorded[u] = {{0, 1, 2}, {1, 0.75, 0.5}, Between::linear};
+    auto words = drive_words();
+    words.emplace_back("precycle");
+    for (const auto& word : words)
+      for (const double slower : paces(word))
+        for (const double part : {1.0, 0.25}) {
+          const Protocol p = drive_protocol(d, d.drives[0], word, {slower, part, true});
+          const Series& s = p.moves.at("u");
+          EXPECT_LE(fastest_in(s), most * (1 + 1e-9)) << p.text;
+          EXPECT_EQ(fastest_in(s) > 0, word != "zero_run") << p.text;
+          for (const double v : s.v) ASSERT_LE(std::abs(v), 1 + 1e-12) << p.text;
+          for (std::size_t k = 1; k < p.t.size(); ++k)
+            ASSERT_GT(p.t[k] - p.t[k - 1], 0.49e-3) << p.text << " at " << p.t[k];
+        }
+    for (const auto& p : side_protocols(d, d.drives[0], {{"u2", Side::other_axis}, {"room", Side::temperature}}))
+      for (const char* u : {"u", "u2"})
+        EXPECT_LE(p.moves.contains(u) ? fastest_in(p.moves.at(u)) : 0, most * (1 + 1e-9)) << p.text;
+  }
+}
+
+TEST_F(Experiments, WhereTheRecordingsWereFastEnoughNothingIsSlower) {
+  Device bound = driven(1e-3, 10);
+  bound.fastest = {{"u", 2000.0}};  // the whole range in a row
+  const Device d = driven(1e-3, 10);
+  for (const auto& word : drive_words()) {
+    const Protocol a = drive_protocol(d, d.drives[0], word), b = drive_protocol(bound, d.drives[0], word, {1, 1, true});
+    EXPECT_EQ(a.text, b.text);
+    EXPECT_EQ(a.t, b.t) << word;
+    EXPECT_EQ(a.moves.at("u").v, b.moves.at("u").v) << word;
+  }
+}
+
+TEST_F(Experiments, HowFastAnInputMovedIsReadFromTheRecordings) {
+  const DataSet data = data_set({recording("1.csv", Role::train, rows(4, 0.1), {0, 1, 3, 3}, {0, 1, 3, 3}),
+                                 recording("2.csv", Role::validate, rows(4, 0.5), {0, -4, 0, 0}, {0, 1, 2, 3})},
+                                1e-3);
+  // 2 V in 0.1 s; the other one moves further, and slower.
+  EXPECT_NEAR(device_of(*plain(), data).fastest.at("u"), 20, 1e-12);
+}
+
+TEST_F(Experiments, WhatTellsAsMuchWithinTheSpeedOfTheRecordingsIsAskedFor) {
+  // A delay of 2 ms moves what goes at 20 V/s by 40 mm, forty times the noise; recordings of 0.5 V/s by one noise.
+  Device d = driven(1e-3, 10);
+  for (const double most : {20.0, 0.5}) {
+    d.fastest = {{"u", most}};
+    const auto e = chosen({rival("plain", plain()), rival("delay", late("2 ms"))}, d);
+    ASSERT_TRUE(e && e->drive);
+    const DrivenInput& u = e->drive->inputs[0];
+    EXPECT_EQ(u.recorded, most);
+    EXPECT_NEAR(u.fastest, fastest_in({e->drive->t, u.values}), 1e-9);
+    if (most > 1)
+      EXPECT_LE(u.fastest, most * (1 + 1e-6)) << e->text;
+    else
+      EXPECT_GT(u.fastest, most) << "nothing as slow tells: " << e->text;
+    EXPECT_EQ(e->rivals_told, 1);
+  }
+}
+
+TEST_F(Experiments, TheRowsOfAnExperimentAreThoseThatWereSimulated) {
+  Device d = driven(1e-3, 10);
+  const ProgramPointer late_one = late("2 ms");
+  const auto e = chosen({rival("plain", plain()), rival("delay", late_one)}, d);
+  ASSERT_TRUE(e && e->drive);
+  const DriveRows& rows = *e->drive;
+  ASSERT_EQ(rows.inputs.size(), 1u);
+  EXPECT_TRUE(rows.inputs[0].moves);
+  EXPECT_EQ(rows.outputs, std::vector<std::string>{"y"});
+  EXPECT_EQ(rows.shortest_step, 1e-3);
+  EXPECT_EQ(static_cast<double>(rows.t.size()), e->rows);
+  const std::vector<SeriesPointer> u{
+      std::make_shared<const Series>(Series{rows.t, rows.inputs[0].values, Between::linear})};
+  const auto there = [&](const ProgramPointer& p) {
+    return simulate_rows(p, u, rows.t, {p->output_signals[0]}, true)[0];
+  };
+  const auto a = there(plain()), b = there(late_one);
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(a.size())) / 1e-3, e->separation, 1e-9 * e->separation);
+}
+
 // --- how fast, how far
 
 TEST_F(Experiments, TheFrequencyIsTheOneAtWhichTheModelsDiffer) {
