@@ -161,14 +161,17 @@ Sizer::Reached Sizer::reached(int b, const std::vector<double>& u) {
   return r;
 }
 
-/// Adds to `sum` what this input signal does alone: a difference of equals is as large as they are.
+/// Adds to `sum` what each input does alone that reads this signal: a difference of equals is as large as they are.
 void Sizer::add_alone(int b, const Reached& r, std::vector<double> u, int signal, std::vector<double>& sum) {
   const auto& info = block(b);
   if (info.history_index >= 0) return;
-  for (std::size_t i = 0; i < u.size(); ++i)
-    if (info.source[i] == signal) u[i] = 0;
-  const auto without = output_at(b, r.states, u, run_.t, run_.branch);
-  for (std::size_t k = 0; k < without.size(); ++k) sum[k] += std::abs(r.outputs[k] - without[k]);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    if (info.source[i] != signal) continue;
+    const double size = std::exchange(u[i], 0.0);
+    const auto without = output_at(b, r.states, u, run_.t, run_.branch);
+    for (std::size_t k = 0; k < without.size(); ++k) sum[k] += std::abs(r.outputs[k] - without[k]);
+    u[i] = size;
+  }
 }
 
 double Sizer::largest_without_size(int b, const Reached& r, const std::vector<double>& sum) {
