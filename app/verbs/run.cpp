@@ -26,6 +26,7 @@ constexpr char run_help[] =
     "Examples:\n"
     "  hysteron run stage.json --until \"1 s\" --every \"0.1 ms\"\n"
     "  hysteron run stage.json --set controller.kp=\"0.5 V/um\" --choose compensator=none\n"
+    "  hysteron run stage.json --record all       every signal, whatever the diagram names\n"
     "  hysteron run stage.json --data lab.csv     inputs move as in the recording; it needs no outputs\n\n"
     "Writes into the folder: result.json, traces/*.csv, report.html. Says where the time went. With --traces f64\n"
     "the traces are traces/*.f64, for millions of rows: numbers as memory holds them (docs/programs.md).\n"
@@ -33,9 +34,13 @@ constexpr char run_help[] =
 
 constexpr double most_numbers = 1e8;  // recorded at once: 800 MB
 
-std::vector<int> signals_to_record(const Program& program) {
-  if (!program.record_signals.empty()) return program.record_signals;
-  if (!program.output_signals.empty()) return program.output_signals;
+/// --record all.
+bool records_all(const Arguments& arguments) { return arguments.list("--record") == std::vector<std::string>{"all"}; }
+
+std::vector<int> signals_to_record(const Arguments& arguments, const Program& program) {
+  const bool all_of_them = records_all(arguments);
+  if (!all_of_them && !program.record_signals.empty()) return program.record_signals;
+  if (!all_of_them && !program.output_signals.empty()) return program.output_signals;
   std::vector<int> all(program.signals.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return all;
@@ -56,7 +61,7 @@ SimulateOptions own_time_options(const Arguments& arguments, const Diagram& diag
   SimulateOptions settings = simulate_options(program);
   settings.until = positive_seconds(arguments, "--until", settings.until);
   settings.every = positive_seconds(arguments, "--every", settings.every);
-  settings.signals = signals_to_record(program);
+  settings.signals = signals_to_record(arguments, program);
   if (settings.every > 0 &&
       (settings.until / settings.every) * static_cast<double>(settings.signals.size() + 1) > most_numbers)
     fail("too_many_rows", arguments.has("--every") ? "--every" : "/simulate/every",
@@ -106,7 +111,7 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
       settings.instants = recording.t;
       settings.begin = recording.t.front();
       settings.until = recording.t.back();
-      settings.signals = signals_to_record(program);
+      settings.signals = signals_to_record(arguments, program);
       settings.at_rest = recording.at_rest || recording.initial_per_recording;
       settings.progress = shown(watch, index, count, recording.name);
       Traces traces = simulate(program, start_recording(program, data, recording), settings);
@@ -120,7 +125,8 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
 Answer run(const Arguments& arguments, const Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string type = trace_type(arguments);
-  const Diagram diagram = load_diagram(arguments, watch);
+  Diagram diagram = load_diagram(arguments, watch);
+  if (arguments.has("--record") && !records_all(arguments)) diagram.record = arguments.list("--record");
   const ProgramPointer program = compile_file(diagram);
   const double loading = seconds_since(begin);
   Answer answer;
@@ -164,6 +170,8 @@ Verb run_verb() {
            {"--until", "TIME", "until when, e.g. \"1 s\"; default: as the diagram says", false, false},
            options::traces(),
            {"--every", "TIME", "record every so often, e.g. \"0.1 ms\"", false, false},
+           {"--record", "SIGNAL", "record this signal (and others: further --record) and no other; \"all\": every one",
+            false, true},
            options::output_folder(),
            options::set(),
            options::choose(),

@@ -51,6 +51,9 @@ describe('looking', () => {
     await page.click('.bar-row:has-text("above 10 s")');
     await studio.until(async () => (await picture()) !== before);
     expect(await page.locator('.panel-head [aria-label="recording"]').inputValue()).toBe('05.csv');
+    await page.click('button:text-is("All signals along 05.csv")');
+    await page.waitForSelector('.signals label[title="u"]', {timeout: 60000});  // which the diagram does not record
+    expect(await page.locator('.panel-head [aria-label="recording"]').inputValue()).toBe('05.csv');
   });
 
   it('finds creep, shows it, writes it when it is accepted, and takes it back', async () => {

@@ -168,6 +168,23 @@ TEST_F(Verbs, RunRecordsSignalsInTheirUnitsAtExactlyTheInstantsAskedFor) {
   EXPECT_EQ(signals["double"]["unit"], "V");
 }
 
+TEST_F(Verbs, RunRecordsTheSignalsThatTheCommandNames) {
+  folder_.write("sine.json", sine);
+  const auto head_of = [&](const std::string& file) {
+    const std::string trace = folder_.read(file);
+    return trace.substr(0, trace.find('\n'));
+  };
+  ASSERT_EQ(hysteron(folder_.path(), {"run", "sine.json", "--record", "double", "-o", "one"}).code, 0);
+  EXPECT_EQ(head_of("one/traces/signals.csv"), "t [s],double [V]");
+  ASSERT_EQ(
+      hysteron(folder_.path(), {"run", "diagram.json", "--data", "dataset.json", "--record", "all", "-o", "all"}).code,
+      0);
+  EXPECT_NE(head_of("all/traces/a.csv").find(",u [V]"), std::string::npos) << head_of("all/traces/a.csv");
+  const Outcome outcome = hysteron(folder_.path(), {"run", "sine.json", "--record", "doubel"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("double"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Verbs, RunWritesTracesAsNumbersThatAreThoseOfTheText) {
   folder_.write("sine.json", sine);
   for (const char* form : {"csv", "f64"}) {

@@ -34,6 +34,7 @@ export function Fails() {
   const spans = useStudio((s) => s.spans);
   const recording = useStudio((s) => s.recording);
   const set = useStudio((s) => s.set);
+  const begin = useStudio((s) => s.begin);
   const splits = result?.facts.splits ?? result?.facts.splits_before ?? [];
   const [by, setBy] = useState('');
   if (!job || job.state !== 'done' || !result || splits.length === 0)
@@ -74,6 +75,10 @@ export function Fails() {
               </li>
             ))}
           </ul>
+          {spans && job.data && (
+            <button title="simulate the model along the recordings and record every signal: what each block did then"
+                    onClick={() => void begin({verb: 'run', diagram: job.diagram, options: {'--data': job.data, '--record': 'all'}})}>All signals along {file}</button>
+          )}
           <p className="hint">Bars: share of the squared error. Marks: share of the rows.</p>
           {result.facts.metrics && <Metrics metrics={result.facts.metrics} />}
         </div>
