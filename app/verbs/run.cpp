@@ -12,6 +12,7 @@
 #include "app/cli/load.h"
 #include "app/cli/shape.h"
 #include "app/verbs/run_page.h"
+#include "engine/compile/draft.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "io/data/dataset_bind.h"
@@ -122,12 +123,23 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
                                   count_text(static_cast<long>(document.sections.size()), "recording"));
 }
 
+/// The file is judged as it is; then other signals may be recorded in place of its own, which leaves blocks that nobody
+/// reads. Those of --record stand in no file: what is wrong with one is told of the option.
+ProgramPointer compile_recording(const Arguments& arguments, Diagram& diagram) {
+  ProgramPointer as_written = compile_file(diagram);
+  if (!arguments.has("--record") || records_all(arguments)) return as_written;
+  diagram.record = arguments.list("--record");
+  DraftProgram draft = compile_draft(diagram, registry());
+  for (auto& p : draft.problems) p.path = "--record";
+  if (!draft.problems.empty()) throw Error(Fault::input, draft.problems);
+  return draft.program;
+}
+
 Answer run(const Arguments& arguments, const Watch& watch) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string type = trace_type(arguments);
   Diagram diagram = load_diagram(arguments, watch);
-  if (arguments.has("--record") && !records_all(arguments)) diagram.record = arguments.list("--record");
-  const ProgramPointer program = compile_file(diagram);
+  const ProgramPointer program = compile_recording(arguments, diagram);
   const double loading = seconds_since(begin);
   Answer answer;
   answer.folder = result_folder(arguments, "run");

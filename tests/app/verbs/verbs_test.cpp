@@ -176,13 +176,19 @@ TEST_F(Verbs, RunRecordsTheSignalsThatTheCommandNames) {
   };
   ASSERT_EQ(hysteron(folder_.path(), {"run", "sine.json", "--record", "double", "-o", "one"}).code, 0);
   EXPECT_EQ(head_of("one/traces/signals.csv"), "t [s],double [V]");
+  // Nothing reads "double" then, which is no fault of the file.
+  const Outcome alone = hysteron(folder_.path(), {"run", "sine.json", "--record", "drive", "-o", "alone"});
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(head_of("alone/traces/signals.csv"), "t [s],drive [V]");
   ASSERT_EQ(
       hysteron(folder_.path(), {"run", "diagram.json", "--data", "dataset.json", "--record", "all", "-o", "all"}).code,
       0);
   EXPECT_NE(head_of("all/traces/a.csv").find(",u [V]"), std::string::npos) << head_of("all/traces/a.csv");
   const Outcome outcome = hysteron(folder_.path(), {"run", "sine.json", "--record", "doubel"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("double"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--record"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("sine.json"), std::string::npos) << "the file has no such signal: " << outcome.err;
+  EXPECT_NE(outcome.err.find("Did you mean \"double\"?"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Verbs, RunWritesTracesAsNumbersThatAreThoseOfTheText) {
