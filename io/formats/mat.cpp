@@ -14,8 +14,10 @@
 #include <mutex>
 
 #include "engine/diagram/error.h"
+#include "io/files/child_read.h"
 #include "io/formats/file_format.h"
 #include "io/formats/mat_layout.h"
+#include "io/formats/mat_pipe.h"
 #include "io/formats/mat_value.h"
 #include "io/formats/named_vectors.h"
 
@@ -124,15 +126,13 @@ std::string text_of(const matvar_t& v) {
   return text.substr(0, text.find('\0'));
 }
 
-/// Variables of MATLAB as matio gives them, which is asked for levels 4 and 5 alone.
+/// Variables of MATLAB as matio gives them, which is asked for levels 4 and 5 alone. By one thread at a time.
 class MatioReader {
  public:
   explicit MatioReader(const std::string& file)
       : file_(file), most_(most_numbers_per_byte * std::filesystem::file_size(file)) {}
 
   MatVariables read() const {
-    static std::mutex mutex;  // the library says nothing of threads
-    const std::lock_guard lock(mutex);
     const MatLibrary& m = matio();
     MatVariables variables;
     const std::unique_ptr<mat_t, int (*)(mat_t*)> mat(m.open(file_.c_str(), MAT_ACC_RDONLY), m.close);
@@ -226,10 +226,22 @@ bool is_mat(std::string_view bytes) {
   return bytes.starts_with("MATLAB 5.0 MAT-file") || bytes.starts_with("MATLAB 7.3 MAT-file") || is_mat4(bytes);
 }
 
+namespace {
+
+MatVariables variables_of_matio(const std::string& file) {
+  static std::mutex mutex;  // the library says nothing of threads
+  matio();                  // loaded before the child is there
+  const std::lock_guard lock(mutex);
+  return read_in_child<MatVariables>({file, "MAT file", "the library for MAT files", "save it again, or as CSV"},
+                                     [&] { return MatioReader(file).read(); });
+}
+
+}  // namespace
+
 MeasuredTable read_mat(const std::string& file, const ReadingChoices& choices) {
   if (level_of(file) == Level::seven_point_three) return recording_of_mat(file, variables_of_mat73(file), choices);
   const bool fits = level_of(file) == Level::four ? mat4_fits(file) : mat5_fits(file);
-  return recording_of_mat(file, fits ? MatioReader(file).read() : MatVariables{}, choices);
+  return recording_of_mat(file, fits ? variables_of_matio(file) : MatVariables{}, choices);
 }
 
 }  // namespace hysteron

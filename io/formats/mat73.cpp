@@ -6,19 +6,23 @@
 #include <algorithm>
 
 #include "engine/diagram/error.h"
+#include "io/files/child_read.h"
 #include "io/formats/hdf5_library.h"
 #include "io/formats/hdf5_values.h"
+#include "io/formats/mat_pipe.h"
 #include "io/formats/mat_value.h"
 
 namespace hysteron {
 namespace {
 
+constexpr char cure_of_mat73[] = "save it again, with -v7";
+
+/// hdf5_mutex() is held by the caller.
 class Mat73Reader {
  public:
   explicit Mat73Reader(const std::string& file) : file_(file), h_(hdf5()) {}
 
   MatVariables read() {
-    const std::lock_guard lock(hdf5_mutex());
     const Hdf5Id access(h_.H5Pcreate(h_.file_access), h_.H5Pclose);
     h_.H5Pset_file_locking(access, false, true);
     const Hdf5Id file(h_.H5Fopen(file_.c_str(), 0, access), h_.H5Fclose);
@@ -33,7 +37,7 @@ class Mat73Reader {
  private:
   [[noreturn]] void damaged(const std::string& why) const {
     throw Error(Fault::input, {{"damaged_file", file_, fmt::format("this MAT file cannot be read: {}", why),
-                                "save it again, with -v7", file_, 0}});
+                                cure_of_mat73, file_, 0}});
   }
 
   MatValue value(hid_t object, const std::string& name, int depth) {
@@ -95,6 +99,11 @@ class Mat73Reader {
 
 }  // namespace
 
-MatVariables variables_of_mat73(const std::string& file) { return Mat73Reader(file).read(); }
+MatVariables variables_of_mat73(const std::string& file) {
+  hdf5();  // loaded before the child is there
+  const std::lock_guard lock(hdf5_mutex());
+  return read_in_child<MatVariables>({file, "MAT file", "the HDF5 library", cure_of_mat73},
+                                     [&] { return Mat73Reader(file).read(); });
+}
 
 }  // namespace hysteron

@@ -6,7 +6,9 @@
 //
 // The same formats, seed and number of executions try the same files. What ends the program is in F/FORMAT.input.
 #include <fmt/format.h>
+#include <sanitizer/common_interface_defs.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -19,6 +21,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <new>
 
 #include "engine/diagram/error.h"
 #include "io/data/binary_table.h"
@@ -34,9 +37,23 @@
 
 namespace {
 
-// One flag for each place in the code of io, by its address within the program.
-std::array<unsigned char, 1U << 16U> reached;
-std::size_t newly_reached = 0;
+// What files of HDF5 and MATLAB reach and break is in a child process (io/files/child_read.h), which shares this.
+struct Shared {
+  std::array<unsigned char, 1U << 16U> reached;  // one flag for each place in the code of io, by its address
+  std::size_t newly_reached;
+  bool found;  // by a sanitizer
+};
+Shared of_one_process;
+Shared* shared = &of_one_process;
+
+void share_with_children() {
+  void* const memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  shared = new (memory) Shared{};
+  __sanitizer_set_death_callback([] { shared->found = true; });
+  // The child has no standard error, since libraries write there when they break.
+  __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(dup(STDERR_FILENO))));
+}
 
 constexpr int longest_seconds = 20;  // of the processor, for one file; sanitizers take ten times as long as the program
 
@@ -48,8 +65,8 @@ extern "C" {
 void __sanitizer_cov_trace_pc() {
   extern const char __executable_start;
   const auto place = static_cast<const char*>(__builtin_return_address(0)) - &__executable_start;
-  unsigned char& flag = reached[static_cast<std::size_t>(place * 0x9E3779B97F4A7C15ULL >> 48U)];
-  newly_reached += flag == 0;
+  unsigned char& flag = shared->reached[static_cast<std::size_t>(place * 0x9E3779B97F4A7C15ULL >> 48U)];
+  shared->newly_reached += flag == 0;
   flag = 1;
 }
 // More memory than this for files of some 10 kB is a finding. HDF5 leaves its own tables to the end of the process.
@@ -176,6 +193,7 @@ bool execute(const Format& format, const std::string& file) {
     found(std::string("an exception that is no Error: ") + error.what(), file);
   }
   setitimer(ITIMER_PROF, &none, nullptr);
+  if (shared->found) found("a sanitizer ended the child that read", file);
   return read;
 }
 
@@ -213,11 +231,11 @@ void fuzz(const Format& format, const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   const auto try_one = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
-    newly_reached = 0;
+    shared->newly_reached = 0;
     were_read += execute(format, file);
     ++executions;
   };
-  reached.fill(0);
+  shared->reached.fill(0);
   for (const auto& seed : format.seeds) try_one(seed);
   const auto ended = [&] {
     if (options.seconds <= 0) return executions >= options.executions;
@@ -228,12 +246,12 @@ void fuzz(const Format& format, const Options& options) {
     const bool inside = format.name == "xlsx" && mutator.pick(4) != 0;
     std::string bytes = inside ? repacked(one, mutator, file) : mutator.mutated(one, other, longest_file);
     try_one(bytes);
-    if (newly_reached > 0) corpus.push_back(std::move(bytes));
+    if (shared->newly_reached > 0) corpus.push_back(std::move(bytes));
   }
   std::filesystem::remove(file);
   fmt::print("{:8} {:8} executions, {:7} read, {:3} seeds, {:5} kept for new code, {:5} places reached\n", format.name,
              executions, were_read, format.seeds.size(), corpus.size() - format.seeds.size(),
-             std::count(reached.begin(), reached.end(), 1));
+             std::count(shared->reached.begin(), shared->reached.end(), 1));
   std::fflush(stdout);
 }
 
@@ -262,6 +280,7 @@ Options options_of(int count, char** words) {
 
 int run(int count, char** words) {
   Options options = options_of(count, words);
+  share_with_children();
   const TemporaryFolder own;
   if (options.folder.empty()) options.folder = own.path();
   std::filesystem::create_directories(options.folder);

@@ -1,6 +1,7 @@
 // Files of instruments and laboratories: every number, name, unit and time as their layouts say.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cmath>
@@ -283,6 +284,30 @@ TEST(BinaryFiles, WhatIsOpenOrUnknownIsSaid) {
   choices.sheet = "note";
   for (const auto& file : instruments::binary_files())
     if (file.name == "numbers.xlsx") says(told("a.xlsx", file.bytes, choices), "Did you mean \"notes\"");
+}
+
+// The unit of a column stands as object 1 of a heap elsewhere in the file (H5T_VARIABLE); the number of the object is
+// the last word before the heap. libhdf5 1.10.8 follows the object 0xff0001 out of its table.
+TEST(BinaryFiles, AFileOnWhichTheLibraryCrashesIsRefused) {
+  for (const auto& file : instruments::hdf5_files()) {
+    if (file.name != "big_endian.h5") continue;
+    std::string bytes = file.bytes;
+    const auto heap = bytes.find("GCOL");
+    ASSERT_NE(heap, std::string::npos);
+    ASSERT_EQ(bytes.substr(heap - 4, 4), std::string("\1\0\0\0", 4));
+    bytes[heap - 2] = '\xff';
+    const TemporaryFolder folder;
+    try {
+      read_measured_file(folder.write("lab.h5", bytes));
+      EXPECT_TRUE(H5_VERSION_GE(1, 10, 9)) << "was read";  // another one may say that there is no unit
+    } catch (const Error& error) {
+      const Problem& p = error.problems.front();
+      EXPECT_EQ(p.code, "damaged_file");
+      EXPECT_EQ(p.file, folder.path("lab.h5"));
+      EXPECT_NE(p.what.find("it is damaged, the HDF5 library crashes on it"), std::string::npos) << p.what;
+      EXPECT_NE(p.cure.find("export it again"), std::string::npos) << p.cure;
+    }
+  }
 }
 
 TEST(BinaryFiles, Hdf5ColumnsComeWithTheUnitsOfTheirAttributes) {
