@@ -141,12 +141,24 @@ void throw_if_upright(const Program& program, const Work& work, const std::vecto
       law_cure(block));
 }
 
+GrowthWatch::GrowthWatch(std::vector<double> usual, double begin)
+    : usual_(std::move(usual)), all_until_(begin), left_(usual_.size()) {
+  for (const double size : usual_) limit_.push_back(beyond * size);
+}
+
+void GrowthWatch::see_each(double t, std::span<const double> x) {
+  if (all_) std::fill(left_.begin(), left_.end(), all_until_);
+  all_ = false;
+  for (std::size_t i = 0; i < limit_.size(); ++i)
+    if (std::abs(x[i]) <= limit_[i]) left_[i] = t;
+}
+
 std::vector<WatchedQuantity> GrowthWatch::quantities(const Program& program, std::span<const double> x) const {
   std::vector<WatchedQuantity> all;
   for (std::size_t b = 0; b < program.blocks.size(); ++b)
     for (int k = 0; k < program.blocks[b].sizes.states; ++k) {
       const std::size_t i = at(program.blocks[b].x_begin + k);
-      all.push_back({static_cast<int>(b), program.state_names[i], x[i], usual_[i], left_[i]});
+      all.push_back({static_cast<int>(b), program.state_names[i], x[i], usual_[i], all_ ? all_until_ : left_[i]});
     }
   return all;
 }

@@ -38,17 +38,26 @@ class GrowthWatch {
  public:
   static constexpr double beyond = 10;  ///< times the nominal size, which is a guess
   /// Nominal sizes of the states [SI].
-  GrowthWatch(std::vector<double> usual, double begin) : usual_(std::move(usual)), left_(usual_.size(), begin) {}
+  GrowthWatch(std::vector<double> usual, double begin);
 
-  /// States as accepted at t [s]; what is behind the last of usual_ is not looked at.
+  /// States as accepted at t [s]; what is behind the last of the nominal sizes is not looked at.
   void see(double t, std::span<const double> x) {
-    for (std::size_t i = 0; i < usual_.size(); ++i)
-      if (std::abs(x[i]) <= beyond * usual_[i]) left_[i] = t;
+    const double *state = x.data(), *limit = limit_.data();
+    unsigned beyond_it = 0;
+    for (std::size_t i = 0, n = limit_.size(); i < n; ++i) beyond_it += !(std::abs(state[i]) <= limit[i]);
+    if (beyond_it > 0) return see_each(t, x);
+    all_until_ = t;
+    all_ = true;
   }
   std::vector<WatchedQuantity> quantities(const Program& program, std::span<const double> x) const;
 
  private:
-  std::vector<double> usual_, left_;
+  void see_each(double t, std::span<const double> x);
+
+  std::vector<double> usual_, limit_;
+  bool all_ = true;           // have their usual size, and had it last at
+  double all_until_;          // [s]
+  std::vector<double> left_;  // else: when each had it last [s]
 };
 
 /// The same of rows: outputs of blocks with states, values[signal][row] [SI], until the first that is not finite.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/diagram/stop.h"
 #include "engine/diagram/time_text.h"
@@ -22,6 +23,7 @@
 namespace hysteron {
 namespace {
 
+constexpr long most_foretold_steps = 32;
 constexpr double most_steps = 1e10;  // an hour of a small diagram
 
 class FixedSteps {
@@ -40,7 +42,11 @@ class FixedSteps {
         events_(program, run_, options.begin, instants.back(), options.relative_tolerance, tolerance_),
         crossings_(program, false),
         histories_(program, nominal_sizes(program, run_).signals, options.relative_tolerance),
-        t_(options.begin) {
+        t_(options.begin),
+        remembers_(program.remembers()),
+        watches_(crossings_.watches()),
+        has_histories_(histories_.any()),
+        has_guards_(events_.guards() > 0) {
     run_.t = t_;
     run_.branch = events_.branch();
     x_ = run_.x;
@@ -57,7 +63,7 @@ class FixedSteps {
       walk();
     }
     auto& phases = traces_.statistics.phases;
-    phases.integrate -= phases.events + phases.output;
+    phases.integrate = std::max(0.0, phases.integrate - (phases.events + phases.output));
     tell();
     run_.x = x_;
     traces_.end = std::move(run_);
@@ -71,51 +77,77 @@ class FixedSteps {
       events_.take(t_, run_);
       events_.begin(run_, work_, t_, x_);
       commit();
+      next_event_ = events_.next();
     }
     for (long grid = 1;;) {
       look_up_();
       how_far_(t_);
-      while (events_.next() <= t_ + same_instant(t_)) {
+      while (next_event_ <= t_ + same_instant(t_)) {
         const Stopwatch watch(traces_.statistics.phases.events);
         events_.take(t_, run_);
         events_.pass(run_, work_, t_, x_);
         commit();
+        next_event_ = events_.next();
         crossings_.forget();
       }
       record_until(t_);
       if (next_ == traces_.t.size()) return;
-      double stop = options_.begin + static_cast<double>(grid) * options_.step;
-      if (stop <= t_ + same_instant(t_)) {
-        ++grid;
-        continue;
-      }
-      step(std::min(stop, events_.next()));
+      const auto grid_time = [&] { return options_.begin + static_cast<double>(grid) * options_.step; };
+      double stop = grid_time();
+      for (const double now = t_ + same_instant(t_); stop <= now; stop = grid_time()) ++grid;
+      foretell(grid);
+      step(std::min(stop, next_event_));
     }
   }
+  /// Tells the kernel the instants of the steps before us, up to the next event, if the last ones that it was told have
+  /// come: twice as many as then, so that little is asked in vain where steps are cut short.
+  void foretell(long grid) {
+    if (t_ < foretold_until_ || !derivative_.has_sources()) return;
+    foretold_steps_ = t_ == foretold_until_ ? std::min(2 * foretold_steps_, most_foretold_steps) : 1;
+    ahead_.clear();
+    double from = t_;
+    for (long k = grid; k < grid + foretold_steps_ && from < traces_.t.back(); ++k) {
+      const double to = options_.begin + static_cast<double>(k) * options_.step;
+      if (to > next_event_) break;
+      if (ahead_.empty()) ahead_.push_back(from);
+      if (options_.method == Method::rk4) ahead_.push_back(from + (to - from) / 2);
+      ahead_.push_back(to);
+      from = to;
+    }
+    foretold_until_ = from;
+    if (!ahead_.empty()) derivative_.foretell(run_, ahead_);
+  }
+  /// The slope at (t, x) into k.
   void derivative(double t, const std::vector<double>& x, std::vector<double>& k) {
-    ++traces_.statistics.evaluations;
-    derivative_(run_, t, x.data());
-    if (work_.unsolved >= 0) throw_if_unsolved(program_, work_, t);
-    double sum = 0;  // of zeros: not zero if one of them is not finite
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      k[i] = work_.dx[i];
-      sum += k[i] * 0;
-    }
-    if (!(sum == 0) && bad_x_.empty()) {
-      bad_t_ = t;
-      bad_x_ = x;
-    }
+    std::copy(x.begin(), x.end(), derivative_.states());
+    slope(t);
+    std::copy(work_.dx.begin(), work_.dx.end(), k.begin());
   }
-  void move(double h, const std::vector<double>& k) {
-    for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = before_[i] + h * k[i];
+  /// The slope at t where the states of the kernel are, into work_.dx.
+  void slope(double t) {
+    ++traces_.statistics.evaluations;
+    derivative_(run_, t);
+    if (work_.unsolved >= 0) throw_if_unsolved(program_, work_, t);
+  }
+  /// A stage of Runge-Kutta's formula: the slope into k, and the states of the kernel to where the next stage wants
+  /// them, `ahead` [s] along it.
+  void stage(double t, std::vector<double>& k, double ahead) {
+    slope(t);
+    const double *dx = work_.dx.data(), *before = before_.data();
+    double *slopes = k.data(), *x = derivative_.states();
+    for (std::size_t i = 0, n = x_.size(); i != n; ++i) {
+      const double slope = dx[i];
+      slopes[i] = slope;
+      x[i] = before[i] + ahead * slope;
+    }
   }
 
   void step(double end) {
     const double from = t_;
-    before_ = x_;
+    before_.swap(x_);
     move_states(end);
     std::vector<int> fell;
-    if (crossings_.watches()) {
+    if (watches_) {
       end_slope_known_ = false;
       const auto crossing = crossings_.first(run_, work_, {from, end, states_inside_, false}, {});
       if (crossing) {  // the step ends where the first mode changes
@@ -125,18 +157,19 @@ class FixedSteps {
       }
     }
     ++traces_.statistics.steps;
-    if (histories_.any()) {
+    if (has_histories_) {
       end_slope_known_ = false;
       histories_.fill(run_, work_, from, end, states_inside_);
     }
     if (next_ < traces_.t.size() && traces_.t[next_] < end - same_instant(end)) record_between(from, end);
     t_ = end;
-    for (const double x : x_)
-      if (!std::isfinite(x)) explain(t_, x_);
+    if (!(zeros_ == 0)) explain(t_, x_);
     growth_.see(t_, x_);
     commit();
-    if (events_.guards() == 0 || (fell.empty() && !events_.due(run_, work_, t_, x_))) return;
-    if (!events_.settle(run_, work_, t_, x_, fell)) return;
+    if (!has_guards_ || (fell.empty() && !events_.due(run_, work_, t_, x_))) return;
+    const bool changed = events_.settle(run_, work_, t_, x_, fell);
+    next_event_ = events_.next();  // what jumped may have an echo
+    if (!changed) return;
     commit();
     crossings_.forget();
   }
@@ -144,24 +177,33 @@ class FixedSteps {
   /// From t_ to the end; `before_` keeps where they began.
   void move_states(double end) {
     const double h = end - t_;
+    step_begin_ = t_;
     step_end_ = end;
-    bad_x_.clear();
-    if (!x_.empty()) {
-      derivative(t_, x_, k1_);
-      if (options_.method == Method::euler) {
-        move(h, k1_);
-      } else {
-        move(h / 2, k1_);
-        derivative(t_ + h / 2, trial_, k2_);
-        move(h / 2, k2_);
-        derivative(t_ + h / 2, trial_, k3_);
-        move(h, k3_);
-        derivative(end, trial_, k4_);
-        for (std::size_t i = 0; i < x_.size(); ++i)
-          trial_[i] = before_[i] + h / 6 * (k1_[i] + 2 * (k2_[i] + k3_[i]) + k4_[i]);
-      }
-      x_.swap(trial_);
+    in_step_ = true;
+    const std::size_t n = x_.size();
+    if (n == 0) return;
+    const double *before = before_.data(), *dx = work_.dx.data();
+    double *x = x_.data(), *states = derivative_.states();
+    for (std::size_t i = 0; i < n; ++i) states[i] = before[i];
+    zeros_ = 0;
+    if (options_.method == Method::euler) {
+      stage(t_, k1_, h);
+      for (std::size_t i = 0; i < n; ++i) zeros_ += 0 * (x[i] = states[i]);
+      return;
     }
+    stage(t_, k1_, h / 2);
+    stage(t_ + h / 2, k2_, h / 2);
+    stage(t_ + h / 2, k3_, h);
+    slope(end);
+    const double *k1 = k1_.data(), *k2 = k2_.data(), *k3 = k3_.data();
+    const double sixth = h / 6;
+    double zeros = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double reached = before[i] + sixth * (k1[i] + 2 * (k2[i] + k3[i]) + dx[i]);
+      x[i] = reached;
+      zeros += reached * 0;
+    }
+    zeros_ = zeros;
   }
 
   /// Outputs inside the step that has just been taken, with the memory as it was before.
@@ -185,7 +227,18 @@ class FixedSteps {
   }
   void record_until(double t) {
     if (next_ == traces_.t.size() || traces_.t[next_] > t + same_instant(t)) return;
-    const Stopwatch watch(traces_.statistics.phases.output);
+    // A clock costs as much as a record: of many one in sixteen is timed.
+    constexpr std::size_t timed_all = 64, timed_one_in = 16;
+    const bool all = next_ < timed_all;
+    if (!all && next_ % timed_one_in != 0) return record_all(t);
+    double seconds = 0;
+    {
+      const Stopwatch watch(seconds);
+      record_all(t);
+    }
+    traces_.statistics.phases.output += (all ? 1 : timed_one_in) * seconds;
+  }
+  void record_all(double t) {
     while (next_ < traces_.t.size() && traces_.t[next_] <= t + same_instant(t)) record(t, x_);
   }
   void record(double t, const std::vector<double>& x) {
@@ -200,12 +253,39 @@ class FixedSteps {
   /// Something is not finite at (t, x): the state that grew up to the step's begin explains it, else a block there.
   [[noreturn]] void explain(double t, const std::vector<double>& x) {
     throw_if_grown(program_, growth_.quantities(program_, before_), run_.t);
-    if (!bad_x_.empty()) not_finite(program_, run_, work_, bad_t_, bad_x_.data());
+    if (in_step_) look_for_bad_slope();
     not_finite(program_, run_, work_, t, x.data());
   }
+  /// Throws for the first slope of the last step that is not finite. States behind it are not either, so it is enough
+  /// to look for it then: once more along the step.
+  void look_for_bad_slope() {
+    if (x_.empty()) return;
+    std::vector<double> k(x_.size()), x = before_;
+    const auto look = [&](double t) {
+      derivative(t, x, k);
+      if (std::any_of(k.begin(), k.end(), [](double slope) { return !std::isfinite(slope); }))
+        not_finite(program_, run_, work_, t, x.data());
+    };
+    const auto go = [&](double ahead) {
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] = before_[i] + ahead * k[i];
+    };
+    const double h = step_end_ - step_begin_, middle = step_begin_ + h / 2;
+    look(step_begin_);
+    if (options_.method == Method::rk4) {
+      go(h / 2);
+      look(middle);
+      go(h / 2);
+      look(middle);
+      go(h);
+      look(step_end_);
+    }
+    x = x_;
+    look(step_end_);
+  }
   void commit() {
-    if (program_.remembers()) accept(program_, run_, work_, t_, x_.data());
+    if (remembers_) accept(program_, run_, work_, t_, x_.data());
     run_.t = t_;
+    in_step_ = false;
   }
   void tell() {
     auto& s = traces_.statistics;
@@ -230,10 +310,15 @@ class FixedSteps {
   Traces traces_;
   std::vector<double> x_, before_, trial_, k1_, k2_, k3_, k4_;
   std::size_t next_ = 0;
-  double t_ = 0, step_end_ = 0;
+  std::vector<double> ahead_;                                         // instants that the kernel was told
+  double foretold_until_ = -std::numeric_limits<double>::infinity();  // [s]
+  long foretold_steps_ = 1;
+  double t_ = 0, step_begin_ = 0, step_end_ = 0;
+  bool remembers_, watches_, has_histories_, has_guards_;  // what steps have to look at besides
+  double next_event_ = 0;                                  // events_.next() [s]
+  double zeros_ = 0;              // each state at the end of the last step times zero: not zero if one is not finite
+  bool in_step_ = false;          // its end is not accepted yet
   bool end_slope_known_ = false;  // k4_ is the slope at the end of the last step
-  double bad_t_ = 0;
-  std::vector<double> bad_x_;  // where a derivative was not finite first in the last step; empty: nowhere
 };
 
 /// How many of its fastest time constants a step may last before what decays grows instead: on the negative real axis.

@@ -1,6 +1,7 @@
 #include "engine/simulate/linear_row_kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -99,7 +100,7 @@ class BlockReader {
 };
 
 /// A step as it was, or the rows that take its place.
-struct Piece {
+struct FoldedStep {
   Step step;
   bool opaque = true;
   int first_number = 0, count = 0;  // of its rows
@@ -113,11 +114,24 @@ class Folding {
     read_outside_.assign(forms_.size(), false);
     inlined_.assign(forms_.size(), false);
     for (const Step& step : program.derivative_steps) add(step);
-    for (const Piece& piece : pieces_)
-      for (int n = piece.first_number; !piece.opaque && n < piece.first_number + piece.count; ++n) finish(n);
+    for (const FoldedStep& step : steps_)
+      for (int n = step.first_number; !step.opaque && n < step.first_number + step.count; ++n) finish(n);
   }
 
-  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<FoldedStep>& steps() const { return steps_; }
+  struct Count {
+    std::size_t rows = 0, terms = 0;
+  };
+  Count count() const {
+    Count all;
+    for (const FoldedStep& step : steps_)
+      for (int n = step.first_number; !step.opaque && n < step.first_number + step.count; ++n) {
+        if (is_inlined(n)) continue;
+        ++all.rows;
+        all.terms += form(n).terms.size();
+      }
+    return all;
+  }
   const Form& form(int number) const { return forms_[at(number)]; }
   bool is_inlined(int number) const { return inlined_[at(number)]; }
 
@@ -133,12 +147,12 @@ class Folding {
         read_outside_[at(slot.order == Order::value  ? value(slot.index)
                          : slot.order == Order::rate ? rate(slot.index)
                                                      : derivative(slot.index))] = true;
-      pieces_.push_back({step});
+      steps_.push_back({step});
       return;
     }
     const BlockInstance& b = program_.blocks[at(step.block)];
     if (is_row(b)) return add_rows(step, b);
-    pieces_.push_back({step});
+    steps_.push_back({step});
     const bool reads_inputs = step.order == Order::derivative || b.sizes.feedthrough;
     const bool reads_rates =
         step.order == Order::rate || (step.order == Order::derivative && b.kernel->derivative_wants_rate);
@@ -165,7 +179,7 @@ class Folding {
       form.gather();
       for (const auto& [number, weight] : form.terms) ++readers_[at(number)];
     }
-    pieces_.push_back({step, false, first, m.rows});
+    steps_.push_back({step, false, first, m.rows});
   }
 
   /// Writes the numbers that have no row into the form, and decides whether this one needs a row.
@@ -194,17 +208,44 @@ class Folding {
   std::vector<Form> forms_;  // per number; of rows only
   std::vector<int> readers_;
   std::vector<bool> read_outside_, inlined_;
-  std::vector<Piece> pieces_;
+  std::vector<FoldedStep> steps_;
 };
 
 }  // namespace
+
+template <int width>
+void LinearRowKernel::add_up(const Piece& piece) {
+  const Row* row = piece.first;
+  const Row* const last = piece.last;
+  const Term* term = piece.term;
+  do {
+    double sum = row->constant;
+    for (int i = 0; i < width; ++i) sum += term[i].weight * *term[i].number;
+    *row->target = sum;
+    term += width;
+  } while (++row != last);
+}
+
+void LinearRowKernel::add_up_long(const Piece& piece) {
+  const Term* term = piece.term;
+  for (const Row* row = piece.first; row != piece.last; ++row) {
+    double sum = row->constant;
+    for (const Term* const end = term + piece.terms; term != end; ++term) sum += term->weight * *term->number;
+    *row->target = sum;
+  }
+}
+
+void LinearRowKernel::call(const Piece& piece) { BoundCalls::carry_out(*piece.bound); }
+void LinearRowKernel::call_function(const Piece& piece) { piece.bound->function(piece.bound->view); }
 
 LinearRowKernel::LinearRowKernel(const Program& program, const Run& run, Work& work)
     : program_(program),
       work_(work),
       x_(at(program.n_x)),
+      calls_(program, work, x_.data()),
       kept_t_(std::numeric_limits<double>::quiet_NaN()),
-      kept_branch_(kept_t_) {
+      kept_branch_(kept_t_),
+      foretold_branch_(kept_t_) {
   const Folding folding(program, run);
   double* y = work.y.data();
   double* rate = work.rate.data();
@@ -215,91 +256,148 @@ LinearRowKernel::LinearRowKernel(const Program& program, const Run& run, Work& w
     if (number < 2 * program.n_y + program.n_x) return dx + (number - 2 * program.n_y);
     return x_.data() + (number - 2 * program.n_y - program.n_x);
   };
-  Stretch stretch;
-  const auto close = [&] {
-    stretch.rows_end = rows();
-    stretches_.push_back(stretch);
-    stretch = {};
-  };
-  for (const Piece& piece : folding.pieces()) {
-    if (piece.opaque) {
-      stretch.step = piece.step;
-      stretch.has_step = true;
-      const BlockInstance* source = piece.step.order == Order::loop ? nullptr : &program.blocks[at(piece.step.block)];
-      if (source != nullptr && piece.step.order != Order::derivative && is_source_of_time(*source)) {
-        stretch.source = static_cast<int>(sources_.size());
-        sources_.push_back(
-            {y + source->y_begin, rate + source->y_begin, source->sizes.outputs, static_cast<int>(kept_.size())});
-        kept_.resize(kept_.size() + 2 * at(source->sizes.outputs));
-      }
-      close();
+  const auto count = folding.count();
+  rows_.reserve(count.rows);  // pieces point into these
+  terms_.reserve(count.terms);
+  for (const FoldedStep& step : folding.steps()) {
+    if (step.opaque) {
+      add_step(step.step);
       continue;
     }
-    for (int number = piece.first_number; number < piece.first_number + piece.count; ++number) {
+    for (int number = step.first_number; number < step.first_number + step.count; ++number) {
       if (folding.is_inlined(number)) continue;
       const Form& form = folding.form(number);
+      add_row({form.constant, place(number), static_cast<int>(form.terms.size())});
       for (const auto& [read, weight] : form.terms) terms_.push_back({weight, place(read)});
-      rows_.push_back({form.constant, place(number), static_cast<int>(form.terms.size())});
     }
   }
-  close();
+  foretold_.resize(source_places_.size());
+}
+
+/// Its terms follow.
+void LinearRowKernel::add_row(const Row& row) {
+  rows_.push_back(row);
+  if (pieces_.empty() || pieces_.back().first == nullptr || pieces_.back().terms != row.terms) {
+    Piece piece;
+    static constexpr auto by_terms = std::to_array<void (*)(const Piece&)>(
+        {&add_up_long, &add_up<1>, &add_up<2>, &add_up<3>, &add_up<4>, &add_up<5>, &add_up<6>});
+    piece.carry_out = at(row.terms) < by_terms.size() ? by_terms[at(row.terms)] : &add_up_long;
+    piece.terms = row.terms;
+    piece.first = &rows_.back();
+    piece.term = terms_.data() + terms_.size();
+    pieces_.push_back(piece);
+  }
+  pieces_.back().last = &rows_.back() + 1;
+}
+
+void LinearRowKernel::add_step(const Step& step) {
+  BoundCalls::Call* call = calls_.add(step);
+  if (call != nullptr && work_.calls[at(step.block)].source_only && step.order != Order::derivative) {
+    const BlockInstance& b = program_.blocks[at(step.block)];
+    sources_.push_back(call);
+    for (int i = b.y_begin; i < b.y_begin + b.sizes.outputs; ++i) {
+      if (step.order == Order::rate) source_places_.push_back(&work_.rate[at(i)]);
+      source_places_.push_back(&work_.y[at(i)]);
+    }
+    return;
+  }
+  Piece piece;
+  piece.of = step;
+  piece.bound = call;
+  piece.kernel = this;
+  piece.carry_out = call == nullptr                           ? &LinearRowKernel::step
+                    : BoundCalls::is_function(program_, step) ? &LinearRowKernel::call_function
+                                                              : &LinearRowKernel::call;
+  if (call == nullptr) other_steps_ = true;
+  pieces_.push_back(piece);
 }
 
 int LinearRowKernel::calls() const {
-  return static_cast<int>(
-      std::count_if(stretches_.begin(), stretches_.end(), [](const auto& s) { return s.has_step; }));
+  return static_cast<int>(sources_.size()) +
+         static_cast<int>(
+             std::count_if(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.first == nullptr; }));
 }
 
-void LinearRowKernel::forget() { kept_t_ = std::numeric_limits<double>::quiet_NaN(); }
+void LinearRowKernel::forget() {
+  kept_t_ = kept_branch_ = std::numeric_limits<double>::quiet_NaN();
+  next_instant_ = instants_.size();
+}
 
-void LinearRowKernel::operator()(const Run& run, double t, const double* x) {
-  steps::begin(program_, run, work_, t);
-  const bool same_instant = t == kept_t_ && run.branch == kept_branch_;
-  kept_t_ = t;
-  kept_branch_ = run.branch;
-  double* own = x_.data();
-  for (int i = 0; i < program_.n_x; ++i) own[i] = x[i];
-  const Row* row = rows_.data();
-  const Term* term = terms_.data();
-  for (const Stretch& stretch : stretches_) {
-    for (const Row* const end = rows_.data() + stretch.rows_end; row != end; ++row) {
-      double sum = row->constant;
-      for (const Term* const last = term + row->terms; term != last; ++term) sum += term->weight * *term->number;
-      *row->target = sum;
-    }
-    if (!stretch.has_step) continue;
-    if (stretch.source >= 0 && same_instant) {
-      const Source& source = sources_[at(stretch.source)];
-      const double* kept = kept_.data() + source.kept;
-      for (int i = 0; i < source.count; ++i) {
-        source.value[i] = kept[i];
-        source.rate[i] = kept[source.count + i];
-      }
-      continue;
-    }
-    switch (stretch.step.order) {
-      case Order::value:
-        steps::value(program_, work_, stretch.step.block, x);
-        break;
-      case Order::rate:
-        steps::rate(program_, work_, stretch.step.block, x);
-        break;
-      case Order::derivative:
-        steps::derivative(work_, stretch.step.block, x);
-        break;
-      case Order::loop:
-        solve_loop(program_, work_, stretch.step.block, x);
-        break;
-    }
-    if (stretch.source < 0) continue;
-    const Source& source = sources_[at(stretch.source)];
-    double* kept = kept_.data() + source.kept;
-    for (int i = 0; i < source.count; ++i) {
-      kept[i] = source.value[i];
-      kept[source.count + i] = source.rate[i];
+/// What sources make at these instants, a row of numbers for each, from row `first` of foretold_ on.
+void LinearRowKernel::ask_sources(const Run& run, std::span<const double> instants, std::size_t first) {
+  const std::size_t width = source_places_.size();
+  double* numbers = foretold_.data() + first * width;
+  for (BoundCalls::Call* const source : sources_) numbers += BoundCalls::ask(*source, run, instants, numbers, width);
+}
+
+void LinearRowKernel::foretell(const Run& run, std::span<const double> instants) {
+  if (!calls_.is_bound_to(run)) calls_.bind(run);
+  forget();
+  instants_.assign(instants.begin(), instants.end());
+  foretold_.resize((instants.size() + 1) * source_places_.size());
+  ask_sources(run, instants_, 0);
+  next_instant_ = 0;
+  foretold_branch_ = run.branch;
+}
+
+/// Sets kept_ to what sources make at an instant that is not the next one that was foretold.
+void LinearRowKernel::look_for_sources(const Run& run, double t) {
+  if (run.branch == foretold_branch_) {
+    while (next_instant_ < instants_.size() && instants_[next_instant_] < t) ++next_instant_;
+    if (comes_next(run, t)) {
+      kept_ = foretold_.data() + next_instant_ * source_places_.size();
+      return;
     }
   }
+  ask_sources(run, {&t, 1}, instants_.size());
+  kept_ = foretold_.data() + instants_.size() * source_places_.size();
+}
+
+void LinearRowKernel::operator()(const Run& run, double t, const double* x) {
+  double* own = x_.data();
+  for (int i = 0; i < program_.n_x; ++i) own[i] = x[i];
+  (*this)(run, t);
+}
+
+void LinearRowKernel::operator()(const Run& run, double t) {
+  if (!calls_.is_bound_to(run)) {
+    calls_.bind(run);
+    forget();
+  }
+  if (other_steps_)
+    steps::begin(program_, run, work_, t);
+  else
+    work_.unsolved = -1;
+  if (!(t == kept_t_ && run.branch == kept_branch_)) {
+    if (comes_next(run, t))
+      kept_ = foretold_.data() + next_instant_++ * source_places_.size();
+    else
+      look_for_sources(run, t);
+    kept_t_ = t;
+    kept_branch_ = run.branch;
+    calls_.set_time(run, t);
+  }
+  if (calls_.have_modes()) calls_.set_modes(run);
+  const double* number = kept_;
+  for (double* const place : source_places_) *place = *number++;
+  for (const Piece& piece : pieces_) piece.carry_out(piece);
   if (work_.unsolved >= 0) std::fill(work_.dx.begin(), work_.dx.end(), std::numeric_limits<double>::quiet_NaN());
+}
+
+void LinearRowKernel::step(const Piece& piece) {
+  LinearRowKernel& own = *piece.kernel;
+  const int block = piece.of.block;
+  const double* x = own.x_.data();
+  switch (piece.of.order) {
+    case Order::value:
+      return steps::value(own.program_, own.work_, block, x);
+    case Order::rate:
+      return steps::rate(own.program_, own.work_, block, x);
+    case Order::derivative:
+      return steps::derivative(own.work_, block, x);
+    case Order::loop:
+      solve_loop(own.program_, own.work_, block, x);
+  }
 }
 
 }  // namespace hysteron

@@ -65,6 +65,26 @@ double time_on(double t) {
 bool is_on(double t) { return t >= 0.35 && t - 0.35 - std::floor(t - 0.35) < 0.5; }
 double time_since_on(double t) { return t - 0.35 - std::floor(t - 0.35); }
 
+TEST(Enabled, ASourceInsideRunsAtOnceWhereNoCornerSwitchesIt) {
+  // The clock passes 1/2 at 0.5 s, within a step. What the source held before is no answer for the step that begins
+  // there, though it was asked at that very instant: x = 3 (t - 0.5 s).
+  const auto p = compiled(
+      diagram({{"zero", constant(0)},
+               {"one", block("constant", {{"value", "1 1/s"}})},
+               {"clock", block("integrator", {}, {"one"})},
+               {"part", nested({{"three", constant(3)}, {"y", block("sum", {{"signs", "++"}}, {"three", "u"})}}, "zero",
+                               enabled("clock"))},
+               {"x", block("integrator", {}, {"part"})}},
+              {"x"}));
+  for (const Method method : all_methods) {
+    const auto traces =
+        simulate(*p, start(*p), {.until = 1, .every = 0.1, .method = method, .relative_tolerance = 1e-9, .step = 0.1});
+    // Straight lines are integrated exactly, the instant is found to 1e-9 s.
+    expect_trace(
+        traces, [](double t) { return 3 * std::max(0.0, t - 0.5); }, 1e-8, method_name(method));
+  }
+}
+
 TEST(Enabled, AnIntegratorCountsTheTimeThatItIsOn) {
   const auto p = compiled(diagram({{"one", constant(1)},
                                    {"on", on_from(0.35, 0.5)},

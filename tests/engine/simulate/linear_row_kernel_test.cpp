@@ -108,6 +108,22 @@ TEST_P(Folded, TakesNothingFromTheHeap) {
   EXPECT_EQ(allocations(), before);
 }
 
+TEST_P(Folded, GivesTheSameBitsWhereItsInstantsWereForetold) {
+  const auto program = compiled(diagram_of(GetParam()));
+  const auto run = start(*program);
+  Work work(*program), other(*program);
+  LinearRowKernel foretold(*program, run, work), asked(*program, run, other);
+  foretold.foretell(run, std::vector<double>{0, 0.01, 0.02, 0.03, 0.04});
+  std::vector<double> x;
+  for (const double size : nominal_states(*program, run)) x.push_back(0.3 * size);
+  // One comes twice, one was not foretold, one does not come, and the first comes again.
+  for (const double t : {0.0, 0.01, 0.01, 0.015, 0.02, 0.04, 0.0}) {
+    foretold(run, t, x.data());
+    asked(run, t, x.data());
+    EXPECT_EQ(work.dx, other.dx) << t;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Diagrams, Folded, testing::Range(0, 4));
 
 TEST(NeededSteps, OfASignalAreThoseOnWhichItDependsAndGiveItsValue) {
@@ -164,6 +180,30 @@ TEST(LinearRowKernel, AsksSourcesOnceAtAnInstantAndSeesTheNextOne) {
     expect_right(t);
     evaluate_values(*program, run, work, 7 * t, x.data());  // somebody else uses the same numbers meanwhile
   }
+}
+
+TEST(LinearRowKernel, AsksASourceAnewThatWasSetOrBelongsToAnotherPieceOrRun) {
+  const auto program =
+      compiled(diagram({{"x", block("lag", {{"times", list({0.1}, "s")}}, {"u"})}}, {"x"}, {{"u", "V"}}));
+  auto run = start(*program);
+  const auto held = std::make_shared<Series>(Series{{0.0}, {1.0}, Between::hold});
+  bind_input(*program, run, "u", held);
+  Work work(*program);
+  LinearRowKernel folded(*program, run, work);
+  const std::vector<double> x{0};  // x' = u / 0.1 s
+  folded.foretell(run, std::vector<double>{0, 1});
+  folded(run, 0, x.data());
+  EXPECT_NEAR(work.dx[0], 10, 1e-13);
+  held->v.front() = 2;
+  folded.forget();
+  folded(run, 0, x.data());
+  EXPECT_NEAR(work.dx[0], 20, 1e-13);
+  folded(run, 1, x.data());
+  EXPECT_NEAR(work.dx[0], 20, 1e-13);
+  auto other = run;  // other arrays, another series
+  bind_input(*program, other, "u", series({0}, {3}, Between::hold));
+  folded(other, 1, x.data());
+  EXPECT_NEAR(work.dx[0], 30, 1e-13);
 }
 
 TEST(LinearRowKernel, OfARunWithOtherParametersIsThatOfThoseParameters) {
