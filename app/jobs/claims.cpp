@@ -7,6 +7,7 @@
 
 #include "app/jobs/job_values.h"
 #include "engine/diagram/error.h"
+#include "engine/diagram/number_text.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -48,10 +49,22 @@ std::string spoken(std::string name) {
   return name;
 }
 
-std::string shown(const Quantity& value, const Unit& unit) {
-  Quantity q = value;
-  q.unit = unit;
-  return quantity_text(q);
+double in_unit(double si, const Quantity& like, const Unit& unit) {
+  return like.difference ? unit.difference_from_si(si) : unit.from_si(si);
+}
+
+/// The fewest digits, two at least, with which a number stands on the same side of the limit as it does.
+int digits_beside(double number, double limit) {
+  constexpr int fewest = 2, most = 10;
+  int digits = fewest;
+  while (digits < most && (rounded_to_digits(number, digits) < limit) != (number < limit)) ++digits;
+  return digits;
+}
+
+/// In the unit of what is expected, so that both can be compared at a glance.
+std::string shown(double number, const Unit& unit, int digits) {
+  const std::string text = unit_text(unit);
+  return text.empty() ? number_text(number, digits) : number_text(number, digits) + " " + text;
 }
 
 void judge_order(JobRunner& runner, const ClaimPart& part, PartOutcome& out) {
@@ -73,11 +86,14 @@ void judge_value(JobRunner& runner, const ClaimPart& part, PartOutcome& out) {
   std::vector<std::string> wanted;
   bool near = true;
   Unit unit = value.unit;
+  int digits = 2;
   if (part.expected) {
     const Written expected = read_written(*part.expected, value);
     const double tolerance = read_tolerance(*part.tolerance, value, expected.si);
     near = std::abs(value.si - expected.si) <= tolerance;
     unit = expected.unit;
+    digits = digits_within(in_unit(value.si, value, unit), in_unit(expected.si - tolerance, value, unit),
+                           in_unit(expected.si + tolerance, value, unit));
     wanted.push_back(
         fmt::format("{}{} within {}", part.must_differ ? "not " : "", part.expected->text, part.tolerance->text));
   }
@@ -86,16 +102,18 @@ void judge_value(JobRunner& runner, const ClaimPart& part, PartOutcome& out) {
     const Written limit = read_written(*part.above, value);
     holds = holds && value.si > limit.si;
     unit = limit.unit;
+    digits = std::max(digits, digits_beside(in_unit(value.si, value, unit), in_unit(limit.si, value, unit)));
     wanted.push_back("above " + part.above->text);
   }
   if (part.below) {
     const Written limit = read_written(*part.below, value);
     holds = holds && value.si < limit.si;
     unit = limit.unit;
+    digits = std::max(digits, digits_beside(in_unit(value.si, value, unit), in_unit(limit.si, value, unit)));
     wanted.push_back("below " + part.below->text);
   }
   out.holds = holds && std::isfinite(value.si);
-  out.came_out = fmt::format("{} {}", spoken(part.value.text), shown(value, unit));
+  out.came_out = fmt::format("{} {}", spoken(part.value.text), shown(in_unit(value.si, value, unit), unit, digits));
   out.expected = fmt::format("{}", fmt::join(wanted, ", "));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -79,7 +80,7 @@ Effect ageing() {
   e.plainer = {"calibration"};  // a constant
   e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     std::string text =
-        fmt::format("{:.3g} % of the gain per decade of {}", 100 * values[0], by_hours(at) ? "time" : "cycles");
+        fmt::format("{} of the gain per decade of {}", fraction_text(values[0]), by_hours(at) ? "time" : "cycles");
     if (law.free.size() > 1)
       text += by_hours(at) ? " beyond " + time_text(values[1]) : fmt::format(" beyond {:.3g} cycles", values[1]);
     return text;

@@ -5,6 +5,7 @@
 
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/hypotheses/travel.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -74,7 +75,7 @@ Effect backlash() {
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     if (const DrivenSide side = driven_side(at); !at.by.empty())
       return fmt::format("{:.3g} {} of play, seen from the driven side", side.smaller * values[0], side.readable);
-    return fmt::format("{:.3g} {} of lost motion", at.unit.difference_from_si(values[0]), at.unit.text);
+    return fmt::format("{} of lost motion", size_text(values[0], at.unit));
   };
   e.laws = [](const Excitation& at) {
     if (!at.by.empty()) return std::vector<Law>{in_a_transmission(at)};

@@ -8,6 +8,7 @@
 #include "discover/effects/presliding.h"
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/hypotheses/travel.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -101,8 +102,7 @@ Effect friction() {
     if (at.damping) return told_beside_damping(values, at);
     if (at.by.empty() && is_motion(at.unit))
       return fmt::format(
-          "lost motion +-{:.3g} {}, reached after {:.3g} {}{}", at.unit.difference_from_si(values[0]), at.unit.text,
-          at.unit.difference_from_si(values[1]), at.unit.text,
+          "lost motion +-{}, reached after {}{}", size_text(values[0], at.unit), size_text(values[1], at.unit),
           values.size() > 2 ? fmt::format(", {:.2g} % more before it slides fast", 100 * values[2]) : "");
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 
@@ -29,7 +30,7 @@ Effect load_dependence() {
   e.look_alikes = {{"calibration", "load_pair", "a calibration is the same with and without the load"},
                    {"temperature_gain", "load_pair", "the temperature is the same with and without the load"}};
   e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
-    std::string text = fmt::format("{:.3g} {}/N", at.unit.difference_from_si(values[0]), at.unit.text);
+    std::string text = size_text(values[0], at.unit) + "/N";
     if (law.free.size() > 1) text += fmt::format(", {:.3g} % of the stroke per newton", 100 * values[1]);
     return text;
   };

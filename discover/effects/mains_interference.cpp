@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -63,8 +64,8 @@ Effect mains_interference() {
   e.look_alikes = {{"structural_resonance", "zero_run", "a mode is silent where nothing moves"},
                    {"cross_coupling", "zero_run", "another axis is silent where nothing moves"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
-    return fmt::format("{:.5g} Hz, {:.3g} {} in the last recording", values[0],
-                       at.unit.difference_from_si(std::hypot(values[1], values[2])), at.unit.text);
+    return fmt::format("{:.5g} Hz, {} in the last recording", values[0],
+                       size_text(std::hypot(values[1], values[2]), at.unit));
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Excitation&) -> std::string {
     if (std::abs(values[0] - 50) <= simd_dispatch || std::abs(values[0] - 60) <= simd_dispatch) return "";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -81,9 +82,9 @@ Effect periodic_error() {
       {"quantization", "triangle", "rounding comes again with every step of the column, and is a saw tooth"},
       {"sensor_nonlinearity", "triangle", "a curve of few orders does not come again"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
-    const auto shown = [&](double si) { return at.unit.difference_from_si(si); };
-    return fmt::format("{:.3g} {} every {:.4g} {}{}", shown(std::hypot(values[1], values[2])), at.unit.text,
-                       shown(values[0]), at.unit.text, at.zero_of_recording ? ", in the last recording" : "");
+    return fmt::format("{} every {:.4g} {}{}", size_text(std::hypot(values[1], values[2]), at.unit),
+                       at.unit.difference_from_si(values[0]), at.unit.text,
+                       at.zero_of_recording ? ", in the last recording" : "");
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{harmonics(at, 1), harmonics(at, 2)}; };
   e.unseen = [](const Excitation& at) -> std::string {

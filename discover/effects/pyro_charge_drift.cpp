@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 
@@ -31,8 +32,7 @@ Effect pyro_charge_drift() {
       {"creep", "temperature_constant", "creep follows the last step of the drive"},
       {"sensor_drift", "temperature_constant", "a drift does not follow the temperature"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
-    return fmt::format("{:.3g} {}/K, gone after {}", at.unit.difference_from_si(values[0]), at.unit.text,
-                       time_text(values[1]));
+    return fmt::format("{}/K, gone after {}", size_text(values[0], at.unit), time_text(values[1]));
   };
   e.laws = [](const Excitation& at) {
     Law law;

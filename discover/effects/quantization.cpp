@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 
@@ -24,7 +25,7 @@ Effect quantization() {
   e.look_alikes = {{"backlash", "triangle", "rounding has no memory: both ways it steps at the same levels"},
                    {"friction", "triangle", "a stick is not always at the same levels"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
-    return fmt::format("levels every {:.4g} {}", at.unit.difference_from_si(values[0]), at.unit.text);
+    return fmt::format("levels every {}", size_text(values[0], at.unit));
   };
   e.laws = [](const Excitation& at) {
     Law law;

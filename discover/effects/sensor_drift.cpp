@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 
@@ -23,7 +24,7 @@ Effect sensor_drift() {
   e.look_alikes = {{"thermal_expansion", "temperature_constant", "a drift does not follow the temperature"},
                    {"creep", "zero_run", "creep follows the last move"}};
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
-    return fmt::format("{:.3g} {}/h in the last recording", 3600 * at.unit.difference_from_si(values[0]), at.unit.text);
+    return fmt::format("{}/h in the last recording", size_text(3600 * values[0], at.unit));
   };
   e.laws = [](const Excitation& at) {
     Law law;

@@ -4,6 +4,7 @@
 #include "discover/effects/presliding.h"
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/hypotheses/travel.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 
@@ -43,9 +44,8 @@ Effect stribeck_friction() {
   };
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     if (at.damping) return told_beside_damping(values, at);
-    const std::string level = at.by.empty()
-                                  ? fmt::format("{:.3g} {}", at.unit.difference_from_si(values[0]), at.unit.text)
-                                  : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
+    const std::string level = at.by.empty() ? size_text(values[0], at.unit)
+                                            : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
     if (values.size() < 4) return fmt::format("{} held back", level);
     return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} {}/s", level, 100 * values[2],
                        1e3 * values[3], turns(at) ? "mrad" : "mm");

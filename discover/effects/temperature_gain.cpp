@@ -6,6 +6,7 @@
 
 #include "discover/hypotheses/effect_terms.h"
 #include "discover/hypotheses/room_temperature.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -102,7 +103,7 @@ Effect temperature_gain() {
   e.family = "temperature_gain";
   e.plainer = {"calibration"};  // a constant
   e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
-    std::string text = fmt::format("{:.3g} %/K", 100 * values[0]);
+    std::string text = fraction_text(values[0]) + "/K";
     for (std::size_t i = 1; i < law.free.size(); ++i)
       text += law.free[i].path == "reference"
                   ? fmt::format(" about {:.3g} {}", at.side_unit.from_si(values[i]), at.side_unit.text)

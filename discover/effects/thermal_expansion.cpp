@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
+#include "fit/signals/unit_words.h"
 
 namespace hysteron::effects {
 namespace {
@@ -91,8 +92,8 @@ Effect thermal_expansion() {
     std::string text;
     const std::size_t parts = values.size() / 2;
     for (std::size_t k = 0; k < parts; ++k)
-      text += fmt::format("{}{:.3g} {}/K late by {}", k == 0 ? "" : " and ", at.unit.difference_from_si(values[k]),
-                          at.unit.text, time_text(values[parts + k]));
+      text += fmt::format("{}{}/K late by {}", k == 0 ? "" : " and ", size_text(values[k], at.unit),
+                          time_text(values[parts + k]));
     return text;
   };
   e.own_zero = [](const Law&, const std::vector<double>& values) {

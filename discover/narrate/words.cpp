@@ -80,8 +80,7 @@ std::string falls_of(const ModelError& before, const ModelError& after) {
   if (was.size() != is.size() || is.size() > most_outputs_told) return "";
   std::vector<std::string> falls;
   for (std::size_t o = 0; o < is.size(); ++o)
-    falls.push_back(fmt::format("{}{} -> {}", is.size() > 1 ? is[o].output + ": " : "",
-                                size_text(was[o].rms, was[o].unit), size_text(is[o].rms, is[o].unit)));
+    falls.push_back((is.size() > 1 ? is[o].output + ": " : "") + fall_text(was[o].rms, is[o].rms, is[o].unit));
   return fmt::format("{}", fmt::join(falls, ", "));
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/signals/unit_words.h"
+
 namespace hysteron {
 namespace {
 
@@ -50,8 +52,8 @@ std::string headline(const DataModel& model, const Comparison& c, int output) {
   std::vector<std::string> parts;
   for (const Role role : {Role::train, Role::validate, Role::test})
     if (const Metrics* m = c.find(role, output); m != nullptr && m->rows > 0)
-      parts.push_back(fmt::format("{:.3g} {} rms = {:.3g} % NRMSE (fit {:.1f} %) on {}",
-                                  unit.difference_from_si(m->rms), unit.text, 100 * m->nrmse, m->fit, to_text(role)));
+      parts.push_back(fmt::format("{} rms = {:.3g} % NRMSE (fit {:.1f} %) on {}", size_text(m->rms, unit),
+                                  100 * m->nrmse, m->fit, to_text(role)));
   return fmt::format("{}: {}", name, fmt::join(parts, ", "));
 }
 

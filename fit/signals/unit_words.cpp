@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/diagram/readable_unit.h"
 
 namespace hysteron {
 namespace {
@@ -15,15 +18,34 @@ std::string three_digits(double number) {
   return fmt::format("{:.0f}", std::round(number / unit_of_third) * unit_of_third);
 }
 
-std::string in_unit(double number, const Unit& unit) {
-  const std::string text = three_digits(number);
-  return unit.text.empty() ? text : text + " " + unit.text;
+std::string with_unit(double number, const std::string& unit) {
+  return unit.empty() ? three_digits(number) : three_digits(number) + " " + unit;
 }
 
 }  // namespace
 
-std::string size_text(double si, const Unit& unit) { return in_unit(unit.difference_from_si(si), unit); }
-std::string level_text(double si, const Unit& unit) { return in_unit(unit.from_si(si), unit); }
+std::string size_text(double si, const Unit& unit) {
+  const double number = unit.difference_from_si(si);
+  const ReadableUnit readable = readable_unit(number, unit.text);
+  return with_unit(readable.times * number, readable.text);
+}
+
+std::string fall_text(double from, double to, const Unit& unit) {
+  const double large = unit.difference_from_si(from), small = unit.difference_from_si(to);
+  ReadableUnit readable = readable_unit(small, unit.text);
+  // Of two sizes that lie far apart each is read alone.
+  if (std::abs(readable.times * large) >= 1e4) return size_text(from, unit) + " -> " + size_text(to, unit);
+  return with_unit(readable.times * large, readable.text) + " -> " + with_unit(readable.times * small, readable.text);
+}
+
+std::string fraction_text(double share) {
+  constexpr double least_percent = 1e-4;
+  return share != 0 && std::abs(share) < least_percent ? three_digits(1e6 * share) + " ppm"
+                                                       : three_digits(100 * share) + " %";
+}
+
+std::string level_text(double si, const Unit& unit) { return with_unit(unit.from_si(si), unit.text); }
+
 std::string range_text(double low, double high, const Unit& unit) {
   return fmt::format("{} .. {}", three_digits(unit.from_si(low)), level_text(high, unit));
 }

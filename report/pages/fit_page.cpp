@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/signals/unit_words.h"
 #include "report/pages/curves.h"
 #include "report/pages/loops.h"
 #include "report/pages/numbers.h"
@@ -102,7 +103,7 @@ Facts correlation_facts(const FitResult& result) {
   return Facts::object({{"parameters", names}, {"matrix_row_by_row", result.correlation}});
 }
 
-/// "y RMS 0.093 um -> 0.0002 um (NRMSE 4.9 % -> 0.012 %)" of all outputs on the recordings of one role; "" without any.
+/// "y RMS 93 nm -> 0.2 nm (NRMSE 4.9 % -> 0.012 %)" of all outputs on the recordings of one role; "" without any.
 std::string rms_text(const DataModel& model, const Comparison& before, const Comparison& after, Role role) {
   std::vector<std::string> parts;
   for (int y = 0; y < static_cast<int>(model.outputs().size()); ++y) {
@@ -110,9 +111,8 @@ std::string rms_text(const DataModel& model, const Comparison& before, const Com
     const Metrics* b = after.find(role, y);
     if (a == nullptr || b == nullptr) continue;
     const Unit unit = output_unit(model, y);
-    parts.push_back(fmt::format("{} RMS {} -> {} (NRMSE {} -> {})", model.outputs()[static_cast<std::size_t>(y)],
-                                difference_text(a->rms, unit), difference_text(b->rms, unit), percent_text(a->nrmse),
-                                percent_text(b->nrmse)));
+    parts.push_back(fmt::format("{} RMS {} (NRMSE {} -> {})", model.outputs()[static_cast<std::size_t>(y)],
+                                fall_text(a->rms, b->rms, unit), percent_text(a->nrmse), percent_text(b->nrmse)));
   }
   return parts.empty() ? "" : fmt::format("{}: {}", to_text(role), fmt::join(parts, "; "));
 }

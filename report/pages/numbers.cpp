@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
-#include <utility>
+
+#include "engine/diagram/readable_unit.h"
 
 namespace hysteron {
 
@@ -34,31 +33,22 @@ std::string unit_text(const Unit& unit) { return unit.text.empty() || unit.text 
 
 namespace {
 
-/// Where a number is so small that it would be written as 5.04e-06 m: the same with the prefix that makes it 5.04 um.
-/// Of units that begin with a symbol of SI alone; none = there is no such prefix.
-std::optional<std::string> with_prefix(double value, const std::string& unit, int digits) {
-  static const std::set<std::string> plain{"m",  "s",   "V", "A",   "N",   "W",     "J",
-                                           "Pa", "rad", "T", "N m", "m/s", "rad/s", "m/s^2"};
-  static const std::pair<const char*, double> prefixes[] = {{"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
-  if (value == 0 || !(std::abs(value) < 1e-4) || !plain.contains(unit)) return {};
-  for (const auto& [prefix, factor] : prefixes)
-    if (std::abs(value) >= 0.9995 * factor) return number_text(value / factor, digits) + " " + prefix + unit;
-  return {};
-}
+// Below, another prefix is read more easily. A level or a parameter is told as its file has it a little longer.
+constexpr double smallest_level = 1e-3, smallest_size = 1e-2;
 
-std::string with_unit_text(double value, const Unit& unit, int digits) {
-  const std::string text = unit_text(unit);
-  if (const auto prefixed = with_prefix(value, text, digits)) return *prefixed;
-  return text.empty() ? number_text(value, digits) : number_text(value, digits) + " " + text;
+std::string with_unit_text(double value, const Unit& unit, int digits, double least) {
+  const ReadableUnit readable = readable_unit(value, unit_text(unit), least);
+  const std::string number = number_text(readable.times * value, digits);
+  return readable.text.empty() ? number : number + " " + readable.text;
 }
 }  // namespace
 
 std::string quantity_text(double si, const Unit& unit, int digits) {
-  return with_unit_text(unit.from_si(si), unit, digits);
+  return with_unit_text(unit.from_si(si), unit, digits, smallest_level);
 }
 
 std::string difference_text(double si, const Unit& unit, int digits) {
-  return with_unit_text(unit.difference_from_si(si), unit, digits);
+  return with_unit_text(unit.difference_from_si(si), unit, digits, smallest_size);
 }
 
 std::string percent_text(double share) {

@@ -15,7 +15,7 @@ std::string number_text(double value, int digits = 4);
 /// the interval has no width; 0 where the value is nothing beside it: 0.014 within -24 .. 24 is "0".
 int digits_within(double value, double low, double high);
 
-/// "0.2129 um" of a value in SI; a small value of a unit without a prefix gets one ("5.04 um" of 5.04e-6 m). Offsets of
+/// "0.2129 um" of a value in SI; a small value gets the prefix that suits it ("5.04 um" of 5.04e-6 m). Offsets of
 /// the unit count (degC).
 std::string quantity_text(double si, const Unit& unit, int digits = 4);
 

@@ -16,25 +16,27 @@ TEST(NumberText, WritesLargeNumbersOutUpToSixDigits) {
 
 TEST(QuantityText, GivesSmallNumbersOfPlainUnitsAPrefix) {
   EXPECT_EQ(quantity_text(5.04e-6, parse_unit("m")), "5.04 um");
-  EXPECT_EQ(quantity_text(-1.5e-5, parse_unit("m/s")), "-15 um/s");
-  EXPECT_EQ(quantity_text(2e-10, parse_unit("m")), "200 pm");
+  EXPECT_EQ(quantity_text(-1.5e-5, parse_unit("m/s")), "-0.015 mm/s");
+  EXPECT_EQ(quantity_text(2e-10, parse_unit("m")), "0.2 nm");
+  EXPECT_EQ(quantity_text(2e-11, parse_unit("um")), "0.02 nm");
+  EXPECT_EQ(difference_text(2.34e-10, parse_unit("um")), "0.234 nm");
 }
 
 TEST(QuantityText, KeepsTheUnitOfTheDataWhereItIsReadable) {
   EXPECT_EQ(quantity_text(8.59e-4, parse_unit("mm")), "0.859 mm");
-  EXPECT_EQ(quantity_text(2e-4, parse_unit("m")), "0.0002 m");
+  EXPECT_EQ(quantity_text(2e-3, parse_unit("m")), "0.002 m");  // a level or a parameter, as its file has it
+  EXPECT_EQ(difference_text(0.0612e-6, parse_unit("um")), "0.0612 um");
   EXPECT_EQ(quantity_text(0, parse_unit("m")), "0 m");
-  EXPECT_EQ(quantity_text(1e-5, parse_unit("1")), "1e-05");       // no unit, no prefix
-  EXPECT_EQ(quantity_text(2e-11, parse_unit("um")), "2e-05 um");  // it has one
+  EXPECT_EQ(quantity_text(1e-5, parse_unit("1")), "1e-05");  // no unit, no prefix
 }
 
 TEST(DigitsWithin, ShowTwoOfTheHalfWidth) {
-  EXPECT_EQ(digits_within(0.47438, 0.47299, 0.47578), 4);     // 0.4744, within 0.0014
-  EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);  // 0.011102, within 0.000011
-  EXPECT_EQ(digits_within(1234, 1000, 1500), 3);              // 1230, within 250
-  EXPECT_EQ(digits_within(10, -1000, 1000), 2);               // and never fewer
+  EXPECT_EQ(digits_within(0.47438, 0.47299, 0.47578), 4);             // 0.4744, within 0.0014
+  EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);          // 0.011102, within 0.000011
+  EXPECT_EQ(digits_within(1234, 1000, 1500), 3);                      // 1230, within 250
+  EXPECT_EQ(digits_within(10, -1000, 1000), 2);                       // and never fewer
   EXPECT_EQ(number_text(0.014, digits_within(0.014, -24, 24)), "0");  // nothing, within 24
-  EXPECT_EQ(digits_within(3, 3, 3), 5);                       // an interval without width says nothing
+  EXPECT_EQ(digits_within(3, 3, 3), 5);                               // an interval without width says nothing
 }
 
 }  // namespace
